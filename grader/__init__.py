@@ -1,0 +1,1 @@
+"""The grader: intake, run in lock-step, record, score the recording, report."""
