@@ -1,0 +1,107 @@
+"""Finds the protobuf class of a Gazebo type name, and builds it on first use.
+
+Between `proto/*.proto` (read by proto_reader) and everybody who needs a class: `gz.msgs.X_pb2` modules,
+gz.transport, the bridge, the command line. All classes live in one private descriptor pool, so they cannot
+collide with a gz-msgs package installed beside this one.
+"""
+
+from __future__ import annotations
+
+import difflib
+import functools
+import re
+import threading
+from pathlib import Path
+from typing import Any
+
+from google.protobuf import message_factory
+from google.protobuf.descriptor_pool import DescriptorPool
+from google.protobuf.message import Message
+
+from gz.msgs.proto_reader import read_proto
+
+PROTO_FOLDER = Path(__file__).with_name("proto")
+_IMPORT_PREFIX = "gz/msgs/"
+_PACKAGE = "gz.msgs."
+_PREFIXES = ("gz.msgs.", "gz_msgs.", "ignition.msgs.", "ign_msgs.")
+_TOP_LEVEL = re.compile(r"^(message|enum)\s+(\w+)", re.MULTILINE)
+
+_pool = DescriptorPool()
+_loaded: set[str] = set()
+_lock = threading.RLock()
+
+
+class UnknownTypeError(ValueError):
+    """A message type name that Gazebo does not have; the message names the nearest ones."""
+
+
+def load_file(stem: str) -> Any:
+    """The FileDescriptor of `proto/<stem>.proto`, linked together with everything it imports.
+
+    Raises FileNotFoundError when there is no such file.
+    """
+    with _lock:
+        _load(stem)
+    return _pool.FindFileByName(f"{_IMPORT_PREFIX}{stem}.proto")
+
+
+def _load(stem: str) -> None:
+    if stem in _loaded:
+        return
+    path = PROTO_FOLDER / f"{stem}.proto"
+    file = read_proto(path.read_text(encoding="utf-8"), f"{_IMPORT_PREFIX}{stem}.proto", str(path))
+    for imported in file.dependency:
+        _load(imported.removeprefix(_IMPORT_PREFIX).removesuffix(".proto"))
+    _pool.AddSerializedFile(file.SerializeToString())
+    _loaded.add(stem)
+
+
+def file_stems() -> list[str]:
+    """The names of all definition files without folder and ending, sorted: `twist` for `gz/msgs/twist.proto`."""
+    return sorted(path.stem for path in PROTO_FOLDER.glob("*.proto"))
+
+
+@functools.cache
+def _home_of_each_type() -> dict[str, tuple[str, str]]:
+    """Top-level name -> (kind, file stem), from a quick look at every file without linking any."""
+    homes: dict[str, tuple[str, str]] = {}
+    for stem in file_stems():
+        text = (PROTO_FOLDER / f"{stem}.proto").read_text(encoding="utf-8")
+        homes.update({name: (kind, stem) for kind, name in _TOP_LEVEL.findall(text)})
+    return homes
+
+
+def type_names() -> list[str]:
+    """The full names of all top-level message types, sorted: `["gz.msgs.Actuators", ...]`."""
+    return sorted(_PACKAGE + name for name, (kind, _) in _home_of_each_type().items() if kind == "message")
+
+
+@functools.lru_cache(maxsize=1024)
+def message_class(name: str) -> type[Message]:
+    """The class of a message type.
+
+    Accepts `gz.msgs.Twist`, `gz_msgs.Twist`, `.gz.msgs.Twist`, `ignition.msgs.Twist`, bare `Twist`, and nested
+    types (`gz.msgs.Header.Map`). Raises UnknownTypeError with the nearest names for anything else.
+    """
+    bare = name.removeprefix(".")
+    for prefix in _PREFIXES:
+        if bare.startswith(prefix):
+            bare = bare.removeprefix(prefix)
+            break
+    kind, stem = _home_of_each_type().get(bare.partition(".")[0], ("", ""))
+    if kind == "message":
+        load_file(stem)
+        try:
+            return message_factory.GetMessageClass(_pool.FindMessageTypeByName(_PACKAGE + bare))
+        except KeyError:
+            pass
+    raise UnknownTypeError(f"There is no message type {name!r} in gz.msgs{_nearest(bare)}")
+
+
+def _nearest(bare: str) -> str:
+    names = {full.removeprefix(_PACKAGE) for full in type_names()}
+    by_folded = {name.casefold(): name for name in names}
+    found = difflib.get_close_matches(bare.rpartition(".")[2].casefold(), by_folded, n=3, cutoff=0.6)
+    if not found:
+        return "; `gz.msgs.type_names()` lists them all."
+    return "; did you mean " + " or ".join(_PACKAGE + by_folded[folded] for folded in found) + "?"

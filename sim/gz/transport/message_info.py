@@ -1,0 +1,42 @@
+"""What is known about a message besides its contents, and about a publisher or subscriber besides its name.
+
+MessageInfo accompanies the bytes into callbacks of subscribe_raw(); MessagePublisher is what topic_info() lists.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from gz.transport.options import Scope
+
+
+@dataclass(frozen=True, slots=True)
+class MessageInfo:
+    """Where a message came from."""
+
+    topic: str
+    """Topic name without the partition, e.g. `/cmd_vel`."""
+    type: str
+    """Type name as it was sent, e.g. `gz.msgs.Twist`."""
+    partition: str
+    """Partition without a leading slash."""
+    intra_process: bool
+    """True when the publisher is in this process."""
+
+
+@dataclass(frozen=True, slots=True)
+class MessagePublisher:
+    """One publisher of a topic, or, in the list of subscribers, one subscriber."""
+
+    topic: str
+    """Topic name without the partition."""
+    addr: str
+    """Address of the process, e.g. `tcp://127.0.0.1:37011`; empty when nobody outside can reach it."""
+    msg_type_name: str
+    """Type name; `google.protobuf.Message` for a subscriber that takes any type."""
+    p_uuid: str
+    """Identity of the process."""
+    n_uuid: str
+    """Identity of the node."""
+    scope: Scope = Scope.ALL
+    """How far it reaches."""

@@ -1,0 +1,125 @@
+"""How a node, a publisher or a subscription shall behave: the option objects of gz-transport.
+
+They are given to Node(), Node.advertise() and Node.subscribe(), and only hold values; what a value does is
+described here and done in node.py, publisher.py and subscription.py.
+"""
+
+from __future__ import annotations
+
+import enum
+
+from gz.transport import environment, naming
+
+UNTHROTTLED = 2**64 - 1
+"""The rate that means "no limit", as it is written on the wire."""
+
+
+class Scope(enum.IntEnum):
+    """How far a publisher reaches. The numbers are those of the wire."""
+
+    PROCESS = 0
+    HOST = 1
+    ALL = 2
+
+
+def _checked_rate(rate: int) -> int:
+    if isinstance(rate, bool) or not isinstance(rate, int) or not 1 <= rate <= UNTHROTTLED:
+        raise ValueError(
+            f"msgs_per_sec is {rate!r}, but a whole number of messages per second from 1 to 2**64 - 1 was expected."
+        )
+    return rate
+
+
+class AdvertiseMessageOptions:
+    """Options of a publisher: its scope, and the most messages per second it sends."""
+
+    def __init__(self, scope: Scope = Scope.ALL, msgs_per_sec: int = UNTHROTTLED) -> None:
+        self.scope = Scope(scope)
+        self.msgs_per_sec = msgs_per_sec
+
+    @property
+    def msgs_per_sec(self) -> int:
+        """The most messages per second that are sent; the rest is dropped. UNTHROTTLED for no limit."""
+        return self._msgs_per_sec
+
+    @msgs_per_sec.setter
+    def msgs_per_sec(self, rate: int) -> None:
+        self._msgs_per_sec = _checked_rate(rate)
+
+    @property
+    def throttled(self) -> bool:
+        """Whether there is a limit."""
+        return self._msgs_per_sec != UNTHROTTLED
+
+
+class SubscribeOptions:
+    """Options of a subscription: the most messages per second it takes, and whether it hears its own node."""
+
+    def __init__(self, msgs_per_sec: int = UNTHROTTLED, ignore_local_messages: bool = False) -> None:
+        self.msgs_per_sec = msgs_per_sec
+        self.ignore_local_messages = ignore_local_messages
+
+    @property
+    def msgs_per_sec(self) -> int:
+        """The most messages per second the callback is given; the rest is dropped. UNTHROTTLED for no limit."""
+        return self._msgs_per_sec
+
+    @msgs_per_sec.setter
+    def msgs_per_sec(self, rate: int) -> None:
+        self._msgs_per_sec = _checked_rate(rate)
+
+    @property
+    def throttled(self) -> bool:
+        """Whether there is a limit."""
+        return self._msgs_per_sec != UNTHROTTLED
+
+
+class NodeOptions:
+    """Options of a node: partition, namespace, topic remappings and, our addition, the scope of the whole node.
+
+    With `scope=Scope.PROCESS` the node uses no socket and no thread: it talks with the nodes of its own process
+    only, and nothing from outside reaches it. Raises ValueError with the broken rule for invalid names.
+    """
+
+    def __init__(self, partition: str | None = None, namespace: str = "", scope: Scope = Scope.ALL) -> None:
+        self.partition = environment.default_partition() if partition is None else partition
+        self.namespace = namespace
+        self.scope = Scope(scope)
+        self._remappings: dict[str, str] = {}
+
+    @property
+    def partition(self) -> str:
+        """Nodes hear one another only within one partition. Default: GZ_PARTITION or `<host name>:<user>`."""
+        return self._partition
+
+    @partition.setter
+    def partition(self, partition: str) -> None:
+        self._partition = naming.check(partition, "partition", may_be_empty=True)
+
+    @property
+    def namespace(self) -> str:
+        """What stands before every topic that does not start with `/`."""
+        return self._namespace
+
+    @namespace.setter
+    def namespace(self, namespace: str) -> None:
+        self._namespace = naming.check(namespace, "namespace", may_be_empty=True)
+
+    def add_topic_remap(self, from_topic: str, to_topic: str) -> bool:
+        """From now on `from_topic` means `to_topic`; False when `from_topic` was remapped before."""
+        naming.check(from_topic, "topic")
+        naming.check(to_topic, "topic")
+        if from_topic in self._remappings:
+            return False
+        self._remappings[from_topic] = to_topic
+        return True
+
+    def topic_remap(self, topic: str) -> str:
+        """The topic that `topic` means in this node."""
+        return self._remappings.get(topic, topic)
+
+    def copy(self) -> NodeOptions:
+        """An independent copy, so a node does not change when its options object is used again."""
+        other = NodeOptions(self.partition, self.namespace, self.scope)
+        other._remappings = dict(self._remappings)
+        return other

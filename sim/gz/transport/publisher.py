@@ -1,0 +1,116 @@
+"""Sends messages on one topic.
+
+Start of the data path: publish() serializes once, hands the bytes to the network (when somebody outside listens)
+and to every subscription of this process, in the caller's thread, before it returns.
+"""
+
+from __future__ import annotations
+
+from google.protobuf.message import Message
+
+from gz.transport import naming
+from gz.transport.environment import complain
+from gz.transport.message_info import MessageInfo
+from gz.transport.options import AdvertiseMessageOptions, Scope
+from gz.transport.switchboard import SWITCHBOARD
+from gz.transport.throttle import Throttle
+
+
+class Publisher:
+    """What Node.advertise() returns. Closed with close() or together with its node."""
+
+    def __init__(
+        self, name: str, type_name: str, node_uuid: str, scope: Scope, options: AdvertiseMessageOptions
+    ) -> None:
+        """`name` is fully qualified. Use Node.advertise() instead of calling this."""
+        self.name = name
+        self.type_name = type_name
+        self.node_uuid = node_uuid
+        self.scope = scope
+        self.msgs_per_sec = options.msgs_per_sec
+        self.throttled = options.throttled
+        self._name_on_wire = name.encode()
+        self._partition, self.topic = naming.split(name)
+        self._throttle = Throttle(options.msgs_per_sec)
+        self._open = True
+
+    def valid(self) -> bool:
+        """Whether it can publish: True until it is closed."""
+        return self._open
+
+    def publish(self, message: Message) -> bool:
+        """Sends a message; same-process callbacks have run when this returns.
+
+        True also when nobody listens or the message was dropped by a rate limit. False, with a line on stderr,
+        when the message has another type than advertised, and when the publisher is closed.
+        """
+        if not isinstance(message, Message):
+            raise TypeError(
+                f"publish() on topic [{self.topic}] was given a {type(message).__name__}, "
+                f"but a {self.type_name} message was expected."
+            )
+        return self.publish_raw(message.SerializeToString(), message.DESCRIPTOR.full_name)
+
+    def publish_raw(self, data: bytes, type_name: str) -> bool:
+        """Sends a message that is serialized already; otherwise as publish()."""
+        if not self._open:
+            return False
+        if type_name != self.type_name:
+            complain(
+                f"The topic [{self.topic}] was advertised with type {self.type_name}, "
+                f"so a message of type {type_name} was not published on it."
+            )
+            return False
+        if not self._throttle.passes():
+            return True
+        if self.scope != Scope.PROCESS:
+            from gz.transport import network
+
+            network.joined().send(self._name_on_wire, data, type_name)
+        group = SWITCHBOARD.subscriptions(self.name)
+        if group:
+            info = MessageInfo(self.topic, type_name, self._partition, True)
+            for subscription in group:
+                subscription.deliver(data, info, self.node_uuid)
+        return True
+
+    def has_connections(self) -> bool:
+        """Whether somebody listens: a subscription here, or another process, with a matching type."""
+        return self._connections() > 0
+
+    def wait_for_subscribers(self, count: int = 1, timeout: float = 5.0) -> bool:
+        """Waits until `count` subscribers would receive the next message; False after `timeout` seconds.
+
+        Each subscription of this process counts as one and each other process as one. After True the next
+        message is not lost, which a publisher that starts to send at once cannot know. (Our addition.)
+        """
+        return SWITCHBOARD.wait_for(lambda: self._connections() >= count, timeout)
+
+    def throttled_update_ready(self) -> bool:
+        """Whether a message published now would pass the rate limit."""
+        return self._throttle.ready()
+
+    def close(self) -> None:
+        """Stops publishing and tells the other processes. Closing twice does nothing."""
+        if not self._open:
+            return
+        self._open = False
+        SWITCHBOARD.remove_publisher(self)
+        if self.scope != Scope.PROCESS:
+            from gz.transport import network
+
+            network.joined().unadvertise(self)
+
+    def _connections(self) -> int:
+        if not self._open:
+            return 0
+        here = sum(each.accepts(self.type_name) for each in SWITCHBOARD.subscriptions(self.name))
+        if self.scope == Scope.PROCESS:
+            return here
+        from gz.transport import network
+
+        return here + network.joined().listening_processes(self.name, self.type_name)
+
+    def __repr__(self) -> str:
+        state = "" if self._open else ", closed"
+        return f"<Publisher {self.topic} [{self.type_name}]{state}>"

@@ -1,0 +1,87 @@
+"""One callback on one topic: which messages it takes, and how it is called.
+
+End of the data path. Messages come from publishers of the same process (in the publisher's thread, before
+publish() returns) or from the dispatcher thread (from other processes). The callback always gets its own copy.
+"""
+
+from __future__ import annotations
+
+import sys
+import traceback
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from google.protobuf.message import DecodeError, Message
+
+from gz.transport.environment import complain
+from gz.transport.message_info import MessageInfo
+from gz.transport.options import Scope, SubscribeOptions
+from gz.transport.throttle import Throttle
+
+GENERIC_TYPE = "google.protobuf.Message"
+"""The type name of a raw subscription that takes messages of every type."""
+
+
+class Subscription:
+    """A callback with its topic, type and options."""
+
+    def __init__(
+        self,
+        name: str,
+        type_name: str,
+        node_uuid: str,
+        scope: Scope,
+        options: SubscribeOptions,
+        callback: Callable[..., Any],
+        message_type: type[Message] | None = None,
+    ) -> None:
+        """`name` is fully qualified; without `message_type` the callback is given (bytes, MessageInfo)."""
+        self.name = name
+        self.type_name = type_name
+        self.node_uuid = node_uuid
+        self.scope = scope
+        self.active = True
+        self._ignore_own_node = options.ignore_local_messages
+        self._throttle = Throttle(options.msgs_per_sec)
+        self._callback = callback
+        self._message_type = message_type
+
+    def accepts(self, type_name: str) -> bool:
+        """Whether messages of this type are for this subscription."""
+        return self.type_name == type_name or self.type_name == GENERIC_TYPE
+
+    def deliver(self, data: bytes, info: MessageInfo, from_node: str | None = None) -> None:
+        """Calls the callback with a fresh copy, unless type, options or broken bytes forbid it.
+
+        An exception of the callback becomes one line on stderr. `from_node` is the publishing node, if it is one
+        of this process.
+        """
+        if not self.active or not self.accepts(info.type):
+            return
+        if self._ignore_own_node and from_node == self.node_uuid:
+            return
+        arguments: tuple[Any, ...]
+        if self._message_type is None:
+            arguments = (bytes(data), info)
+        else:
+            try:
+                arguments = (self._message_type.FromString(data),)
+            except DecodeError:
+                return
+        if not self._throttle.passes():
+            return
+        try:
+            self._callback(*arguments)
+        except Exception as error:
+            _report(error, info.topic)
+
+
+def _report(error: Exception, topic: str) -> None:
+    """One line: topic, exception, and the place in the user's file where it was raised."""
+    frames = traceback.extract_tb(sys.exc_info()[2])
+    own = Path(__file__).parent
+    places = [frame for frame in frames if Path(frame.filename).parent != own] or list(frames)
+    place = f"{places[-1].filename}:{places[-1].lineno}"
+    text = " ".join(str(error).split())
+    complain(f"The callback of topic [{topic}] raised {type(error).__name__}{': ' if text else ''}{text} ({place})")

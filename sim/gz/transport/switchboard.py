@@ -1,0 +1,123 @@
+"""Who publishes and who listens in this process: the one table both delivery paths look at.
+
+Same-process messages go publisher -> switchboard -> callback without leaving the thread; the network looks here
+for what to advertise and whom to hand what arrives. Readers take immutable tuples and need no lock.
+"""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from gz.transport.options import Scope
+from gz.transport.subscription import Subscription
+
+if TYPE_CHECKING:
+    from gz.transport.publisher import Publisher
+
+
+class Switchboard:
+    """The publishers and subscriptions of this process, by fully qualified topic name."""
+
+    def __init__(self) -> None:
+        self._changed = threading.Condition(threading.Lock())
+        self._subscriptions: dict[str, tuple[Subscription, ...]] = {}
+        self._publishers: dict[str, tuple[Publisher, ...]] = {}
+
+    def subscriptions(self, name: str) -> tuple[Subscription, ...]:
+        """The subscriptions of a topic, oldest first."""
+        return self._subscriptions.get(name, ())
+
+    def publishers(self, name: str) -> tuple[Publisher, ...]:
+        """The publishers of a topic, oldest first."""
+        return self._publishers.get(name, ())
+
+    def all_subscriptions(self) -> list[Subscription]:
+        """Every subscription of the process."""
+        with self._changed:
+            return [each for group in self._subscriptions.values() for each in group]
+
+    def all_publishers(self) -> list[Publisher]:
+        """Every publisher of the process."""
+        with self._changed:
+            return [each for group in self._publishers.values() for each in group]
+
+    def networked_subscriptions(self, name: str) -> tuple[Subscription, ...]:
+        """The subscriptions of a topic that may hear other processes."""
+        return tuple(each for each in self.subscriptions(name) if each.scope != Scope.PROCESS)
+
+    def networked_publishers(self, name: str) -> tuple[Publisher, ...]:
+        """The publishers of a topic that other processes may know of."""
+        return tuple(each for each in self.publishers(name) if each.scope != Scope.PROCESS)
+
+    def add_subscription(self, subscription: Subscription) -> None:
+        """From now on messages of its topic reach it."""
+        with self._changed:
+            group = self._subscriptions.get(subscription.name, ())
+            self._subscriptions[subscription.name] = (*group, subscription)
+            self._changed.notify_all()
+
+    def remove_subscription(self, subscription: Subscription) -> None:
+        """No message reaches it any more, not even one that is under way."""
+        subscription.active = False
+        with self._changed:
+            group = self._subscriptions.get(subscription.name, ())
+            rest = tuple(each for each in group if each is not subscription)
+            if rest:
+                self._subscriptions[subscription.name] = rest
+            else:
+                self._subscriptions.pop(subscription.name, None)
+            self._changed.notify_all()
+
+    def add_publisher(self, publisher: Publisher) -> None:
+        """Makes a publisher known; ValueError when its node already has one on this topic."""
+        with self._changed:
+            group = self._publishers.get(publisher.name, ())
+            if any(each.node_uuid == publisher.node_uuid for each in group):
+                raise ValueError(
+                    f"The topic {publisher.topic!r} is already advertised by this node: "
+                    "one node may advertise a topic once; use the publisher it returned, or close that one first."
+                )
+            self._publishers[publisher.name] = (*group, publisher)
+
+    def remove_publisher(self, publisher: Publisher) -> None:
+        """Forgets a publisher."""
+        with self._changed:
+            group = self._publishers.get(publisher.name, ())
+            rest = tuple(each for each in group if each is not publisher)
+            if rest:
+                self._publishers[publisher.name] = rest
+            else:
+                self._publishers.pop(publisher.name, None)
+
+    def notify(self) -> None:
+        """Wakes everybody in wait_for(): something outside this table changed."""
+        with self._changed:
+            self._changed.notify_all()
+
+    def wait_for(self, condition: Callable[[], bool], timeout: float) -> bool:
+        """Waits until `condition()` holds, at most `timeout` seconds; whether it holds."""
+        with self._changed:
+            return self._changed.wait_for(condition, timeout)
+
+    def hold_for_fork(self) -> None:
+        """Keeps other threads from changing the table while the process is being copied."""
+        self._changed.acquire()
+
+    def release_after_fork(self) -> None:
+        """The parent goes on."""
+        self._changed.release()
+
+    def renew_after_fork(self) -> None:
+        """The child goes on with the same table and a lock of its own."""
+        self._changed = threading.Condition(threading.Lock())
+
+
+SWITCHBOARD = Switchboard()
+os.register_at_fork(
+    before=SWITCHBOARD.hold_for_fork,
+    after_in_parent=SWITCHBOARD.release_after_fork,
+    after_in_child=SWITCHBOARD.renew_after_fork,
+)
