@@ -1,0 +1,245 @@
+"""geometry_msgs: vectors, rotations, poses, transforms, twists and wrenches.
+
+Lengths are metres, angles radians, speeds m/s and rad/s, forces newtons; both sides use the same units, so every
+number is copied. Quaternions are x, y, z, w on both sides.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from geometry_msgs.msg import (
+    Point,
+    Pose,
+    PoseStamped,
+    Quaternion,
+    Transform,
+    TransformStamped,
+    Twist,
+    TwistStamped,
+    Vector3,
+)
+from gz.msgs.pose_pb2 import Pose as GzPose
+from gz.msgs.quaternion_pb2 import Quaternion as GzQuaternion
+from gz.msgs.twist_pb2 import Twist as GzTwist
+from gz.msgs.vector3d_pb2 import Vector3d
+
+from ros_gz_bridge.header import CHILD_FRAME_ID, header_to_gz, header_to_ros, header_value, set_header_value
+from ros_gz_bridge.type_pairs import type_pair
+
+
+def vector_to_ros(gz: Any) -> Vector3:
+    """A ``gz.msgs.Vector3d`` as a ROS vector."""
+    return Vector3(x=gz.x, y=gz.y, z=gz.z)
+
+
+def point_to_ros(gz: Any) -> Point:
+    """A ``gz.msgs.Vector3d`` as a ROS point."""
+    return Point(x=gz.x, y=gz.y, z=gz.z)
+
+
+def quaternion_to_ros(gz: Any) -> Quaternion:
+    """A ``gz.msgs.Quaternion`` as a ROS quaternion; one never filled in is 0, 0, 0, 0, as on the Gazebo side."""
+    return Quaternion(x=gz.x, y=gz.y, z=gz.z, w=gz.w)
+
+
+def copy_xyz(ros: Any, gz: Any) -> None:
+    """Write x, y, z of a ROS vector or point into ``gz``."""
+    gz.x, gz.y, gz.z = ros.x, ros.y, ros.z
+
+
+def copy_xyzw(ros: Quaternion, gz: Any) -> None:
+    """Write a ROS quaternion into ``gz``."""
+    gz.x, gz.y, gz.z, gz.w = ros.x, ros.y, ros.z, ros.w
+
+
+def pose_to_ros(gz: Any) -> Pose:
+    """Position and orientation of a ``gz.msgs.Pose``; its name and id have no place in ROS."""
+    return Pose(position=point_to_ros(gz.position), orientation=quaternion_to_ros(gz.orientation))
+
+
+def copy_pose(ros: Pose, gz: Any) -> None:
+    """Write a ROS pose into ``gz``."""
+    copy_xyz(ros.position, gz.position)
+    copy_xyzw(ros.orientation, gz.orientation)
+
+
+def transform_to_ros(gz: Any) -> Transform:
+    """A ``gz.msgs.Pose`` as a ROS transform."""
+    return Transform(translation=vector_to_ros(gz.position), rotation=quaternion_to_ros(gz.orientation))
+
+
+def copy_transform(ros: Transform, gz: Any) -> None:
+    """Write a ROS transform into ``gz`` (a ``gz.msgs.Pose``)."""
+    copy_xyz(ros.translation, gz.position)
+    copy_xyzw(ros.rotation, gz.orientation)
+
+
+def twist_to_ros(gz: Any) -> Twist:
+    """Linear and angular velocity of a ``gz.msgs.Twist``."""
+    return Twist(linear=vector_to_ros(gz.linear), angular=vector_to_ros(gz.angular))
+
+
+def copy_twist(ros: Twist, gz: Any) -> None:
+    """Write a ROS twist into ``gz``."""
+    copy_xyz(ros.linear, gz.linear)
+    copy_xyz(ros.angular, gz.angular)
+
+
+def twist_fault(twist: Twist, prefix: str = "") -> str | None:
+    """The fields that are not finite (``"linear.x is nan"``), or None: no simulator survives such a command."""
+    bad = [
+        f"{prefix}{part}.{axis} is {value}"
+        for part in ("linear", "angular")
+        for axis in "xyz"
+        if not math.isfinite(value := getattr(getattr(twist, part), axis))
+    ]
+    return ", ".join(bad) or None
+
+
+@type_pair("geometry_msgs/msg/Vector3", "gz.msgs.Vector3d")
+class Vector3Pair:
+    """Three numbers."""
+
+    to_ros = staticmethod(vector_to_ros)
+
+    @staticmethod
+    def to_gz(ros: Vector3) -> Any:
+        """ROS to Gazebo."""
+        return Vector3d(x=ros.x, y=ros.y, z=ros.z)
+
+
+@type_pair("geometry_msgs/msg/Point", "gz.msgs.Vector3d")
+class PointPair:
+    """Three coordinates."""
+
+    to_ros = staticmethod(point_to_ros)
+
+    @staticmethod
+    def to_gz(ros: Point) -> Any:
+        """ROS to Gazebo."""
+        return Vector3d(x=ros.x, y=ros.y, z=ros.z)
+
+
+@type_pair("geometry_msgs/msg/Quaternion", "gz.msgs.Quaternion")
+class QuaternionPair:
+    """A rotation, x, y, z, w."""
+
+    to_ros = staticmethod(quaternion_to_ros)
+
+    @staticmethod
+    def to_gz(ros: Quaternion) -> Any:
+        """ROS to Gazebo."""
+        return GzQuaternion(x=ros.x, y=ros.y, z=ros.z, w=ros.w)
+
+
+@type_pair("geometry_msgs/msg/Pose", "gz.msgs.Pose")
+class PosePair:
+    """Position and orientation."""
+
+    to_ros = staticmethod(pose_to_ros)
+
+    @staticmethod
+    def to_gz(ros: Pose) -> Any:
+        """ROS to Gazebo."""
+        gz = GzPose()
+        copy_pose(ros, gz)
+        return gz
+
+
+@type_pair("geometry_msgs/msg/PoseStamped", "gz.msgs.Pose")
+class PoseStampedPair:
+    """A pose with its header."""
+
+    @staticmethod
+    def to_ros(gz: Any) -> PoseStamped:
+        """Gazebo to ROS."""
+        return PoseStamped(header=header_to_ros(gz.header), pose=pose_to_ros(gz))
+
+    @staticmethod
+    def to_gz(ros: PoseStamped) -> Any:
+        """ROS to Gazebo."""
+        gz = GzPose()
+        header_to_gz(ros.header, gz.header)
+        copy_pose(ros.pose, gz)
+        return gz
+
+
+@type_pair("geometry_msgs/msg/Transform", "gz.msgs.Pose")
+class TransformPair:
+    """A pose read as a transform."""
+
+    to_ros = staticmethod(transform_to_ros)
+
+    @staticmethod
+    def to_gz(ros: Transform) -> Any:
+        """ROS to Gazebo."""
+        gz = GzPose()
+        copy_transform(ros, gz)
+        return gz
+
+
+@type_pair("geometry_msgs/msg/TransformStamped", "gz.msgs.Pose")
+class TransformStampedPair:
+    """A transform with both its frames; the child's name is in the Gazebo header too."""
+
+    @staticmethod
+    def to_ros(gz: Any) -> TransformStamped:
+        """Gazebo to ROS."""
+        return TransformStamped(
+            header=header_to_ros(gz.header),
+            child_frame_id=header_value(gz.header, CHILD_FRAME_ID),
+            transform=transform_to_ros(gz),
+        )
+
+    @staticmethod
+    def to_gz(ros: TransformStamped) -> Any:
+        """ROS to Gazebo."""
+        gz = GzPose()
+        header_to_gz(ros.header, gz.header)
+        set_header_value(gz.header, CHILD_FRAME_ID, ros.child_frame_id)
+        copy_transform(ros.transform, gz)
+        return gz
+
+
+@type_pair("geometry_msgs/msg/Twist", "gz.msgs.Twist")
+class TwistPair:
+    """Velocity of a body: linear and angular."""
+
+    to_ros = staticmethod(twist_to_ros)
+
+    @staticmethod
+    def to_gz(ros: Twist) -> Any:
+        """ROS to Gazebo."""
+        gz = GzTwist()
+        copy_twist(ros, gz)
+        return gz
+
+    @staticmethod
+    def fault(ros: Twist) -> str | None:
+        """What must not reach the simulator."""
+        return twist_fault(ros)
+
+
+@type_pair("geometry_msgs/msg/TwistStamped", "gz.msgs.Twist")
+class TwistStampedPair:
+    """A twist with its header."""
+
+    @staticmethod
+    def to_ros(gz: Any) -> TwistStamped:
+        """Gazebo to ROS."""
+        return TwistStamped(header=header_to_ros(gz.header), twist=twist_to_ros(gz))
+
+    @staticmethod
+    def to_gz(ros: TwistStamped) -> Any:
+        """ROS to Gazebo."""
+        gz = GzTwist()
+        header_to_gz(ros.header, gz.header)
+        copy_twist(ros.twist, gz)
+        return gz
+
+    @staticmethod
+    def fault(ros: TwistStamped) -> str | None:
+        """What must not reach the simulator."""
+        return twist_fault(ros.twist, "twist.")

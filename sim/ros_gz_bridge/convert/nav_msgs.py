@@ -1,0 +1,73 @@
+"""nav_msgs: Odometry, without and with covariances."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gz.msgs.odometry_pb2 import Odometry as GzOdometry
+from gz.msgs.odometry_with_covariance_pb2 import OdometryWithCovariance
+from nav_msgs.msg import Odometry
+
+from ros_gz_bridge.convert.geometry_msgs import copy_pose, copy_twist, pose_to_ros, twist_to_ros
+from ros_gz_bridge.header import CHILD_FRAME_ID, header_to_gz, header_to_ros, header_value, set_header_value
+from ros_gz_bridge.type_pairs import type_pair
+
+_COVARIANCE = 36
+
+
+def _frames_to_ros(gz: Any) -> Odometry:
+    return Odometry(header=header_to_ros(gz.header), child_frame_id=header_value(gz.header, CHILD_FRAME_ID))
+
+
+def _frames_to_gz(ros: Odometry, gz: Any) -> None:
+    header_to_gz(ros.header, gz.header)
+    set_header_value(gz.header, CHILD_FRAME_ID, ros.child_frame_id)
+
+
+@type_pair("nav_msgs/msg/Odometry", "gz.msgs.Odometry")
+class OdometryPair:
+    """Pose and twist; this Gazebo message has no covariances, so ROS gets zeros."""
+
+    @staticmethod
+    def to_ros(gz: Any) -> Odometry:
+        """Gazebo to ROS."""
+        ros = _frames_to_ros(gz)
+        ros.pose.pose = pose_to_ros(gz.pose)
+        ros.twist.twist = twist_to_ros(gz.twist)
+        return ros
+
+    @staticmethod
+    def to_gz(ros: Odometry) -> Any:
+        """ROS to Gazebo."""
+        gz = GzOdometry()
+        _frames_to_gz(ros, gz)
+        copy_pose(ros.pose.pose, gz.pose)
+        copy_twist(ros.twist.twist, gz.twist)
+        return gz
+
+
+@type_pair("nav_msgs/msg/Odometry", "gz.msgs.OdometryWithCovariance")
+class OdometryWithCovariancePair:
+    """Pose and twist with their 6x6 covariances, row by row; a list of another length counts as unknown (zeros)."""
+
+    @staticmethod
+    def to_ros(gz: Any) -> Odometry:
+        """Gazebo to ROS."""
+        ros = _frames_to_ros(gz)
+        ros.pose.pose = pose_to_ros(gz.pose_with_covariance.pose)
+        ros.twist.twist = twist_to_ros(gz.twist_with_covariance.twist)
+        for part, source in ((ros.pose, gz.pose_with_covariance), (ros.twist, gz.twist_with_covariance)):
+            if len(source.covariance.data) == _COVARIANCE:
+                part.covariance = list(source.covariance.data)
+        return ros
+
+    @staticmethod
+    def to_gz(ros: Odometry) -> Any:
+        """ROS to Gazebo."""
+        gz = OdometryWithCovariance()
+        _frames_to_gz(ros, gz)
+        copy_pose(ros.pose.pose, gz.pose_with_covariance.pose)
+        copy_twist(ros.twist.twist, gz.twist_with_covariance.twist)
+        gz.pose_with_covariance.covariance.data.extend(ros.pose.covariance)
+        gz.twist_with_covariance.covariance.data.extend(ros.twist.covariance)
+        return gz

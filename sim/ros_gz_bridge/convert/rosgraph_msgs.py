@@ -1,0 +1,28 @@
+"""rosgraph_msgs: Clock, the simulated time every node with ``use_sim_time`` lives by."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gz.msgs.clock_pb2 import Clock as GzClock
+from rosgraph_msgs.msg import Clock
+
+from ros_gz_bridge.header import stamp_to_gz, stamp_to_ros
+from ros_gz_bridge.type_pairs import type_pair
+
+
+@type_pair("rosgraph_msgs/msg/Clock", "gz.msgs.Clock")
+class ClockPair:
+    """Only Gazebo's ``sim`` time travels; ``real`` and ``system`` have no place in the ROS message."""
+
+    @staticmethod
+    def to_ros(gz: Any) -> Clock:
+        """Gazebo to ROS."""
+        return Clock(clock=stamp_to_ros(gz.sim))
+
+    @staticmethod
+    def to_gz(ros: Clock) -> Any:
+        """ROS to Gazebo."""
+        gz = GzClock()
+        stamp_to_gz(ros.clock, gz.sim)
+        return gz

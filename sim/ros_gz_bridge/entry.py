@@ -1,0 +1,63 @@
+"""What one bridge is: two topic names, two types, a direction and its options.
+
+Entries are made by ``config`` (from YAML or the command line) and taken by ``bridge.Bridge``. Nothing here
+imports ROS, so a file can be checked before any node exists.
+"""
+
+from __future__ import annotations
+
+import enum
+from dataclasses import dataclass
+
+
+class Direction(enum.Enum):
+    """Which way messages travel; the values are the words used in the YAML file."""
+
+    BIDIRECTIONAL = "BIDIRECTIONAL"
+    GZ_TO_ROS = "GZ_TO_ROS"
+    ROS_TO_GZ = "ROS_TO_GZ"
+
+    @property
+    def to_ros(self) -> bool:
+        """True when Gazebo messages are to reach ROS."""
+        return self is not Direction.ROS_TO_GZ
+
+    @property
+    def to_gz(self) -> bool:
+        """True when ROS messages are to reach Gazebo."""
+        return self is not Direction.GZ_TO_ROS
+
+
+@dataclass(frozen=True)
+class BridgeEntry:
+    """One topic bridged between Gazebo and ROS.
+
+    ``publisher_queue`` and ``subscriber_queue`` are depths (messages) on the ROS side; the Gazebo side has no
+    queue. ``lazy`` connects the sending side only while somebody listens on the receiving side. ``frame_id``
+    replaces ``header.frame_id`` of messages going to ROS. ``source`` says where the entry was written
+    (``bridge.yaml:7``), for messages to people; it takes no part in comparisons.
+    """
+
+    ros_topic: str
+    gz_topic: str
+    ros_type: str
+    gz_type: str
+    direction: Direction = Direction.BIDIRECTIONAL
+    publisher_queue: int = 10
+    subscriber_queue: int = 10
+    lazy: bool = False
+    frame_id: str | None = None
+    source: str = ""
+
+    def __post_init__(self) -> None:
+        for name, depth in (
+            ("publisher_queue", self.publisher_queue),
+            ("subscriber_queue", self.subscriber_queue),
+        ):
+            if depth < 1:
+                raise ValueError(f"{name} must be 1 or more, not {depth}")
+
+    @property
+    def same_route(self) -> tuple[str, str, str, str]:
+        """What makes two entries the same route: both topics and both types."""
+        return (self.ros_topic, self.gz_topic, self.ros_type, self.gz_type)

@@ -1,0 +1,173 @@
+"""Which ROS type becomes which Gazebo type: the table of type pairs.
+
+``bridge`` asks this table for the two conversion functions of an entry, ``config`` asks it whether an entry can
+work at all. A pair is declared with ``@type_pair(...)`` in ``convert/<ros package>.py``; the files of that folder
+are found by looking, so a new ROS package is supported by adding one file.
+"""
+
+from __future__ import annotations
+
+import difflib
+import importlib
+import importlib.util
+import pkgutil
+import re
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from gz.msgs import message_class
+
+import ros_gz_bridge.convert
+
+_GZ_PREFIXES = ("ignition.msgs.", "gz_msgs.", "ign_msgs.")
+
+
+class ConversionError(ValueError):
+    """One message that cannot be said in the other language (for instance a stamp out of range)."""
+
+
+class UnknownPairError(ValueError):
+    """No conversion exists between the two types; the sentence names the nearest pair that does."""
+
+
+class MissingPackageError(UnknownPairError):
+    """The pair exists, but the ROS package that defines its message is not installed."""
+
+
+@dataclass(frozen=True)
+class TypePair:
+    """One ROS type, one Gazebo type and the functions between them.
+
+    ``to_ros`` and ``to_gz`` raise ``ConversionError`` for a message that does not fit. ``fault`` looks at a ROS
+    message and returns None, or the words for what must not reach the simulator (``"linear.x is nan"``).
+    """
+
+    ros_type: str
+    gz_type: str
+    ros_class: Any
+    gz_class: Any
+    to_ros: Callable[[Any], Any]
+    to_gz: Callable[[Any], Any]
+    fault: Callable[[Any], str | None] | None = None
+
+
+_pairs: dict[tuple[str, str], TypePair] = {}
+_loaded: set[str] = set()
+_lock = threading.RLock()
+
+
+def type_pair(ros_type: str, gz_type: str) -> Callable[[type], type]:
+    """Class decorator: declare the static methods ``to_ros``, ``to_gz`` (and perhaps ``fault``) as a type pair."""
+
+    def declare(conversions: type) -> type:
+        add_pair(
+            ros_type,
+            gz_type,
+            to_ros=conversions.to_ros,  # type: ignore[attr-defined]
+            to_gz=conversions.to_gz,  # type: ignore[attr-defined]
+            fault=getattr(conversions, "fault", None),
+        )
+        return conversions
+
+    return declare
+
+
+def add_pair(
+    ros_type: str,
+    gz_type: str,
+    *,
+    to_ros: Callable[[Any], Any],
+    to_gz: Callable[[Any], Any],
+    fault: Callable[[Any], str | None] | None = None,
+) -> None:
+    """Enter a pair in the table. Raises ``ValueError`` if the two types are already paired."""
+    package, _, name = ros_type.split("/")
+    ros_class = getattr(importlib.import_module(f"{package}.msg"), name)
+    with _lock:
+        if (ros_type, gz_type) in _pairs:
+            raise ValueError(f"the pair {ros_type} = {gz_type} is declared twice")
+        _pairs[ros_type, gz_type] = TypePair(
+            ros_type, gz_type, ros_class, message_class(gz_type), to_ros, to_gz, fault
+        )
+
+
+def convertible_packages() -> list[str]:
+    """ROS packages that have a file in ``convert/``, installed or not."""
+    return sorted(module.name for module in pkgutil.iter_modules(ros_gz_bridge.convert.__path__))
+
+
+def missing_packages() -> list[str]:
+    """Packages of ``convertible_packages`` that are not installed; their pairs cannot be used."""
+    return [name for name in convertible_packages() if not _installed(name)]
+
+
+def pairs() -> list[TypePair]:
+    """Every pair that can be used here, sorted by ROS type."""
+    for package in convertible_packages():
+        _load(package)
+    return [_pairs[key] for key in sorted(_pairs)]
+
+
+def canonical_gz_type(gz_type: str) -> str:
+    """``gz.msgs.X`` for the older spellings ``ignition.msgs.X``, ``ign_msgs.X`` and ``gz_msgs.X``; others unchanged."""
+    for prefix in _GZ_PREFIXES:
+        if gz_type.startswith(prefix):
+            return "gz.msgs." + gz_type.removeprefix(prefix)
+    return gz_type
+
+
+def find_pair(ros_type: str, gz_type: str) -> TypePair:
+    """The pair of exactly these two types.
+
+    Raises ``MissingPackageError`` when the ROS package is not installed and ``UnknownPairError``, naming the
+    nearest pair, when there is no such pair.
+    """
+    gz_type = canonical_gz_type(gz_type)
+    package = ros_type.split("/")[0]
+    if package in convertible_packages():
+        if not _installed(package):
+            raise MissingPackageError(
+                f"the type {ros_type} needs the ROS package {package}, which is not installed "
+                f"(try: pip install ros-{package.replace('_', '-')})"
+            )
+        _load(package)
+        if (pair := _pairs.get((ros_type, gz_type))) is not None:
+            return pair
+    raise UnknownPairError(_explain_unknown(ros_type, gz_type))
+
+
+def _installed(package: str) -> bool:
+    return importlib.util.find_spec(package) is not None
+
+
+def _load(package: str) -> None:
+    with _lock:
+        if package not in _loaded and _installed(package):
+            _loaded.add(package)
+            importlib.import_module(f"ros_gz_bridge.convert.{package}")
+
+
+def _explain_unknown(ros_type: str, gz_type: str) -> str:
+    """One sentence: what was asked, what is wrong with it, and the nearest pair."""
+    known = pairs()
+    partners = [pair.gz_type for pair in known if pair.ros_type == ros_type]
+    if partners:
+        return f"{ros_type} cannot become {gz_type}; {ros_type} pairs with {_either(partners)}"
+    if not re.fullmatch(r"\w+/msg/\w+", ros_type):
+        seen = f"{ros_type} is not a ROS message type (package/msg/Name)"
+    else:
+        seen = f"no conversion is known for {ros_type}"
+    partners = [pair.ros_type for pair in known if pair.gz_type == gz_type]
+    if partners:
+        return f"{seen}; {gz_type} pairs with {_either(partners)}"
+    wanted = f"{ros_type}@{gz_type}"
+    by_text = {f"{pair.ros_type}@{pair.gz_type}": pair for pair in known}
+    nearest = difflib.get_close_matches(wanted, by_text, n=1, cutoff=0.0)
+    pair = by_text[nearest[0]]
+    return f"{seen}, nor for {gz_type}; the nearest pair is {pair.ros_type} with {pair.gz_type}"
+
+
+def _either(names: list[str]) -> str:
+    return " or ".join(names)
