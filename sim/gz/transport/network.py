@@ -1,51 +1,319 @@
-"""The place of this process among the others: what reaches beyond the process goes through here."""
+"""The place of this process among the others: everything that reaches beyond the process goes through here.
+
+Created when the first node that is not PROCESS-only needs it. One I/O thread owns discovery and the receiving
+socket; publishers send through the outlet from their own threads. A process that is forked gets a network of
+its own when it needs one, with everything its nodes have; at exit the others are told.
+"""
 
 from __future__ import annotations
 
+import atexit
+import contextlib
+import os
+import socket
+import threading
+import time
 import uuid
-from typing import TYPE_CHECKING
+from collections import deque
+from collections.abc import Callable, Iterable
 
+import zmq
+
+from gz.msgs.discovery_pb2 import Discovery
+from gz.transport import naming
+from gz.transport.discovery import HEARTBEAT_S
+from gz.transport.dispatcher import Dispatcher
+from gz.transport.environment import DEFAULT_IP, NetworkSettings, complain
+from gz.transport.inlet import Inlet
 from gz.transport.message_info import MessagePublisher
+from gz.transport.options import Scope
+from gz.transport.outlet import Outlet
+from gz.transport.publisher import Publisher
+from gz.transport.subscription import Subscription
+from gz.transport.switchboard import SWITCHBOARD
+from gz.transport.topic_discovery import TopicDiscovery
 
-if TYPE_CHECKING:
-    from gz.transport.publisher import Publisher
-    from gz.transport.subscription import Subscription
+_STOP_WITHIN_S = 1.0
+_LINGER_MS = 200
 
 
 class Network:
-    """Knows this process only."""
+    """Sockets and threads of one process."""
 
-    def __init__(self) -> None:
+    def __init__(self, settings: NetworkSettings) -> None:
+        """Opens the sockets and starts the threads. Raises OSError when the network cannot be used."""
         self.process_uuid = str(uuid.uuid4())
-        self.address = ""
+        self._open = True
+        self._commands: deque[Callable[[], None]] = deque()
+        self._told: dict[tuple[str, str, str, str], float] = {}
+        self._context: zmq.Context[zmq.Socket[bytes]] = zmq.Context()
+        try:
+            self._outlet = Outlet(self._context, settings.ip, settings.send_high_water_mark, SWITCHBOARD.notify)
+        except zmq.ZMQError as error:
+            self._context.destroy(linger=0)
+            raise OSError(error.errno, f"address {settings.ip} cannot be bound ({error})") from error
+        self.address = self._outlet.address
+        try:
+            self._discovery = TopicDiscovery(
+                self.process_uuid,
+                settings,
+                own=self._own_publishers,
+                own_subscriptions=_networked_subscriptions,
+                own_address=self.address,
+                on_advertise=self._on_advertise,
+                on_gone=self._on_gone,
+                on_subscribers=SWITCHBOARD.notify,
+            )
+        except OSError:
+            self._context.destroy(linger=0)
+            raise
+        self._inlet = Inlet(self._context, settings.receive_high_water_mark)
+        self._dispatcher = Dispatcher(SWITCHBOARD, settings.receive_high_water_mark, self._wake)
+        self._wake_sender, self._wake_receiver = socket.socketpair()
+        self._wake_sender.setblocking(False)
+        self._wake_receiver.setblocking(False)
+        self._thread = threading.Thread(target=self._run, name="gz-transport-io", daemon=True)
+        for publisher in SWITCHBOARD.all_publishers():
+            if publisher.scope != Scope.PROCESS:
+                self.advertise(publisher)
+        for subscription in _networked_subscriptions():
+            self.subscribe(subscription)
+        self._dispatcher.start()
+        self._thread.start()
+
+    # ---- called from any thread
 
     def send(self, name: bytes, data: bytes, type_name: str) -> None:
-        """Sends to other processes."""
+        """Sends a message to the processes that have subscribed to the fully qualified topic."""
+        self._outlet.send(name, data, type_name)
 
     def advertise(self, publisher: Publisher) -> None:
-        """Announces a publisher."""
+        """Tells the others about a publisher."""
+        self._discovery.advertise(self._record(publisher))
 
     def unadvertise(self, publisher: Publisher) -> None:
-        """Announces its end."""
+        """Tells the others that a publisher is gone."""
+        self._discovery.unadvertise(self._record(publisher))
 
     def subscribe(self, subscription: Subscription) -> None:
-        """Looks for publishers."""
+        """Connects a subscription to the publishers of its topic, now and later."""
+        self._do(lambda: self._connect_known(subscription))
 
     def unsubscribe(self, subscription: Subscription) -> None:
-        """Announces the end of a subscription."""
+        """Tells the publishers that a subscription, no longer in the switchboard, has ended."""
+        self._do(lambda: self._disconnect(subscription))
 
     def listening_processes(self, name: str, type_name: str) -> int:
-        """How many other processes listen."""
-        return 0
+        """How many other processes would receive a message of this topic and type that is sent now."""
+        announced = self._discovery.subscriber_processes(name, type_name)
+        return min(announced, self._outlet.listeners(name.encode())) if announced else 0
 
     def known_elsewhere(self) -> tuple[list[tuple[str, MessagePublisher]], list[tuple[str, MessagePublisher]]]:
-        """What other processes have."""
-        return [], []
+        """(publishers, subscribers) of all other processes and partitions, with fully qualified names.
+
+        Waits until the others had time to answer: about one second for the first call of a process.
+        """
+        if not self._open:
+            return [], []
+        self._discovery.ask_for_subscribers()
+        self._discovery.wait_for_answers()
+        return _listed(self._discovery.all_known()), _listed(self._discovery.subscribers())
+
+    def close(self) -> None:
+        """Says goodbye to the others, stops the threads and closes the sockets."""
+        if not self._open:
+            return
+        self._discovery.say_farewell()
+        self._open = False
+        self._wake()
+        if self._thread is not threading.current_thread():
+            self._thread.join(_STOP_WITHIN_S)
+        self._dispatcher.stop(_STOP_WITHIN_S)
+        self._discovery.close()
+        self._outlet.close()
+        if not self._thread.is_alive():
+            self._inlet.close()
+            self._context.destroy(linger=_LINGER_MS)
+        self._wake_sender.close()
+        self._wake_receiver.close()
+
+    def abandon_after_fork(self) -> None:
+        """In a forked child: lets go of what belongs to the parent, without a word to anybody."""
+        self._open = False
+        self._discovery.close()
+        self._wake_sender.close()
+        self._wake_receiver.close()
+
+    def _do(self, command: Callable[[], None]) -> None:
+        if self._open:
+            self._commands.append(command)
+            self._wake()
+
+    def _wake(self) -> None:
+        with contextlib.suppress(OSError):  # full: it will wake up anyway; closed: it has stopped
+            self._wake_sender.send(b"!")
+
+    # ---- the I/O thread
+
+    def _run(self) -> None:
+        poller = zmq.Poller()
+        for source in (self._discovery.fileno(), self._outlet.fileno(), self._wake_receiver.fileno()):
+            poller.register(source, zmq.POLLIN)
+        while self._open:
+            try:
+                self._one_round(poller)
+            except Exception as error:  # nothing that arrives may end this thread
+                if self._open:
+                    complain(f"Something was received that could not be used ({type(error).__name__}: {error}).")
+
+    def _one_round(self, poller: zmq.Poller) -> None:
+        wait_s = self._discovery.tick()
+        self._inlet.leave_due()
+        poller.register(self._inlet.socket, 0 if self._dispatcher.full() else zmq.POLLIN)
+        ready = dict(poller.poll(wait_s * 1000))
+        if self._wake_receiver.fileno() in ready:
+            self._wake_receiver.recv(4096)
+        while self._commands:
+            self._commands.popleft()()
+        if self._discovery.fileno() in ready:
+            self._discovery.receive()
+        if self._outlet.fileno() in ready:
+            self._outlet.take_notices()
+        if self._inlet.socket in ready:
+            for arrival in self._inlet.arrivals():
+                self._dispatcher.put(arrival)
+
+    def _connect_known(self, subscription: Subscription) -> None:
+        if not subscription.active:
+            return
+        for record in self._discovery.known(subscription.name):
+            if subscription.accepts(record.msg_pub.msg_type) and self._inlet.listen(record.topic, record.address):
+                self._tell(record, subscription.node_uuid)
+        self._discovery.ask(subscription.name)
+
+    def _disconnect(self, subscription: Subscription) -> None:
+        left = SWITCHBOARD.networked_subscriptions(subscription.name)
+        if not left:
+            self._inlet.ignore(subscription.name)
+        if not any(each.node_uuid == subscription.node_uuid for each in left):
+            self._discovery.send_end_connection(subscription.name, subscription.node_uuid)
+            self._told = {
+                key: when
+                for key, when in self._told.items()
+                if key[0] != subscription.name or key[3] != subscription.node_uuid
+            }
+
+    def _on_advertise(self, record: Discovery.Publisher, is_new: bool) -> None:
+        kind = record.msg_pub.msg_type
+        nodes = {each.node_uuid for each in SWITCHBOARD.networked_subscriptions(record.topic) if each.accepts(kind)}
+        if nodes and self._inlet.listen(record.topic, record.address):
+            for node in sorted(nodes):
+                self._tell(record, node, again=is_new)
+
+    def _tell(self, record: Discovery.Publisher, node_uuid: str, again: bool = True) -> None:
+        """Tells a publisher that a node listens to it; repeated once a second, since datagrams can be lost."""
+        key = (record.topic, record.process_uuid, record.node_uuid, node_uuid)
+        now = time.monotonic()
+        if again or now - self._told.get(key, 0.0) > 0.9 * HEARTBEAT_S:
+            self._told[key] = now
+            self._discovery.send_new_connection(record, node_uuid)
+
+    def _on_gone(self, records: list[Discovery.Publisher]) -> None:
+        gone = {(record.topic, record.process_uuid, record.node_uuid) for record in records}
+        self._told = {key: when for key, when in self._told.items() if key[:3] not in gone}
+        still_there = {record.address for record in self._discovery.all_known()}
+        for address in {record.address for record in records} - still_there:
+            self._inlet.leave_soon(address)
+
+    # ---- what this process has
+
+    def _own_publishers(self, topic: str | None) -> Iterable[Discovery.Publisher]:
+        if topic is not None:
+            return [self._record(each) for each in SWITCHBOARD.networked_publishers(topic)]
+        return [self._record(each) for each in SWITCHBOARD.all_publishers() if each.scope != Scope.PROCESS]
+
+    def _record(self, publisher: Publisher) -> Discovery.Publisher:
+        record = Discovery.Publisher(
+            topic=publisher.name,
+            address=self.address,
+            process_uuid=self.process_uuid,
+            node_uuid=publisher.node_uuid,
+            scope=int(publisher.scope),
+        )
+        record.msg_pub.ctrl = "unused"
+        record.msg_pub.msg_type = publisher.type_name
+        record.msg_pub.throttled = publisher.throttled
+        record.msg_pub.msgs_per_sec = publisher.msgs_per_sec
+        return record
 
 
-_NETWORK = Network()
+def _networked_subscriptions() -> list[Subscription]:
+    return [each for each in SWITCHBOARD.all_subscriptions() if each.scope != Scope.PROCESS]
+
+
+def _listed(records: list[Discovery.Publisher]) -> list[tuple[str, MessagePublisher]]:
+    found: list[tuple[str, MessagePublisher]] = []
+    for record in records:
+        topic = naming.split(record.topic)[1]
+        info = MessagePublisher(
+            topic,
+            record.address,
+            record.msg_pub.msg_type,
+            record.process_uuid,
+            record.node_uuid,
+            Scope(record.scope) if record.scope in (1, 2) else Scope.ALL,
+        )
+        found.append((record.topic, info))
+    return found
+
+
+# ---- the one network of this process
+
+_network: Network | None = None
+_inherited: list[Network] = []
+_creation = threading.Lock()
 
 
 def joined() -> Network:
-    """The network of this process."""
-    return _NETWORK
+    """The network of this process; created by the first call.
+
+    Raises OSError when not even 127.0.0.1 can be used.
+    """
+    return _network or _create()
+
+
+def _create() -> Network:
+    global _network
+    with _creation:
+        if _network is None:
+            settings = NetworkSettings.from_environment()
+            try:
+                _network = Network(settings)
+            except OSError as error:
+                if settings.ip == DEFAULT_IP:
+                    raise
+                complain(
+                    f"{error}. Did you set the environment variable GZ_IP to an address of this machine? "
+                    f"{DEFAULT_IP} is used instead of {settings.ip}."
+                )
+                fallback = NetworkSettings(**{**vars(settings), "ip": DEFAULT_IP})
+                _network = Network(fallback)
+            atexit.register(_network.close)
+        return _network
+
+
+def _abandon_in_child() -> None:
+    global _network, _creation
+    _creation = threading.Lock()
+    if _network is not None:
+        atexit.unregister(_network.close)
+        _network.abandon_after_fork()
+        _inherited.append(_network)  # kept, because closing the parent's ZeroMQ sockets here would disturb the parent
+        _network = None
+
+
+os.register_at_fork(
+    before=lambda: _creation.acquire(),
+    after_in_parent=lambda: _creation.release(),
+    after_in_child=_abandon_in_child,
+)

@@ -194,7 +194,7 @@ class Node:
                     MessagePublisher(topic, reachable, each.type_name, process, each.node_uuid, each.scope),
                 )
             )
-        own = self._qualified("/any").removesuffix("/any")
+        own = naming.fully_qualified(self._options.partition, "", "/any").removesuffix("/any")
         return (
             [info for name, info in named_published if name.startswith(own)],
             [info for name, info in named_subscribed if name.startswith(own)],

@@ -84,6 +84,7 @@ class Publisher:
         Each subscription of this process counts as one and each other process as one. After True the next
         message is not lost, which a publisher that starts to send at once cannot know. (Our addition.)
         """
+        self._connections()  # a forked child joins the network here, which the wait below must not do
         return SWITCHBOARD.wait_for(lambda: self._connections() >= count, timeout)
 
     def throttled_update_ready(self) -> bool:

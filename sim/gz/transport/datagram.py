@@ -1,0 +1,41 @@
+"""The datagrams by which processes find one another: two bytes of length, then a gz.msgs.Discovery.
+
+Between the UDP socket and discovery.py. Everything that is not exactly a datagram of this protocol version is
+dropped here, so that nothing malformed gets any further. Format: gz-transport's discovery protocol, version 10.
+"""
+
+from __future__ import annotations
+
+from google.protobuf.message import DecodeError
+
+from gz.msgs.discovery_pb2 import Discovery
+
+WIRE_VERSION = 10
+"""The protocol version of gz-transport 11 to 15."""
+MAX_DATAGRAM_BYTES = 65535
+_LENGTH_BYTES = 2
+
+
+def encode(message: Discovery) -> bytes:
+    """The datagram of a message. Raises ValueError when it would be longer than 65535 bytes."""
+    body = message.SerializeToString()
+    size = len(body) + _LENGTH_BYTES
+    if size > MAX_DATAGRAM_BYTES:
+        raise ValueError(
+            f"A discovery message of {size} bytes does not fit in a datagram ({MAX_DATAGRAM_BYTES} bytes): "
+            "the topic name is too long."
+        )
+    return len(body).to_bytes(_LENGTH_BYTES, "little") + body
+
+
+def decode(data: bytes) -> Discovery | None:
+    """The message in a datagram; None when the datagram is not one of this protocol and version."""
+    if len(data) < _LENGTH_BYTES or int.from_bytes(data[:_LENGTH_BYTES], "little") != len(data) - _LENGTH_BYTES:
+        return None
+    try:
+        message = Discovery.FromString(data[_LENGTH_BYTES:])
+    except DecodeError:
+        return None
+    if message.version != WIRE_VERSION or not message.process_uuid:
+        return None
+    return message

@@ -1,0 +1,255 @@
+"""Finds the publishers (or services) of other processes by multicast, and announces our own.
+
+One DiscoveryChannel is one UDP port: heartbeats, announcements, questions ("who has this topic?") and farewells.
+It runs inside the I/O thread; sending and looking things up is allowed from every thread. What is special to
+topics is in topic_discovery.py. Protocol and times: gz-transport's discovery protocol, version 10.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import socket
+import threading
+import time
+from collections.abc import Callable, Iterable
+
+from gz.msgs.discovery_pb2 import Discovery
+from gz.transport import datagram, naming
+from gz.transport.environment import NetworkSettings, complain
+from gz.transport.options import Scope
+
+HEARTBEAT_S = 1.0
+SILENCE_LIMIT_S = 3.0
+COMPLETE_AFTER_S = HEARTBEAT_S + 0.1
+"""After so long every other process has sent a heartbeat, so the list of what there is, is complete."""
+_RECEIVE_BUFFER_BYTES = 1 << 20
+
+RecordKey = tuple[str, str, str]
+"""(process, node, address)"""
+
+
+class DiscoveryChannel:
+    """One discovery port of this process."""
+
+    def __init__(
+        self,
+        process_uuid: str,
+        settings: NetworkSettings,
+        port: int,
+        own: Callable[[str | None], Iterable[Discovery.Publisher]],
+        on_advertise: Callable[[Discovery.Publisher, bool], None],
+        on_gone: Callable[[list[Discovery.Publisher]], None],
+    ) -> None:
+        """Opens the sockets.
+
+        `own(topic)` gives what this process offers on a topic (None: on all); `on_advertise(record, is_new)` and
+        `on_gone(records)` are called in the thread that calls receive() and tick().
+        """
+        self.process_uuid = process_uuid
+        self._settings = settings
+        self._target = (settings.group, port)
+        self._own = own
+        self._on_advertise = on_advertise
+        self._on_gone = on_gone
+        self._lock = threading.RLock()
+        self._records: dict[str, dict[RecordKey, Discovery.Publisher]] = {}
+        self._last_heard: dict[str, float] = {}
+        self._started = time.monotonic()
+        self._next_heartbeat = self._started
+        self._open = True
+        self._send_failed = False
+        self._socket = self._open_socket()
+
+    def _open_socket(self) -> socket.socket:
+        udp = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        try:
+            interface = socket.inet_aton(self._settings.ip)
+            udp.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            udp.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
+            udp.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, _RECEIVE_BUFFER_BYTES)
+            udp.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, interface)
+            group = socket.inet_aton(self._settings.group)
+            udp.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, group + interface)
+            udp.bind(("0.0.0.0", self._target[1]))
+            udp.setblocking(False)
+        except OSError as error:
+            udp.close()
+            raise OSError(
+                error.errno,
+                f"gz.transport cannot use multicast group {self._settings.group}, port {self._target[1]}, on address "
+                f"{self._settings.ip} ({error.strerror}): is GZ_IP an address of this machine, and its network up?",
+            ) from error
+        return udp
+
+    def fileno(self) -> int:
+        """The descriptor that becomes readable when datagrams wait."""
+        return self._socket.fileno()
+
+    # ---- what the other processes offer
+
+    def known(self, topic: str) -> list[Discovery.Publisher]:
+        """What other processes offer on a topic (fully qualified)."""
+        with self._lock:
+            return list(self._records.get(topic, {}).values())
+
+    def all_known(self) -> list[Discovery.Publisher]:
+        """Everything other processes offer."""
+        with self._lock:
+            return [record for group in self._records.values() for record in group.values()]
+
+    def seconds_until_complete(self) -> float:
+        """How long until all_known() is complete; 0 when it is."""
+        return max(0.0, self._started + COMPLETE_AFTER_S - time.monotonic())
+
+    # ---- sending
+
+    def advertise(self, record: Discovery.Publisher) -> None:
+        """Tells everybody about something of ours."""
+        self.send(Discovery.ADVERTISE, record)
+
+    def unadvertise(self, record: Discovery.Publisher) -> None:
+        """Tells everybody that something of ours is gone."""
+        self.send(Discovery.UNADVERTISE, record)
+
+    def ask(self, topic: str) -> None:
+        """Asks who offers a topic; whoever does, advertises it again."""
+        message = self._message(Discovery.SUBSCRIBE)
+        message.sub.topic = topic
+        self._send(message)
+
+    def send(self, kind: int, record: Discovery.Publisher) -> None:
+        """Sends a message of the given Discovery.Type about a record."""
+        message = self._message(kind)
+        message.pub.CopyFrom(record)
+        self._send(message)
+
+    def _message(self, kind: int) -> Discovery:
+        return Discovery(version=datagram.WIRE_VERSION, process_uuid=self.process_uuid, type=kind)
+
+    def _send_about_process(self, kind: int) -> None:
+        self.send(kind, Discovery.Publisher(process_uuid=self.process_uuid, scope=Discovery.Publisher.ALL))
+
+    def _send(self, message: Discovery) -> None:
+        if not self._open:
+            return
+        try:
+            self._socket.sendto(datagram.encode(message), self._target)
+            self._send_failed = False
+        except (BlockingIOError, InterruptedError):
+            pass  # a full buffer: datagrams may be lost anyway, and the next heartbeat repeats what matters
+        except (OSError, ValueError) as error:
+            if self._open and not self._send_failed:
+                self._send_failed = True
+                complain(f"Other processes cannot be told about this one: {error}.")
+
+    # ---- receiving and the clock (one thread only)
+
+    def receive(self) -> None:
+        """Takes all datagrams that wait."""
+        while self._open:
+            try:
+                data, source = self._socket.recvfrom(datagram.MAX_DATAGRAM_BYTES)
+            except (BlockingIOError, InterruptedError):
+                return
+            except OSError:  # closed by another thread, or an error of an earlier send that is reported here
+                return
+            message = datagram.decode(data)
+            if message is None or message.process_uuid == self.process_uuid or message.flags.relay:
+                continue
+            self._last_heard[message.process_uuid] = time.monotonic()
+            self.handle(message, source[0])
+
+    def handle(self, message: Discovery, source_ip: str) -> None:
+        """Acts on one message of another process."""
+        kind = message.type
+        if kind == Discovery.SUBSCRIBE:
+            for record in self._own(message.sub.topic):
+                self.advertise(record)
+        elif kind == Discovery.BYE:
+            self._forget_process(message.process_uuid)
+        elif kind != Discovery.HEARTBEAT and self._acceptable(message, source_ip):
+            if kind == Discovery.ADVERTISE:
+                self._remember(message.pub)
+            elif kind == Discovery.UNADVERTISE:
+                self._forget_record(message.pub)
+            else:
+                self.handle_other(message)
+
+    def handle_other(self, message: Discovery) -> None:
+        """Acts on a message that only one kind of channel knows; the plain channel ignores it."""
+
+    def _acceptable(self, message: Discovery, source_ip: str) -> bool:
+        record = message.pub
+        if record.scope == Scope.PROCESS or record.process_uuid != message.process_uuid:
+            return False
+        if record.scope == Scope.HOST and source_ip != self._settings.ip and not source_ip.startswith("127."):
+            return False
+        try:
+            naming.split(record.topic)
+        except ValueError:
+            return False
+        return True
+
+    def _remember(self, record: Discovery.Publisher) -> None:
+        key = (record.process_uuid, record.node_uuid, record.address)
+        with self._lock:
+            group = self._records.setdefault(record.topic, {})
+            is_new = key not in group
+            group[key] = record
+        self._on_advertise(record, is_new)
+
+    def _forget_record(self, record: Discovery.Publisher) -> None:
+        self._forget(
+            lambda each: each.process_uuid == record.process_uuid and each.node_uuid == record.node_uuid,
+            [record.topic],
+        )
+
+    def _forget_process(self, process_uuid: str) -> None:
+        self._last_heard.pop(process_uuid, None)
+        self.forget_subscribers_of(process_uuid)
+        self._forget(lambda each: each.process_uuid == process_uuid, list(self._records))
+
+    def forget_subscribers_of(self, process_uuid: str) -> None:
+        """Drops what else is known of a process that is gone; the plain channel knows nothing else."""
+
+    def _forget(self, condition: Callable[[Discovery.Publisher], bool], topics: list[str]) -> None:
+        gone: list[Discovery.Publisher] = []
+        with self._lock:
+            for topic in topics:
+                group = self._records.get(topic, {})
+                for key in [key for key, record in group.items() if condition(record)]:
+                    gone.append(group.pop(key))
+                if not group:
+                    self._records.pop(topic, None)
+        if gone:
+            self._on_gone(gone)
+
+    def tick(self) -> float:
+        """Sends the heartbeat when it is due and drops silent processes; seconds until it wants to be called."""
+        now = time.monotonic()
+        if now >= self._next_heartbeat:
+            self._next_heartbeat = now + HEARTBEAT_S
+            self._send_about_process(Discovery.HEARTBEAT)
+            for record in self._own(None):
+                self.advertise(record)
+        wanted = self._next_heartbeat
+        for process_uuid, heard in list(self._last_heard.items()):
+            if now - heard > SILENCE_LIMIT_S:
+                self._forget_process(process_uuid)
+            else:
+                wanted = min(wanted, heard + SILENCE_LIMIT_S)
+        return max(0.001, wanted - now + 0.001)
+
+    # ---- the end
+
+    def say_farewell(self) -> None:
+        """Takes back everything of ours and says goodbye, so nobody has to wait for our silence."""
+        for record in self._own(None):
+            self.unadvertise(record)
+        self._send_about_process(Discovery.BYE)
+
+    def close(self) -> None:
+        """Closes the socket without a word; see say_farewell()."""
+        self._open = False
+        with contextlib.suppress(OSError):
+            self._socket.close()

@@ -1,0 +1,96 @@
+"""The socket through which this process receives messages of others. Used by the I/O thread only.
+
+It connects to the publishers that discovery has found, and sets a filter for each topic. The filter of ZeroMQ
+lets through everything that begins like the topic, so the exact name is compared again on delivery.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import zmq
+
+from gz.transport.environment import complain
+
+LEAVE_AFTER_S = 5.0
+"""So long the connection to a publisher that is gone stays open: what it sent last is still to be read."""
+_MOST_AT_ONCE = 256
+_RECONNECT_MS, _RECONNECT_MOST_MS = 100, 2000
+
+
+class Arrival(NamedTuple):
+    """A message of another process."""
+
+    name: str
+    data: bytes
+    type_name: str
+
+
+class Inlet:
+    """The receiving half of the data path between processes."""
+
+    def __init__(self, context: zmq.Context[zmq.Socket[bytes]], high_water_mark: int) -> None:
+        self.socket = context.socket(zmq.SUB)
+        self.socket.setsockopt(zmq.LINGER, 0)
+        self.socket.setsockopt(zmq.RCVHWM, high_water_mark)
+        self.socket.setsockopt(zmq.RECONNECT_IVL, _RECONNECT_MS)
+        self.socket.setsockopt(zmq.RECONNECT_IVL_MAX, _RECONNECT_MOST_MS)
+        self._connected: set[str] = set()
+        self._leaving: dict[str, float] = {}
+        self._filters: set[str] = set()
+
+    def listen(self, name: str, address: str) -> bool:
+        """Receives a topic from the process at `address`; False when the address cannot be used."""
+        self._leaving.pop(address, None)
+        if name not in self._filters:
+            self.socket.setsockopt(zmq.SUBSCRIBE, name.encode())
+            self._filters.add(name)
+        if address not in self._connected:
+            try:
+                self.socket.connect(address)
+            except zmq.ZMQError as error:
+                complain(f"The publisher of {name} has an address that cannot be used: {address!r} ({error}).")
+                return False
+            self._connected.add(address)
+        return True
+
+    def ignore(self, name: str) -> None:
+        """No longer receives a topic."""
+        if name in self._filters:
+            self._filters.remove(name)
+            self.socket.setsockopt(zmq.UNSUBSCRIBE, name.encode())
+
+    def leave_soon(self, address: str) -> None:
+        """The process at `address` is gone: disconnect, but not before its last messages are read."""
+        if address in self._connected:
+            self._leaving.setdefault(address, time.monotonic() + LEAVE_AFTER_S)
+
+    def leave_due(self) -> None:
+        """Disconnects from the addresses whose time has come."""
+        if not self._leaving:
+            return
+        now = time.monotonic()
+        for address in [address for address, due in self._leaving.items() if now >= due]:
+            del self._leaving[address]
+            self._connected.discard(address)
+            self.socket.disconnect(address)
+
+    def arrivals(self) -> Iterator[Arrival]:
+        """The messages that wait, up to a limit, so that one busy topic does not starve discovery."""
+        for _ in range(_MOST_AT_ONCE):
+            try:
+                frames: list[bytes] = self.socket.recv_multipart(zmq.NOBLOCK)
+            except zmq.Again:
+                return
+            if len(frames) < 4:
+                continue
+            try:
+                yield Arrival(frames[0].decode(), frames[2], frames[3].decode())
+            except UnicodeDecodeError:
+                continue
+
+    def close(self) -> None:
+        """Closes the socket."""
+        self.socket.close()

@@ -1,0 +1,83 @@
+"""The socket through which this process sends messages to others, and the count of who listens.
+
+Publishers call send() from any thread; the I/O thread calls take_notices() when the descriptor is readable. It is
+an XPUB socket: it tells which topics the connected processes have subscribed to, so that a publisher can know
+when its first message will arrive. Frames of a message: topic, our address, bytes, type name.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+
+import zmq
+
+_NO_COPY_FROM_BYTES = 65536
+
+
+class Outlet:
+    """The sending half of the data path between processes."""
+
+    def __init__(
+        self, context: zmq.Context[zmq.Socket[bytes]], ip: str, high_water_mark: int, on_change: Callable[[], None]
+    ) -> None:
+        """Binds a free port of `ip`; `on_change()` is called, without a lock held, when listeners come or go."""
+        self._on_change = on_change
+        self._lock = threading.Lock()
+        self._listeners: dict[bytes, int] = {}
+        self._socket = context.socket(zmq.XPUB)
+        self._socket.setsockopt(zmq.LINGER, 200)
+        self._socket.setsockopt(zmq.SNDHWM, high_water_mark)
+        self._socket.setsockopt(zmq.XPUB_VERBOSER, 1)
+        self._socket.bind(f"tcp://{ip}:*")
+        self.address: str = self._socket.getsockopt_string(zmq.LAST_ENDPOINT)
+        self._address_on_wire = self.address.encode()
+        self._descriptor: int = self._socket.getsockopt(zmq.FD)
+
+    def fileno(self) -> int:
+        """Becomes readable when the socket has something to say."""
+        return self._descriptor
+
+    def listeners(self, name: bytes) -> int:
+        """How many processes have subscribed to this fully qualified topic."""
+        return self._listeners.get(name, 0)
+
+    def send(self, name: bytes, data: bytes, type_name: str) -> None:
+        """Sends to the processes that have subscribed; never waits (a receiver that is too slow misses some)."""
+        if not self._listeners.get(name):
+            return
+        with self._lock:
+            if self._socket.closed:
+                return
+            self._socket.send_multipart(
+                (name, self._address_on_wire, data, type_name.encode()), copy=len(data) < _NO_COPY_FROM_BYTES
+            )
+            changed = self._drain()  # sending may have used up the descriptor's signal
+        if changed:
+            self._on_change()
+
+    def take_notices(self) -> None:
+        """Counts the subscriptions that came and went."""
+        with self._lock:
+            changed = not self._socket.closed and self._drain()
+        if changed:
+            self._on_change()
+
+    def _drain(self) -> bool:
+        changed = False
+        while self._socket.getsockopt(zmq.EVENTS) & zmq.POLLIN:
+            notice: bytes = self._socket.recv(zmq.NOBLOCK)
+            kind, name = notice[:1], notice[1:]
+            if kind in (b"\x00", b"\x01"):
+                count = self._listeners.get(name, 0) + (1 if kind == b"\x01" else -1)
+                if count > 0:
+                    self._listeners[name] = count
+                else:
+                    self._listeners.pop(name, None)
+                changed = True
+        return changed
+
+    def close(self) -> None:
+        """Closes the socket; messages under way are still sent for a moment."""
+        with self._lock:
+            self._socket.close()

@@ -1,0 +1,141 @@
+"""The discovery channel of topics: besides publishers it knows who has subscribed to ours.
+
+Subscribers tell a publisher that they have connected (NEW_CONNECTION) and that they left (END_CONNECTION), and
+answer the question who subscribes to what (SUBSCRIBERS_REQ), which only lists need.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Iterable
+
+from gz.msgs.discovery_pb2 import Discovery
+from gz.transport.discovery import DiscoveryChannel
+from gz.transport.environment import NetworkSettings
+from gz.transport.subscription import GENERIC_TYPE, Subscription
+
+ANSWER_TIME_S = 0.1
+"""How long answers to "who subscribes?" are collected: the protocol does not say how many will come."""
+
+SubscriberKey = tuple[str, str]
+"""(process, node)"""
+
+
+class TopicDiscovery(DiscoveryChannel):
+    """Discovery of publishers and subscribers of topics."""
+
+    def __init__(
+        self,
+        process_uuid: str,
+        settings: NetworkSettings,
+        own: Callable[[str | None], Iterable[Discovery.Publisher]],
+        own_subscriptions: Callable[[], Iterable[Subscription]],
+        own_address: str,
+        on_advertise: Callable[[Discovery.Publisher, bool], None],
+        on_gone: Callable[[list[Discovery.Publisher]], None],
+        on_subscribers: Callable[[], None],
+    ) -> None:
+        """As DiscoveryChannel; `on_subscribers()` is called when subscribers of ours came or went."""
+        super().__init__(process_uuid, settings, settings.message_port, own, on_advertise, on_gone)
+        self._own_subscriptions = own_subscriptions
+        self._own_address = own_address
+        self._on_subscribers = on_subscribers
+        self._table_lock = threading.Lock()
+        self._connected: dict[str, dict[SubscriberKey, str]] = {}
+        self._listed: dict[str, dict[SubscriberKey, Discovery.Publisher]] = {}
+
+    def subscriber_processes(self, topic: str, type_name: str) -> int:
+        """How many other processes have said that they are connected to our publisher of this topic and type."""
+        with self._table_lock:
+            group = self._connected.get(topic, {})
+            return len({process for (process, _), kind in group.items() if kind in (type_name, GENERIC_TYPE)})
+
+    def ask_for_subscribers(self) -> None:
+        """Starts collecting who subscribes to what; the answers show up in subscribers()."""
+        with self._table_lock:
+            self._listed.clear()
+        self._send_about_process(Discovery.SUBSCRIBERS_REQ)
+
+    def wait_for_answers(self) -> None:
+        """Waits until lists of publishers and subscribers are as complete as the protocol allows."""
+        time.sleep(max(ANSWER_TIME_S, self.seconds_until_complete()))
+
+    def subscribers(self) -> list[Discovery.Publisher]:
+        """The subscribers of other processes, as far as they answered or are connected to us."""
+        with self._table_lock:
+            found = {(topic, *key): record for topic, group in self._listed.items() for key, record in group.items()}
+            for topic, group in self._connected.items():
+                for (process, node), kind in group.items():
+                    record = Discovery.Publisher(topic=topic, process_uuid=process, node_uuid=node, scope="ALL")
+                    record.msg_pub.msg_type = kind
+                    found.setdefault((topic, process, node), record)
+        return list(found.values())
+
+    def send_new_connection(self, publisher: Discovery.Publisher, node_uuid: str) -> None:
+        """Tells the process of a publisher that this node now listens to it."""
+        record = Discovery.Publisher()
+        record.CopyFrom(publisher)
+        record.process_uuid = self.process_uuid
+        record.node_uuid = node_uuid
+        record.msg_pub.ctrl = publisher.process_uuid
+        self.send(Discovery.NEW_CONNECTION, record)
+
+    def send_end_connection(self, topic: str, node_uuid: str) -> None:
+        """Tells the publishers of a topic that this node listens no longer."""
+        processes = {record.process_uuid for record in self.known(topic)}
+        for process_uuid in [*sorted(processes), ""]:
+            record = self._about_subscriber(topic, node_uuid, GENERIC_TYPE)
+            record.msg_pub.ctrl = process_uuid
+            self.send(Discovery.END_CONNECTION, record)
+
+    def _about_subscriber(self, topic: str, node_uuid: str, type_name: str) -> Discovery.Publisher:
+        record = Discovery.Publisher(
+            topic=topic,
+            address=self._own_address,
+            process_uuid=self.process_uuid,
+            node_uuid=node_uuid,
+            scope=Discovery.Publisher.ALL,
+        )
+        record.msg_pub.msg_type = type_name
+        return record
+
+    def handle(self, message: Discovery, source_ip: str) -> None:
+        """As DiscoveryChannel; the question for subscribers has no topic and is answered here."""
+        if message.type == Discovery.SUBSCRIBERS_REQ:
+            for each in self._own_subscriptions():
+                self.send(Discovery.SUBSCRIBERS_REP, self._about_subscriber(each.name, each.node_uuid, each.type_name))
+        else:
+            super().handle(message, source_ip)
+
+    def handle_other(self, message: Discovery) -> None:
+        """Keeps the tables of subscribers up to date."""
+        record, key = message.pub, (message.pub.process_uuid, message.pub.node_uuid)
+        if message.type == Discovery.SUBSCRIBERS_REP:
+            with self._table_lock:
+                self._listed.setdefault(record.topic, {})[key] = record
+        elif message.type == Discovery.NEW_CONNECTION and record.msg_pub.ctrl == self.process_uuid:
+            with self._table_lock:
+                self._connected.setdefault(record.topic, {})[key] = record.msg_pub.msg_type
+            self._on_subscribers()
+        elif message.type == Discovery.END_CONNECTION and record.msg_pub.ctrl in (self.process_uuid, ""):
+            with self._table_lock:
+                _drop(self._connected, record.topic, key)
+                _drop(self._listed, record.topic, key)
+            self._on_subscribers()
+
+    def forget_subscribers_of(self, process_uuid: str) -> None:
+        """Drops the subscribers of a process that is gone."""
+        with self._table_lock:
+            for table in (self._connected, self._listed):
+                for topic in list(table):
+                    for key in [key for key in table[topic] if key[0] == process_uuid]:
+                        _drop(table, topic, key)
+        self._on_subscribers()
+
+
+def _drop(table: dict[str, dict[SubscriberKey, object]], topic: str, key: SubscriberKey) -> None:
+    group = table.get(topic, {})
+    group.pop(key, None)
+    if not group:
+        table.pop(topic, None)
