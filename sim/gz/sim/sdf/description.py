@@ -1,0 +1,176 @@
+"""What an SDF file says, in plain data: a world of models with links, joints, shapes, sensors and plugins.
+
+The reader fills these; the MuJoCo builder, the systems, the sensors and the viewer read them. Nested models are
+flattened into their top model: link and joint names carry the scope (`arm::hand`), poses are in the top model's frame.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from gz.sim.pose import IDENTITY, Pose
+from gz.sim.sdf.element import Element
+
+UNLIMITED = 1e16
+"""Gazebo takes joint limits of this size and above as "no limit"."""
+
+
+@dataclass(eq=False)
+class Geometry:
+    """One shape. `size` holds the full extents (m) as documented at `gz.sim.visuals.VisualShape.size`."""
+
+    kind: str
+    size: tuple[float, float, float]
+    normal: tuple[float, float, float] = (0.0, 0.0, 1.0)
+
+
+@dataclass(eq=False)
+class Collision:
+    """A shape that touches. `mu` is the friction coefficient; `bitmask` decides which pairs can touch at all."""
+
+    name: str
+    pose: Pose
+    geometry: Geometry
+    element: Element
+    mu: float = 1.0
+    bitmask: int = 0xFF
+    density: float = 1000.0
+
+
+@dataclass(eq=False)
+class Visual:
+    """A shape that is seen. `rgba` each 0..1."""
+
+    name: str
+    pose: Pose
+    geometry: Geometry
+    element: Element
+    rgba: tuple[float, float, float, float] = (0.7, 0.7, 0.7, 1.0)
+
+
+@dataclass(eq=False)
+class Inertial:
+    """Mass (kg), inertia about the centre of mass (ixx iyy izz ixy ixz iyz, kg m^2) and the pose of that frame."""
+
+    mass: float = 1.0
+    moments: tuple[float, float, float, float, float, float] = (1.0, 1.0, 1.0, 0.0, 0.0, 0.0)
+    pose: Pose = IDENTITY
+    automatic: bool = False
+
+
+@dataclass(eq=False)
+class Sensor:
+    """A sensor of a link; `element` keeps the parameters that only its own type understands."""
+
+    name: str
+    kind: str
+    pose: Pose
+    element: Element
+    link: str
+    model: str
+
+
+@dataclass(eq=False)
+class Link:
+    """A rigid body: scoped name, pose in the top model's frame, and what is fixed to it."""
+
+    name: str
+    pose: Pose
+    element: Element
+    inertial: Inertial = field(default_factory=Inertial)
+    collisions: list[Collision] = field(default_factory=list)
+    visuals: list[Visual] = field(default_factory=list)
+    sensors: list[Sensor] = field(default_factory=list)
+    gravity: bool = True
+    self_collide: bool = False
+
+
+@dataclass(eq=False)
+class Axis:
+    """One axis of a joint: `direction` (unit) in the child link's frame, limits (rad or m), losses and spring."""
+
+    direction: tuple[float, float, float]
+    lower: float = -UNLIMITED
+    upper: float = UNLIMITED
+    effort: float = float("inf")
+    damping: float = 0.0
+    friction: float = 0.0
+    spring_stiffness: float = 0.0
+    spring_reference: float = 0.0
+
+
+@dataclass(eq=False)
+class Joint:
+    """Connects `parent` to `child` (scoped link names, parent may be `world`); `pose` is in the child link's frame."""
+
+    name: str
+    kind: str
+    parent: str
+    child: str
+    pose: Pose
+    element: Element
+    axis: Axis | None = None
+
+
+@dataclass(eq=False)
+class Plugin:
+    """A system asked for by `<plugin filename=... name=...>`; `scope` is the nested model it stands in, if any."""
+
+    name: str
+    filename: str
+    element: Element
+    scope: str = ""
+
+
+@dataclass(eq=False)
+class Model:
+    """A top-level model: pose in the world, flattened links and joints, plugins, and whether it can move."""
+
+    name: str
+    pose: Pose
+    element: Element
+    static: bool = False
+    self_collide: bool = False
+    canonical_link: str = ""
+    links: list[Link] = field(default_factory=list)
+    joints: list[Joint] = field(default_factory=list)
+    plugins: list[Plugin] = field(default_factory=list)
+
+    def link(self, name: str) -> Link | None:
+        """Return the link of that scoped name."""
+        return next((link for link in self.links if link.name == name), None)
+
+    def joint(self, name: str) -> Joint | None:
+        """Return the joint of that scoped name."""
+        return next((joint for joint in self.joints if joint.name == name), None)
+
+    def mass(self) -> float:
+        """Return the sum of the links' masses (kg)."""
+        return sum(link.inertial.mass for link in self.links)
+
+
+@dataclass(eq=False)
+class Light:
+    """A light: `kind` is directional, point or spot; `direction` in the light's frame."""
+
+    name: str
+    kind: str
+    pose: Pose
+    direction: tuple[float, float, float]
+    diffuse: tuple[float, float, float]
+
+
+@dataclass(eq=False)
+class WorldDescription:
+    """A whole world. `step_size_ns` in nanoseconds, `gravity` in m/s^2, `real_time_factor` 0 = as fast as possible."""
+
+    name: str
+    element: Element
+    gravity: tuple[float, float, float] = (0.0, 0.0, -9.8)
+    step_size_ns: int = 1_000_000
+    real_time_factor: float = 1.0
+    models: list[Model] = field(default_factory=list)
+    lights: list[Light] = field(default_factory=list)
+    plugins: list[Plugin] = field(default_factory=list)
+    ambient: tuple[float, float, float] = (0.4, 0.4, 0.4)
+    background: tuple[float, float, float] = (0.7, 0.7, 0.7)

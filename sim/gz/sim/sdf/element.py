@@ -1,0 +1,171 @@
+"""XML of an SDF file as a tree of elements that remember their file and line.
+
+First stop of a world file: text -> `Element` tree -> `gz.sim.sdf.reader`. Gazebo's parser (tinyxml2) accepts texts that
+strict XML parsers refuse ("--" inside comments, undeclared prefixes such as `gz:policies`, an `<?xml?>` line after white
+space), so comments and declarations are blanked first, keeping the line numbers, and expat runs without namespaces.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import xml.parsers.expat
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+from gz.sim.errors import SdfError
+from gz.sim.pose import Pose
+
+_BLANKED = re.compile(r"<!--.*?-->|<\?xml.*?\?>|<!DOCTYPE[^>]*>", re.DOTALL)
+_TRUE = {"true", "1"}
+_FALSE = {"false", "0"}
+
+
+@dataclass(eq=False)
+class Element:
+    """One XML element: `tag`, `attributes`, `text` (stripped), `children`, and where it stands (`file`, `line`)."""
+
+    tag: str
+    attributes: dict[str, str] = field(default_factory=dict)
+    text: str = ""
+    children: list[Element] = field(default_factory=list)
+    file: str = "<string>"
+    line: int = 0
+
+    @property
+    def where(self) -> str:
+        """`file:line`, the start of every message about this element."""
+        return f"{self.file}:{self.line}"
+
+    @property
+    def name(self) -> str:
+        """The `name` attribute, or an empty text."""
+        return self.attributes.get("name", "")
+
+    def error(self, sentence: str) -> SdfError:
+        """Make (not raise) the error that says `sentence` about this element."""
+        return SdfError(f"{self.where}: {sentence}")
+
+    def find(self, tag: str) -> Element | None:
+        """Return the first child called `tag`; `a/b` goes down two levels."""
+        node: Element | None = self
+        for part in tag.split("/"):
+            node = next((child for child in node.children if child.tag == part), None)
+            if node is None:
+                return None
+        return node
+
+    def all(self, *tags: str) -> Iterator[Element]:
+        """Yield the direct children whose tag is one of `tags`, in file order."""
+        return (child for child in self.children if child.tag in tags)
+
+    def text_of(self, tag: str, default: str = "") -> str:
+        """Return the text of child `tag`, or `default` when it is missing or empty."""
+        child = self.find(tag)
+        return child.text if child is not None and child.text else default
+
+    def number(self, tag: str, default: float) -> float:
+        """Return child `tag` as a float (`inf` allowed, `nan` not); raise `SdfError` when it is no number."""
+        child = self.find(tag)
+        if child is None or not child.text:
+            return default
+        return child.floats(1)[0]
+
+    def integer(self, tag: str, default: int) -> int:
+        """Return child `tag` as an int; `360.0` is accepted as Gazebo does."""
+        value = self.number(tag, float(default))
+        if not math.isfinite(value):
+            raise self.error(f"<{tag}> must be a whole number, got '{self.text_of(tag)}'")
+        return int(value)
+
+    def flag(self, tag: str, default: bool) -> bool:
+        """Return child `tag` as a boolean (true/false/1/0)."""
+        child = self.find(tag)
+        if child is None or not child.text:
+            return default
+        word = child.text.lower()
+        if word in _TRUE or word in _FALSE:
+            return word in _TRUE
+        raise child.error(f"<{tag}> must be true or false, got '{child.text}'")
+
+    def vector(self, tag: str, default: tuple[float, ...]) -> tuple[float, ...]:
+        """Return child `tag` as exactly as many floats as `default` has."""
+        child = self.find(tag)
+        if child is None or not child.text:
+            return default
+        return tuple(child.floats(len(default)))
+
+    def floats(self, count: int) -> list[float]:
+        """Return this element's text as `count` floats; raise `SdfError` quoting what was read."""
+        words = self.text.split()
+        wanted = "a number" if count == 1 else f"{count} numbers"
+        if len(words) != count:
+            raise self.error(f"<{self.tag}> needs {wanted}, got '{self.text}'")
+        try:
+            values = [float(word) for word in words]
+        except ValueError:
+            raise self.error(f"<{self.tag}> needs {wanted}, got '{self.text}'") from None
+        if any(math.isnan(value) for value in values):
+            raise self.error(f"<{self.tag}> must not be NaN, got '{self.text}'")
+        return values
+
+    def pose(self) -> Pose:
+        """Return this `<pose>` element as a `Pose`, honouring `degrees` and `rotation_format`."""
+        if not self.text:
+            return Pose()
+        if self.attributes.get("rotation_format", "euler_rpy") == "quat_xyzw":
+            x, y, z, qx, qy, qz, qw = self.floats(7)
+            quaternion = np.array((qw, qx, qy, qz))
+            norm = float(np.linalg.norm(quaternion))
+            if not math.isfinite(norm) or norm < 1e-12:
+                raise self.error("the quaternion of <pose> has no length")
+            pose = Pose((x, y, z), quaternion / norm)
+        else:
+            x, y, z, roll, pitch, yaw = self.floats(6)
+            scale = math.pi / 180.0 if self.attributes.get("degrees", "false").lower() in _TRUE else 1.0
+            if not all(map(math.isfinite, (roll, pitch, yaw))):
+                raise self.error(f"<pose> must be finite, got '{self.text}'")
+            pose = Pose.from_rpy((x, y, z), (roll * scale, pitch * scale, yaw * scale))
+        if not np.all(np.isfinite(pose.position)):
+            raise self.error(f"<pose> must be finite, got '{self.text}'")
+        return pose
+
+
+def parse(text: str, file: str = "<string>") -> Element:
+    """Parse XML text into its root `Element`; `file` is only used in messages. Raises `SdfError` with the line."""
+    parser = xml.parsers.expat.ParserCreate("utf-8")
+    parser.buffer_text = True
+    stack: list[Element] = []
+    roots: list[Element] = []
+
+    def start(tag: str, attributes: dict[str, str]) -> None:
+        element = Element(tag, attributes, file=file, line=parser.CurrentLineNumber)
+        (stack[-1].children if stack else roots).append(element)
+        stack.append(element)
+
+    def end(_tag: str) -> None:
+        element = stack.pop()
+        element.text = element.text.strip()
+
+    def characters(data: str) -> None:
+        if stack:
+            stack[-1].text += data
+
+    parser.StartElementHandler = start
+    parser.EndElementHandler = end
+    parser.CharacterDataHandler = characters
+    blanked = _BLANKED.sub(lambda found: "\n" * found.group().count("\n"), text.removeprefix("\ufeff"))
+    # Leading white space goes (expat wants the root first) but its lines still count.
+    body = blanked.lstrip()
+    skipped = blanked[: len(blanked) - len(body)].count("\n")
+    try:
+        parser.Parse(("\n" * skipped + body).encode("utf-8", "replace"), True)
+    except xml.parsers.expat.ExpatError as error:
+        what = xml.parsers.expat.errors.messages.get(error.code, "malformed")
+        if stack:
+            what += f", while <{stack[-1].tag}> (opened on line {stack[-1].line}) was open"
+        raise SdfError(
+            f"{file}:{error.lineno}: this is not well-formed XML ({what}); check that every tag is closed and quoted"
+        ) from None
+    return roots[0]

@@ -1,0 +1,135 @@
+"""Where everything stands: SDF's frame rules (`relative_to`, `attached_to`, `<frame>`, `a::b` names), resolved once.
+
+The reader makes one `Scope` per model (and one for the world), tells it every named frame, and asks for poses in that
+scope's own frame. Rules are those of SDF 1.7 and later: a pose without `relative_to` is relative to the model for
+links, nested models and frames without `attached_to`; to the child link for joints; to `attached_to` for other frames.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from gz.sim.errors import nearest
+from gz.sim.pose import IDENTITY, Pose
+from gz.sim.sdf.element import Element
+
+
+@dataclass(eq=False)
+class _Frame:
+    pose: Pose
+    relative_to: str
+    element: Element
+    attached_to: str
+    is_link: bool = False
+
+
+@dataclass(eq=False)
+class Scope:
+    """The names of one model (or of the world) and the poses they have in it.
+
+    `own` is the word for this scope's frame: `__model__` or `world`.
+    """
+
+    own: str
+    element: Element
+    frames: dict[str, _Frame] = field(default_factory=dict)
+    nested: dict[str, Scope] = field(default_factory=dict)
+    placed: dict[str, Pose] = field(default_factory=dict)
+    _busy: list[str] = field(default_factory=list)
+
+    def add(
+        self,
+        name: str,
+        element: Element,
+        *,
+        pose: Pose = IDENTITY,
+        relative_to: str = "",
+        attached_to: str = "",
+        is_link: bool = False,
+        nested: Scope | None = None,
+    ) -> None:
+        """Tell the scope about a named frame; raises `SdfError` when the name is taken or reserved."""
+        if not name:
+            raise element.error(f"<{element.tag}> needs a name attribute")
+        if name == "world" or (name.startswith("__") and name.endswith("__")):
+            raise element.error(f"the name '{name}' is reserved; call this <{element.tag}> something else")
+        if "::" in name:
+            raise element.error(f"the name '{name}' must not contain '::', which separates scopes")
+        if name in self.frames:
+            first = self.frames[name].element
+            raise element.error(
+                f"<{element.tag}> is called '{name}', but <{first.tag}> on line {first.line} is already; "
+                "names in one model must differ"
+            )
+        self.frames[name] = _Frame(pose, relative_to or self.own, element, attached_to, is_link)
+        if nested is not None:
+            self.nested[name] = nested
+
+    def pose_of(self, name: str, asker: Element) -> Pose:
+        """Return the pose of frame `name` in this scope's frame; `asker` is blamed when the name is unknown."""
+        if name == self.own or (name == "__model__" and self.own == "world"):
+            return IDENTITY
+        if "::" in name:
+            outer, _, inner = name.partition("::")
+            if outer not in self.nested:
+                raise self._unknown(outer, asker)
+            return self.pose_of(outer, asker) * self.nested[outer].pose_of(inner, asker)
+        if name in self.placed:
+            return self.placed[name]
+        frame = self.frames.get(name)
+        if frame is None:
+            raise self._unknown(name, asker)
+        if name in self._busy:
+            chain = " -> ".join([*self._busy[self._busy.index(name) :], name])
+            raise frame.element.error(f"the poses of these frames depend on each other in a circle: {chain}")
+        self._busy.append(name)
+        try:
+            pose = self.pose_of(frame.relative_to, frame.element) * frame.pose
+        finally:
+            self._busy.pop()
+        self.placed[name] = pose
+        return pose
+
+    def link_behind(self, name: str, asker: Element) -> str:
+        """Return the scoped name of the link that frame `name` is fixed to (`world` stays `world`)."""
+        seen: list[str] = []
+        while True:
+            if name == "world":
+                return name
+            if "::" in name:
+                outer, _, inner = name.partition("::")
+                if outer not in self.nested:
+                    raise self._unknown(outer, asker)
+                return f"{outer}::{self.nested[outer].link_behind(inner, asker)}"
+            if name == self.own:
+                name = self.canonical_link(asker)
+                continue
+            frame = self.frames.get(name)
+            if frame is None:
+                raise self._unknown(name, asker)
+            if frame.is_link:
+                return name
+            if name in seen:
+                raise frame.element.error(f"frame '{name}' is attached to itself through {' -> '.join(seen)}")
+            seen.append(name)
+            if name in self.nested:
+                return f"{name}::{self.nested[name].canonical_link(asker)}"
+            name = frame.attached_to or self.own
+
+    def canonical_link(self, asker: Element) -> str:
+        """Return the link the model's own frame is fixed to: `canonical_link`, else the first link, also nested."""
+        chosen = self.element.attributes.get("canonical_link", "")
+        if chosen:
+            return self.link_behind(chosen, self.element)
+        for name, frame in self.frames.items():
+            if frame.is_link:
+                return name
+        for name, scope in self.nested.items():
+            return f"{name}::{scope.canonical_link(asker)}"
+        raise asker.error(f"model '{self.element.name}' has no link; give it at least one <link>")
+
+    def _unknown(self, name: str, asker: Element) -> Exception:
+        what = "the world" if self.own == "world" else f"model '{self.element.name}'"
+        return asker.error(
+            f"{what} has no frame '{name}'; {nearest(name, self.frames, listing='its frames are')}"
+        )

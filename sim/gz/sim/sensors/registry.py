@@ -1,0 +1,121 @@
+"""How a `<sensor type=...>` finds its Python class, and what all sensors share: topic, frame, rate.
+
+A sensor type is a file in this folder with a class under `@sensor_type`. The Sensors system creates the rendering ones
+and calls `update` when they are due and somebody listens.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import importlib
+import pkgutil
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import numpy as np
+from gz.sim.sdf.description import Sensor
+from gz.sim.systems.topics import valid_topic
+
+if TYPE_CHECKING:
+    from gz.sim.world import World
+    from gz.transport import Node
+
+KNOWN_TYPES = frozenset(
+    ["air_pressure", "air_speed", "altimeter", "boundingbox", "boundingbox_camera", "camera", "contact", "custom", "depth", "depth_camera", "force_torque", "gps", "gpu_lidar", "gpu_ray", "imu", "lidar", "logical_camera", "magnetometer", "multicamera", "navsat", "ray", "rgbd", "rgbd_camera", "segmentation", "segmentation_camera", "thermal", "thermal_camera", "wideanglecamera", "wide_angle_camera"]
+)
+"""Every sensor type of SDF, also those this simulator has no file for."""
+
+
+class SensorBase:
+    """Base of all sensors: parameters common to every type and the schedule of its updates."""
+
+    rendering = True
+
+    def __init__(self, world: World, description: Sensor) -> None:
+        """Read topic, frame and rate; `world` gives time, poses and the seed."""
+        self.world = world
+        self.description = description
+        element = description.element
+        link = description.link
+        self.scoped_name = f"{description.model}::{link}::{description.name}"
+        nested = "".join(f"/model/{part}" for part in link.split("::")[:-1])
+        self.default_topic = (
+            f"/world/{world.name}/model/{description.model}{nested}/link/{link.split('::')[-1]}"
+            f"/sensor/{description.name}/{self.topic_suffix()}"
+        )
+        self.topic = valid_topic(element.text_of("topic"), self.default_topic)
+        stated = (element.text_of(tag) for tag in ("frame_id", "gz_frame_id", "ignition_frame_id"))
+        self.frame_id = next((text for text in stated if text), self.scoped_name)
+        rate = element.number("update_rate", 0.0)
+        # Gazebo keeps the period in whole milliseconds: 30 Hz means every 33 ms.
+        self.period_ns = int(1000.0 / rate) * 1_000_000 if 0.0 < rate < 1e9 else 0
+        self.next_update_ns = 0
+        self.updates = 0
+
+    def topic_suffix(self) -> str:
+        """Return the last part of the default topic."""
+        raise NotImplementedError
+
+    def connect(self, node: Node) -> None:
+        """Advertise the sensor's topics."""
+        raise NotImplementedError
+
+    def has_connections(self) -> bool:
+        """Tell whether anybody listens, so that the sensor is worth computing."""
+        raise NotImplementedError
+
+    def update(self, now_ns: int) -> None:
+        """Measure and publish, stamped `now_ns` (simulated nanoseconds)."""
+        raise NotImplementedError
+
+    def random(self, purpose: str = "noise") -> np.random.Generator:
+        """Return the generator of this sensor's current update.
+
+        It depends only on the world's seed, the sensor's name, `purpose` and the number of the update, so a listener that
+        comes later, or not at all, changes no other number.
+        """
+        return self._generator(purpose, self.updates)
+
+    def constant_random(self, purpose: str) -> np.random.Generator:
+        """Return the generator for what is drawn once per run, such as a bias."""
+        return self._generator(purpose, -1)
+
+    def _generator(self, purpose: str, update: int) -> np.random.Generator:
+        text = f"{self.world.seed}/{self.scoped_name}/{purpose}/{update}"
+        key = int.from_bytes(hashlib.sha256(text.encode()).digest()[:16], "little")
+        return np.random.Generator(np.random.Philox(key=key))
+
+    def fill_header(self, header: Any, now_ns: int) -> None:
+        """Write stamp, frame and sequence number as Gazebo does."""
+        header.stamp.sec, header.stamp.nsec = divmod(now_ns, 1_000_000_000)
+        for key, value in (("frame_id", self.frame_id), ("seq", str(self.updates))):
+            entry = header.data.add()
+            entry.key = key
+            entry.value.append(value)
+
+
+S = TypeVar("S", bound=type[SensorBase])
+_TYPES: dict[str, type[SensorBase]] = {}
+_scanned = False
+
+
+def sensor_type(*names: str) -> Callable[[S], S]:
+    """Register a class for these values of `<sensor type=...>`."""
+
+    def register(cls: S) -> S:
+        for name in names:
+            _TYPES[name] = cls
+        return cls
+
+    return register
+
+
+def sensor_types() -> dict[str, type[SensorBase]]:
+    """Return the class of every sensor type this simulator has."""
+    global _scanned
+    if not _scanned:
+        for module in pkgutil.iter_modules([str(Path(__file__).parent)]):
+            importlib.import_module(f"gz.sim.sensors.{module.name}")
+        _scanned = True
+    return dict(_TYPES)

@@ -1,0 +1,162 @@
+"""How a `<plugin>` of an SDF file finds the Python class that does its work.
+
+A system is a file in this folder with a class under the `@system` decorator; nothing else has to be edited. `World` asks
+`find_system` for every plugin and calls the hooks of the returned class: `servos` before the model is built, `configure`
+once, `connect` when a transport node is attached, then `pre_update` and `post_update` around every physics step.
+"""
+
+from __future__ import annotations
+
+import importlib
+import logging
+import pkgutil
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, ClassVar, TypeVar
+
+from gz.sim.errors import Diagnostics, nearest
+from gz.sim.physics.recipe import JointServo
+from gz.sim.sdf.description import Model, Plugin
+
+if TYPE_CHECKING:
+    from gz.sim.world import World
+    from gz.transport import Node
+
+LOG = logging.getLogger("gz.sim")
+
+
+class UpdateInfo:
+    """What a system is told at each step: `sim_time_ns` (end of this step), `dt` (s) and `iterations` (this one included)."""
+
+    __slots__ = ("dt", "iterations", "sim_time_ns")
+
+    def __init__(self, dt: float) -> None:
+        self.dt = dt
+        self.sim_time_ns = 0
+        self.iterations = 0
+
+
+class System:
+    """Base of all systems. Override only what is needed: hooks that are not overridden cost nothing per step."""
+
+    name: ClassVar[str] = ""
+    filename: ClassVar[str] = ""
+    parameters: ClassVar[frozenset[str]] = frozenset()
+
+    @classmethod
+    def servos(cls, model: Model, plugin: Plugin) -> list[JointServo]:
+        """Return the joints of `model` this system will drive; raise `SdfError` when it names one that is not there."""
+        return []
+
+    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
+        """Take parameters and addresses; `model` is None for a plugin of the world itself."""
+
+    def connect(self, node: Node) -> None:
+        """Advertise and subscribe on `node`."""
+
+    def pre_update(self, info: UpdateInfo) -> None:
+        """Act before the physics step, for example set controls."""
+
+    def post_update(self, info: UpdateInfo) -> None:
+        """Look at the result of the physics step, for example publish."""
+
+
+S = TypeVar("S", bound=type[System])
+_SYSTEMS: dict[str, type[System]] = {}
+_scanned = False
+
+
+def system(name: str, filename: str) -> Callable[[S], S]:
+    """Register a class under Gazebo's system name (`DiffDrive`) and file name (`gz-sim-diff-drive-system`)."""
+
+    def register(cls: S) -> S:
+        cls.name, cls.filename = name, filename
+        _SYSTEMS[name] = cls
+        return cls
+
+    return register
+
+
+def systems() -> dict[str, type[System]]:
+    """Return every system of this folder by name."""
+    global _scanned
+    if not _scanned:
+        for module in pkgutil.iter_modules([str(Path(__file__).parent)]):
+            importlib.import_module(f"gz.sim.systems.{module.name}")
+        _scanned = True
+    return dict(_SYSTEMS)
+
+
+BUILT_IN = {"Physics"}
+"""Systems whose work the world itself does."""
+
+QUIET = {"UserCommands", "SceneBroadcaster"}
+"""Systems every Gazebo world names; when their file is not in this folder that is worth an informative line only."""
+
+OTHER_GAZEBO_SYSTEMS = frozenset(
+    ["AckermannSteering", "AcousticComms", "AirPressure", "AirSpeed", "Altimeter", "ApplyJointForce", "ApplyLinkWrench", "BatteryPlugin", "Breadcrumbs", "Buoyancy", "BuoyancyEngine", "CameraVideoRecorder", "CommsEndpoint", "Contact", "DetachableJoint", "DopplerVelocityLog", "DriveToPoseController", "EnvironmentPreload", "FollowActor", "ForceTorque", "Hydrodynamics", "Imu", "JointController", "JointPositionController", "JointStatePublisher", "JointTrajectoryController", "KineticEnergyMonitor", "Label", "LensFlare", "LiftDrag", "LogPlayback", "LogRecord", "LogicalAudio", "LogicalCamera", "Magnetometer", "MecanumDrive", "ModelPhotoShoot", "MulticopterMotorModel", "MulticopterVelocityControl", "NavSat", "OdometryPublisher", "OpticalTactilePlugin", "ParticleEmitter", "PerformerDetector", "PosePublisher", "PythonSystemLoader", "ReplayVideo", "RFComms", "SceneBroadcaster", "Sensors", "ShaderParam", "SpacecraftThrusterModel", "TempStore", "Thermal", "ThermalSensor", "Thruster", "TouchPlugin", "TrackController", "TrackedVehicle", "TrajectoryFollower", "TriggeredPublisher", "UserCommands", "VelocityControl", "WheelSlip", "WindEffects"]
+)
+
+_CLASSIC = {
+    "libgazebo_ros_diff_drive": "gz-sim-diff-drive-system",
+    "libgazebo_ros_ray_sensor": "gz-sim-sensors-system in the world",
+    "libgazebo_ros_laser": "gz-sim-sensors-system in the world",
+    "libgazebo_ros_camera": "gz-sim-sensors-system in the world",
+    "libgazebo_ros_imu_sensor": "gz-sim-imu-system in the world",
+    "libgazebo_ros_joint_state_publisher": "gz-sim-joint-state-publisher-system",
+    "libgazebo_ros_p3d": "gz-sim-odometry-publisher-system",
+}
+
+
+def system_name(plugin: Plugin) -> str:
+    """Return the Gazebo name of the system a plugin asks for, whatever spelling or prefix of either attribute."""
+    if plugin.name:
+        last = plugin.name.rsplit("::", 1)[-1]
+        if last in BUILT_IN | QUIET | OTHER_GAZEBO_SYSTEMS or last in systems():
+            return last
+    filename = plugin.filename.rsplit("/", 1)[-1].removeprefix("lib").removesuffix(".so")
+    for prefix in ("ignition-gazebo", "gz-sim"):
+        if filename.startswith(prefix) and filename.endswith("-system"):
+            middle = filename[len(prefix) : -len("-system")].lstrip("0123456789").strip("-")
+            word = middle.replace("-", "").lower()
+            for name in (*systems(), *BUILT_IN, *QUIET, *OTHER_GAZEBO_SYSTEMS):
+                if name.lower() == word:
+                    return name
+    return plugin.name.rsplit("::", 1)[-1] or filename
+
+
+def find_system(plugin: Plugin, diagnostics: Diagnostics) -> type[System] | None:
+    """Return the class for a plugin, or None after saying why there is none."""
+    name = system_name(plugin)
+    found = systems().get(name)
+    if found is not None:
+        _check_parameters(plugin, found, diagnostics)
+        return found
+    where = plugin.element.where
+    classic = plugin.filename.rsplit("/", 1)[-1].removesuffix(".so")
+    if name in BUILT_IN:
+        return None
+    if name in QUIET:
+        LOG.info("%s: system %s is named but does nothing here", where, name)
+    elif classic.startswith("libgazebo_"):
+        instead = _CLASSIC.get(classic, "the gz-sim system of the same purpose")
+        diagnostics.warn(
+            where, f"plugin '{plugin.filename}' is of Gazebo Classic and is ignored; use {instead}"
+        )
+    elif name in OTHER_GAZEBO_SYSTEMS:
+        diagnostics.warn(where, f"system '{name}' exists in Gazebo but not in this simulator, it is ignored")
+    else:
+        hint = nearest(name, {*systems(), *BUILT_IN, *QUIET}, listing="systems that run here are")
+        diagnostics.warn(
+            where, f"no system is called '{plugin.name or plugin.filename}', it is ignored; {hint}"
+        )
+    return None
+
+
+def _check_parameters(plugin: Plugin, found: type[System], diagnostics: Diagnostics) -> None:
+    for child in plugin.element.children:
+        if found.parameters and child.tag not in found.parameters and ":" not in child.tag:
+            hint = nearest(child.tag, found.parameters, listing="its parameters are")
+            diagnostics.warn(
+                child.where, f"{found.name} has no parameter <{child.tag}>, it is ignored; {hint}"
+            )

@@ -1,0 +1,56 @@
+"""What a world looks like: every `<visual>` as a plain shape, for recordings and viewers.
+
+`World.geometry()` lists these once; where their links are at any moment is `World.link_pose()`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from gz.sim.pose import Pose, quaternion_between
+from gz.sim.sdf.description import WorldDescription
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class VisualShape:
+    """One visible shape, fixed to a link.
+
+    `kind` is box, sphere, cylinder, capsule, ellipsoid or plane. `size` holds full extents in metres along the shape's own
+    axes: box (x, y, z); sphere (d, d, d); cylinder (d, d, length); capsule (d, d, length without its caps); ellipsoid
+    (2 rx, 2 ry, 2 rz); plane (x, y, 0). Cylinders and capsules stand along z, a plane's normal is z: a `<normal>` is
+    already part of `pose`. `pose` is the shape in its link's frame, `rgba` its colour (each 0..1).
+    """
+
+    model: str
+    link: str
+    name: str
+    kind: str
+    size: tuple[float, float, float]
+    pose: Pose
+    rgba: tuple[float, float, float, float]
+    static: bool
+
+
+def visual_shapes(world: WorldDescription) -> list[VisualShape]:
+    """Return all visible shapes of a world in file order."""
+    shapes: list[VisualShape] = []
+    for model in world.models:
+        for link in model.links:
+            for visual in link.visuals:
+                geometry = visual.geometry
+                pose = visual.pose
+                if geometry.kind == "plane":
+                    pose = pose * Pose(quaternion=quaternion_between((0.0, 0.0, 1.0), geometry.normal))
+                shapes.append(
+                    VisualShape(
+                        model.name,
+                        link.name,
+                        visual.name,
+                        geometry.kind,
+                        geometry.size,
+                        pose,
+                        visual.rgba,
+                        model.static,
+                    )
+                )
+    return shapes
