@@ -53,8 +53,8 @@ class BridgeError(RuntimeError):
 class HeaderOverrides:
     """What a bridge writes over the header of every message going to ROS.
 
-    ``frame_id`` replaces the frame unless the entry has one of its own; ``wall_time`` replaces the stamp with the
-    system clock.
+    ``frame_id`` replaces the frame unless the entry has one of its own; ``wall_time`` replaces the stamp with
+    the system clock.
     """
 
     frame_id: str = ""
@@ -65,8 +65,8 @@ class HeaderOverrides:
 class EntryStatus:
     """What went through one entry so far, in messages.
 
-    ``dropped`` were refused or could not be converted (``last_error`` says why); ``echoes`` are the bridge's own
-    messages coming back, which are ignored.
+    ``dropped`` were refused or could not be converted (``last_error`` says why); ``echoes`` are the bridge's
+    own messages coming back, which are ignored.
     """
 
     entry: BridgeEntry
@@ -80,11 +80,11 @@ class EntryStatus:
 class Bridge:
     """Bridges ``entries`` between ``ros_node`` and ``gz_node`` until ``close``.
 
-    Give it a Gazebo node of its own: closing drops every subscription that node has on the bridged topics. The ROS
-    node may have other endpoints; it must be spun by its owner for messages from ROS to pass. ``publish`` receives
-    each ROS publisher and the message meant for it, and decides when it leaves; by default it leaves at once.
-    ``heartbeat`` (s) is how often lazy entries look for listeners. Raises ``BridgeError`` listing every entry that
-    cannot work, and then leaves nothing behind.
+    Give it a Gazebo node of its own: closing drops every subscription that node has on the bridged topics.
+    The ROS node may have other endpoints; it must be spun by its owner for messages from ROS to pass.
+    ``publish`` receives each ROS publisher and the message meant for it, and decides when it leaves; by
+    default it leaves at once. ``heartbeat`` (s) is how often lazy entries look for listeners. Raises
+    ``BridgeError`` listing every entry that cannot work, and then leaves nothing behind.
     """
 
     def __init__(
@@ -132,7 +132,7 @@ class Bridge:
             return [dataclasses.replace(status) for status in self._status]
 
     def close(self) -> None:
-        """Give back every publisher, subscription and timer; harmless when repeated. Counters stay readable."""
+        """Give back every publisher, subscription and timer; harmless when repeated. Counters stay."""
         if self._timer is not None:
             self._ros_node.destroy_timer(self._timer)
             self._timer = None
@@ -173,7 +173,7 @@ class Bridge:
                 errors.append(_sentence(entry, f"cannot bridge {entry.ros_topic}: {error}"))
         if errors:
             raise BridgeError(errors)
-        for link in (*self._to_ros, *self._to_gz):
+        for link in self._links():
             if not link.entry.lazy:
                 link.connect()
 
@@ -194,8 +194,11 @@ class Bridge:
                 filters.append((topic, EchoFilter(_content_of(pair), capacity), entry))
         return filters
 
+    def _links(self) -> list[_GzToRos | _RosToGz]:
+        return [*self._to_ros, *self._to_gz]
+
     def _connect_lazy(self) -> None:
-        for link in (*self._to_ros, *self._to_gz):
+        for link in self._links():
             if link.entry.lazy:
                 if link.wanted():
                     link.connect()
@@ -216,7 +219,7 @@ class Bridge:
             self._gz_publishers[name] = publisher
         elif publisher.type_name != pair.gz_type:
             raise ValueError(
-                f"the Gazebo topic {topic} carries {publisher.type_name} already, so it cannot carry {pair.gz_type}"
+                f"the Gazebo topic {topic} carries {publisher.type_name} already, not {pair.gz_type}"
             )
         return publisher
 
@@ -233,7 +236,8 @@ class Bridge:
         if key not in self._announced:
             self._announced.add(key)
             self._ros_node.get_logger().info(
-                f"Passing message from ROS {pair.ros_type} to Gazebo {pair.gz_type} (showing msg only once per type)"
+                f"Passing message from ROS {pair.ros_type} to Gazebo {pair.gz_type} "
+                "(showing msg only once per type)"
             )
 
 

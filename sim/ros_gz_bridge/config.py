@@ -1,8 +1,8 @@
 """Reads bridges from a YAML file or from the command line and says exactly what is wrong with them.
 
-The syntax is ros_gz_bridge's own; ``parameter_bridge`` hands the entries to ``bridge.Bridge``. What the original
-passes over in silence (a misspelt key, a type nobody converts, an argument without direction) is an error here,
-with file and line, and all errors of a file are listed at once.
+The syntax is ros_gz_bridge's own; ``parameter_bridge`` hands the entries to ``bridge.Bridge``. What the
+original passes over in silence (a misspelt key, a type nobody converts, an argument without direction) is an
+error here, with file and line, and all errors of a file are listed at once.
 """
 
 from __future__ import annotations
@@ -51,19 +51,22 @@ class ConfigError(ValueError):
         super().__init__("\n".join(self.errors))
 
 
-def load_yaml(path: str | Path) -> list[BridgeEntry]:
-    """The entries of a YAML file. Raises ``ConfigError`` listing every fault in it."""
+def load_yaml(path: str | Path, *, lazy: bool = False) -> list[BridgeEntry]:
+    """The entries of a YAML file. Raises ``ConfigError`` listing every fault in it.
+
+    ``lazy`` holds for the entries that do not say.
+    """
     path = Path(path)
     try:
         with path.open("rb") as file:
             data = file.read(MAX_BYTES + 1)
     except OSError as error:
         raise ConfigError([f"{path}: cannot read the bridge configuration: {error.strerror}"]) from None
-    return parse_yaml(data, str(path))
+    return parse_yaml(data, str(path), lazy=lazy)
 
 
-def parse_yaml(text: str | bytes, file_name: str = "<string>") -> list[BridgeEntry]:
-    """The entries of a YAML text; ``file_name`` stands in the error sentences. Raises ``ConfigError``."""
+def parse_yaml(text: str | bytes, file_name: str = "<string>", *, lazy: bool = False) -> list[BridgeEntry]:
+    """As ``load_yaml``, for a text; ``file_name`` stands in the error sentences."""
     if len(text) > MAX_BYTES:
         raise ConfigError(
             [f"{file_name}: larger than {MAX_BYTES // 1024} KiB, which no bridge configuration needs"]
@@ -76,7 +79,8 @@ def parse_yaml(text: str | bytes, file_name: str = "<string>") -> list[BridgeEnt
     if not isinstance(root, yaml.SequenceNode):
         raise ConfigError(
             [
-                f"{_place(file_name, root)}: expected a list of bridges, found {_kind(root)}; start each bridge with '- '"
+                f"{_place(file_name, root)}: expected a list of bridges, found {_kind(root)}; "
+                "start each bridge with '- '"
             ]
         )
     if len(root.value) > MAX_ENTRIES:
@@ -85,7 +89,9 @@ def parse_yaml(text: str | bytes, file_name: str = "<string>") -> list[BridgeEnt
         )
     errors: list[str] = []
     entries = [
-        entry for node in root.value if (entry := _EntryReader(file_name, node, errors).read()) is not None
+        entry
+        for node in root.value
+        if (entry := _EntryReader(file_name, node, errors, lazy).read()) is not None
     ]
     errors.extend(_repeated(entries))
     if errors:
@@ -156,10 +162,11 @@ def _compose(text: str | bytes, file_name: str) -> yaml.Node | None:
 class _EntryReader:
     """Reads one item of the list, adding what is wrong with it to ``errors``."""
 
-    def __init__(self, file_name: str, node: yaml.Node, errors: list[str]) -> None:
+    def __init__(self, file_name: str, node: yaml.Node, errors: list[str], lazy: bool) -> None:
         self._file_name = file_name
         self._node = node
         self._all_errors = errors
+        self._lazy = lazy
         self._errors: list[str] = []
         self._values: dict[str, yaml.Node] = {}
 
@@ -206,7 +213,7 @@ class _EntryReader:
                 self._wrong(self._values["ros_type_name"], fault)
         direction = self._direction()
         publisher_queue, subscriber_queue = self._depth("publisher_queue"), self._depth("subscriber_queue")
-        lazy = self._flag("lazy")
+        lazy = self._flag("lazy", self._lazy)
         frame_id = self._text("frame_id") if "frame_id" in self._values else None
         if self._errors or ros_topic is None or gz_topic is None or ros_type is None or gz_type is None:
             return None
@@ -229,8 +236,8 @@ class _EntryReader:
         if both and sides:
             self._wrong(
                 self._values["topic_name"],
-                f"'topic_name' and '{sides[0]}' exclude each other; give topic_name alone for the same name on both "
-                "sides, or ros_topic_name and gz_topic_name",
+                f"'topic_name' and '{sides[0]}' exclude each other; give topic_name alone for one name on "
+                "both sides, or ros_topic_name and gz_topic_name",
             )
             return None, None
         if not both and not sides:
@@ -280,10 +287,10 @@ class _EntryReader:
             return 10
         return int(node.value)
 
-    def _flag(self, key: str) -> bool:
+    def _flag(self, key: str, default: bool) -> bool:
         node = self._values.get(key)
         if node is None:
-            return False
+            return default
         if not isinstance(node, yaml.ScalarNode) or not node.tag.endswith(":bool"):
             seen = node.value if isinstance(node, yaml.ScalarNode) and node.value else _kind(node)
             self._wrong(node, f"'{key}' must be true or false, not {seen}")
@@ -338,8 +345,8 @@ def _type_faults(ros_type: str, gz_type: str) -> Iterator[str]:
 def _name_faults(ros_topic: str, gz_topic: str) -> Iterator[str]:
     if not _ROS_NAME.fullmatch(ros_topic) or "__" in ros_topic:
         yield (
-            f"'{ros_topic}' is not a ROS topic name; use letters, digits, '_' and '/', no part starting with a digit, "
-            "no '//' or '__', and no '/' at the end"
+            f"'{ros_topic}' is not a ROS topic name; use letters, digits, '_' and '/', no part starting with "
+            "a digit, no '//' or '__', and no '/' at the end"
         )
     if (rule := naming.broken_rule(gz_topic, may_be_empty=False)) is not None:
         yield f"'{gz_topic}' is not a Gazebo topic name: it {rule}"
@@ -354,5 +361,5 @@ def _repeated(entries: list[BridgeEntry]) -> Iterator[str]:
                 continue
             first = seen.setdefault((way, *entry.same_route), entry)
             if first is not entry:
-                yield f"{entry.source}: bridges {entry.ros_topic} a second time (first: {first.source}); keep one"
+                yield f"{entry.source}: bridges {entry.ros_topic} again (first: {first.source}); keep one"
                 break

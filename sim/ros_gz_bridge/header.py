@@ -1,8 +1,8 @@
 """Stamps, headers and frame names: the rules every stamped message shares.
 
-Gazebo keeps ROS's ``frame_id`` as a key with a value in ``header.data``; odometry and transforms also use the key
-``child_frame_id``. Gazebo scopes names with ``::`` where ROS writes ``/``. The files in ``convert/`` call these
-functions, so the rules are written once.
+Gazebo keeps ROS's ``frame_id`` as a key with a value in ``header.data``; odometry and transforms also use the
+key ``child_frame_id``. Gazebo scopes names with ``::`` where ROS writes ``/``. The files in ``convert/`` call
+these functions, so the rules are written once.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def frame_to_ros(name: str) -> str:
 
 
 def header_value(gz_header: Any, key: str) -> str:
-    """The frame kept under ``key``, in ROS spelling; the last entry counts, a missing one is an empty name."""
+    """The frame kept under ``key``, in ROS spelling; the last entry counts, a missing one is empty."""
     for entry in reversed(gz_header.data):
         if entry.key == key:
             return frame_to_ros(entry.value[0]) if entry.value else ""

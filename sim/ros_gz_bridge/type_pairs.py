@@ -1,8 +1,8 @@
 """Which ROS type becomes which Gazebo type: the table of type pairs.
 
-``bridge`` asks this table for the two conversion functions of an entry, ``config`` asks it whether an entry can
-work at all. A pair is declared with ``@type_pair(...)`` in ``convert/<ros package>.py``; the files of that folder
-are found by looking, so a new ROS package is supported by adding one file.
+``bridge`` asks this table for the two conversion functions of an entry, ``config`` asks it whether an entry
+can work at all. A pair is declared with ``@type_pair(...)`` in ``convert/<ros package>.py``; the files of
+that folder are found by looking, so a new ROS package is supported by adding one file.
 """
 
 from __future__ import annotations
@@ -40,8 +40,8 @@ class MissingPackageError(UnknownPairError):
 class TypePair:
     """One ROS type, one Gazebo type and the functions between them.
 
-    ``to_ros`` and ``to_gz`` raise ``ConversionError`` for a message that does not fit. ``fault`` looks at a ROS
-    message and returns None, or the words for what must not reach the simulator (``"linear.x is nan"``).
+    ``to_ros`` and ``to_gz`` raise ``ConversionError`` for a message that does not fit. ``fault`` looks at a
+    ROS message and returns None, or the words for what must not reach the simulator (``"linear.x is nan"``).
     """
 
     ros_type: str
@@ -59,7 +59,7 @@ _lock = threading.RLock()
 
 
 def type_pair(ros_type: str, gz_type: str) -> Callable[[type], type]:
-    """Class decorator: declare the static methods ``to_ros``, ``to_gz`` (and perhaps ``fault``) as a type pair."""
+    """Class decorator: declare the static methods ``to_ros``, ``to_gz`` (perhaps ``fault``) as a pair."""
 
     def declare(conversions: type) -> type:
         add_pair(
@@ -111,7 +111,7 @@ def pairs() -> list[TypePair]:
 
 
 def canonical_gz_type(gz_type: str) -> str:
-    """``gz.msgs.X`` for the older spellings ``ignition.msgs.X``, ``ign_msgs.X`` and ``gz_msgs.X``; others unchanged."""
+    """``gz.msgs.X`` for the older spellings (``ignition.msgs.X``, ``gz_msgs.X``); others unchanged."""
     for prefix in _GZ_PREFIXES:
         if gz_type.startswith(prefix):
             return "gz.msgs." + gz_type.removeprefix(prefix)

@@ -1,1 +1,1 @@
-"""Conversions, one file for each ROS message package, named like the package; ``type_pairs`` finds them here."""
+"""Conversions, one file for each ROS message package, named like it; ``type_pairs`` finds them here."""

@@ -1,7 +1,7 @@
 """geometry_msgs: vectors, rotations, poses, transforms, twists and wrenches.
 
-Lengths are metres, angles radians, speeds m/s and rad/s, forces newtons; both sides use the same units, so every
-number is copied. Quaternions are x, y, z, w on both sides.
+Lengths are metres, angles radians, speeds m/s and rad/s, forces newtons; both sides use the same units, so
+every number is copied. Quaternions are x, y, z, w on both sides.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def point_to_ros(gz: Any) -> Point:
 
 
 def quaternion_to_ros(gz: Any) -> Quaternion:
-    """A ``gz.msgs.Quaternion`` as a ROS quaternion; one never filled in is 0, 0, 0, 0, as on the Gazebo side."""
+    """A ``gz.msgs.Quaternion`` as a ROS quaternion; one never filled in is 0, 0, 0, 0 on both sides."""
     return Quaternion(x=gz.x, y=gz.y, z=gz.z, w=gz.w)
 
 
@@ -88,7 +88,7 @@ def copy_twist(ros: Twist, gz: Any) -> None:
 
 
 def twist_fault(twist: Twist, prefix: str = "") -> str | None:
-    """The fields that are not finite (``"linear.x is nan"``), or None: no simulator survives such a command."""
+    """The fields that are not finite (``"linear.x is nan"``), or None: no simulator survives them."""
     bad = [
         f"{prefix}{part}.{axis} is {value}"
         for part in ("linear", "angular")

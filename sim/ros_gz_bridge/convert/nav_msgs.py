@@ -48,7 +48,7 @@ class OdometryPair:
 
 @type_pair("nav_msgs/msg/Odometry", "gz.msgs.OdometryWithCovariance")
 class OdometryWithCovariancePair:
-    """Pose and twist with their 6x6 covariances, row by row; a list of another length counts as unknown (zeros)."""
+    """Pose and twist with their 6x6 covariances, row by row; a list of another length becomes zeros."""
 
     @staticmethod
     def to_ros(gz: Any) -> Odometry:

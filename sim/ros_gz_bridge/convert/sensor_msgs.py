@@ -34,8 +34,9 @@ _FORMATS = {PixelFormatType.Value(name): encoding for encoding, (name, _) in _EN
 class LaserScanPair:
     """Ranges in metres by angle in radians; no return is infinite on both sides.
 
-    A Gazebo scan may have several layers, one above the other, where ROS has one: the middle layer is taken. Its
-    frame comes from the field ``frame``, not from the header. Times between beams are unknown, so they are 0.
+    A Gazebo scan may have several layers, one above the other, where ROS has one: the middle layer is taken.
+    Its frame comes from the field ``frame``, not from the header. Times between beams are unknown, so they
+    are 0.
     """
 
     @staticmethod
@@ -82,7 +83,7 @@ class LaserScanPair:
 
 @type_pair("sensor_msgs/msg/Imu", "gz.msgs.IMU")
 class ImuPair:
-    """Orientation, angular velocity (rad/s) and linear acceleration (m/s², gravity included), with covariances."""
+    """Orientation, angular velocity (rad/s) and linear acceleration (m/s², with gravity); covariances."""
 
     @staticmethod
     def to_ros(gz: Any) -> Imu:
