@@ -1,8 +1,8 @@
 """The messages of Gazebo (gz.msgs): real protobuf classes, built when they are first asked for.
 
-`from gz.msgs.twist_pb2 import Twist` works as with the official package; `message_class("gz.msgs.Twist")` finds
-a class by the type name that travels with every message. The definitions are the texts in `proto/`, one file
-for each file of gz-msgs. Nothing else of this project is imported from here.
+`from gz.msgs.twist_pb2 import Twist` works as with the official package; `message_class("gz.msgs.Twist")`
+finds a class by the type name that travels with every message. The definitions are the texts in `proto/`, one
+file for each file of gz-msgs. Nothing else of this project is imported from here.
 """
 
 from gz.msgs.pb2_modules import PROTO_MODULES

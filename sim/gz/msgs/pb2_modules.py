@@ -1,7 +1,8 @@
 """Makes `from gz.msgs.twist_pb2 import Twist` work without generated files.
 
 An import hook: the module `gz.msgs.<file>_pb2` is assembled from `proto/<file>.proto` when it is imported. It
-holds what a module written by protoc holds: the message classes, top-level enums with their values, DESCRIPTOR.
+holds what a module written by protoc holds: the message classes, top-level enums with their values,
+DESCRIPTOR.
 """
 
 from __future__ import annotations
@@ -14,7 +15,6 @@ from types import ModuleType
 
 from google.protobuf import message_factory
 from google.protobuf.internal import enum_type_wrapper
-
 from gz.msgs import registry
 
 _PREFIX = "gz.msgs."

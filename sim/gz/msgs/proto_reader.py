@@ -1,16 +1,21 @@
 """Reads a `.proto` text into the descriptor from which protobuf builds message classes.
 
-First step of the data path: `proto/twist.proto` -> FileDescriptorProto -> (registry) message class -> bytes on
-the wire. It reads the part of proto3 that Gazebo's messages use: package, import, message (nested too), enum,
-oneof, map, repeated, optional, reserved and field options, which are skipped. Grammar: the public proto3
-language specification.
+First step of the data path: `proto/twist.proto` -> FileDescriptorProto -> (registry) message class -> bytes
+on the wire. It reads the part of proto3 that Gazebo's messages use: package, import, message (nested too),
+enum, oneof, map, repeated, optional, reserved and field options, which are skipped. Grammar: the public
+proto3 language specification.
 """
 
 from __future__ import annotations
 
 import re
 
-from google.protobuf.descriptor_pb2 import DescriptorProto, EnumDescriptorProto, FieldDescriptorProto, FileDescriptorProto
+from google.protobuf.descriptor_pb2 import (
+    DescriptorProto,
+    EnumDescriptorProto,
+    FieldDescriptorProto,
+    FileDescriptorProto,
+)
 
 _TOKEN = re.compile(
     r"""
@@ -26,13 +31,14 @@ _TOKEN = re.compile(
 _SCALARS = {
     name: getattr(FieldDescriptorProto, f"TYPE_{name.upper()}")
     for name in (
-        "double float int32 int64 uint32 uint64 sint32 sint64 fixed32 fixed64 sfixed32 sfixed64 bool string bytes"
-    ).split()
+        *("double", "float", "int32", "int64", "uint32", "uint64", "sint32", "sint64"),
+        *("fixed32", "fixed64", "sfixed32", "sfixed64", "bool", "string", "bytes"),
+    )
 }
 
 
 class ProtoSyntaxError(ValueError):
-    """A `.proto` text that cannot be read; the message names file, line, what was expected and what was seen."""
+    """A `.proto` text that cannot be read; the message names file, line, what was expected, what was seen."""
 
 
 class _Reader:
@@ -46,7 +52,9 @@ class _Reader:
         while position < len(text):
             match = _TOKEN.match(text, position)
             if match is None:
-                raise self._error(f"expected a word, number, string or sign, but found {text[position]!r}", position)
+                raise self._error(
+                    f"expected a word, number, string or sign, but found {text[position]!r}", position
+                )
             if match.lastgroup != "space":
                 self._tokens.append((match.group(), position))
             position = match.end()
@@ -208,7 +216,9 @@ class _Reader:
         value = self._name("the value type of the map")
         self._expect(">")
         self._name_and_number(field)
-        entry = message.nested_type.add(name="".join(part.capitalize() for part in field.name.split("_")) + "Entry")
+        entry = message.nested_type.add(
+            name="".join(part.capitalize() for part in field.name.split("_")) + "Entry"
+        )
         entry.options.map_entry = True
         for number, (name, type_name) in enumerate((("key", key), ("value", value)), start=1):
             part = entry.field.add(name=name, number=number, label=FieldDescriptorProto.LABEL_OPTIONAL)
@@ -234,7 +244,7 @@ class _Reader:
 def read_proto(text: str, name: str, path: str | None = None) -> FileDescriptorProto:
     """The descriptor of one `.proto` text.
 
-    `name` is the name under which other files import it ("gz/msgs/twist.proto"); `path` is what error messages
-    call it (default: `name`). Raises ProtoSyntaxError.
+    `name` is the name under which other files import it ("gz/msgs/twist.proto"); `path` is what error
+    messages call it (default: `name`). Raises ProtoSyntaxError.
     """
     return _Reader(text, path or name).file(name)

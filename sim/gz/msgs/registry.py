@@ -17,7 +17,6 @@ from typing import Any
 from google.protobuf import message_factory
 from google.protobuf.descriptor_pool import DescriptorPool
 from google.protobuf.message import Message
-
 from gz.msgs.proto_reader import read_proto
 
 PROTO_FOLDER = Path(__file__).with_name("proto")
@@ -57,7 +56,7 @@ def _load(stem: str) -> None:
 
 
 def file_stems() -> list[str]:
-    """The names of all definition files without folder and ending, sorted: `twist` for `gz/msgs/twist.proto`."""
+    """The names of all definition files, sorted: `twist` stands for `gz/msgs/twist.proto`."""
     return sorted(path.stem for path in PROTO_FOLDER.glob("*.proto"))
 
 
@@ -80,8 +79,8 @@ def type_names() -> list[str]:
 def message_class(name: str) -> type[Message]:
     """The class of a message type.
 
-    Accepts `gz.msgs.Twist`, `gz_msgs.Twist`, `.gz.msgs.Twist`, `ignition.msgs.Twist`, bare `Twist`, and nested
-    types (`gz.msgs.Header.Map`). Raises UnknownTypeError with the nearest names for anything else.
+    Accepts `gz.msgs.Twist`, `gz_msgs.Twist`, `.gz.msgs.Twist`, `ignition.msgs.Twist`, bare `Twist`, and
+    nested types (`gz.msgs.Header.Map`). Raises UnknownTypeError with the nearest names for anything else.
     """
     bare = name.removeprefix(".")
     for prefix in _PREFIXES:

@@ -1,7 +1,8 @@
 """Topics of Gazebo (gz.transport): publish and subscribe, in one process or between many.
 
-The names and signatures are those of the official Python binding, so code moves to a full Gazebo by changing the
-import; what is ours alone (`Scope` for a whole node, `wait_for_subscribers`, `close`) is said where it is defined.
+The names and signatures are those of the official Python binding, so code moves to a full Gazebo by changing
+the import; what is ours alone (`Scope` for a whole node, `wait_for_subscribers`, `close`) is said where it is
+defined.
 """
 
 from gz.transport.message_info import MessageInfo, MessagePublisher

@@ -1,13 +1,13 @@
 """The datagrams by which processes find one another: two bytes of length, then a gz.msgs.Discovery.
 
 Between the UDP socket and discovery.py. Everything that is not exactly a datagram of this protocol version is
-dropped here, so that nothing malformed gets any further. Format: gz-transport's discovery protocol, version 10.
+dropped here, so that nothing malformed gets any further. Format: gz-transport's discovery protocol, version
+10.
 """
 
 from __future__ import annotations
 
 from google.protobuf.message import DecodeError
-
 from gz.msgs.discovery_pb2 import Discovery
 
 WIRE_VERSION = 10
@@ -30,7 +30,10 @@ def encode(message: Discovery) -> bytes:
 
 def decode(data: bytes) -> Discovery | None:
     """The message in a datagram; None when the datagram is not one of this protocol and version."""
-    if len(data) < _LENGTH_BYTES or int.from_bytes(data[:_LENGTH_BYTES], "little") != len(data) - _LENGTH_BYTES:
+    if (
+        len(data) < _LENGTH_BYTES
+        or int.from_bytes(data[:_LENGTH_BYTES], "little") != len(data) - _LENGTH_BYTES
+    ):
         return None
     try:
         message = Discovery.FromString(data[_LENGTH_BYTES:])

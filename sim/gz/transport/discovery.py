@@ -1,8 +1,8 @@
 """Finds the publishers (or services) of other processes by multicast, and announces our own.
 
-One DiscoveryChannel is one UDP port: heartbeats, announcements, questions ("who has this topic?") and farewells.
-It runs inside the I/O thread; sending and looking things up is allowed from every thread. What is special to
-topics is in topic_discovery.py. Protocol and times: gz-transport's discovery protocol, version 10.
+One DiscoveryChannel is one UDP port: heartbeats, announcements, questions ("who has this topic?") and
+farewells. It runs inside the I/O thread; sending and looking things up is allowed from every thread. What is
+special to topics is in topic_discovery.py. Protocol and times: gz-transport's discovery protocol, version 10.
 """
 
 from __future__ import annotations
@@ -42,8 +42,8 @@ class DiscoveryChannel:
     ) -> None:
         """Opens the sockets.
 
-        `own(topic)` gives what this process offers on a topic (None: on all); `on_advertise(record, is_new)` and
-        `on_gone(records)` are called in the thread that calls receive() and tick().
+        `own(topic)` gives what this process offers on a topic (None: on all); `on_advertise(record, is_new)`
+        and `on_gone(records)` are called in the thread that calls receive() and tick().
         """
         self.process_uuid = process_uuid
         self._settings = settings
@@ -76,8 +76,9 @@ class DiscoveryChannel:
             udp.close()
             raise OSError(
                 error.errno,
-                f"gz.transport cannot use multicast group {self._settings.group}, port {self._target[1]}, on address "
-                f"{self._settings.ip} ({error.strerror}): is GZ_IP an address of this machine, and its network up?",
+                f"gz.transport cannot use multicast group {self._settings.group}, port {self._target[1]}, "
+                f"on address {self._settings.ip} ({error.strerror}): "
+                "is GZ_IP an address of this machine, and its network up?",
             ) from error
         return udp
 
@@ -225,7 +226,7 @@ class DiscoveryChannel:
             self._on_gone(gone)
 
     def tick(self) -> float:
-        """Sends the heartbeat when it is due and drops silent processes; seconds until it wants to be called."""
+        """Sends the heartbeat when due, drops silent processes; seconds until it wants to be called."""
         now = time.monotonic()
         if now >= self._next_heartbeat:
             self._next_heartbeat = now + HEARTBEAT_S

@@ -1,8 +1,8 @@
 """Calls the callbacks for messages of other processes, in one thread, in the order of arrival.
 
-Between the I/O thread and the subscriptions. It is a thread of its own so that a callback may take its time, and
-may itself advertise, subscribe or wait, without stopping discovery. When callbacks are too slow the queue fills up
-and the I/O thread stops reading until there is room; ZeroMQ then drops, as it does in gz-transport.
+Between the I/O thread and the subscriptions. It is a thread of its own so that a callback may take its time,
+and may itself advertise, subscribe or wait, without stopping discovery. When callbacks are too slow the queue
+fills up and the I/O thread stops reading until there is room; ZeroMQ then drops, as it does in gz-transport.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ class Dispatcher:
     """A queue of messages and the thread that empties it."""
 
     def __init__(self, switchboard: Switchboard, limit: int, on_room: Callable[[], None]) -> None:
-        """`limit` messages may wait (0: any number); `on_room()` is called when there is room again after full()."""
+        """`limit` messages may wait (0: any number); `on_room()` is called when full() is over."""
         self._switchboard = switchboard
         self._limit = limit
         self._on_room = on_room

@@ -1,8 +1,8 @@
 """What the environment variables of gz-transport say, with the defaults of this course.
 
 Read once for each node (partition) and once for each process (addresses and ports). One default differs from
-gz-transport's: without GZ_IP everything stays on 127.0.0.1, so nobody's robot is driven from the next desk. To
-reach other machines, set GZ_IP to the address of this one.
+gz-transport's: without GZ_IP everything stays on 127.0.0.1, so nobody's robot is driven from the next desk.
+To reach other machines, set GZ_IP to the address of this one.
 """
 
 from __future__ import annotations
@@ -49,8 +49,8 @@ def _user(environment: Mapping[str, str]) -> str:
         return pwd.getpwuid(os.getuid()).pw_name
     except KeyError:  # a uid without an account, as containers often have: nobody shares its partition
         complain(
-            f"The user id {os.getuid()} has no name, so this process has a partition of its own and finds nobody; "
-            "set USER or GZ_PARTITION."
+            f"The user id {os.getuid()} has no name, so this process has a partition of its own "
+            "and finds nobody; set USER or GZ_PARTITION."
         )
         return f"error-{uuid.uuid4()}"
 
@@ -72,7 +72,7 @@ class NetworkSettings:
         environment = os.environ if environment is None else environment
         for name in _NOT_IMPLEMENTED:
             if environment.get(name, "") not in ("", "0"):
-                complain(f"{name} is set, but this implementation of gz-transport does not support it; it is ignored.")
+                complain(f"{name} is set, but this gz-transport does not support it; it is ignored.")
         message_port = _number(environment, "GZ_DISCOVERY_MSG_PORT", DEFAULT_MESSAGE_PORT, 1, 65535)
         service_port = _number(environment, "GZ_DISCOVERY_SRV_PORT", DEFAULT_SERVICE_PORT, 1, 65535)
         if service_port == message_port:
@@ -86,8 +86,12 @@ class NetworkSettings:
             group=_address(environment, "GZ_DISCOVERY_MULTICAST_IP", DEFAULT_GROUP),
             message_port=message_port,
             service_port=service_port,
-            send_high_water_mark=_number(environment, "GZ_TRANSPORT_SNDHWM", DEFAULT_HIGH_WATER_MARK, 0, 2**31 - 1),
-            receive_high_water_mark=_number(environment, "GZ_TRANSPORT_RCVHWM", DEFAULT_HIGH_WATER_MARK, 0, 2**31 - 1),
+            send_high_water_mark=_number(
+                environment, "GZ_TRANSPORT_SNDHWM", DEFAULT_HIGH_WATER_MARK, 0, 2**31 - 1
+            ),
+            receive_high_water_mark=_number(
+                environment, "GZ_TRANSPORT_RCVHWM", DEFAULT_HIGH_WATER_MARK, 0, 2**31 - 1
+            ),
         )
 
 
@@ -108,5 +112,7 @@ def _address(environment: Mapping[str, str], name: str, default: str) -> str:
     try:
         return str(ipaddress.IPv4Address(text))
     except ValueError:
-        complain(f"{name} is {text!r}, but an IPv4 address such as {default} was expected; {default} is used.")
+        complain(
+            f"{name} is {text!r}, but an IPv4 address such as {default} was expected; {default} is used."
+        )
         return default

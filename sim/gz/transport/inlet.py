@@ -11,7 +11,6 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import zmq
-
 from gz.transport.environment import complain
 
 LEAVE_AFTER_S = 5.0
@@ -51,7 +50,9 @@ class Inlet:
             try:
                 self.socket.connect(address)
             except zmq.ZMQError as error:
-                complain(f"The publisher of {name} has an address that cannot be used: {address!r} ({error}).")
+                complain(
+                    f"The publisher of {name} has an address that cannot be used: {address!r} ({error})."
+                )
                 return False
             self._connected.add(address)
         return True

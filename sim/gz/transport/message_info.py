@@ -1,6 +1,7 @@
 """What is known about a message besides its contents, and about a publisher or subscriber besides its name.
 
-MessageInfo accompanies the bytes into callbacks of subscribe_raw(); MessagePublisher is what topic_info() lists.
+MessageInfo accompanies the bytes into callbacks of subscribe_raw(); MessagePublisher is what topic_info()
+lists.
 """
 
 from __future__ import annotations

@@ -18,7 +18,6 @@ from collections import deque
 from collections.abc import Callable, Iterable
 
 import zmq
-
 from gz.msgs.discovery_pb2 import Discovery
 from gz.transport import naming
 from gz.transport.discovery import HEARTBEAT_S
@@ -48,7 +47,9 @@ class Network:
         self._told: dict[tuple[str, str, str, str], float] = {}
         self._context: zmq.Context[zmq.Socket[bytes]] = zmq.Context()
         try:
-            self._outlet = Outlet(self._context, settings.ip, settings.send_high_water_mark, SWITCHBOARD.notify)
+            self._outlet = Outlet(
+                self._context, settings.ip, settings.send_high_water_mark, SWITCHBOARD.notify
+            )
         except zmq.ZMQError as error:
             self._context.destroy(linger=0)
             raise OSError(error.errno, f"address {settings.ip} cannot be bound ({error})") from error
@@ -108,7 +109,9 @@ class Network:
         announced = self._discovery.subscriber_processes(name, type_name)
         return min(announced, self._outlet.listeners(name.encode())) if announced else 0
 
-    def known_elsewhere(self) -> tuple[list[tuple[str, MessagePublisher]], list[tuple[str, MessagePublisher]]]:
+    def known_elsewhere(
+        self,
+    ) -> tuple[list[tuple[str, MessagePublisher]], list[tuple[str, MessagePublisher]]]:
         """(publishers, subscribers) of all other processes and partitions, with fully qualified names.
 
         Waits until the others had time to answer: about one second for the first call of a process.
@@ -164,13 +167,15 @@ class Network:
                 self._one_round(poller)
             except Exception as error:  # nothing that arrives may end this thread
                 if self._open:
-                    complain(f"Something was received that could not be used ({type(error).__name__}: {error}).")
+                    complain(
+                        f"Something was received that could not be used ({type(error).__name__}: {error})."
+                    )
 
     def _one_round(self, poller: zmq.Poller) -> None:
         wait_s = self._discovery.tick()
         self._inlet.leave_due()
         poller.register(self._inlet.socket, 0 if self._dispatcher.full() else zmq.POLLIN)
-        ready = dict(poller.poll(wait_s * 1000))
+        ready = dict(poller.poll(int(wait_s * 1000) + 1))
         if self._wake_receiver.fileno() in ready:
             self._wake_receiver.recv(4096)
         while self._commands:
@@ -187,7 +192,9 @@ class Network:
         if not subscription.active:
             return
         for record in self._discovery.known(subscription.name):
-            if subscription.accepts(record.msg_pub.msg_type) and self._inlet.listen(record.topic, record.address):
+            if subscription.accepts(record.msg_pub.msg_type) and self._inlet.listen(
+                record.topic, record.address
+            ):
                 self._tell(record, subscription.node_uuid)
         self._discovery.ask(subscription.name)
 
@@ -205,13 +212,15 @@ class Network:
 
     def _on_advertise(self, record: Discovery.Publisher, is_new: bool) -> None:
         kind = record.msg_pub.msg_type
-        nodes = {each.node_uuid for each in SWITCHBOARD.networked_subscriptions(record.topic) if each.accepts(kind)}
+        nodes = {
+            each.node_uuid for each in SWITCHBOARD.networked_subscriptions(record.topic) if each.accepts(kind)
+        }
         if nodes and self._inlet.listen(record.topic, record.address):
             for node in sorted(nodes):
                 self._tell(record, node, again=is_new)
 
     def _tell(self, record: Discovery.Publisher, node_uuid: str, again: bool = True) -> None:
-        """Tells a publisher that a node listens to it; repeated once a second, since datagrams can be lost."""
+        """Tells a publisher that a node listens; repeated every second, since datagrams can be lost."""
         key = (record.topic, record.process_uuid, record.node_uuid, node_uuid)
         now = time.monotonic()
         if again or now - self._told.get(key, 0.0) > 0.9 * HEARTBEAT_S:
@@ -308,7 +317,9 @@ def _abandon_in_child() -> None:
     if _network is not None:
         atexit.unregister(_network.close)
         _network.abandon_after_fork()
-        _inherited.append(_network)  # kept, because closing the parent's ZeroMQ sockets here would disturb the parent
+        _inherited.append(
+            _network
+        )  # kept, because closing the parent's ZeroMQ sockets here would disturb the parent
         _network = None
 
 

@@ -1,7 +1,7 @@
 """The door to all topics: a node advertises, subscribes, and lists what there is.
 
-A node turns names into fully qualified ones, keeps its publishers and subscriptions, and registers them in the
-switchboard of the process and, unless its scope is PROCESS, with the network.
+A node turns names into fully qualified ones, keeps its publishers and subscriptions, and registers them in
+the switchboard of the process and, unless its scope is PROCESS, with the network.
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ from types import TracebackType
 from typing import Any
 
 from google.protobuf.message import Message
-
 from gz.transport import naming
 from gz.transport.message_info import MessageInfo, MessagePublisher
 from gz.transport.options import AdvertiseMessageOptions, NodeOptions, Scope, SubscribeOptions
@@ -70,9 +69,9 @@ class Node:
     ) -> bool:
         """Calls `callback(message)` for every message of this type on `topic`. Type first, then topic.
 
-        Messages of this process arrive in the publisher's thread, others in one dispatcher thread, so a callback
-        that hears both may run in two threads at a time. Messages of another type are not delivered. Raises
-        ValueError when the topic name breaks a rule, TypeError for a wrong kind of argument.
+        Messages of this process arrive in the publisher's thread, others in one dispatcher thread, so a
+        callback that hears both may run in two threads at a time. Messages of another type are not delivered.
+        Raises ValueError when the topic name breaks a rule, TypeError for a wrong kind of argument.
         """
         if not (isinstance(message_type, type) and issubclass(message_type, Message)):
             raise TypeError(
@@ -157,7 +156,9 @@ class Node:
         """(publishers, subscribers) of a topic; waits like topic_list()."""
         plain = naming.split(self._qualified(topic))[1]
         published, subscribed = self._everybody()
-        return [each for each in published if each.topic == plain], [each for each in subscribed if each.topic == plain]
+        return [each for each in published if each.topic == plain], [
+            each for each in subscribed if each.topic == plain
+        ]
 
     def _everybody(self) -> tuple[list[MessagePublisher], list[MessagePublisher]]:
         """Every (publisher, subscriber) of this node's partition that it can know of."""

@@ -24,9 +24,7 @@ class Scope(enum.IntEnum):
 
 def _checked_rate(rate: int) -> int:
     if isinstance(rate, bool) or not isinstance(rate, int) or not 1 <= rate <= UNTHROTTLED:
-        raise ValueError(
-            f"msgs_per_sec is {rate!r}, but a whole number of messages per second from 1 to 2**64 - 1 was expected."
-        )
+        raise ValueError(f"msgs_per_sec is {rate!r}, but a whole number from 1 to 2**64 - 1 was expected.")
     return rate
 
 
@@ -61,7 +59,7 @@ class SubscribeOptions:
 
     @property
     def msgs_per_sec(self) -> int:
-        """The most messages per second the callback is given; the rest is dropped. UNTHROTTLED for no limit."""
+        """The most messages per second for the callback; the rest is dropped. UNTHROTTLED for no limit."""
         return self._msgs_per_sec
 
     @msgs_per_sec.setter
@@ -75,10 +73,11 @@ class SubscribeOptions:
 
 
 class NodeOptions:
-    """Options of a node: partition, namespace, topic remappings and, our addition, the scope of the whole node.
+    """Options of a node: partition, namespace, topic remappings and, our addition, a scope.
 
-    With `scope=Scope.PROCESS` the node uses no socket and no thread: it talks with the nodes of its own process
-    only, and nothing from outside reaches it. Raises ValueError with the broken rule for invalid names.
+    With `scope=Scope.PROCESS` the node uses no socket and no thread: it talks with the nodes of its own
+    process only, and nothing from outside reaches it. Raises ValueError with the broken rule for invalid
+    names.
     """
 
     def __init__(self, partition: str | None = None, namespace: str = "", scope: Scope = Scope.ALL) -> None:

@@ -1,8 +1,8 @@
 """The socket through which this process sends messages to others, and the count of who listens.
 
-Publishers call send() from any thread; the I/O thread calls take_notices() when the descriptor is readable. It is
-an XPUB socket: it tells which topics the connected processes have subscribed to, so that a publisher can know
-when its first message will arrive. Frames of a message: topic, our address, bytes, type name.
+Publishers call send() from any thread; the I/O thread calls take_notices() when the descriptor is readable.
+It is an XPUB socket: it tells which topics the connected processes have subscribed to, so that a publisher
+can know when its first message will arrive. Frames of a message: topic, our address, bytes, type name.
 """
 
 from __future__ import annotations
@@ -19,9 +19,13 @@ class Outlet:
     """The sending half of the data path between processes."""
 
     def __init__(
-        self, context: zmq.Context[zmq.Socket[bytes]], ip: str, high_water_mark: int, on_change: Callable[[], None]
+        self,
+        context: zmq.Context[zmq.Socket[bytes]],
+        ip: str,
+        high_water_mark: int,
+        on_change: Callable[[], None],
     ) -> None:
-        """Binds a free port of `ip`; `on_change()` is called, without a lock held, when listeners come or go."""
+        """Binds a free port of `ip`; `on_change()` is called, with no lock held, when listeners change."""
         self._on_change = on_change
         self._lock = threading.Lock()
         self._listeners: dict[bytes, int] = {}
@@ -32,7 +36,7 @@ class Outlet:
         self._socket.bind(f"tcp://{ip}:*")
         self.address: str = self._socket.getsockopt_string(zmq.LAST_ENDPOINT)
         self._address_on_wire = self.address.encode()
-        self._descriptor: int = self._socket.getsockopt(zmq.FD)
+        self._descriptor = int(self._socket.getsockopt(zmq.FD))
 
     def fileno(self) -> int:
         """Becomes readable when the socket has something to say."""
@@ -43,7 +47,7 @@ class Outlet:
         return self._listeners.get(name, 0)
 
     def send(self, name: bytes, data: bytes, type_name: str) -> None:
-        """Sends to the processes that have subscribed; never waits (a receiver that is too slow misses some)."""
+        """Sends to the processes that have subscribed; never waits: who is too slow misses some."""
         if not self._listeners.get(name):
             return
         with self._lock:
@@ -65,7 +69,7 @@ class Outlet:
 
     def _drain(self) -> bool:
         changed = False
-        while self._socket.getsockopt(zmq.EVENTS) & zmq.POLLIN:
+        while int(self._socket.getsockopt(zmq.EVENTS)) & zmq.POLLIN:
             notice: bytes = self._socket.recv(zmq.NOBLOCK)
             kind, name = notice[:1], notice[1:]
             if kind in (b"\x00", b"\x01"):

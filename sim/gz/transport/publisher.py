@@ -1,13 +1,12 @@
 """Sends messages on one topic.
 
-Start of the data path: publish() serializes once, hands the bytes to the network (when somebody outside listens)
-and to every subscription of this process, in the caller's thread, before it returns.
+Start of the data path: publish() serializes once, hands the bytes to the network (when somebody outside
+listens) and to every subscription of this process, in the caller's thread, before it returns.
 """
 
 from __future__ import annotations
 
 from google.protobuf.message import Message
-
 from gz.transport import naming
 from gz.transport.environment import complain
 from gz.transport.message_info import MessageInfo
@@ -41,8 +40,8 @@ class Publisher:
     def publish(self, message: Message) -> bool:
         """Sends a message; same-process callbacks have run when this returns.
 
-        True also when nobody listens or the message was dropped by a rate limit. False, with a line on stderr,
-        when the message has another type than advertised, and when the publisher is closed.
+        True also when nobody listens or the message was dropped by a rate limit. False, with a line on
+        stderr, when the message has another type than advertised, and when the publisher is closed.
         """
         if not isinstance(message, Message):
             raise TypeError(

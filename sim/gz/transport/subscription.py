@@ -1,7 +1,8 @@
 """One callback on one topic: which messages it takes, and how it is called.
 
 End of the data path. Messages come from publishers of the same process (in the publisher's thread, before
-publish() returns) or from the dispatcher thread (from other processes). The callback always gets its own copy.
+publish() returns) or from the dispatcher thread (from other processes). The callback always gets its own
+copy.
 """
 
 from __future__ import annotations
@@ -13,7 +14,6 @@ from pathlib import Path
 from typing import Any
 
 from google.protobuf.message import DecodeError, Message
-
 from gz.transport.environment import complain
 from gz.transport.message_info import MessageInfo
 from gz.transport.options import Scope, SubscribeOptions
@@ -54,8 +54,8 @@ class Subscription:
     def deliver(self, data: bytes, info: MessageInfo, from_node: str | None = None) -> None:
         """Calls the callback with a fresh copy, unless type, options or broken bytes forbid it.
 
-        An exception of the callback becomes one line on stderr. `from_node` is the publishing node, if it is one
-        of this process.
+        An exception of the callback becomes one line on stderr. `from_node` is the publishing node, if it is
+        one of this process.
         """
         if not self.active or not self.accepts(info.type):
             return
@@ -84,4 +84,6 @@ def _report(error: Exception, topic: str) -> None:
     places = [frame for frame in frames if Path(frame.filename).parent != own] or list(frames)
     place = f"{places[-1].filename}:{places[-1].lineno}"
     text = " ".join(str(error).split())
-    complain(f"The callback of topic [{topic}] raised {type(error).__name__}{': ' if text else ''}{text} ({place})")
+    complain(
+        f"The callback of topic [{topic}] raised {type(error).__name__}{': ' if text else ''}{text} ({place})"
+    )

@@ -1,7 +1,7 @@
 """Who publishes and who listens in this process: the one table both delivery paths look at.
 
-Same-process messages go publisher -> switchboard -> callback without leaving the thread; the network looks here
-for what to advertise and whom to hand what arrives. Readers take immutable tuples and need no lock.
+Same-process messages go publisher -> switchboard -> callback without leaving the thread; the network looks
+here for what to advertise and whom to hand what arrives. Readers take immutable tuples and need no lock.
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ class Switchboard:
             if any(each.node_uuid == publisher.node_uuid for each in group):
                 raise ValueError(
                     f"The topic {publisher.topic!r} is already advertised by this node: "
-                    "one node may advertise a topic once; use the publisher it returned, or close that one first."
+                    "one node may advertise a topic once; use the publisher it returned, or close it first."
                 )
             self._publishers[publisher.name] = (*group, publisher)
 

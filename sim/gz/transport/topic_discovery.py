@@ -1,7 +1,7 @@
 """The discovery channel of topics: besides publishers it knows who has subscribed to ours.
 
-Subscribers tell a publisher that they have connected (NEW_CONNECTION) and that they left (END_CONNECTION), and
-answer the question who subscribes to what (SUBSCRIBERS_REQ), which only lists need.
+Subscribers tell a publisher that they have connected (NEW_CONNECTION) and that they left (END_CONNECTION),
+and answer the question who subscribes to what (SUBSCRIBERS_REQ), which only lists need.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Iterable
+from typing import Any
 
 from gz.msgs.discovery_pb2 import Discovery
 from gz.transport.discovery import DiscoveryChannel
@@ -46,7 +47,7 @@ class TopicDiscovery(DiscoveryChannel):
         self._listed: dict[str, dict[SubscriberKey, Discovery.Publisher]] = {}
 
     def subscriber_processes(self, topic: str, type_name: str) -> int:
-        """How many other processes have said that they are connected to our publisher of this topic and type."""
+        """How many other processes have said that they listen to our publisher of this topic and type."""
         with self._table_lock:
             group = self._connected.get(topic, {})
             return len({process for (process, _), kind in group.items() if kind in (type_name, GENERIC_TYPE)})
@@ -64,10 +65,16 @@ class TopicDiscovery(DiscoveryChannel):
     def subscribers(self) -> list[Discovery.Publisher]:
         """The subscribers of other processes, as far as they answered or are connected to us."""
         with self._table_lock:
-            found = {(topic, *key): record for topic, group in self._listed.items() for key, record in group.items()}
+            found = {
+                (topic, *key): record
+                for topic, group in self._listed.items()
+                for key, record in group.items()
+            }
             for topic, group in self._connected.items():
                 for (process, node), kind in group.items():
-                    record = Discovery.Publisher(topic=topic, process_uuid=process, node_uuid=node, scope="ALL")
+                    record = Discovery.Publisher(
+                        topic=topic, process_uuid=process, node_uuid=node, scope="ALL"
+                    )
                     record.msg_pub.msg_type = kind
                     found.setdefault((topic, process, node), record)
         return list(found.values())
@@ -104,7 +111,10 @@ class TopicDiscovery(DiscoveryChannel):
         """As DiscoveryChannel; the question for subscribers has no topic and is answered here."""
         if message.type == Discovery.SUBSCRIBERS_REQ:
             for each in self._own_subscriptions():
-                self.send(Discovery.SUBSCRIBERS_REP, self._about_subscriber(each.name, each.node_uuid, each.type_name))
+                self.send(
+                    Discovery.SUBSCRIBERS_REP,
+                    self._about_subscriber(each.name, each.node_uuid, each.type_name),
+                )
         else:
             super().handle(message, source_ip)
 
@@ -126,15 +136,16 @@ class TopicDiscovery(DiscoveryChannel):
 
     def forget_subscribers_of(self, process_uuid: str) -> None:
         """Drops the subscribers of a process that is gone."""
+        tables: tuple[dict[str, dict[SubscriberKey, Any]], ...] = (self._connected, self._listed)
         with self._table_lock:
-            for table in (self._connected, self._listed):
+            for table in tables:
                 for topic in list(table):
                     for key in [key for key in table[topic] if key[0] == process_uuid]:
                         _drop(table, topic, key)
         self._on_subscribers()
 
 
-def _drop(table: dict[str, dict[SubscriberKey, object]], topic: str, key: SubscriberKey) -> None:
+def _drop(table: dict[str, dict[SubscriberKey, Any]], topic: str, key: SubscriberKey) -> None:
     group = table.get(topic, {})
     group.pop(key, None)
     if not group:

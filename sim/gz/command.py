@@ -1,0 +1,99 @@
+"""The `gz` command: finds the sub-command and hands over to it.
+
+`gz sim world.sdf` calls main(["world.sdf"]) of gz/sim/command.py; a sub-command `x` is a file `gz/x/command.py`
+and nothing else, found by looking into the folders and imported only when it is the one that is called.
+"""
+
+from __future__ import annotations
+
+import ast
+import difflib
+import importlib
+import sys
+from collections.abc import Iterable, Sequence
+from importlib import metadata
+from pathlib import Path
+
+_DISTRIBUTION = "gz-ros2-course"
+_ENGINES = ("mujoco", "pyzmq", "protobuf")
+
+
+def find_commands(folders: Iterable[str | Path] | None = None) -> dict[str, Path]:
+    """Sub-command name -> its command.py, sorted by name; by default from all folders of the `gz` package."""
+    if folders is None:
+        import gz
+
+        folders = list(gz.__path__)
+    found: dict[str, Path] = {}
+    for folder in folders:
+        for path in Path(folder).glob("*/command.py"):
+            found.setdefault(path.parent.name, path)
+    return dict(sorted(found.items()))
+
+
+def _summary(path: Path) -> str:
+    """The first line of the docstring of a file, without importing it."""
+    try:
+        text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8")))
+    except (OSError, SyntaxError, ValueError):
+        return ""
+    return (text or "").partition("\n")[0]
+
+
+def _help(commands: dict[str, Path]) -> str:
+    width = max((len(name) for name in commands), default=0)
+    lines = [f"  {name:<{width}}  {_summary(path)}".rstrip() for name, path in commands.items()]
+    return "\n".join(
+        [
+            "The gz command: simulation and messages as in Gazebo.",
+            "",
+            "usage: gz COMMAND [OPTIONS]",
+            "",
+            "Commands:",
+            *(lines or ["  (none is installed)"]),
+            "",
+            "Options:",
+            "  -h, --help   this text",
+            "  --versions   the versions of what is installed",
+            "",
+            "`gz COMMAND --help` tells more about one of them.",
+        ]
+    )
+
+
+def _versions() -> str:
+    lines = []
+    for name in (_DISTRIBUTION, *_ENGINES):
+        try:
+            lines.append(f"{name} {metadata.version(name)}")
+        except metadata.PackageNotFoundError:
+            lines.append(f"{name} (not installed)")
+    return "\n".join(lines)
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Runs `gz` with the given arguments (default: those of the process); the exit code.
+
+    0 on success, 2 for a command that does not exist, otherwise what the sub-command returns.
+    """
+    arguments = list(sys.argv[1:] if argv is None else argv)
+    commands = find_commands()
+    first = arguments[0] if arguments else "--help"
+    if first in ("-h", "--help", "help"):
+        print(_help(commands))
+        return 0
+    if first in ("--versions", "--version"):
+        print(_versions())
+        return 0
+    if first not in commands:
+        print(_unknown(first, commands), file=sys.stderr)
+        return 2
+    return importlib.import_module(f"gz.{first}.command").main(arguments[1:]) or 0
+
+
+def _unknown(name: str, commands: dict[str, Path]) -> str:
+    known = [*commands, "--help", "--versions"]
+    nearest = difflib.get_close_matches(name, known, n=1, cutoff=0.5)
+    hint = f"did you mean `gz {nearest[0]}`?" if nearest else "`gz --help` lists what there is."
+    kind = "option" if name.startswith("-") else "command"
+    return f"gz: there is no {kind} {name!r}; {hint}"
