@@ -1,4 +1,5 @@
-"""What can go wrong with a world, said in one sentence that names the file, the line and the nearest valid name.
+"""What can go wrong with a world, said in one sentence that names the file, the line and the nearest valid
+name.
 
 Used by the SDF reader, the model builder, the systems and the `gz sim` command.
 """
@@ -29,7 +30,9 @@ class ResourceError(SdfError, FileNotFoundError):
 
 
 def nearest(name: str, known: Iterable[str], *, listing: str = "known names are") -> str:
-    """Return the tail of a sentence that points to the closest of `known`, or lists them when none is close."""
+    """Return the tail of a sentence that points to the closest of `known`, or lists them when none is
+    close.
+    """
     names = sorted(set(known))
     lowered: dict[str, str] = {}
     for each in names:

@@ -1,7 +1,7 @@
 """Position and orientation in space, as SDF writes them and MuJoCo wants them.
 
-Every frame computation of the SDF reader, the builder, the sensors and the truth interface goes through `Pose`.
-Quaternions are (w, x, y, z), Hamilton convention, unit length; lengths in metres, angles in radians.
+Every frame computation of the SDF reader, the builder, the sensors and the truth interface goes through
+`Pose`. Quaternions are (w, x, y, z), Hamilton convention, unit length; lengths in metres, angles in radians.
 """
 
 from __future__ import annotations
@@ -26,7 +26,8 @@ def _frozen(values: Sequence[float] | Vector, length: int) -> Vector:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Pose:
-    """A rigid transform: where a frame's origin stands (`position`, m) and how it is turned (`quaternion`, wxyz).
+    """A rigid transform: where a frame's origin stands (`position`, m) and how it is turned (`quaternion`,
+    wxyz).
 
     `parent_child = Pose(...)` maps coordinates of the child frame to coordinates of the parent frame.
     """
@@ -87,7 +88,9 @@ class Pose:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Velocity:
-    """Velocity of a frame seen from the world: `linear` (m/s) of its origin and `angular` (rad/s), world axes."""
+    """Velocity of a frame seen from the world: `linear` (m/s) of its origin and `angular` (rad/s), world
+    axes.
+    """
 
     linear: Vector
     angular: Vector

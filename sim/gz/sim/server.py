@@ -1,7 +1,8 @@
 """A world on the wire: publishes its clock and statistics, and runs it against the wall clock when asked to.
 
-`gz sim` and launch files use `run`; a grader that owns the time uses `step`. Topics, as in Gazebo: `/clock` and
-`/world/W/clock` (gz.msgs.Clock) after every call of `step`, `/stats` and `/world/W/stats` (gz.msgs.WorldStatistics) at 10 Hz.
+`gz sim` and launch files use `run`; a grader that owns the time uses `step`. Topics, as in Gazebo: `/clock`
+and `/world/W/clock` (gz.msgs.Clock) after every call of `step`, `/stats` and `/world/W/stats`
+(gz.msgs.WorldStatistics) at 10 Hz.
 """
 
 from __future__ import annotations
@@ -17,7 +18,9 @@ from gz.transport import Node
 
 STATS_PERIOD_NS = 100_000_000
 PACE_NS = 5_000_000
-"""In `run`, this much simulated time is stepped at once (one step when steps are longer), then the clock is published."""
+"""In `run`, this much simulated time is stepped at once (one step when steps are longer), then the clock is
+published.
+"""
 
 
 class Server:
@@ -38,7 +41,9 @@ class Server:
         self._factor = 0.0
 
     def step(self, n: int = 1) -> None:
-        """Run `n` steps, then publish the clock, and the statistics each time 0.1 s of simulated time has passed."""
+        """Run `n` steps, then publish the clock, and the statistics each time 0.1 s of simulated time has
+        passed.
+        """
         world = self.world
         world.step(n)
         self._publish_clock()
@@ -57,8 +62,9 @@ class Server:
     ) -> None:
         """Step until `stop` is set or `iterations` steps are done (0: no end), paced to the wall clock.
 
-        `real_time_factor` 1 is real time, 0 as fast as possible, None what the world file says. When the machine is too
-        slow, simulated time falls behind; it is not caught up later in a burst. While paused only statistics are sent.
+        `real_time_factor` 1 is real time, 0 as fast as possible, None what the world file says. When the
+        machine is too slow, simulated time falls behind; it is not caught up later in a burst. While paused
+        only statistics are sent.
         """
         stop = stop or threading.Event()
         factor = self.world.description.real_time_factor if real_time_factor is None else real_time_factor

@@ -15,10 +15,11 @@ from gz.sim.sdf.description import WorldDescription
 class VisualShape:
     """One visible shape, fixed to a link.
 
-    `kind` is box, sphere, cylinder, capsule, ellipsoid or plane. `size` holds full extents in metres along the shape's own
-    axes: box (x, y, z); sphere (d, d, d); cylinder (d, d, length); capsule (d, d, length without its caps); ellipsoid
-    (2 rx, 2 ry, 2 rz); plane (x, y, 0). Cylinders and capsules stand along z, a plane's normal is z: a `<normal>` is
-    already part of `pose`. `pose` is the shape in its link's frame, `rgba` its colour (each 0..1).
+    `kind` is box, sphere, cylinder, capsule, ellipsoid or plane. `size` holds full extents in metres along
+    the shape's own axes: box (x, y, z); sphere (d, d, d); cylinder (d, d, length); capsule (d, d, length
+    without its caps); ellipsoid (2 rx, 2 ry, 2 rz); plane (x, y, 0). Cylinders and capsules stand along z, a
+    plane's normal is z: a `<normal>` is already part of `pose`. `pose` is the shape in its link's frame,
+    `rgba` its colour (each 0..1).
     """
 
     model: str

@@ -1,8 +1,9 @@
 """A simulated world as a library: load an SDF file, step it, ask for the truth.
 
-No transport is needed (`World.load("lidar_room.sdf").step(1000)`); with a node attached the world's systems take commands
-and publish. `World.load` reads (`gz.sim.sdf`), builds (`gz.sim.physics`), starts the systems (`gz.sim.systems`); every
-`step` runs pre_update of all systems, one MuJoCo step, post_update of all systems. Same file, seed and commands: same bytes.
+No transport is needed (`World.load("lidar_room.sdf").step(1000)`); with a node attached the world's systems
+take commands and publish. `World.load` reads (`gz.sim.sdf`), builds (`gz.sim.physics`), starts the systems
+(`gz.sim.systems`); every `step` runs pre_update of all systems, one MuJoCo step, post_update of all systems.
+Same file, seed and commands: same bytes.
 """
 
 from __future__ import annotations
@@ -31,7 +32,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class JointAddress:
-    """Where a joint lives in MuJoCo's arrays: `position` in qpos, `velocity` in qvel, `control` in ctrl (-1: no servo)."""
+    """Where a joint lives in MuJoCo's arrays: `position` in qpos, `velocity` in qvel, `control` in ctrl (-1:
+    no servo).
+    """
 
     position: int
     velocity: int
@@ -70,7 +73,9 @@ class World:
 
     @classmethod
     def load(cls, path_or_name: str | Path, *, seed: int = 0, node: Node | None = None) -> World:
-        """Load a world by path, by name in GZ_SIM_RESOURCE_PATH, or built in; raise `SdfError` saying where and why."""
+        """Load a world by path, by name in GZ_SIM_RESOURCE_PATH, or built in; raise `SdfError` saying where
+        and why.
+        """
         diagnostics = Diagnostics()
         description = read_world_file(find_world(path_or_name), diagnostics)
         return cls(description, diagnostics, seed=seed, node=node)
@@ -144,8 +149,10 @@ class World:
                     if sensor.kind in types and types[sensor.kind].rendering:
                         self.diagnostics.warn(
                             sensor.element.where,
-                            f"sensor '{sensor.name}' stays silent because the world does not load the Sensors system; add "
-                            "<plugin filename='gz-sim-sensors-system' name='gz::sim::systems::Sensors'/> to <world>",
+                            f"sensor '{sensor.name}' stays silent because the world does not load the "
+                            "Sensors system; add "
+                            "<plugin filename='gz-sim-sensors-system' "
+                            "name='gz::sim::systems::Sensors'/> to <world>",
                         )
 
     def _hooks(self, hook: str) -> list[Callable[[UpdateInfo], None]]:
@@ -182,20 +189,26 @@ class World:
                 post_update(info)
 
     def refresh(self) -> None:
-        """Bring MuJoCo's world poses (`data.xpos`, `site_xpos`, ...) up to the present; a step leaves them one step behind."""
+        """Bring MuJoCo's world poses (`data.xpos`, `site_xpos`, ...) up to the present; a step leaves them
+        one step behind.
+        """
         if self._refreshed != self.iterations:
             mujoco.mj_kinematics(self.model, self.data)
             self._refreshed = self.iterations
 
     def model_names(self, *, static: bool = False) -> list[str]:
-        """Return the names of the models that can move, in file order; with `static` those that cannot come after."""
+        """Return the names of the models that can move, in file order; with `static` those that cannot come
+        after.
+        """
         moving = [model.name for model in self.description.models if not model.static]
         return (
             moving + [model.name for model in self.description.models if model.static] if static else moving
         )
 
     def pose(self, model: str) -> Pose:
-        """Return where the model's frame is now, in the world frame; raise `SimError` for an unknown model."""
+        """Return where the model's frame is now, in the world frame; raise `SimError` for an unknown
+        model.
+        """
         found = self._model(model)
         if found.static or not found.canonical_link:
             return found.pose
@@ -204,7 +217,9 @@ class World:
         return self._link_pose(found, link) * link.pose.inverse()
 
     def link_pose(self, model: str, link: str) -> Pose:
-        """Return where a link's frame is now, in the world frame; raise `SimError` for an unknown model or link."""
+        """Return where a link's frame is now, in the world frame; raise `SimError` for an unknown model or
+        link.
+        """
         found = self._model(model)
         part = found.link(link)
         if part is None:
@@ -215,7 +230,9 @@ class World:
         return found.pose * part.pose if found.static else self._link_pose(found, part)
 
     def velocity(self, model: str) -> Velocity:
-        """Return the velocity of the model's frame (m/s, rad/s, world axes); raise `SimError` for an unknown model."""
+        """Return the velocity of the model's frame (m/s, rad/s, world axes); raise `SimError` for an unknown
+        model.
+        """
         found = self._model(model)
         if found.static:
             return Velocity(np.zeros(3), np.zeros(3))
@@ -249,7 +266,8 @@ class World:
         if count == 1:
             self.diagnostics.warn(
                 "",
-                f"a command on {topic} was dropped because it is not finite ({what}); check for division by zero",
+                f"a command on {topic} was dropped because it is not finite ({what}); check for division "
+                "by zero",
             )
 
     def _model(self, name: str) -> Model:

@@ -1,1 +1,3 @@
-"""Where the description of a world becomes a MuJoCo model: `recipe` holds the numbers, `builder` the mapping."""
+"""Where the description of a world becomes a MuJoCo model: `recipe` holds the numbers, `builder` the
+mapping.
+"""

@@ -1,8 +1,9 @@
 """A `WorldDescription` becomes a MuJoCo model: links to bodies, joints to joints, shapes to geoms.
 
-Reader -> (here) -> `World`. Names: body and joint `model::link`, collision geom `model::link::name`, visual geom
-`model::link::name#visual`, sensor site `model::link::sensor`. Collisions are in geom group 3, visuals in group 1.
-Static models have no bodies of their own: their shapes belong to MuJoCo's world body, which is cheaper to cast rays at.
+Reader -> (here) -> `World`. Names: body and joint `model::link`, collision geom `model::link::name`, visual
+geom `model::link::name#visual`, sensor site `model::link::sensor`. Collisions are in geom group 3, visuals in
+group 1. Static models have no bodies of their own: their shapes belong to MuJoCo's world body, which is
+cheaper to cast rays at.
 """
 
 from __future__ import annotations
@@ -91,7 +92,9 @@ class _Builder:
         return spec
 
     def _add_tree(self, model: Model) -> None:
-        """Hang the links of a moving model on each other by their joints; links nobody carries float freely."""
+        """Hang the links of a moving model on each other by their joints; links nobody carries float
+        freely.
+        """
         carried: dict[str, Joint] = {}
         loops: list[Joint] = []
         for joint in model.joints:
@@ -105,11 +108,11 @@ class _Builder:
         while waiting:
             left: list[Link] = []
             for link in waiting:
-                joint = carried.get(link.name)
-                if joint is not None and joint.parent != "world" and joint.parent not in bodies:
+                carrier = carried.get(link.name)
+                if carrier is not None and carrier.parent != "world" and carrier.parent not in bodies:
                     left.append(link)
                     continue
-                bodies[link.name] = self._add_body(model, link, joint, bodies, wheels)
+                bodies[link.name] = self._add_body(model, link, carrier, bodies, wheels)
             waiting = left
         for joint in loops:
             self._add_loop(model, joint)

@@ -1,7 +1,7 @@
 """The numbers that make MuJoCo drive wheeled robots as Gazebo does: solver, contacts, wheel servos.
 
-Used by `builder`. Measured with four robots from 1 to 140 kg: steady speed within 0.35 %, yaw rate within 0.5 %, at steps
-of 1 to 4 ms. Soft, naive settings make light robots hop or turn up to 30 % too slowly.
+Used by `builder`. Measured with four robots from 1 to 140 kg: steady speed within 0.35 %, yaw rate within 0.5
+%, at steps of 1 to 4 ms. Soft, naive settings make light robots hop or turn up to 30 % too slowly.
 """
 
 from __future__ import annotations
@@ -16,10 +16,14 @@ GRAVITY = 9.8
 """Gazebo's default gravity (m/s^2); the wheel servo is scaled with the weight the wheels carry."""
 
 SLIP_SPEED = 0.01
-"""Speed error (m/s at the rim) at which a wheel servo pushes with the full traction its share of the weight gives."""
+"""Speed error (m/s at the rim) at which a wheel servo pushes with the full traction its share of the weight
+gives.
+"""
 
 DISCRETE = True
-"""Use MuJoCo's `discrete` integrator. With False, `implicitfast` and a rotor inertia on the wheels give the same numbers."""
+"""Use MuJoCo's `discrete` integrator. With False, `implicitfast` and a rotor inertia on the wheels give the
+same numbers.
+"""
 
 WHEEL = "wheel"
 JOINT = "joint"
@@ -27,7 +31,9 @@ JOINT = "joint"
 
 @dataclass(frozen=True)
 class JointServo:
-    """A system's wish to drive a joint by velocity: `joint` (scoped name), `kind`, wheel `radius` (m), `sharing` wheels."""
+    """A system's wish to drive a joint by velocity: `joint` (scoped name), `kind`, wheel `radius` (m),
+    `sharing` wheels.
+    """
 
     joint: str
     kind: str = JOINT
@@ -51,14 +57,18 @@ def apply_options(spec: mujoco.MjSpec, step: float, gravity: tuple[float, float,
 
 
 def contact_solref(step: float) -> tuple[float, float]:
-    """Return time constant (s) and damping ratio of a contact: stiff, and damped enough not to throw bodies out."""
+    """Return time constant (s) and damping ratio of a contact: stiff, and damped enough not to throw bodies
+    out.
+    """
     return max(0.004, 2.0 * step), 3.0
 
 
 def friction_ranks(coefficients: Iterable[float]) -> dict[float, int]:
-    """Return the geom priority of each friction coefficient: the lowest coefficient gets the highest priority.
+    """Return the geom priority of each friction coefficient: the lowest coefficient gets the highest
+    priority.
 
-    Gazebo's contact takes the smaller coefficient of the two surfaces, MuJoCo the one of the geom with higher priority.
+    Gazebo's contact takes the smaller coefficient of the two surfaces, MuJoCo the one of the geom with higher
+    priority.
     """
     ordered = sorted(set(coefficients), reverse=True)
     return {coefficient: rank for rank, coefficient in enumerate(ordered)}

@@ -1,1 +1,3 @@
-"""Reading SDF: XML (`element`), known words (`vocabulary`), files (`resources`), frames, and the description of a world."""
+"""Reading SDF: XML (`element`), known words (`vocabulary`), files (`resources`), frames, and the description
+of a world.
+"""

@@ -1,7 +1,8 @@
 """What an SDF file says, in plain data: a world of models with links, joints, shapes, sensors and plugins.
 
-The reader fills these; the MuJoCo builder, the systems, the sensors and the viewer read them. Nested models are
-flattened into their top model: link and joint names carry the scope (`arm::hand`), poses are in the top model's frame.
+The reader fills these; the MuJoCo builder, the systems, the sensors and the viewer read them. Nested models
+are flattened into their top model: link and joint names carry the scope (`arm::hand`), poses are in the top
+model's frame.
 """
 
 from __future__ import annotations
@@ -26,7 +27,9 @@ class Geometry:
 
 @dataclass(eq=False)
 class Collision:
-    """A shape that touches. `mu` is the friction coefficient; `bitmask` decides which pairs can touch at all."""
+    """A shape that touches. `mu` is the friction coefficient; `bitmask` decides which pairs can touch at
+    all.
+    """
 
     name: str
     pose: Pose
@@ -50,7 +53,9 @@ class Visual:
 
 @dataclass(eq=False)
 class Inertial:
-    """Mass (kg), inertia about the centre of mass (ixx iyy izz ixy ixz iyz, kg m^2) and the pose of that frame."""
+    """Mass (kg), inertia about the centre of mass (ixx iyy izz ixy ixz iyz, kg m^2) and the pose of that
+    frame.
+    """
 
     mass: float = 1.0
     moments: tuple[float, float, float, float, float, float] = (1.0, 1.0, 1.0, 0.0, 0.0, 0.0)
@@ -87,7 +92,9 @@ class Link:
 
 @dataclass(eq=False)
 class Axis:
-    """One axis of a joint: `direction` (unit) in the child link's frame, limits (rad or m), losses and spring."""
+    """One axis of a joint: `direction` (unit) in the child link's frame, limits (rad or m), losses and
+    spring.
+    """
 
     direction: tuple[float, float, float]
     lower: float = -UNLIMITED
@@ -101,7 +108,9 @@ class Axis:
 
 @dataclass(eq=False)
 class Joint:
-    """Connects `parent` to `child` (scoped link names, parent may be `world`); `pose` is in the child link's frame."""
+    """Connects `parent` to `child` (scoped link names, parent may be `world`); `pose` is in the child link's
+    frame.
+    """
 
     name: str
     kind: str
@@ -114,7 +123,9 @@ class Joint:
 
 @dataclass(eq=False)
 class Plugin:
-    """A system asked for by `<plugin filename=... name=...>`; `scope` is the nested model it stands in, if any."""
+    """A system asked for by `<plugin filename=... name=...>`; `scope` is the nested model it stands in, if
+    any.
+    """
 
     name: str
     filename: str
@@ -162,7 +173,9 @@ class Light:
 
 @dataclass(eq=False)
 class WorldDescription:
-    """A whole world. `step_size_ns` in nanoseconds, `gravity` in m/s^2, `real_time_factor` 0 = as fast as possible."""
+    """A whole world. `step_size_ns` in nanoseconds, `gravity` in m/s^2, `real_time_factor` 0 = as fast as
+    possible.
+    """
 
     name: str
     element: Element

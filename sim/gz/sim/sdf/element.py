@@ -1,8 +1,9 @@
 """XML of an SDF file as a tree of elements that remember their file and line.
 
-First stop of a world file: text -> `Element` tree -> `gz.sim.sdf.reader`. Gazebo's parser (tinyxml2) accepts texts that
-strict XML parsers refuse ("--" inside comments, undeclared prefixes such as `gz:policies`, an `<?xml?>` line after white
-space), so comments and declarations are blanked first, keeping the line numbers, and expat runs without namespaces.
+First stop of a world file: text -> `Element` tree -> `gz.sim.sdf.reader`. Gazebo's parser (tinyxml2) accepts
+texts that strict XML parsers refuse ("--" inside comments, undeclared prefixes such as `gz:policies`, an
+`<?xml?>` line after white space), so comments and declarations are blanked first, keeping the line numbers,
+and expat runs without namespaces.
 """
 
 from __future__ import annotations
@@ -24,7 +25,9 @@ _FALSE = {"false", "0"}
 
 @dataclass(eq=False)
 class Element:
-    """One XML element: `tag`, `attributes`, `text` (stripped), `children`, and where it stands (`file`, `line`)."""
+    """One XML element: `tag`, `attributes`, `text` (stripped), `children`, and where it stands (`file`,
+    `line`).
+    """
 
     tag: str
     attributes: dict[str, str] = field(default_factory=dict)
@@ -49,11 +52,12 @@ class Element:
 
     def find(self, tag: str) -> Element | None:
         """Return the first child called `tag`; `a/b` goes down two levels."""
-        node: Element | None = self
+        node = self
         for part in tag.split("/"):
-            node = next((child for child in node.children if child.tag == part), None)
-            if node is None:
+            below = next((child for child in node.children if child.tag == part), None)
+            if below is None:
                 return None
+            node = below
         return node
 
     def all(self, *tags: str) -> Iterator[Element]:
@@ -133,7 +137,9 @@ class Element:
 
 
 def parse(text: str, file: str = "<string>") -> Element:
-    """Parse XML text into its root `Element`; `file` is only used in messages. Raises `SdfError` with the line."""
+    """Parse XML text into its root `Element`; `file` is only used in messages. Raises `SdfError` with the
+    line.
+    """
     parser = xml.parsers.expat.ParserCreate("utf-8")
     parser.buffer_text = True
     stack: list[Element] = []
@@ -166,6 +172,7 @@ def parse(text: str, file: str = "<string>") -> Element:
         if stack:
             what += f", while <{stack[-1].tag}> (opened on line {stack[-1].line}) was open"
         raise SdfError(
-            f"{file}:{error.lineno}: this is not well-formed XML ({what}); check that every tag is closed and quoted"
+            f"{file}:{error.lineno}: this is not well-formed XML ({what}); check that every tag is "
+            "closed and quoted"
         ) from None
     return roots[0]

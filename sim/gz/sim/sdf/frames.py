@@ -1,8 +1,10 @@
-"""Where everything stands: SDF's frame rules (`relative_to`, `attached_to`, `<frame>`, `a::b` names), resolved once.
+"""Where everything stands: SDF's frame rules (`relative_to`, `attached_to`, `<frame>`, `a::b` names),
+resolved once.
 
-The reader makes one `Scope` per model (and one for the world), tells it every named frame, and asks for poses in that
-scope's own frame. Rules are those of SDF 1.7 and later: a pose without `relative_to` is relative to the model for
-links, nested models and frames without `attached_to`; to the child link for joints; to `attached_to` for other frames.
+The reader makes one `Scope` per model (and one for the world), tells it every named frame, and asks for poses
+in that scope's own frame. Rules are those of SDF 1.7 and later: a pose without `relative_to` is relative to
+the model for links, nested models and frames without `attached_to`; to the child link for joints; to
+`attached_to` for other frames.
 """
 
 from __future__ import annotations
@@ -66,7 +68,9 @@ class Scope:
             self.nested[name] = nested
 
     def pose_of(self, name: str, asker: Element) -> Pose:
-        """Return the pose of frame `name` in this scope's frame; `asker` is blamed when the name is unknown."""
+        """Return the pose of frame `name` in this scope's frame; `asker` is blamed when the name is
+        unknown.
+        """
         if name == self.own or (name == "__model__" and self.own == "world"):
             return IDENTITY
         if "::" in name:
@@ -117,7 +121,9 @@ class Scope:
             name = frame.attached_to or self.own
 
     def canonical_link(self, asker: Element) -> str:
-        """Return the link the model's own frame is fixed to: `canonical_link`, else the first link, also nested."""
+        """Return the link the model's own frame is fixed to: `canonical_link`, else the first link, also
+        nested.
+        """
         chosen = self.element.attributes.get("canonical_link", "")
         if chosen:
             return self.link_behind(chosen, self.element)

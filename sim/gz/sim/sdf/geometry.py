@@ -1,6 +1,7 @@
 """Shapes and surfaces of `<collision>` and `<visual>`: geometry, friction, colour.
 
-Part of the reader: `Element` -> `Geometry`, `mu`, `rgba`. Shapes this simulator does not build are reported and left out.
+Part of the reader: `Element` -> `Geometry`, `mu`, `rgba`. Shapes this simulator does not build are reported
+and left out.
 """
 
 from __future__ import annotations
@@ -32,7 +33,9 @@ _SCRIPT_COLOURS: dict[str, tuple[float, float, float]] = {
 
 
 def read_geometry(owner: Element, diagnostics: Diagnostics) -> Geometry | None:
-    """Return the shape of a `<collision>` or `<visual>`, or None (with a warning) when there is none to build."""
+    """Return the shape of a `<collision>` or `<visual>`, or None (with a warning) when there is none to
+    build.
+    """
     holder = owner.find("geometry")
     shapes = [child for child in holder.children if child.tag in CHILDREN["geometry"]] if holder else []
     if holder is None or not shapes:

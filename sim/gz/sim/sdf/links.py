@@ -17,7 +17,9 @@ from gz.sim.sdf.geometry import read_colour, read_friction, read_geometry
 
 
 def read_link(element: Element, scope: Scope, model: Model, diagnostics: Diagnostics) -> Link:
-    """Return the link; its pose is in the frame of `model`, the poses of its parts in the link's own frame."""
+    """Return the link; its pose is in the frame of `model`, the poses of its parts in the link's own
+    frame.
+    """
     link = Link(element.name, scope.pose_of(element.name, element), element)
     link.gravity = element.flag("gravity", True)
     link.self_collide = element.flag("self_collide", False) or model.self_collide

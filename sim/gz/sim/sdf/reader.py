@@ -1,7 +1,8 @@
 """An SDF text becomes a `WorldDescription`: includes opened, frames resolved, nested models flattened.
 
-`World.load` -> `read_world_file` -> (here) -> `gz.sim.physics.builder`. What SDF does not know is reported and skipped;
-what makes no sense (a number that is no number, a joint to a link that does not exist) raises `SdfError` at its line.
+`World.load` -> `read_world_file` -> (here) -> `gz.sim.physics.builder`. What SDF does not know is reported
+and skipped; what makes no sense (a number that is no number, a joint to a link that does not exist) raises
+`SdfError` at its line.
 """
 
 from __future__ import annotations
@@ -23,7 +24,9 @@ _MAX_INCLUDE_DEPTH = 20
 
 
 def read_world_file(path: Path, diagnostics: Diagnostics) -> WorldDescription:
-    """Read the world of an SDF file; a file with only models is put into a world of its own, as `gz sim` refuses to."""
+    """Read the world of an SDF file; a file with only models is put into a world of its own, as `gz sim`
+    refuses to.
+    """
     return read_world(read_text(path), str(path), diagnostics)
 
 
@@ -72,7 +75,8 @@ class _WorldReader:
 
     def read(self, world: Element) -> WorldDescription:
         description = WorldDescription(world.name, world)
-        description.gravity = tuple(world.vector("gravity", (0.0, 0.0, -9.8)))  # type: ignore[assignment]
+        x, y, z = world.vector("gravity", (0.0, 0.0, -9.8))
+        description.gravity = (x, y, z)
         if not all(map(math.isfinite, description.gravity)):
             raise world.error("<gravity> must be finite")
         self._read_physics(world, description)
@@ -160,7 +164,9 @@ class _WorldReader:
         return found
 
     def _model(self, element: Element, static: bool, depth: int) -> tuple[Model, Scope, Pose, str]:
-        """Read a model; return it flattened, its scope, its stated pose and the frame that pose is given in."""
+        """Read a model; return it flattened, its scope, its stated pose and the frame that pose is given
+        in.
+        """
         if not element.name:
             raise element.error("<model> needs a name attribute")
         static = static or element.flag("static", False)
@@ -236,10 +242,10 @@ def _plugin(element: Element, scope: str) -> Plugin:
 
 def _light(element: Element) -> Light:
     kind = element.attributes.get("type", "point")
-    direction = tuple(element.vector("direction", (0.0, 0.0, -1.0)))
+    x, y, z = element.vector("direction", (0.0, 0.0, -1.0))
     return Light(
-        element.name, kind, _pose_and_base(element)[0], direction, _rgb(element, "diffuse", (1.0, 1.0, 1.0))
-    )  # type: ignore[arg-type]
+        element.name, kind, _pose_and_base(element)[0], (x, y, z), _rgb(element, "diffuse", (1.0, 1.0, 1.0))
+    )
 
 
 def _rgb(element: Element, tag: str, default: tuple[float, float, float]) -> tuple[float, float, float]:

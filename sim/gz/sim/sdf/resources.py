@@ -1,7 +1,8 @@
-"""Where worlds, models and meshes are found: given path, GZ_SIM_RESOURCE_PATH, then the folders that come built in.
+"""Where worlds, models and meshes are found: given path, GZ_SIM_RESOURCE_PATH, then the folders that come
+built in.
 
-Called by `World.load` for the world's name and by the reader for every `<include><uri>`. Nothing is ever downloaded:
-Fuel addresses are matched by their last part against the built-in models (`Ground Plane`, `Sun`).
+Called by `World.load` for the world's name and by the reader for every `<include><uri>`. Nothing is ever
+downloaded: Fuel addresses are matched by their last part against the built-in models (`Ground Plane`, `Sun`).
 """
 
 from __future__ import annotations
@@ -36,7 +37,8 @@ def find_world(name: str | Path) -> Path:
         path.name for folder in (Path(), *resource_paths(), BUILT_IN_WORLDS) for path in _worlds_in(folder)
     }
     raise ResourceError(
-        f"world file '{text}' was not found as a path, in GZ_SIM_RESOURCE_PATH, or among the built-in worlds; "
+        f"world file '{text}' was not found as a path, in GZ_SIM_RESOURCE_PATH, or among the built-in "
+        "worlds; "
         f"{nearest(Path(text).name, known, listing='worlds that exist are')}"
     )
 
@@ -51,8 +53,9 @@ def _worlds_in(folder: Path) -> Iterator[Path]:
 def find_model(uri: str, relative_to: Path | None) -> Path:
     """Return the SDF file that an `<include><uri>` means.
 
-    `model://NAME`, `package://NAME`, a Fuel address, `file://PATH` and plain paths (relative to the including file's
-    folder `relative_to`) are understood. Raises `ResourceError`; its text has no file:line (the caller knows it).
+    `model://NAME`, `package://NAME`, a Fuel address, `file://PATH` and plain paths (relative to the including
+    file's folder `relative_to`) are understood. Raises `ResourceError`; its text has no file:line (the caller
+    knows it).
     """
     if uri.startswith("file://"):
         return _model_file(Path(unquote(uri[7:])), uri)
@@ -86,7 +89,9 @@ def _built_in(name: str, uri: str) -> Path:
 
 
 def _model_file(path: Path, uri: str) -> Path:
-    """Return `path` itself when it is a file, else the file of highest SDF version named by its model.config."""
+    """Return `path` itself when it is a file, else the file of highest SDF version named by its
+    model.config.
+    """
     if path.is_file():
         return path
     config = path / "model.config"

@@ -1,7 +1,9 @@
-"""The words of SDF: which elements may stand inside which, so that a typo is answered with the word that was meant.
+"""The words of SDF: which elements may stand inside which, so that a typo is answered with the word that was
+meant.
 
-Used by the reader right after parsing. An unknown element never stops a world (Gazebo ignores it silently); it gets one
-warning line. Elements with a prefix (`gz:...`), and everything inside `<plugin>` and `<gui>`, belong to others and pass.
+Used by the reader right after parsing. An unknown element never stops a world (Gazebo ignores it silently);
+it gets one warning line. Elements with a prefix (`gz:...`), and everything inside `<plugin>` and `<gui>`,
+belong to others and pass.
 """
 
 from __future__ import annotations
@@ -15,7 +17,8 @@ _NOISE = "type mean stddev bias_mean bias_stddev dynamic_bias_stddev dynamic_bia
 _GEOMETRY = "box sphere cylinder capsule ellipsoid plane cone mesh heightmap polyline image empty"
 _AXIS = "xyz initial_position use_parent_model_frame dynamics limit mimic"
 _CAMERA = (
-    "triggered trigger_topic camera_info_topic horizontal_fov image clip save depth_camera segmentation_type box_type "
+    "triggered trigger_topic camera_info_topic horizontal_fov image clip save depth_camera "
+    "segmentation_type box_type "
     "noise distortion lens visibility_mask optical_frame_id pose background"
 )
 _RAY = "scan range noise visibility_mask vertical horizontal"
@@ -25,15 +28,18 @@ CHILDREN: dict[str, frozenset[str]] = {
     for parent, words in {
         "sdf": "world model actor light",
         "world": (
-            "audio wind include gravity magnetic_field atmosphere gui physics scene light model actor road plugin joint "
+            "audio wind include gravity magnetic_field atmosphere gui physics scene light model actor "
+            "road plugin joint "
             "frame state population spherical_coordinates"
         ),
         "model": (
-            "static self_collide allow_auto_disable frame pose link joint model include gripper plugin enable_wind"
+            "static self_collide allow_auto_disable frame pose link joint model include gripper plugin "
+            "enable_wind"
         ),
         "include": "uri name static pose placement_frame plugin merge",
         "link": (
-            "pose gravity enable_wind self_collide kinematic must_be_base_link velocity_decay inertial collision visual "
+            "pose gravity enable_wind self_collide kinematic must_be_base_link velocity_decay inertial "
+            "collision visual "
             "sensor projector audio_sink audio_source battery light particle_emitter plugin frame"
         ),
         "inertial": "mass density auto_inertia_params pose inertia frame fluid_added_mass",
@@ -65,7 +71,8 @@ CHILDREN: dict[str, frozenset[str]] = {
         "frame": "pose",
         "sensor": (
             "always_on update_rate visualize topic enable_metrics pose plugin frame frame_id gz_frame_id "
-            "ignition_frame_id air_pressure air_speed altimeter camera contact force_torque gps navsat imu lidar ray "
+            "ignition_frame_id air_pressure air_speed altimeter camera contact force_torque gps navsat "
+            "imu lidar ray "
             "logical_camera magnetometer rfid rfidtag sonar transceiver"
         ),
         "lidar": _RAY,

@@ -1,8 +1,9 @@
 """Lidar: casts rays into the world and publishes a `LaserScan`.
 
-`gpu_lidar` sees what is visible (visuals), as in Gazebo; `lidar` and `ray` see the collision shapes. After a physics step,
-when due and listened to: rays -> ranges -> out of range as -inf / +inf (REP 117) -> noise on finite ranges -> message.
-The robot's own parts are seen too, except those that enclose the sensor and what lies in the near clip cube.
+`gpu_lidar` sees what is visible (visuals), as in Gazebo; `lidar` and `ray` see the collision shapes. After a
+physics step, when due and listened to: rays -> ranges -> out of range as -inf / +inf (REP 117) -> noise on
+finite ranges -> message. The robot's own parts are seen too, except those that enclose the sensor and what
+lies in the near clip cube.
 """
 
 from __future__ import annotations
@@ -52,7 +53,9 @@ class _Sweep:
 
 @sensor_type("gpu_lidar", "gpu_ray", "lidar", "ray")
 class Lidar(SensorBase):
-    """A scanning range sensor. Ranges are row major, lowest vertical angle first; angles in the sensor's frame."""
+    """A scanning range sensor. Ranges are row major, lowest vertical angle first; angles in the sensor's
+    frame.
+    """
 
     def __init__(self, world: World, description: Sensor) -> None:
         super().__init__(world, description)
@@ -104,7 +107,9 @@ class Lidar(SensorBase):
         return self._publisher is not None and self._publisher.has_connections()
 
     def _find_enclosing(self, group: int) -> list[int]:
-        """Return the geoms of the sensor's own model that contain its origin (a housing): its rays start inside them."""
+        """Return the geoms of the sensor's own model that contain its origin (a housing): its rays start
+        inside them.
+        """
         model, data = self.world.model, self.world.data
         self.world.refresh()
         origin = data.site_xpos[self._site]
@@ -118,7 +123,9 @@ class Lidar(SensorBase):
         return found
 
     def ranges(self) -> NDArray[np.float64]:
-        """Return the exact distances (m) along all rays now: +inf beyond `range_max`, -inf below `range_min`, no noise."""
+        """Return the exact distances (m) along all rays now: +inf beyond `range_max`, -inf below `range_min`,
+        no noise.
+        """
         world = self.world
         world.refresh()
         model, data = world.model, world.data
@@ -179,7 +186,9 @@ class Lidar(SensorBase):
         self._publisher.publish(message)
 
 
-def _directions(horizontal: NDArray[np.float64], vertical: NDArray[np.float64]) -> NDArray[np.float64]:
+def _directions(
+    horizontal: NDArray[np.floating[Any]], vertical: NDArray[np.floating[Any]]
+) -> NDArray[np.float64]:
     """Return unit vectors (n, 3): x ahead, y left, z up; one row of horizontal angles after the other."""
     azimuth = np.tile(horizontal, len(vertical))
     elevation = np.repeat(vertical, len(horizontal))

@@ -24,7 +24,9 @@ class Noise:
 
     @classmethod
     def from_sdf(cls, element: Element | None) -> Noise:
-        """Read a `<noise>` element (None, or type none: no noise); raise `SdfError` for a negative deviation."""
+        """Read a `<noise>` element (None, or type none: no noise); raise `SdfError` for a negative
+        deviation.
+        """
         if element is None:
             return cls()
         kind = element.text_of("type") or element.attributes.get("type", "none")

@@ -1,7 +1,7 @@
 """How a `<sensor type=...>` finds its Python class, and what all sensors share: topic, frame, rate.
 
-A sensor type is a file in this folder with a class under `@sensor_type`. The Sensors system creates the rendering ones
-and calls `update` when they are due and somebody listens.
+A sensor type is a file in this folder with a class under `@sensor_type`. The Sensors system creates the
+rendering ones and calls `update` when they are due and somebody listens.
 """
 
 from __future__ import annotations
@@ -22,7 +22,37 @@ if TYPE_CHECKING:
     from gz.transport import Node
 
 KNOWN_TYPES = frozenset(
-    ["air_pressure", "air_speed", "altimeter", "boundingbox", "boundingbox_camera", "camera", "contact", "custom", "depth", "depth_camera", "force_torque", "gps", "gpu_lidar", "gpu_ray", "imu", "lidar", "logical_camera", "magnetometer", "multicamera", "navsat", "ray", "rgbd", "rgbd_camera", "segmentation", "segmentation_camera", "thermal", "thermal_camera", "wideanglecamera", "wide_angle_camera"]
+    [
+        "air_pressure",
+        "air_speed",
+        "altimeter",
+        "boundingbox",
+        "boundingbox_camera",
+        "camera",
+        "contact",
+        "custom",
+        "depth",
+        "depth_camera",
+        "force_torque",
+        "gps",
+        "gpu_lidar",
+        "gpu_ray",
+        "imu",
+        "lidar",
+        "logical_camera",
+        "magnetometer",
+        "multicamera",
+        "navsat",
+        "ray",
+        "rgbd",
+        "rgbd_camera",
+        "segmentation",
+        "segmentation_camera",
+        "thermal",
+        "thermal_camera",
+        "wideanglecamera",
+        "wide_angle_camera",
+    ]
 )
 """Every sensor type of SDF, also those this simulator has no file for."""
 
@@ -72,8 +102,8 @@ class SensorBase:
     def random(self, purpose: str = "noise") -> np.random.Generator:
         """Return the generator of this sensor's current update.
 
-        It depends only on the world's seed, the sensor's name, `purpose` and the number of the update, so a listener that
-        comes later, or not at all, changes no other number.
+        It depends only on the world's seed, the sensor's name, `purpose` and the number of the update, so a
+        listener that comes later, or not at all, changes no other number.
         """
         return self._generator(purpose, self.updates)
 

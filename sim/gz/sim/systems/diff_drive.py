@@ -1,8 +1,8 @@
 """DiffDrive: turns velocity commands into wheel speeds and wheel angles into odometry.
 
-`Twist` on `/model/M/cmd_vel` -> target -> limits -> wheel speeds -> MuJoCo servos; after each step wheel angles -> odometry on
-`/model/M/odometry` and `/model/M/tf`. As in Gazebo a command takes effect one step after it is taken, holds for ever
-(there is no watchdog), and only `linear.x` and `angular.z` count.
+`Twist` on `/model/M/cmd_vel` -> target -> limits -> wheel speeds -> MuJoCo servos; after each step wheel
+angles -> odometry on `/model/M/odometry` and `/model/M/tf`. As in Gazebo a command takes effect one step
+after it is taken, holds for ever (there is no watchdog), and only `linear.x` and `angular.z` count.
 """
 
 from __future__ import annotations
@@ -36,13 +36,26 @@ class DiffDrive(System):
     """Drives one model with a left and a right side of wheels. Parameters and defaults are Gazebo's."""
 
     parameters = frozenset(
-        ["left_joint", "right_joint", "wheel_separation", "wheel_radius", "odom_publish_frequency", "topic", "odom_topic", "tf_topic", "frame_id", "child_frame_id"]
+        [
+            "left_joint",
+            "right_joint",
+            "wheel_separation",
+            "wheel_radius",
+            "odom_publish_frequency",
+            "topic",
+            "odom_topic",
+            "tf_topic",
+            "frame_id",
+            "child_frame_id",
+        ]
         + _LIMITS
     )
 
     @classmethod
     def servos(cls, model: Model, plugin: Plugin) -> list[JointServo]:
-        """Ask for a velocity servo on every wheel joint; raise `SdfError` for joints the model does not have."""
+        """Ask for a velocity servo on every wheel joint; raise `SdfError` for joints the model does not
+        have.
+        """
         left, right = (_joints(model, plugin, side) for side in ("left_joint", "right_joint"))
         radius = _positive(plugin.element, "wheel_radius", 0.2)
         wheels = left + right
@@ -146,7 +159,8 @@ class DiffDrive(System):
         left = positions.item(self._left[0].position)
         right = positions.item(self._right[0].position)
         if not self._started:
-            # Gazebo's odometry takes its start from the first step without publishing; its wheels count from zero.
+            # Gazebo's odometry takes its start from the first step without publishing; its wheels count from
+            # zero.
             self._odometry.reset(0.0, 0.0)
             self._started = True
             return
@@ -195,7 +209,8 @@ def _joints(model: Model, plugin: Plugin, side: str) -> list[str]:
         if joint is None:
             known = [each.name.removeprefix(prefix) for each in model.joints]
             raise element.error(
-                f"DiffDrive's <{side}> names joint '{element.text}', which model '{model.name}' does not have; "
+                f"DiffDrive's <{side}> names joint '{element.text}', which model '{model.name}' does not "
+                "have; "
                 f"{nearest(element.text, known, listing='its joints are')}"
             )
         if joint.kind not in ("revolute", "continuous"):

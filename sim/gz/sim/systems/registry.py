@@ -1,8 +1,9 @@
 """How a `<plugin>` of an SDF file finds the Python class that does its work.
 
-A system is a file in this folder with a class under the `@system` decorator; nothing else has to be edited. `World` asks
-`find_system` for every plugin and calls the hooks of the returned class: `servos` before the model is built, `configure`
-once, `connect` when a transport node is attached, then `pre_update` and `post_update` around every physics step.
+A system is a file in this folder with a class under the `@system` decorator; nothing else has to be edited.
+`World` asks `find_system` for every plugin and calls the hooks of the returned class: `servos` before the
+model is built, `configure` once, `connect` when a transport node is attached, then `pre_update` and
+`post_update` around every physics step.
 """
 
 from __future__ import annotations
@@ -26,7 +27,9 @@ LOG = logging.getLogger("gz.sim")
 
 
 class UpdateInfo:
-    """What a system is told at each step: `sim_time_ns` (end of this step), `dt` (s) and `iterations` (this one included)."""
+    """What a system is told at each step: `sim_time_ns` (end of this step), `dt` (s) and `iterations` (this
+    one included).
+    """
 
     __slots__ = ("dt", "iterations", "sim_time_ns")
 
@@ -37,7 +40,9 @@ class UpdateInfo:
 
 
 class System:
-    """Base of all systems. Override only what is needed: hooks that are not overridden cost nothing per step."""
+    """Base of all systems. Override only what is needed: hooks that are not overridden cost nothing per
+    step.
+    """
 
     name: ClassVar[str] = ""
     filename: ClassVar[str] = ""
@@ -45,7 +50,9 @@ class System:
 
     @classmethod
     def servos(cls, model: Model, plugin: Plugin) -> list[JointServo]:
-        """Return the joints of `model` this system will drive; raise `SdfError` when it names one that is not there."""
+        """Return the joints of `model` this system will drive; raise `SdfError` when it names one that is not
+        there.
+        """
         return []
 
     def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
@@ -67,7 +74,9 @@ _scanned = False
 
 
 def system(name: str, filename: str) -> Callable[[S], S]:
-    """Register a class under Gazebo's system name (`DiffDrive`) and file name (`gz-sim-diff-drive-system`)."""
+    """Register a class under Gazebo's system name (`DiffDrive`) and file name
+    (`gz-sim-diff-drive-system`).
+    """
 
     def register(cls: S) -> S:
         cls.name, cls.filename = name, filename
@@ -91,10 +100,78 @@ BUILT_IN = {"Physics"}
 """Systems whose work the world itself does."""
 
 QUIET = {"UserCommands", "SceneBroadcaster"}
-"""Systems every Gazebo world names; when their file is not in this folder that is worth an informative line only."""
+"""Systems every Gazebo world names; when their file is not in this folder that is worth an informative line
+only.
+"""
 
 OTHER_GAZEBO_SYSTEMS = frozenset(
-    ["AckermannSteering", "AcousticComms", "AirPressure", "AirSpeed", "Altimeter", "ApplyJointForce", "ApplyLinkWrench", "BatteryPlugin", "Breadcrumbs", "Buoyancy", "BuoyancyEngine", "CameraVideoRecorder", "CommsEndpoint", "Contact", "DetachableJoint", "DopplerVelocityLog", "DriveToPoseController", "EnvironmentPreload", "FollowActor", "ForceTorque", "Hydrodynamics", "Imu", "JointController", "JointPositionController", "JointStatePublisher", "JointTrajectoryController", "KineticEnergyMonitor", "Label", "LensFlare", "LiftDrag", "LogPlayback", "LogRecord", "LogicalAudio", "LogicalCamera", "Magnetometer", "MecanumDrive", "ModelPhotoShoot", "MulticopterMotorModel", "MulticopterVelocityControl", "NavSat", "OdometryPublisher", "OpticalTactilePlugin", "ParticleEmitter", "PerformerDetector", "PosePublisher", "PythonSystemLoader", "ReplayVideo", "RFComms", "SceneBroadcaster", "Sensors", "ShaderParam", "SpacecraftThrusterModel", "TempStore", "Thermal", "ThermalSensor", "Thruster", "TouchPlugin", "TrackController", "TrackedVehicle", "TrajectoryFollower", "TriggeredPublisher", "UserCommands", "VelocityControl", "WheelSlip", "WindEffects"]
+    [
+        "AckermannSteering",
+        "AcousticComms",
+        "AirPressure",
+        "AirSpeed",
+        "Altimeter",
+        "ApplyJointForce",
+        "ApplyLinkWrench",
+        "BatteryPlugin",
+        "Breadcrumbs",
+        "Buoyancy",
+        "BuoyancyEngine",
+        "CameraVideoRecorder",
+        "CommsEndpoint",
+        "Contact",
+        "DetachableJoint",
+        "DopplerVelocityLog",
+        "DriveToPoseController",
+        "EnvironmentPreload",
+        "FollowActor",
+        "ForceTorque",
+        "Hydrodynamics",
+        "Imu",
+        "JointController",
+        "JointPositionController",
+        "JointStatePublisher",
+        "JointTrajectoryController",
+        "KineticEnergyMonitor",
+        "Label",
+        "LensFlare",
+        "LiftDrag",
+        "LogPlayback",
+        "LogRecord",
+        "LogicalAudio",
+        "LogicalCamera",
+        "Magnetometer",
+        "MecanumDrive",
+        "ModelPhotoShoot",
+        "MulticopterMotorModel",
+        "MulticopterVelocityControl",
+        "NavSat",
+        "OdometryPublisher",
+        "OpticalTactilePlugin",
+        "ParticleEmitter",
+        "PerformerDetector",
+        "PosePublisher",
+        "PythonSystemLoader",
+        "ReplayVideo",
+        "RFComms",
+        "SceneBroadcaster",
+        "Sensors",
+        "ShaderParam",
+        "SpacecraftThrusterModel",
+        "TempStore",
+        "Thermal",
+        "ThermalSensor",
+        "Thruster",
+        "TouchPlugin",
+        "TrackController",
+        "TrackedVehicle",
+        "TrajectoryFollower",
+        "TriggeredPublisher",
+        "UserCommands",
+        "VelocityControl",
+        "WheelSlip",
+        "WindEffects",
+    ]
 )
 
 _CLASSIC = {
@@ -109,7 +186,9 @@ _CLASSIC = {
 
 
 def system_name(plugin: Plugin) -> str:
-    """Return the Gazebo name of the system a plugin asks for, whatever spelling or prefix of either attribute."""
+    """Return the Gazebo name of the system a plugin asks for, whatever spelling or prefix of either
+    attribute.
+    """
     if plugin.name:
         last = plugin.name.rsplit("::", 1)[-1]
         if last in BUILT_IN | QUIET | OTHER_GAZEBO_SYSTEMS or last in systems():

@@ -1,6 +1,8 @@
-"""Sensors: runs the sensors that look at the world (lidars) at their rates, and only those somebody listens to.
+"""Sensors: runs the sensors that look at the world (lidars) at their rates, and only those somebody listens
+to.
 
-A plugin of the world. After each physics step it asks which sensors are due; a due sensor without listeners costs one look.
+A plugin of the world. After each physics step it asks which sensors are due; a due sensor without listeners
+costs one look.
 """
 
 from __future__ import annotations
@@ -46,7 +48,10 @@ class Sensors(System):
                         text = f"sensor '{description.name}' has type '{kind}', which is not known; {hint}"
                         world.diagnostics.warn(description.element.where, text)
                     elif kind not in types:
-                        text = f"sensor type '{kind}' is not simulated here, sensor '{description.name}' stays silent"
+                        text = (
+                            f"sensor type '{kind}' is not simulated here, sensor '{description.name}' stays "
+                            "silent"
+                        )
                         world.diagnostics.warn(description.element.where, text)
         self._next_ns = 0
 

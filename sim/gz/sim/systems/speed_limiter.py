@@ -1,6 +1,7 @@
 """Keeps a commanded speed within velocity, acceleration and jerk limits, as gz-math's SpeedLimiter does.
 
-Used by drive systems once per step and per degree of freedom: jerk is limited first, then acceleration, then velocity.
+Used by drive systems once per step and per degree of freedom: jerk is limited first, then acceleration, then
+velocity.
 """
 
 from __future__ import annotations
@@ -13,7 +14,9 @@ from gz.sim.sdf.element import Element
 
 @dataclass
 class SpeedLimiter:
-    """Limits in SI units of the degree of freedom (m or rad, per s, s^2, s^3); minima are usually negative."""
+    """Limits in SI units of the degree of freedom (m or rad, per s, s^2, s^3); minima are usually
+    negative.
+    """
 
     min_velocity: float = -math.inf
     max_velocity: float = math.inf
@@ -24,7 +27,9 @@ class SpeedLimiter:
 
     @classmethod
     def from_sdf(cls, element: Element, axis: str) -> SpeedLimiter:
-        """Read `min_velocity` ... `max_jerk`, and `min_linear_velocity` ... for `axis`, which win over the common ones."""
+        """Read `min_velocity` ... `max_jerk`, and `min_linear_velocity` ... for `axis`, which win over the
+        common ones.
+        """
         limiter = cls()
         for bound in ("min", "max"):
             for quantity in ("velocity", "acceleration", "jerk"):
@@ -45,7 +50,9 @@ class SpeedLimiter:
         return self == SpeedLimiter()
 
     def limit(self, target: float, previous: float, before_previous: float, dt: float) -> float:
-        """Return the speed to command now; `previous` and `before_previous` are the last two, `dt` the step (s)."""
+        """Return the speed to command now; `previous` and `before_previous` are the last two, `dt` the step
+        (s).
+        """
         last_acceleration = (previous - before_previous) / dt
         jerk = ((target - previous) / dt - last_acceleration) / dt
         limited_jerk = min(max(jerk, self.min_jerk), self.max_jerk)

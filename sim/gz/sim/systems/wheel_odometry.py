@@ -1,7 +1,8 @@
 """Where a differential-drive robot believes it is, from the angles of its wheels alone.
 
-Used by DiffDrive after every step. Integration follows gz-math's DiffDriveOdometry: exact along a circle, midpoint rule
-for nearly straight steps; speeds are means over the last ten steps. It slips and drifts as real wheel odometry does.
+Used by DiffDrive after every step. Integration follows gz-math's DiffDriveOdometry: exact along a circle,
+midpoint rule for nearly straight steps; speeds are means over the last ten steps. It slips and drifts as real
+wheel odometry does.
 """
 
 from __future__ import annotations
@@ -13,7 +14,9 @@ WINDOW = 10
 
 
 class WheelOdometry:
-    """Planar pose `x`, `y` (m), `heading` (rad, not wrapped) and speeds `linear` (m/s), `angular` (rad/s); starts at 0."""
+    """Planar pose `x`, `y` (m), `heading` (rad, not wrapped) and speeds `linear` (m/s), `angular` (rad/s);
+    starts at 0.
+    """
 
     __slots__ = ("_angular", "_left", "_linear", "_radius", "_right", "_separation", "heading", "x", "y")
 
