@@ -23,11 +23,22 @@ from gz.sim.sdf.description import Link, Model, WorldDescription
 from gz.sim.sdf.reader import read_world, read_world_file
 from gz.sim.sdf.resources import find_world
 from gz.sim.sensors.registry import sensor_types
-from gz.sim.systems.registry import System, UpdateInfo, find_system
+from gz.sim.systems.registry import System, UpdateInfo, find_system, system_name
 from gz.sim.visuals import VisualShape, visual_shapes
 
 if TYPE_CHECKING:
     from gz.transport import Node
+
+
+_UNSTABLE = tuple(
+    int(kind)
+    for kind in (
+        mujoco.mjtWarning.mjWARN_BADQPOS,
+        mujoco.mjtWarning.mjWARN_BADQVEL,
+        mujoco.mjtWarning.mjWARN_BADQACC,
+        mujoco.mjtWarning.mjWARN_BADCTRL,
+    )
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,6 +153,14 @@ class World:
             made.configure(self, model, plugins[index])
             self.systems.append(made)
         names = {made.name for made in self.systems}
+        wanted = {system_name(plugin) for plugin in self.description.plugins}
+        if wanted and "Physics" not in wanted:
+            self.diagnostics.warn(
+                self.description.element.where,
+                f"world '{self.name}' loads plugins but not Physics, so in Gazebo nothing would move; "
+                "physics runs "
+                "here, add <plugin filename='gz-sim-physics-system' name='gz::sim::systems::Physics'/>",
+            )
         if "Sensors" not in names:
             types = sensor_types()
             for model in self.description.models:
@@ -175,7 +194,7 @@ class World:
             each.connect(node)
 
     def step(self, n: int = 1) -> None:
-        """Run `n` physics steps with all systems."""
+        """Run `n` physics steps with all systems; raise `SimError` when the physics came out not finite."""
         model, data, info, step_ns = self.model, self.data, self._info, self.step_size_ns
         pre_updates, post_updates, advance = self._pre_updates, self._post_updates, mujoco.mj_step
         for _ in range(n):
@@ -187,6 +206,12 @@ class World:
             advance(model, data)
             for post_update in post_updates:
                 post_update(info)
+        if any(data.warning.number[kind] for kind in _UNSTABLE):
+            raise SimError(
+                f"the physics of world '{self.name}' became unstable before {self.sim_time_ns * 1e-9:.3f} s; "
+                "look for bodies that start inside each other, tiny masses or inertias, or a smaller "
+                "max_step_size"
+            )
 
     def refresh(self) -> None:
         """Bring MuJoCo's world poses (`data.xpos`, `site_xpos`, ...) up to the present; a step leaves them

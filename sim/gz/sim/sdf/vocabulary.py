@@ -44,7 +44,9 @@ CHILDREN: dict[str, frozenset[str]] = {
         ),
         "inertial": "mass density auto_inertia_params pose inertia frame fluid_added_mass",
         "inertia": "ixx ixy ixz iyy iyz izz",
-        "collision": "laser_retro max_contacts pose geometry surface density auto_inertia_params frame plugin",
+        "collision": (
+            "laser_retro max_contacts pose geometry surface density auto_inertia_params plugin frame"
+        ),
         "visual": (
             "cast_shadows laser_retro transparency visibility_flags pose material geometry plugin meta frame"
         ),
@@ -62,8 +64,10 @@ CHILDREN: dict[str, frozenset[str]] = {
         ),
         "surface": "bounce friction contact soft_contact",
         "friction": "ode torsional bullet mu",
-        "joint": "parent child gearbox_ratio gearbox_reference_body thread_pitch screw_thread_pitch axis axis2 "
-        "physics pose sensor frame plugin",
+        "joint": (
+            "parent child gearbox_ratio gearbox_reference_body thread_pitch "
+            "screw_thread_pitch axis axis2 physics pose sensor frame plugin"
+        ),
         "axis": _AXIS,
         "axis2": _AXIS,
         "limit": "lower upper effort velocity stiffness dissipation cfm erp",
@@ -85,11 +89,15 @@ CHILDREN: dict[str, frozenset[str]] = {
         "camera": _CAMERA,
         "image": "width height format anti_aliasing",
         "clip": "near far",
-        "imu": "angular_velocity linear_acceleration orientation_reference_frame enable_orientation noise topic",
+        "imu": (
+            "angular_velocity linear_acceleration orientation_reference_frame enable_orientation noise topic"
+        ),
         "light": (
             "cast_shadows diffuse specular attenuation direction spot pose intensity visualize light_on frame"
         ),
-        "physics": "max_step_size real_time_factor real_time_update_rate max_contacts ode bullet simbody dart",
+        "physics": (
+            "max_step_size real_time_factor real_time_update_rate max_contacts ode bullet simbody dart"
+        ),
         "scene": "ambient background sky shadows fog grid origin_visual shadow_caster_material_name",
     }.items()
 }

@@ -23,6 +23,11 @@ if TYPE_CHECKING:
     from gz.sim.world import World
     from gz.transport import Node
 
+MAX_WHEEL_SPEED = 200.0
+"""Fastest a wheel is ever asked to turn (rad/s); beyond any real wheel, and beyond it no step of 1 ms is
+exact.
+"""
+
 _LIMITS = [
     f"{bound}_{axis}{quantity}"
     for bound in ("min", "max")
@@ -37,6 +42,7 @@ class DiffDrive(System):
 
     parameters = frozenset(
         [
+            *_LIMITS,
             "left_joint",
             "right_joint",
             "wheel_separation",
@@ -48,7 +54,6 @@ class DiffDrive(System):
             "frame_id",
             "child_frame_id",
         ]
-        + _LIMITS
     )
 
     @classmethod
@@ -121,7 +126,8 @@ class DiffDrive(System):
             self._world.drop_command(self.command_topic, f"linear.x={linear}, angular.z={angular}")
             return False
         if self._enabled:
-            self._target = (float(linear), float(angular))
+            # Within these bounds no sum of the two overflows; the wheel speed is limited further on.
+            self._target = (min(max(linear, -1e9), 1e9), min(max(angular, -1e9), 1e9))
         return self._enabled
 
     def _on_command(self, message: Any) -> None:
@@ -153,8 +159,21 @@ class DiffDrive(System):
             self._before_last = last
             self._last = (linear, angular)
         turn = angular * self._half_separation
-        self._left_speed = (linear - turn) / self._radius
-        self._right_speed = (linear + turn) / self._radius
+        left_speed = (linear - turn) / self._radius
+        right_speed = (linear + turn) / self._radius
+        if not (
+            -MAX_WHEEL_SPEED <= left_speed <= MAX_WHEEL_SPEED
+            and -MAX_WHEEL_SPEED <= right_speed <= MAX_WHEEL_SPEED
+        ):
+            self._world.diagnostics.warn(
+                "",
+                f"a command on {self.command_topic} asks for wheels faster than {MAX_WHEEL_SPEED:g} rad/s; "
+                "they are held at that speed",
+            )
+            left_speed = min(max(left_speed, -MAX_WHEEL_SPEED), MAX_WHEEL_SPEED)
+            right_speed = min(max(right_speed, -MAX_WHEEL_SPEED), MAX_WHEEL_SPEED)
+        self._left_speed = left_speed
+        self._right_speed = right_speed
         positions = self._world.data.qpos
         left = positions.item(self._left[0].position)
         right = positions.item(self._right[0].position)
