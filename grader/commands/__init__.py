@@ -1,0 +1,1 @@
+"""The sub-commands of `course`: one file each, found by being in this folder."""

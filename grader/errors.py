@@ -1,0 +1,35 @@
+"""What can go wrong in the grader, and whose fault it is: the exit code and the outcome follow from the class."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+
+class CourseError(Exception):
+    """Base of all errors the `course` command prints as one sentence; `exit_code` goes to the shell."""
+
+    exit_code = 3
+
+
+class UsageError(CourseError):
+    """The command was asked for something that does not exist or cannot be read (exit code 2)."""
+
+    exit_code = 2
+
+
+class ManifestError(CourseError):
+    """An exercise's own files are wrong: the author must mend them (exit code 3, never the student's loss)."""
+
+
+class InfrastructureError(CourseError):
+    """The machine or the grader failed (exit code 3, never the student's loss)."""
+
+
+def nearest(name: str, known: Iterable[str]) -> str:
+    """Return a closing clause for an error text: ` (did you mean X?)`, or the list of known names."""
+    names = sorted(known)
+    close = get_close_matches(name, names, n=1, cutoff=0.4)
+    if close:
+        return f" (did you mean {close[0]}?)"
+    return f" (known: {', '.join(names)})" if names else ""

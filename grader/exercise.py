@@ -1,0 +1,141 @@
+"""An exercise as its folder describes it: files, world, bridge, observed topics, script, checks, points, hints.
+
+`exercises/NN_name/exercise.toml` is the only place these are written down. Exercises exist by being there: a folder
+with a manifest is an exercise, its name is the folder's.
+"""
+
+from __future__ import annotations
+
+import os
+import tomllib
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from grader.errors import ManifestError, UsageError, nearest
+
+MANIFEST = "exercise.toml"
+
+
+@dataclass(frozen=True)
+class ScriptedCommand:
+    """A velocity the grader itself commands during a run, before the noise of the trial's seed."""
+
+    at: float  # [s] simulated
+    topic: str  # Gazebo topic of a Twist
+    linear_x: float  # [m/s]
+    angular_z: float  # [rad/s]
+
+
+@dataclass(frozen=True)
+class CheckSpec:
+    """One line of the rubric: a kind of check with its parameters, worth `points`."""
+
+    id: str
+    title: str
+    points: float
+    kind: str
+    hint: str
+    parameters: dict[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Exercise:
+    """One exercise, read from its manifest."""
+
+    name: str
+    folder: Path
+    title: str
+    summary: str
+    file: str  # the file a submission consists of
+    world: str
+    robot: str
+    duration: float  # [s] simulated
+    tick: float  # [s] simulated time between two /clock messages
+    bridge: Path
+    observe: dict[str, str]  # ROS topics the student is to publish on -> type
+    script: tuple[ScriptedCommand, ...]
+    checks: tuple[CheckSpec, ...]
+
+    @property
+    def max_score(self) -> float:
+        """Sum of the points of all checks."""
+        return sum(check.points for check in self.checks)
+
+    @property
+    def starter(self) -> Path:
+        """The file students begin with and edit."""
+        return self.folder / self.file
+
+
+def course_root() -> Path:
+    """Return the folder that holds `exercises/`: COURSE_ROOT, else the nearest above here, else the repository."""
+    if given := os.environ.get("COURSE_ROOT"):
+        return Path(given)
+    here = Path.cwd()
+    for folder in (here, *here.parents):
+        if any((folder / "exercises").glob(f"*/{MANIFEST}")):
+            return folder
+    return Path(__file__).parents[1]
+
+
+def exercise_names(root: Path) -> list[str]:
+    """Return the names of all exercises below a course folder, in order."""
+    return sorted(path.parent.name for path in (root / "exercises").glob(f"*/{MANIFEST}"))
+
+
+def find_exercise(name: str, root: Path | None = None) -> Exercise:
+    """Return an exercise by its name, or by an unambiguous beginning of it such as `03`.
+
+    Raises UsageError naming the nearest if there is none, ManifestError if its manifest is wrong.
+    """
+    root = root or course_root()
+    names = exercise_names(root)
+    matches = [n for n in names if n == name] or [n for n in names if name and n.startswith(name)]
+    if len(matches) != 1:
+        reason = "several exercises begin with" if len(matches) > 1 else "no exercise is called"
+        raise UsageError(f"{reason} {name!r}{nearest(name, matches or names)}; `course list` shows them all")
+    return load_exercise(root / "exercises" / matches[0])
+
+
+def load_exercise(folder: Path) -> Exercise:
+    """Read and check a manifest. Raises ManifestError with the file and what is wrong."""
+    path = folder / MANIFEST
+    try:
+        raw = tomllib.loads(path.read_text())
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise ManifestError(f"{path}: {error}") from None
+    try:
+        run = raw["run"]
+        exercise = Exercise(
+            name=folder.name,
+            folder=folder,
+            title=raw["title"],
+            summary=raw["summary"].strip(),
+            file=raw["file"],
+            world=run["world"],
+            robot=run["robot"],
+            duration=float(run["duration"]),
+            tick=float(run.get("tick", 0.01)),
+            bridge=folder / run["bridge"],
+            observe=dict(run.get("observe", {})),
+            script=tuple(ScriptedCommand(**command) for command in raw.get("script", [])),
+            checks=tuple(_check(path, check) for check in raw["check"]),
+        )
+    except KeyError as error:
+        raise ManifestError(f"{path}: the key {error.args[0]!r} is missing") from None
+    except (TypeError, ValueError) as error:
+        raise ManifestError(f"{path}: {error}") from None
+    ids = [check.id for check in exercise.checks]
+    if twice := {i for i in ids if ids.count(i) > 1}:
+        raise ManifestError(f"{path}: check id {sorted(twice)[0]!r} is used twice")
+    return exercise
+
+
+def _check(path: Path, raw: dict[str, Any]) -> CheckSpec:
+    raw = dict(raw)
+    try:
+        common = {key: raw.pop(key) for key in ("id", "title", "points", "kind", "hint")}
+    except KeyError as error:
+        raise ManifestError(f"{path}: check {raw.get('id', '?')!r} lacks the key {error.args[0]!r}") from None
+    return CheckSpec(**common, parameters=raw)

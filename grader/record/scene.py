@@ -1,0 +1,140 @@
+"""Puts the world into the recording: its shapes once, then poses, truth and what the lidar sees, tick by tick."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import rerun as rr
+
+from grader.record.recorder import Recorder
+
+if TYPE_CHECKING:
+    from gz.sim.world import World
+
+LINK_TICKS = 5  # links (wheels turn) are drawn every so many ticks
+GROUND_SIZE = 20.0  # [m] side of the square drawn for an infinite plane
+
+
+def shape(kind: str, size: Any, color: Any) -> Any:
+    """Return the archetype for one visual; sizes are full extents in metres as in SDF."""
+    rgba = [round(255 * c) for c in color]
+    half = [s / 2 for s in size]
+    colors = np.array([rgba], dtype=np.uint8)
+    if kind == "box":
+        return rr.Boxes3D(half_sizes=[half], colors=colors, fill_mode="solid")
+    if kind == "plane":
+        side = [min(half[0] or GROUND_SIZE, GROUND_SIZE), min(half[1] or GROUND_SIZE, GROUND_SIZE), 0.001]
+        return rr.Boxes3D(half_sizes=[side], centers=[[0, 0, -0.001]], colors=colors, fill_mode="solid")
+    if kind in ("sphere", "ellipsoid"):
+        return rr.Ellipsoids3D(half_sizes=[half], colors=colors, fill_mode="solid")
+    if kind == "cylinder":
+        return rr.Cylinders3D(lengths=[size[2]], radii=[half[0]], colors=colors, fill_mode="solid")
+    if kind == "capsule":
+        return rr.Capsules3D(
+            lengths=[size[2]], radii=[half[0]], translations=[[0, 0, -half[2]]], colors=colors, fill_mode="solid"
+        )
+    return None
+
+
+class Scene:
+    """Follows one world: call `tick()` after every step of simulated time.
+
+    Truth of every moving model goes to `truth/MODEL/...` in double precision: position (m) and orientation (unit
+    quaternion) in the world frame, yaw (rad, unwrapped), forward speed linear_x (m/s) and yaw rate angular_z
+    (rad/s) in the model's own frame, and the distance travelled (m).
+    """
+
+    def __init__(self, recorder: Recorder, world: World) -> None:
+        self._recorder = recorder
+        self._world = world
+        self._models = world.model_names()
+        self._links: dict[tuple[str, str], str] = {}
+        self._ticks = 0
+        self._yaw = dict.fromkeys(self._models, 0.0)
+        self._distance = dict.fromkeys(self._models, 0.0)
+        self._last: dict[str, tuple[float, float, float]] = {}
+        self._path: dict[str, list[tuple[float, float, float]]] = {name: [] for name in self._models}
+        recorder.static("/world", rr.ViewCoordinates.RIGHT_HAND_Z_UP)
+        for visual in world.geometry():
+            entity = f"/world/{visual.model}/{visual.link}/{visual.name}"
+            archetype = shape(visual.kind, [float(s) for s in visual.size], visual.rgba)
+            if archetype is None:
+                continue
+            recorder.static(entity, archetype)
+            recorder.static(entity, transform(visual.pose))
+            self._links[(visual.model, visual.link)] = f"/world/{visual.model}/{visual.link}"
+        for (model, link), entity in self._links.items():
+            if model not in self._models:
+                recorder.static(f"/world/{model}", transform(world.pose(model)))
+                recorder.static(entity, transform(world.pose(model).inverse() * world.link_pose(model, link)))
+        self._lidars: dict[str, str] = {}  # Gazebo topic -> entity
+        for sensor in (s for system in world.systems for s in getattr(system, "sensors", ())):
+            at = sensor.description
+            entity = f"/world/{at.model}/{at.link}/{at.name}"
+            self._lidars[sensor.topic] = f"{entity}/scan"
+            recorder.static(entity, transform(at.pose))
+
+    def tick(self) -> None:
+        """Log truth and poses at the recorder's present time."""
+        recorder, world = self._recorder, self._world
+        for model in self._models:
+            pose, velocity = world.pose(model), world.velocity(model)
+            x, y, z = (float(v) for v in pose.position)
+            qw, qx, qy, qz = (float(v) for v in pose.quaternion)
+            yaw = math.atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz))
+            self._yaw[model] += math.remainder(yaw - self._yaw[model], 2 * math.pi)
+            last = self._last.get(model, (x, y, z))
+            self._distance[model] += math.dist(last, (x, y, z))
+            self._last[model] = (x, y, z)
+            # Forward speed: world velocity projected on the model's own x axis.
+            forward = (1 - 2 * (qy * qy + qz * qz), 2 * (qx * qy + qw * qz), 2 * (qx * qz - qw * qy))
+            linear_x = sum(float(v) * f for v, f in zip(velocity.linear, forward, strict=True))
+            truth = {
+                "x": x,
+                "y": y,
+                "z": z,
+                "qw": qw,
+                "qx": qx,
+                "qy": qy,
+                "qz": qz,
+                "yaw": self._yaw[model],
+                "linear_x": linear_x,
+                "angular_z": float(velocity.angular[2]),
+                "distance": self._distance[model],
+            }
+            for name, value in truth.items():
+                recorder.scalar(f"truth/{model}/{name}", value)
+            recorder.pose(f"/world/{model}", (x, y, z), (qw, qx, qy, qz))
+            self._path[model].append((x, y, z))
+        if self._ticks % LINK_TICKS == 0:
+            for (model, link), entity in self._links.items():
+                if model in self._models:
+                    pose = world.pose(model).inverse() * world.link_pose(model, link)
+                    recorder.pose(entity, pose.position, pose.quaternion)
+        self._ticks += 1
+
+    def finish(self) -> None:
+        """Log the path each model took."""
+        for model, path in self._path.items():
+            if len(path) > 1:
+                strip = rr.LineStrips3D([path], colors=np.array([[255, 170, 0, 255]], dtype=np.uint8), radii=0.01)
+                self._recorder.static(f"/world/path/{model}", strip)
+
+    def scan(self, gz_topic: str, scan: Any) -> None:
+        """Draw a sensor_msgs/LaserScan that came from the Gazebo topic of one of the world's lidars."""
+        entity = self._lidars.get(gz_topic)
+        if entity is None:
+            return
+        ranges = np.asarray(scan.ranges, dtype=np.float64)
+        angles = scan.angle_min + scan.angle_increment * np.arange(len(ranges))
+        seen = np.isfinite(ranges)
+        flat = np.stack([ranges[seen] * np.cos(angles[seen]), ranges[seen] * np.sin(angles[seen])], axis=1)
+        self._recorder.points(entity, np.pad(flat, ((0, 0), (0, 1))))
+
+
+def transform(pose: Any) -> Any:
+    """Return a pose as Rerun's transform."""
+    w, x, y, z = (float(v) for v in pose.quaternion)
+    return rr.Transform3D(translation=[float(v) for v in pose.position], quaternion=rr.Quaternion(xyzw=[x, y, z, w]))

@@ -1,0 +1,1 @@
+"""What people and programs get to read: made from a score, never from a run."""

@@ -1,0 +1,85 @@
+"""The report on one grading: everything `--json` promises, in one place.
+
+The keys are a contract (README, "The JSON report"): programs read them, so they are added to but never renamed.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from grader.score.score import Score
+
+
+@dataclass(frozen=True)
+class HostFacts:
+    """What is known about a run only while it is graded; absent when a recording is scored again."""
+
+    sandbox: str
+    pace: str
+    run_wall_seconds: float
+    wall_seconds: float
+
+
+@dataclass(frozen=True)
+class Report:
+    """A score with everything around it."""
+
+    exercise: str
+    title: str
+    submission: str
+    recording: Path
+    score: Score
+    max_score: float
+    sim_seconds: float
+    seed: int
+    versions: dict[str, Any]
+    host: HostFacts | None = None
+
+    @property
+    def full_marks(self) -> bool:
+        """Whether every point was earned."""
+        return self.score.points >= self.max_score
+
+    def as_json(self) -> str:
+        """Return the report as JSON text; see README for the keys."""
+        return json.dumps(self.as_dict(), indent=2) + "\n"
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the report as plain data. Host facts are null when a recording was scored again."""
+        host = self.host
+        run_wall = host.run_wall_seconds if host else None
+        return {
+            "exercise": self.exercise,
+            "submission": self.submission,
+            "score": self.score.points,
+            "max_score": self.max_score,
+            "outcome": self.score.outcome,
+            "diagnosis": self.score.diagnosis,
+            "checks": [
+                {
+                    "id": check.spec.id,
+                    "title": check.spec.title,
+                    "points": check.points,
+                    "max_points": check.spec.points,
+                    "status": "passed" if check.finding.passed else "failed",
+                    "expected": check.finding.expected,
+                    "measured": check.finding.measured,
+                    "at_s": check.finding.at_s,
+                    "hint": None if check.finding.passed else check.spec.hint,
+                }
+                for check in self.score.checks
+            ],
+            "trials": [{"name": "public", "seed": self.seed, "score": self.score.points}],
+            "sandbox": host.sandbox if host else None,
+            "pace": host.pace if host else None,
+            "recording": str(self.recording),
+            "truth_sha256": self.score.truth_sha256,
+            "sim_seconds": self.sim_seconds,
+            "run_wall_seconds": run_wall,
+            "wall_seconds": host.wall_seconds if host else None,
+            "real_time_factor": self.sim_seconds / run_wall if run_wall else None,
+            "versions": self.versions,
+        }

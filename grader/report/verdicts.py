@@ -1,0 +1,47 @@
+"""Writes what scoring found into the recording: a lane for each check, the bands, the result."""
+
+from __future__ import annotations
+
+import numpy as np
+import rerun as rr
+
+from grader.record.recorder import Recorder
+from grader.score.score import Score
+
+STATES = rr.StateConfiguration(
+    values=["wait", "pass", "fail"],
+    labels=["not decided", "passed", "failed"],
+    colors=np.array([[110, 110, 110, 255], [40, 160, 70, 255], [200, 50, 50, 255]], dtype=np.uint8),
+)
+
+
+def write_verdicts(recorder: Recorder, score: Score, max_score: float, end_s: float) -> None:
+    """Log every check as a lane that changes at the moment of its verdict, its bands, and the result as properties."""
+    for check in score.checks:
+        entity = f"/checks/{check.spec.id}"
+        at = check.finding.at_s if check.finding.at_s is not None else end_s
+        times, states = [round(at * 1e9)], ["pass" if check.finding.passed else "fail"]
+        if times[0] > 0:
+            times, states = [0, *times], ["wait", *states]
+        recorder.static(entity, STATES)
+        recorder.states(entity, times, states)
+        for number, band in enumerate(check.finding.bands):
+            span = [round(band.start * 1e9), round(band.end * 1e9)]
+            for side, value in (("low", band.low), ("high", band.high)):
+                if np.isfinite(value):
+                    recorder.constant(f"{entity}/{number}/{band.signal}/{side}", span, value)
+        recorder.set_time(round(at * 1e9))
+        verdict = "passed" if check.finding.passed else "failed"
+        recorder.text(
+            "/log/verdicts",
+            f"{check.spec.title}: {verdict}; {check.finding.measured}",
+            "INFO" if check.finding.passed else "ERROR",
+        )
+    recorder.properties(
+        "result",
+        score=score.points,
+        max_score=max_score,
+        outcome=score.outcome,
+        diagnosis=score.diagnosis,
+        truth_sha256=score.truth_sha256,
+    )

@@ -1,0 +1,134 @@
+"""The grader's own end of the ROS graph: the bridge to its private simulator, and a tap on every student topic.
+
+The bridge is the real `ros_gz_bridge`; only the moment at which its ROS messages leave is decided here, because in
+lock-step they leave one at a time.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+from importlib import import_module
+from typing import Any
+
+import rclpy
+from gz.transport import Node as GzNode
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.logging import LoggingSeverity, set_logger_level
+from rclpy.qos import QoSProfile
+from rclpy.signals import SignalHandlerOptions
+from ros_gz_bridge.bridge import Bridge, BridgeEntry
+
+from grader.errors import ManifestError
+
+TAP_DEPTH = 1000
+NODE = "ros_gz_bridge"
+
+
+def message_class(ros_type: str) -> Any:
+    """Return the Python class of a ROS type such as `std_msgs/msg/Float32`. Raises ManifestError if there is none."""
+    package, _, name = ros_type.partition("/msg/")
+    try:
+        return getattr(import_module(f"{package}.msg"), name)
+    except (ImportError, AttributeError):
+        raise ManifestError(f"there is no ROS message type {ros_type!r} here") from None
+
+
+class Ears:
+    """Owns an rclpy context in `domain`, the bridge for `entries`, and a tap on each topic in `observe`.
+
+    `heard(topic, message)` is called for every message that arrives from the student.
+    """
+
+    def __init__(
+        self,
+        domain: int,
+        gz_node: GzNode,
+        entries: list[BridgeEntry],
+        observe: dict[str, str],
+        heard: Callable[[str, Any], None],
+    ) -> None:
+        self._context = Context()
+        rclpy.init(context=self._context, domain_id=domain, signal_handler_options=SignalHandlerOptions.NO)
+        set_logger_level(NODE, LoggingSeverity.ERROR)  # what it would say is told in the report
+        self._node = rclpy.create_node(NODE, context=self._context, start_parameter_services=False)
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self._node)
+        self.held: list[tuple[str, Any, Any]] = []
+        self.bridge = Bridge(self._node, gz_node, entries, publish=self._hold)
+        self._out = {e.ros_topic: e.ros_type for e in entries if e.direction.to_ros}
+        self._in = {e.ros_topic: e.ros_type for e in entries if e.direction.to_gz} | observe
+        self._bridged = [i for i, e in enumerate(entries) if e.direction.to_gz]
+        self._tapped: Counter[str] = Counter()
+        self._heard = heard
+        self._taps = {
+            topic: self._node.create_subscription(
+                message_class(kind), topic, self._tap(topic), QoSProfile(depth=TAP_DEPTH)
+            )
+            for topic, kind in self._in.items()
+        }
+        self._publishers = {p.topic_name: p for p in self._node.publishers if p.topic_name in self._out}
+
+    def _hold(self, publisher: Any, message: Any) -> None:
+        self.held.append((publisher.topic_name, publisher, message))
+
+    def _tap(self, topic: str) -> Callable[[Any], None]:
+        def tapped(message: Any) -> None:
+            self._tapped[topic] += 1
+            self._heard(topic, message)
+
+        return tapped
+
+    def take_held(self) -> list[tuple[str, Any, Any]]:
+        """Return what the simulator published since the last call: /clock first, then by topic name.
+
+        A node that looks at its clock when a scan arrives then finds the time of that scan, not the one before.
+        """
+        held, self.held = self.held, []
+        return sorted(held, key=lambda item: (item[0] != "/clock", item[0]))
+
+    @property
+    def received(self) -> Counter[str]:
+        """Messages that have arrived here by topic; for a bridged topic those that went through the bridge too."""
+        count = self._tapped.copy()
+        status = self.bridge.status()
+        for index in self._bridged:
+            s = status[index]
+            topic = s.entry.ros_topic
+            count[topic] = min(count[topic], s.ros_to_gz + s.dropped + s.echoes)
+        return count
+
+    def dropped(self) -> dict[str, int]:
+        """Return how many messages the bridge refused, by ROS topic."""
+        return {s.entry.ros_topic: s.dropped for s in self.bridge.status() if s.dropped}
+
+    def pump(self) -> None:
+        """Take everything that has arrived, without waiting."""
+        before = -1
+        while before != (before := self._work()):
+            self._executor.spin_once(timeout_sec=0)
+
+    def _work(self) -> int:
+        return sum(self._tapped.values()) + sum(self.received.values())
+
+    def publishes(self, topic: str) -> str | None:
+        """ROS type of what the bridge publishes on a topic, or None."""
+        return self._out.get(topic)
+
+    def listens(self, topic: str) -> str | None:
+        """ROS type of what is subscribed to here on a topic, or None."""
+        return self._in.get(topic)
+
+    def matched(self, topic: str, kind: str) -> int:
+        """How many of the student's endpoints of a kind (publisher, subscription) are matched on a topic."""
+        if kind == "subscription":
+            return int(self._publishers[topic].get_subscription_count()) if topic in self._publishers else 0
+        return int(self._taps[topic].get_publisher_count()) if topic in self._taps else 0
+
+    def close(self) -> None:
+        """Leave the ROS graph."""
+        self.bridge.close()
+        self._executor.shutdown()
+        self._node.destroy_node()
+        rclpy.shutdown(context=self._context)

@@ -1,0 +1,233 @@
+"""The submission's process as the grader sees it: started in its sandbox, read from, and always ended.
+
+Everything it writes comes through two pipes, its progress (see `participant.py`) through a socket. The pipes are
+emptied before a progress report is read, so a log line is on record before the tick that produced it is closed.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import selectors
+import signal
+import socket
+import subprocess
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import psutil
+
+from grader.run import participant
+from grader.run.sandbox import Sandbox
+
+LONGEST_LINE = 2_000  # [characters] of one line that are kept
+MOST_LINES = 20_000  # kept per run; the rest is counted
+GRACE = 1.5  # [s] between SIGINT, SIGTERM and SIGKILL
+
+
+@dataclass(frozen=True)
+class Endpoint:
+    """A publisher or subscription of the student's node."""
+
+    node: str
+    kind: str  # publisher | subscription
+    topic: str
+    type: str
+    reliability: str
+    durability: str
+    matched: int
+
+
+@dataclass(frozen=True)
+class Progress:
+    """What the student's process last said about itself. Untrusted."""
+
+    clock: int | None = None  # [ns] simulated time its nodes have seen; None: none follows /clock
+    taken: dict[str, int] = field(default_factory=dict)
+    published: dict[str, int] = field(default_factory=dict)
+    endpoints: tuple[Endpoint, ...] = ()
+
+    @staticmethod
+    def parse(data: bytes, before: Progress | None) -> Progress | None:
+        """Read one report; None if it is not one. Endpoints it does not mention are as `before`."""
+        try:
+            raw = json.loads(data)
+            clock = raw["clock"]
+            return Progress(
+                clock=None if clock is None else int(clock),
+                taken={str(k): int(v) for k, v in raw["taken"].items()},
+                published={str(k): int(v) for k, v in raw["published"].items()},
+                endpoints=tuple(Endpoint(**e) for e in raw["endpoints"])
+                if "endpoints" in raw
+                else before.endpoints
+                if before
+                else (),
+            )
+        except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+            return None
+
+
+class Student:
+    """One running submission.
+
+    `progress` is its latest report (None before the first), `exit_code` is None while it runs.
+    """
+
+    def __init__(self, file: Path, sandbox: Sandbox, listened: dict[str, str]) -> None:
+        """Start `file` with simulated time switched on.
+
+        `listened` maps the topics the grader subscribes to onto their ROS types.
+        """
+        ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        ours.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 20)
+        environment = sandbox.student_environment() | {
+            participant.SOCKET_FD: str(theirs.fileno()),
+            participant.LISTENED: json.dumps(listened),
+        }
+        self._children_before = _children()
+        command = [sys.executable, "-P", participant.__file__, str(file)]
+        self._process = subprocess.Popen(
+            [*command, "--ros-args", "-p", "use_sim_time:=true"],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            env=environment,
+            cwd=sandbox.home,
+            pass_fds=(theirs.fileno(),),
+            start_new_session=True,
+        )
+        theirs.close()
+        with contextlib.suppress(ProcessLookupError):
+            sandbox.limit(self._process.pid)
+        self._channel = ours
+        self._selector = selectors.DefaultSelector()
+        self._partial: dict[int, bytes] = {}
+        assert self._process.stdout is not None and self._process.stderr is not None
+        self._pipes = [self._process.stdout, self._process.stderr]
+        for pipe in self._pipes:
+            os.set_blocking(pipe.fileno(), False)
+            self._partial[pipe.fileno()] = b""
+            self._selector.register(pipe, selectors.EVENT_READ)
+        self._channel.setblocking(False)
+        self._selector.register(self._channel, selectors.EVENT_READ)
+        self._lines: list[str] = []
+        self._line_count = 0
+        self.progress: Progress | None = None
+        self.reports = 0
+        self.exit_code: int | None = None
+        self.ended_by_us = False
+
+    @property
+    def running(self) -> bool:
+        """True until the process was seen to end."""
+        return self.exit_code is None
+
+    @property
+    def dropped_lines(self) -> int:
+        """Lines beyond the limit that were read and thrown away."""
+        return max(0, self._line_count - MOST_LINES)
+
+    def wait(self, timeout: float) -> bool:
+        """Wait at most `timeout` seconds for output, progress or the end; True if something came."""
+        if not self.running:
+            return False
+        ready = self._selector.select(timeout)
+        for pipe in self._pipes:
+            self._drain(pipe.fileno())
+        self._read_progress()
+        if self._channel.fileno() not in self._selector.get_map():
+            self._reap()
+        return bool(ready)
+
+    def take_lines(self) -> list[str]:
+        """Return the lines written since the last call."""
+        lines, self._lines = self._lines, []
+        return lines
+
+    def _drain(self, fd: int) -> None:
+        while fd in self._partial:
+            try:
+                data = os.read(fd, 1 << 16)
+            except BlockingIOError:
+                return
+            if not data:
+                self._selector.unregister(fd)
+                rest = self._partial.pop(fd)
+                if rest:
+                    self._keep(rest)
+                return
+            *whole, rest = (self._partial[fd] + data).split(b"\n")
+            for line in whole:
+                self._keep(line)
+            self._partial[fd] = rest[: 4 * LONGEST_LINE]
+
+    def _keep(self, line: bytes) -> None:
+        self._line_count += 1
+        if self._line_count <= MOST_LINES:
+            self._lines.append(line.decode(errors="replace")[:LONGEST_LINE])
+
+    def _read_progress(self) -> None:
+        while self._channel.fileno() in self._selector.get_map():
+            try:
+                data = self._channel.recv(1 << 20)
+            except BlockingIOError:
+                return
+            except ConnectionError:
+                data = b""
+            if not data:
+                self._selector.unregister(self._channel)
+                return
+            progress = Progress.parse(data, self.progress)
+            if progress is not None:
+                self.progress = progress
+                self.reports += 1
+
+    def _reap(self) -> None:
+        """The socket is closed: the process has exited, or shut its own ears; then it is ended."""
+        try:
+            self._process.wait(GRACE)
+        except subprocess.TimeoutExpired:
+            self.stop()
+        for pipe in self._pipes:
+            self._drain(pipe.fileno())
+        self.exit_code = self._process.returncode
+
+    def stop(self) -> None:
+        """End the process group and every descendant: SIGINT, then SIGTERM, then SIGKILL."""
+        if self._process.poll() is None:
+            self.ended_by_us = True
+            for escalation in (signal.SIGINT, signal.SIGTERM):
+                with contextlib.suppress(ProcessLookupError):
+                    os.killpg(self._process.pid, escalation)
+                try:
+                    self._process.wait(GRACE)
+                    break
+                except subprocess.TimeoutExpired:
+                    continue
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(self._process.pid, signal.SIGKILL)
+        self.exit_code = self._process.wait()
+        self._sweep()
+
+    def _sweep(self) -> None:
+        """Kill what left the process group: as subreaper the grader inherits every orphan."""
+        while strays := _children() - self._children_before:
+            for stray in strays:
+                with contextlib.suppress(psutil.NoSuchProcess):
+                    stray.kill()
+            psutil.wait_procs(strays, timeout=GRACE)
+
+    def close(self) -> None:
+        """End the process if it still runs and close every descriptor."""
+        self.stop()
+        self._selector.close()
+        self._channel.close()
+        for pipe in self._pipes:
+            pipe.close()
+
+
+def _children() -> set[psutil.Process]:
+    return set(psutil.Process().children(recursive=True))

@@ -1,0 +1,86 @@
+"""What a check is, and the registry of kinds.
+
+A kind is a function of the recording and the parameters its manifest gives; it registers itself with `@check_kind`.
+A check's `gate` is handled here for every kind: without the gate's evidence no point is given, so that doing nothing
+earns nothing.
+"""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+from grader.errors import ManifestError, nearest
+from grader.exercise import CheckSpec
+from grader.record.reading import Recording
+
+
+@dataclass(frozen=True)
+class Band:
+    """Where a signal is wanted: between `low` and `high` from `start` to `end` [s] of simulated time."""
+
+    signal: str
+    low: float
+    high: float
+    start: float
+    end: float
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What one check found: what was expected, what was measured, and at which simulated moment [s]."""
+
+    passed: bool
+    expected: str
+    measured: str
+    at_s: float | None = None
+    bands: tuple[Band, ...] = ()
+
+
+Kind = Callable[[Recording, dict[str, Any]], Finding]
+_kinds: dict[str, Kind] = {}
+
+
+def check_kind(name: str) -> Callable[[Kind], Kind]:
+    """Register a function as the kind of check called `name`."""
+
+    def register(function: Kind) -> Kind:
+        if name in _kinds:
+            raise ValueError(f"the check kind {name!r} is registered twice")
+        _kinds[name] = function
+        return function
+
+    return register
+
+
+@cache
+def check_kinds() -> dict[str, Kind]:
+    """Return every kind there is, by name."""
+    from grader.score import checks
+
+    for module in pkgutil.iter_modules(checks.__path__):
+        importlib.import_module(f"{checks.__name__}.{module.name}")
+    return dict(_kinds)
+
+
+def perform(spec: CheckSpec, recording: Recording) -> Finding:
+    """Apply one check to a recording. Raises ManifestError if the manifest's parameters do not fit the kind."""
+    kinds = check_kinds()
+    if spec.kind not in kinds:
+        raise ManifestError(f"check {spec.id!r} is of unknown kind {spec.kind!r}{nearest(spec.kind, kinds)}")
+    parameters = dict(spec.parameters)
+    gate = parameters.pop("gate", None)
+    try:
+        finding = kinds[spec.kind](recording, parameters)
+        if gate is not None and finding.passed:
+            values = recording.signal(gate["signal"]).values
+            best = float(values.max()) if len(values) else 0.0
+            if best < gate["reaches"]:
+                return Finding(False, finding.expected, f"{gate['otherwise']} ({finding.measured})", None, finding.bands)
+    except KeyError as error:
+        raise ManifestError(f"check {spec.id!r} lacks the parameter {error.args[0]!r}") from None
+    return finding

@@ -1,0 +1,33 @@
+"""`change`: by how much did a signal change over a window?
+
+    kind = "change"
+    signal = "truth/robot/yaw"
+    band = [0.3, 0.7]
+    window = [0.0, 8.0]       # optional
+    unit = "rad"
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from grader.record.reading import Recording
+from grader.score.check import Band, Finding, check_kind
+from grader.score.steps import value_at
+
+
+@check_kind("change")
+def change(recording: Recording, parameters: dict[str, Any]) -> Finding:
+    """Pass if value at the end minus value at the start lies within `band`."""
+    name = parameters["signal"]
+    low, high = parameters["band"]
+    start, end = parameters.get("window", [0.0, recording.properties("run")["duration"]])
+    unit = f" {parameters['unit']}" if "unit" in parameters else ""
+    expected = f"{name} changes by {low:g} to {high:g}{unit}"
+    last = value_at(recording, name, end)
+    if last is None:
+        return Finding(False, expected, "nothing was recorded on it")
+    first = value_at(recording, name, start)
+    moved = last - (first if first is not None else float(recording.signal(name).values[0]))
+    bands = (Band(name, last - moved + low, last - moved + high, end, end),)
+    return Finding(bool(low <= moved <= high), expected, f"changed by {moved:.2f}{unit}", end, bands)

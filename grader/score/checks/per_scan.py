@@ -1,0 +1,110 @@
+r"""`per_scan`: is every scan answered with the right number?
+
+    kind = "per_scan"
+    scan = "lidar/scan"
+    statistic = "minimum"     # valid_count | minimum | mean of the valid ranges
+    tolerance = 0.011
+    log = 'min=(\S+?)m'       # the answer is the first group of this pattern in a line of the node's logger, or
+    signal = "topics/nearest_obstacle/data"    # the answer is a message
+    at_least = 0.95           # of all scans
+
+The answer to a scan is the first one between it and the next scan. The truth is taken from the very scan that was
+sent. A range is valid if it lies between range_min and range_max; whether the limits themselves count is left open.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from grader.record.reading import Recording
+from grader.score.check import Finding, check_kind
+
+# What the console format of the sandbox puts before a logger's message; a printed line lacks it.
+LOGGED = re.compile(r"^\[[A-Z]+\] \[[^\]]*\]: ")
+
+STATISTICS: dict[str, Callable[[np.ndarray], float]] = {
+    "valid_count": lambda valid: float(len(valid)),
+    "minimum": lambda valid: float(valid.min()),
+    "mean": lambda valid: float(valid.mean()),
+}
+
+
+@dataclass(frozen=True)
+class Scan:
+    """One scan as it was sent: when [s], until the next [s], and the accepted answers."""
+
+    start: float
+    end: float
+    answers: tuple[float, ...]
+
+
+def scans(recording: Recording, topic: str, statistic: str) -> list[Scan]:
+    """Return every scan that had at least one valid ray."""
+    times, rows = recording.arrays(f"topics/{topic}/ranges")
+    lows = recording.signal(f"topics/{topic}/range_min").values
+    highs = recording.signal(f"topics/{topic}/range_max").values
+    ends = [*(times[1:] / 1e9), np.inf] if len(times) else []
+    found = []
+    for time, end, row, low, high in zip(times / 1e9, ends, rows, lows, highs, strict=True):
+        strict = row[(row > low) & (row < high)]
+        loose = row[(row >= low) & (row <= high)]
+        if len(strict):
+            answers = tuple(STATISTICS[statistic](valid) for valid in (strict, loose))
+            found.append(Scan(float(time), float(end), answers))
+    return found
+
+
+@check_kind("per_scan")
+def per_scan(recording: Recording, parameters: dict[str, Any]) -> Finding:
+    """Pass if at least the fraction `at_least` of all scans got the right answer."""
+    what = parameters["statistic"]
+    tolerance, share = parameters["tolerance"], parameters.get("at_least", 0.95)
+    asked = scans(recording, parameters["scan"], what)
+    given, printed = _answers(recording, parameters)
+    where = f"on {parameters['signal']}" if "signal" in parameters else "in the node's log"
+    expected = f"{what.replace('_', ' ')} of every scan {where}, within {tolerance:g}"
+    right, unanswered, wrong = 0, 0, ""
+    at: float | None = None
+    for scan in asked:
+        answer = next((value for time, value in given if scan.start <= time < scan.end), None)
+        if answer is not None and any(abs(answer - truth) <= tolerance for truth in scan.answers):
+            right += 1
+            continue
+        unanswered += answer is None
+        if answer is not None and not wrong:
+            wrong = f"; at {scan.start:.2f} s it said {answer:g}, the truth was {scan.answers[0]:.3f}"
+        if at is None:
+            at = round(scan.start, 3)
+    if printed and not given:
+        wrong = f"; {printed} such lines were printed, not logged: use the node's logger, self.get_logger().info(...)"
+    measured = f"{right} of {len(asked)} scans right" + (f", {unanswered} without an answer" if unanswered else "")
+    passed = bool(asked) and right >= share * len(asked)
+    return Finding(passed, expected, measured + wrong, None if passed else at)
+
+
+def _answers(recording: Recording, parameters: dict[str, Any]) -> tuple[list[tuple[float, float]], int]:
+    """All answers as (time [s], value), in order; and how many were printed instead of logged."""
+    if "signal" in parameters:
+        signal = recording.signal(parameters["signal"])
+        return list(zip((signal.times / 1e9).tolist(), signal.values.tolist(), strict=True)), 0
+    pattern = re.compile(parameters["log"])
+    answers, printed = [], 0
+    for line in recording.lines("log/student"):
+        text, logged = LOGGED.subn("", line.text)
+        if match := pattern.search(text):
+            printed += not logged
+            if logged:
+                answers.append((line.time_ns / 1e9, _number(match.group(1))))
+    return answers, printed
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        return np.nan

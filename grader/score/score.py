@@ -1,0 +1,64 @@
+"""Scores a recording against an exercise's manifest: a pure function of the two."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+
+import numpy as np
+
+from grader.exercise import CheckSpec, Exercise
+from grader.record.reading import Recording
+from grader.score.check import Finding, perform
+from grader.score.diagnosis import diagnose, outcome_of
+
+TRUTH = ("x", "y", "z", "qw", "qx", "qy", "qz")
+
+
+@dataclass(frozen=True)
+class CheckResult:
+    """One line of the report."""
+
+    spec: CheckSpec
+    finding: Finding
+
+    @property
+    def points(self) -> float:
+        """Points earned."""
+        return self.spec.points if self.finding.passed else 0.0
+
+
+@dataclass(frozen=True)
+class Score:
+    """The verdict on one run. `diagnosis` is the first sentence of feedback; empty for full marks."""
+
+    checks: tuple[CheckResult, ...]
+    outcome: str
+    diagnosis: str
+    truth_sha256: str
+
+    @property
+    def points(self) -> float:
+        """Points earned in total."""
+        return sum(check.points for check in self.checks)
+
+
+def score(recording: Recording, exercise: Exercise) -> Score:
+    """Apply every check of the manifest and name the most likely fault."""
+    checks = tuple(CheckResult(spec, perform(spec, recording)) for spec in exercise.checks)
+    failed = [check for check in checks if not check.finding.passed]
+    diagnosis = diagnose(recording)
+    if failed and not diagnosis:
+        worst = max(failed, key=lambda check: check.spec.points)
+        diagnosis = f"{worst.spec.title}: expected {worst.finding.expected}; {worst.finding.measured}."
+    return Score(checks, outcome_of(recording), diagnosis if failed else "", truth_sha256(recording, exercise.robot))
+
+
+def truth_sha256(recording: Recording, robot: str) -> str:
+    """SHA-256 over the truth trajectory: times (int64, ns), then positions and quaternions (float64), little-endian."""
+    digest = hashlib.sha256()
+    for name in TRUTH:
+        signal = recording.signal(f"truth/{robot}/{name}")
+        digest.update(signal.times.astype("<i8").tobytes())
+        digest.update(np.ascontiguousarray(signal.values, dtype="<f8").tobytes())
+    return digest.hexdigest()
