@@ -112,7 +112,8 @@ def parse_argument(text: str) -> BridgeEntry:
     if not topic:
         errors.append(f"{where}: the topic name before the first '@' is missing; expected {_SYNTAX}")
     else:
-        errors.extend(f"{where}: {fault}" for fault in _name_faults(topic, topic))
+        name_fault = _ros_name_fault(topic) or _gz_name_fault(topic)
+        errors.extend([f"{where}: {name_fault}"] if name_fault else [])
     if mark is None:
         example = _partner(ros_type)
         errors.append(
@@ -245,13 +246,15 @@ class _EntryReader:
                 self._node, "the topic is missing; give topic_name, or ros_topic_name and gz_topic_name"
             )
             return None, None
-        keys = ["topic_name"] * 2 if both else sides * 2 if len(sides) == 1 else sides
-        ros_topic, gz_topic = self._text(keys[0]), self._text(keys[1]) if keys[1] != keys[0] else None
-        if keys[1] == keys[0]:
-            gz_topic = ros_topic
-        if ros_topic is not None and gz_topic is not None:
-            for fault in _name_faults(ros_topic, gz_topic):
-                self._wrong(self._values[keys[0]], fault)
+        ros_key, gz_key = ("topic_name", "topic_name") if both else (sides[0], sides[-1])
+        ros_topic = self._text(ros_key)
+        gz_topic = ros_topic if gz_key == ros_key else self._text(gz_key)
+        ros_fault = _ros_name_fault(ros_topic) if ros_topic else None
+        gz_fault = _gz_name_fault(gz_topic) if gz_topic else None
+        if ros_fault:
+            self._wrong(self._values[ros_key], ros_fault)
+        if gz_fault and not (ros_fault and gz_key == ros_key):
+            self._wrong(self._values[gz_key], gz_fault)
         return ros_topic, gz_topic
 
     def _direction(self) -> Direction:
@@ -342,14 +345,18 @@ def _type_faults(ros_type: str, gz_type: str) -> Iterator[str]:
             yield str(error)
 
 
-def _name_faults(ros_topic: str, gz_topic: str) -> Iterator[str]:
-    if not _ROS_NAME.fullmatch(ros_topic) or "__" in ros_topic:
-        yield (
-            f"'{ros_topic}' is not a ROS topic name; use letters, digits, '_' and '/', no part starting with "
-            "a digit, no '//' or '__', and no '/' at the end"
-        )
-    if (rule := naming.broken_rule(gz_topic, may_be_empty=False)) is not None:
-        yield f"'{gz_topic}' is not a Gazebo topic name: it {rule}"
+def _ros_name_fault(name: str) -> str | None:
+    if _ROS_NAME.fullmatch(name) and "__" not in name:
+        return None
+    return (
+        f"'{name}' is not a ROS topic name; use letters, digits, '_' and '/', no part starting with a digit, "
+        "no '//' or '__', and no '/' at the end"
+    )
+
+
+def _gz_name_fault(name: str) -> str | None:
+    rule = naming.broken_rule(name, may_be_empty=False)
+    return f"'{name}' is not a Gazebo topic name: it {rule}" if rule else None
 
 
 def _repeated(entries: list[BridgeEntry]) -> Iterator[str]:

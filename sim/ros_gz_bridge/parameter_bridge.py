@@ -64,8 +64,8 @@ class _UsageError(Exception):
 
 def main(argv: list[str] | None = None) -> int:
     """Run the bridge until SIGINT or SIGTERM: exit code 0; 2 if it could not start, 1 if it broke."""
-    # Signals are blocked in every thread and fetched by one sigwait: none can be lost in a library's wait set,
-    # none can strike in the middle of setting up, and one ignored by the parent (a shell's '&') is heard again.
+    # Signals are blocked in every thread and fetched by one sigwait: none is lost in a library's wait set, none
+    # strikes in the middle of setting up, and one ignored by the parent (a shell's '&') is heard again.
     signal.pthread_sigmask(signal.SIG_BLOCK, _STOP_SIGNALS)
     for number in _STOP_SIGNALS:
         signal.signal(number, signal.SIG_DFL)
@@ -200,8 +200,8 @@ def _all_entries(entries: list[BridgeEntry], parameters: dict[str, Any]) -> list
     if entries and config_file:
         raise _UsageError(
             [
-                f"bridges are given on the command line and in {config_file}, which ros_gz_bridge would not read "
-                "then; put all of them in one place"
+                f"bridges are given on the command line and in {config_file}, which ros_gz_bridge would then "
+                "not read; put all of them in one place"
             ]
         )
     if entries:
@@ -250,8 +250,8 @@ def _entry_advice(entries: list[BridgeEntry]) -> Iterator[str]:
     for entry in entries:
         if entry.ros_type == "rosgraph_msgs/msg/Clock" and entry.direction is not Direction.GZ_TO_ROS:
             yield (
-                f"{entry.source}: this bridge publishes {entry.gz_topic} in Gazebo too, and Gazebo then keeps "
-                "its own clock off that topic; bridge a clock from Gazebo to ROS only ([ or direction: GZ_TO_ROS)"
+                f"{entry.source}: publishes {entry.gz_topic} in Gazebo too, and Gazebo then keeps its own clock "
+                "off that topic; bridge a clock from Gazebo to ROS only ([ or direction: GZ_TO_ROS)"
             )
 
 

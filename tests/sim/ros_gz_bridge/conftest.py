@@ -1,0 +1,112 @@
+"""A DDS domain and a Gazebo partition nobody else uses, a spinning ROS context, and waiting with a deadline."""
+
+import random
+import socket
+import threading
+import time
+import uuid
+
+import pytest
+
+DEADLINE = 20.0
+
+
+class Inbox:
+    """A callback that keeps what it is given; `wait(n)` returns the first n messages or fails at the deadline."""
+
+    def __init__(self):
+        self.messages = []
+        self._changed = threading.Condition()
+
+    def __call__(self, message):
+        with self._changed:
+            self.messages.append(message)
+            self._changed.notify_all()
+
+    def wait(self, count, timeout=DEADLINE):
+        with self._changed:
+            done = self._changed.wait_for(lambda: len(self.messages) >= count, timeout)
+            assert done, f"{len(self.messages)} of {count} messages arrived in {timeout} s"
+            return list(self.messages)
+
+
+def _eventually(condition, what, timeout=DEADLINE):
+    """Wait for something that announces itself by no event (DDS discovery, a counter)."""
+    pause, end = threading.Event(), time.monotonic() + timeout
+    while not condition():
+        assert time.monotonic() < end, f"not within {timeout} s: {what}"
+        pause.wait(0.005)
+
+
+@pytest.fixture(scope="session")
+def eventually():
+    return _eventually
+
+
+@pytest.fixture
+def inbox():
+    return Inbox
+
+
+@pytest.fixture(scope="session")
+def ros_domain(tmp_path_factory):
+    """The number of a DDS domain held for this session, with the environment set for this process and children."""
+    numbers = list(range(1, 102))
+    random.shuffle(numbers)
+    for number in numbers:
+        lock = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        try:
+            lock.bind(f"\0gz-ros2-course-domain-{number}")
+            break
+        except OSError:
+            lock.close()
+    else:
+        pytest.fail("every DDS domain from 1 to 101 is in use")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("ROS_DOMAIN_ID", str(number))
+        patch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+        patch.setenv("ROS_LOG_DIR", str(tmp_path_factory.mktemp("ros_log")))
+        patch.setenv("GZ_PARTITION", f"test-{uuid.uuid4().hex}")
+        patch.setenv("GZ_IP", "127.0.0.1")
+        yield number
+    lock.close()
+
+
+class Ros:
+    """One ROS context whose nodes are spun in a thread."""
+
+    def __init__(self, domain):
+        import rclpy
+        from rclpy.executors import SingleThreadedExecutor
+
+        self.context = rclpy.Context()
+        rclpy.init(context=self.context, domain_id=domain)
+        self.executor = SingleThreadedExecutor(context=self.context)
+        self.node = self.new_node("tester")
+        self._thread = threading.Thread(target=self.executor.spin)
+        self._thread.start()
+
+    def new_node(self, name="bridge", **options):
+        import rclpy
+
+        node = rclpy.create_node(name, context=self.context, **options)
+        self.executor.add_node(node)
+        return node
+
+    def drop_node(self, node):
+        self.executor.remove_node(node)
+        node.destroy_node()
+
+    def close(self):
+        self.executor.shutdown()
+        self._thread.join(DEADLINE)
+        self.node.destroy_node()
+        self.context.try_shutdown()
+        assert not self._thread.is_alive()
+
+
+@pytest.fixture(scope="module")
+def ros(ros_domain):
+    running = Ros(ros_domain)
+    yield running
+    running.close()
