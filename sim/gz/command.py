@@ -1,7 +1,7 @@
 """The `gz` command: finds the sub-command and hands over to it.
 
-`gz sim world.sdf` calls main(["world.sdf"]) of gz/sim/command.py; a sub-command `x` is a file `gz/x/command.py`
-and nothing else, found by looking into the folders and imported only when it is the one that is called.
+`gz sim world.sdf` calls main(["world.sdf"]) of gz/sim/command.py. A sub-command `x` is a file
+`gz/x/command.py` and nothing else: found by looking into the folders, imported only when it is called.
 """
 
 from __future__ import annotations

@@ -37,6 +37,7 @@ class Inlet:
         self.socket.setsockopt(zmq.RECONNECT_IVL, _RECONNECT_MS)
         self.socket.setsockopt(zmq.RECONNECT_IVL_MAX, _RECONNECT_MOST_MS)
         self._connected: set[str] = set()
+        self._unusable: set[str] = set()
         self._leaving: dict[str, float] = {}
         self._filters: set[str] = set()
 
@@ -47,14 +48,21 @@ class Inlet:
             self.socket.setsockopt(zmq.SUBSCRIBE, name.encode())
             self._filters.add(name)
         if address not in self._connected:
-            try:
-                self.socket.connect(address)
-            except zmq.ZMQError as error:
-                complain(
-                    f"The publisher of {name} has an address that cannot be used: {address!r} ({error})."
-                )
+            if not self._connect(address):
+                if address not in self._unusable:
+                    self._unusable.add(address)
+                    complain(f"The publisher of {name} has an address that cannot be used: {address[:100]!r}.")
                 return False
             self._connected.add(address)
+        return True
+
+    def _connect(self, address: str) -> bool:
+        if not address.startswith("tcp://"):
+            return False
+        try:
+            self.socket.connect(address)
+        except zmq.ZMQError:
+            return False
         return True
 
     def ignore(self, name: str) -> None:

@@ -1,0 +1,70 @@
+"""Another process for the tests: does what it is told on stdin, one JSON object a line, and answers on stdout."""
+
+import json
+import os
+import sys
+import threading
+
+from gz.msgs.stringmsg_pb2 import StringMsg
+from gz.transport import Node, NodeOptions
+
+node = Node()
+nodes = {"": node}
+publishers = {}
+writing = threading.Lock()
+
+
+def say(**answer):
+    with writing:
+        os.write(1, (json.dumps(answer) + "\n").encode())
+
+
+def publish_from_threads(publisher, threads, count):
+    def work(thread):
+        for number in range(count):
+            publisher.publish(StringMsg(data=f"{thread} {number}"))
+
+    workers = [threading.Thread(target=work, args=(number,)) for number in range(threads)]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+
+
+def publish_from_forked_child(publisher, text):
+    child = os.fork()
+    if child == 0:
+        arrived = publisher.wait_for_subscribers(timeout=10)
+        publisher.publish(StringMsg(data=text))
+        sys.exit(0 if arrived else 1)  # runs the exit handlers of the child
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+
+
+for line in sys.stdin:
+    order = json.loads(line)
+    match order["do"]:
+        case "advertise":
+            partition = order.get("partition")
+            chosen = nodes.setdefault(partition, Node(NodeOptions(partition=partition))) if partition else node
+            publishers[order["topic"]] = chosen.advertise(order["topic"], StringMsg)
+            say(answer=True)
+        case "publish":
+            say(answer=publishers[order["topic"]].publish(StringMsg(data=order["text"])))
+        case "close":
+            publishers.pop(order["topic"]).close()
+            say(answer=True)
+        case "wait":
+            say(answer=publishers[order["topic"]].wait_for_subscribers(order.get("count", 1), 20.0))
+        case "subscribe":
+            topic = order["topic"]
+            node.subscribe(StringMsg, topic, lambda message, topic=topic: say(heard=[topic, message.data]))
+            say(answer=True)
+        case "unsubscribe":
+            say(answer=node.unsubscribe(order["topic"]))
+        case "threads":
+            publish_from_threads(publishers[order["topic"]], order["threads"], order["count"])
+            say(answer=True)
+        case "fork":
+            say(answer=publish_from_forked_child(publishers[order["topic"]], order["text"]))
+        case "crash":
+            raise RuntimeError("as ordered")
