@@ -51,7 +51,9 @@ class Inlet:
             if not self._connect(address):
                 if address not in self._unusable:
                     self._unusable.add(address)
-                    complain(f"The publisher of {name} has an address that cannot be used: {address[:100]!r}.")
+                    complain(
+                        f"The publisher of {name} has an address that cannot be used: {address[:100]!r}."
+                    )
                 return False
             self._connected.add(address)
         return True

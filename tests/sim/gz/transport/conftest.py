@@ -12,7 +12,6 @@ import uuid
 from pathlib import Path
 
 import pytest
-
 from gz.msgs.discovery_pb2 import Discovery
 from gz.transport import datagram
 

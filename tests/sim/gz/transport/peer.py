@@ -45,7 +45,9 @@ for line in sys.stdin:
     match order["do"]:
         case "advertise":
             partition = order.get("partition")
-            chosen = nodes.setdefault(partition, Node(NodeOptions(partition=partition))) if partition else node
+            chosen = (
+                nodes.setdefault(partition, Node(NodeOptions(partition=partition))) if partition else node
+            )
             publishers[order["topic"]] = chosen.advertise(order["topic"], StringMsg)
             say(answer=True)
         case "publish":

@@ -1,0 +1,117 @@
+import importlib
+import pickle
+import subprocess
+import sys
+
+import gz.msgs
+import pytest
+from gz.msgs import UnknownTypeError, message_class, registry, type_names
+from hypothesis import given
+from hypothesis import strategies as st
+
+
+def test_every_file_can_be_imported_and_holds_its_types():
+    found = set()
+    for stem in registry.file_stems():
+        module = importlib.import_module(f"gz.msgs.{stem}_pb2")
+        assert module.DESCRIPTOR.name == f"gz/msgs/{stem}.proto"
+        found |= {f"gz.msgs.{name}" for name in module.DESCRIPTOR.message_types_by_name}
+        for name in module.DESCRIPTOR.message_types_by_name:
+            assert getattr(module, name) is message_class(f"gz.msgs.{name}")
+    assert len(registry.file_stems()) == 76
+    assert sorted(found) == type_names()
+    assert len(found) == 78
+
+
+@pytest.mark.parametrize("name", type_names())
+def test_every_type_survives_a_round_trip(name):
+    kind = message_class(name)
+    assert kind.DESCRIPTOR.full_name == name
+    message = kind()
+    for field in kind.DESCRIPTOR.fields:
+        if field.message_type is None and not field.is_repeated:
+            default = field.default_value
+            setattr(message, field.name, {str: "x", bytes: b"x", bool: True}.get(type(default), 1))
+    assert kind.FromString(message.SerializeToString()) == message
+
+
+@pytest.mark.parametrize(
+    "name", ["gz.msgs.Twist", "gz_msgs.Twist", ".gz.msgs.Twist", "ignition.msgs.Twist", "Twist"]
+)
+def test_all_spellings_are_one_class(name):
+    from gz.msgs.twist_pb2 import Twist
+
+    assert message_class(name) is Twist
+
+
+def test_nested_types_enums_maps_and_oneofs():
+    from gz.msgs.entity_factory_pb2 import EntityFactory
+    from gz.msgs.header_pb2 import Header
+    from gz.msgs.image_pb2 import RGB_INT8, PixelFormatType
+    from gz.msgs.param_pb2 import Param
+
+    assert message_class("gz.msgs.Header.Map") is Header.Map
+    assert PixelFormatType.Name(RGB_INT8) == "RGB_INT8"
+    assert RGB_INT8 == 3
+    param = Param()
+    param.params["speed"].double_value = 0.5
+    assert Param.FromString(param.SerializeToString()).params["speed"].double_value == 0.5
+    factory = EntityFactory(sdf="<sdf/>")
+    factory.sdf_filename = "box.sdf"
+    assert factory.WhichOneof("from") == "sdf_filename"
+    assert factory.sdf == ""
+
+
+def test_the_bytes_are_those_of_gazebo():
+    from gz.msgs.laserscan_pb2 import LaserScan
+    from gz.msgs.twist_pb2 import Twist
+
+    twist = Twist()
+    twist.linear.x = 1.5
+    assert twist.SerializeToString().hex() == "12091100000000000" + "0f83f"
+    scan = LaserScan(ranges=[1.0, 2.0])  # repeated numbers are packed: one tag, one length
+    assert scan.SerializeToString().hex() == "7210" + "000000000000f03f" + "0000000000000040"
+    assert pickle.loads(pickle.dumps(twist)) == twist
+
+
+def test_fields_that_are_not_described_are_kept():
+    from gz.msgs.model_pb2 import Model
+
+    data = bytes.fromhex("1203626f78") + bytes.fromhex("4a020801")  # name "box", and field 9
+    assert Model.FromString(data).SerializeToString() == data
+
+
+@pytest.mark.parametrize(
+    ("name", "nearest"),
+    [("gz.msgs.Twits", "gz.msgs.Twist"), ("gz.msgs.laserscan", "gz.msgs.LaserScan"), ("Header.Mop", "")],
+)
+def test_an_unknown_type_is_answered_with_the_nearest(name, nearest):
+    with pytest.raises(UnknownTypeError) as caught:
+        message_class(name)
+    assert repr(name) in str(caught.value)
+    assert nearest in str(caught.value)
+
+
+@given(st.text())
+def test_any_text_is_a_type_or_an_unknown_type(name):
+    try:
+        assert message_class(name).DESCRIPTOR.full_name.startswith("gz.msgs.")
+    except UnknownTypeError as error:
+        assert isinstance(error, ValueError)
+
+
+def test_a_module_that_does_not_exist_is_an_import_error():
+    with pytest.raises(ModuleNotFoundError):
+        importlib.import_module("gz.msgs.twits_pb2")
+
+
+def test_only_what_is_asked_for_is_built():
+    script = (
+        "import gz.msgs.twist_pb2, gz.msgs.registry as registry\n"
+        "assert registry._loaded == {'twist', 'header', 'time', 'vector3d'}, registry._loaded\n"
+    )
+    subprocess.run([sys.executable, "-c", script], check=True, timeout=60)
+
+
+def test_the_definitions_are_inside_the_package():
+    assert registry.PROTO_FOLDER.is_relative_to(gz.msgs.__path__[0])
