@@ -8,6 +8,7 @@ thread, Gazebo messages in the thread that delivers them (the publisher's own, o
 from __future__ import annotations
 
 import dataclasses
+import re
 import threading
 import time
 from collections.abc import Callable, Iterable
@@ -26,9 +27,17 @@ from rclpy.timer import Timer
 
 from ros_gz_bridge.echo_filter import EchoAwarePublisher, EchoFilter, GzEcho
 from ros_gz_bridge.entry import BridgeEntry, Direction
-from ros_gz_bridge.type_pairs import TypePair, find_pair
+from ros_gz_bridge.type_pairs import TypePair, UnknownPairError, find_pair
 
-__all__ = ["Bridge", "BridgeEntry", "BridgeError", "Direction", "EntryStatus", "HeaderOverrides"]
+__all__ = [
+    "Bridge",
+    "BridgeEntry",
+    "BridgeError",
+    "Direction",
+    "EntryStatus",
+    "HeaderOverrides",
+    "error_text",
+]
 
 _ECHO_MARGIN = 16
 _PUBLISHER_POLICIES = (
@@ -77,6 +86,14 @@ class EntryStatus:
     last_error: str | None = None
 
 
+@dataclass(frozen=True)
+class _Row:
+    entry: BridgeEntry
+    status: EntryStatus
+    pair: TypePair
+    ros_topic: str
+
+
 class Bridge:
     """Bridges ``entries`` between ``ros_node`` and ``gz_node`` until ``close``.
 
@@ -110,9 +127,9 @@ class Bridge:
         self._timer: Timer | None = None
         self._status = [EntryStatus(entry) for entry in self.entries]
         self._status_lock = threading.Lock()
-        pairs = self._find_pairs()
+        rows = self._checked()
         try:
-            self._set_up(pairs)
+            self._set_up(rows)
             if any(entry.lazy for entry in self.entries):
                 steady = Clock(clock_type=ClockType.STEADY_TIME)
                 self._timer = ros_node.create_timer(heartbeat, self._connect_lazy, clock=steady)
@@ -144,55 +161,42 @@ class Bridge:
             publisher.close()
         self._gz_publishers.clear()
 
-    def _find_pairs(self) -> list[TypePair]:
-        pairs, errors = [], []
-        for entry in self.entries:
+    def _checked(self) -> list[_Row]:
+        """Every entry with its pair and its topic as ROS names it, after remapping."""
+        rows, errors = [], []
+        for entry, status in zip(self.entries, self._status, strict=True):
             try:
-                pairs.append(find_pair(entry.ros_type, entry.gz_type))
-            except ValueError as error:
+                pair = find_pair(entry.ros_type, entry.gz_type)
+                rows.append(_Row(entry, status, pair, self._ros_node.resolve_topic_name(entry.ros_topic)))
+            except UnknownPairError as error:
                 errors.append(_sentence(entry, str(error)))
+            except Exception as error:
+                errors.append(_sentence(entry, f"cannot bridge {entry.ros_topic}: {error_text(error)}"))
         if errors:
             raise BridgeError(errors)
-        return pairs
+        return rows
 
-    def _set_up(self, pairs: list[TypePair]) -> None:
+    def _set_up(self, rows: list[_Row]) -> None:
         """Create every endpoint: publishers first, so that no message arrives with nowhere to go."""
-        rows = list(zip(self.entries, pairs, self._status, strict=True))
-        filters = self._echo_filters(rows)
+        filters = _echo_filters(rows)
         errors = []
-        for entry, pair, status in rows:
+        for row in rows:
             try:
-                topic = self._ros_node.resolve_topic_name(entry.ros_topic)
-                if entry.direction.to_ros:
-                    heard = tuple(own for name, own, _ in filters if name == topic)
-                    self._to_ros.append(_GzToRos(self, entry, pair, status, heard))
-                if entry.direction.to_gz:
-                    own = next((own for _, own, owner in filters if owner is entry), None)
-                    self._to_gz.append(_RosToGz(self, entry, pair, status, own))
+                if row.entry.direction.to_ros:
+                    heard_by = tuple(own for other, own in filters if other.ros_topic == row.ros_topic)
+                    self._to_ros.append(_GzToRos(self, row, heard_by))
+                if row.entry.direction.to_gz:
+                    own_filter = next((own for other, own in filters if other is row), None)
+                    self._to_gz.append(_RosToGz(self, row, own_filter))
             except Exception as error:
-                errors.append(_sentence(entry, f"cannot bridge {entry.ros_topic}: {error}"))
+                errors.append(
+                    _sentence(row.entry, f"cannot bridge {row.entry.ros_topic}: {error_text(error)}")
+                )
         if errors:
             raise BridgeError(errors)
         for link in self._links():
             if not link.entry.lazy:
                 link.connect()
-
-    def _echo_filters(
-        self, rows: list[tuple[BridgeEntry, TypePair, EntryStatus]]
-    ) -> list[tuple[str, EchoFilter, BridgeEntry]]:
-        """A filter for every ROS subscription on a topic this bridge publishes too."""
-        published: dict[str, int] = {}
-        for entry in self.entries:
-            if entry.direction.to_ros:
-                topic = self._ros_node.resolve_topic_name(entry.ros_topic)
-                published[topic] = published.get(topic, 0) + entry.publisher_queue
-        filters = []
-        for entry, pair, _ in rows:
-            topic = self._ros_node.resolve_topic_name(entry.ros_topic)
-            if entry.direction.to_gz and topic in published:
-                capacity = published[topic] + entry.subscriber_queue + _ECHO_MARGIN
-                filters.append((topic, EchoFilter(_content_of(pair), capacity), entry))
-        return filters
 
     def _links(self) -> list[_GzToRos | _RosToGz]:
         return [*self._to_ros, *self._to_gz]
@@ -244,13 +248,13 @@ class Bridge:
 class _Link:
     """What both directions of an entry share: counting, and one warning for a run of bad messages."""
 
-    def __init__(self, bridge: Bridge, entry: BridgeEntry, pair: TypePair, status: EntryStatus) -> None:
-        self.entry = entry
+    def __init__(self, bridge: Bridge, row: _Row) -> None:
+        self.entry = row.entry
         self.connected = False
         self._bridge = bridge
-        self.gz_topic = bridge._gz_name(entry.gz_topic)
-        self._pair = pair
-        self._status = status
+        self.gz_topic = bridge._gz_name(row.entry.gz_topic)
+        self._pair = row.pair
+        self._status = row.status
         self._closed = False
         self._dropping = False
 
@@ -277,21 +281,14 @@ class _Link:
 class _GzToRos(_Link):
     """One entry's way from Gazebo to ROS."""
 
-    def __init__(
-        self,
-        bridge: Bridge,
-        entry: BridgeEntry,
-        pair: TypePair,
-        status: EntryStatus,
-        heard_by: tuple[EchoFilter, ...],
-    ) -> None:
-        super().__init__(bridge, entry, pair, status)
+    def __init__(self, bridge: Bridge, row: _Row, heard_by: tuple[EchoFilter, ...]) -> None:
+        super().__init__(bridge, row)
         self.subscribed = False
         self._own_listeners = len(heard_by)
         self.publisher = bridge._ros_node.create_publisher(
-            pair.ros_class,
-            entry.ros_topic,
-            QoSProfile(depth=entry.publisher_queue),
+            row.pair.ros_class,
+            row.entry.ros_topic,
+            QoSProfile(depth=row.entry.publisher_queue),
             qos_overriding_options=QoSOverridingOptions(_PUBLISHER_POLICIES),
             publisher_class=EchoAwarePublisher if heard_by else Publisher,
         )
@@ -361,17 +358,10 @@ class _GzToRos(_Link):
 class _RosToGz(_Link):
     """One entry's way from ROS to Gazebo."""
 
-    def __init__(
-        self,
-        bridge: Bridge,
-        entry: BridgeEntry,
-        pair: TypePair,
-        status: EntryStatus,
-        echo_filter: EchoFilter | None,
-    ) -> None:
-        super().__init__(bridge, entry, pair, status)
+    def __init__(self, bridge: Bridge, row: _Row, echo_filter: EchoFilter | None) -> None:
+        super().__init__(bridge, row)
         self._echo_filter = echo_filter
-        self._publisher = bridge._gz_publisher(entry.gz_topic, pair)
+        self._publisher = bridge._gz_publisher(row.entry.gz_topic, row.pair)
         self.subscription: Any = None
 
     def wanted(self) -> bool:
@@ -437,6 +427,24 @@ def _publish_now(publisher: Publisher, message: Any) -> None:
     publisher.publish(message)
 
 
+def _echo_filters(rows: list[_Row]) -> list[tuple[_Row, EchoFilter]]:
+    """A filter for every entry that listens to a ROS topic which one of the entries publishes."""
+    depths: dict[str, int] = {}
+    for row in rows:
+        if row.entry.direction.to_ros:
+            depths[row.ros_topic] = depths.get(row.ros_topic, 0) + row.entry.publisher_queue
+    return [
+        (
+            row,
+            EchoFilter(
+                _content_of(row.pair), depths[row.ros_topic] + row.entry.subscriber_queue + _ECHO_MARGIN
+            ),
+        )
+        for row in rows
+        if row.entry.direction.to_gz and row.ros_topic in depths
+    ]
+
+
 def _content_of(pair: TypePair) -> Callable[[Any], bytes]:
     """The bytes by which an echo filter compares ROS messages: what would be sent to Gazebo."""
 
@@ -447,6 +455,11 @@ def _content_of(pair: TypePair) -> Callable[[Any], bytes]:
             return b""
 
     return content
+
+
+def error_text(error: BaseException) -> str:
+    """The text of an error in one line, without the places in ROS's C sources that it may carry."""
+    return re.sub(r", at /\S+:\d+", "", " ".join(str(error).split())) or type(error).__name__
 
 
 def _sentence(entry: BridgeEntry, text: str) -> str:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import difflib
 import os
-import re
 import signal
 import sys
 import threading
@@ -64,7 +63,8 @@ class _UsageError(Exception):
 
 def main(argv: list[str] | None = None) -> int:
     """Run the bridge until SIGINT or SIGTERM: exit code 0; 2 if it could not start, 1 if it broke."""
-    # Signals are blocked in every thread and fetched by one sigwait: none is lost in a library's wait set, none
+    # Signals are blocked in every thread and fetched by one sigwait: none is lost in a library's wait set,
+    # none
     # strikes in the middle of setting up, and one ignored by the parent (a shell's '&') is heard again.
     signal.pthread_sigmask(signal.SIG_BLOCK, _STOP_SIGNALS)
     for number in _STOP_SIGNALS:
@@ -87,6 +87,7 @@ def _run(argv: list[str]) -> int:
     from rclpy.signals import SignalHandlerOptions
     from rclpy.utilities import remove_ros_args
 
+    from ros_gz_bridge.bridge import error_text
     from ros_gz_bridge.config import ConfigError, parse_arguments
 
     context = rclpy.Context()
@@ -99,7 +100,7 @@ def _run(argv: list[str]) -> int:
     except rclpy_implementation.UnknownROSArgsError as error:
         raise _UsageError([f"ROS does not know these arguments after --ros-args: {error}"]) from None
     except Exception as error:
-        raise _UsageError([f"ROS did not start: {_one_line(error)}"]) from None
+        raise _UsageError([f"ROS did not start: {error_text(error)}"]) from None
     try:
         node = rclpy.create_node(
             "ros_gz_bridge", context=context, automatically_declare_parameters_from_overrides=True
@@ -122,8 +123,6 @@ def _bridge(node: Node, entries: list[BridgeEntry]) -> int:
     parameters = _read_parameters(node)
     entries = _all_entries(entries, parameters)
     logger = node.get_logger()
-    for sentence in [*_parameter_advice(node, entries), *_entry_advice(entries)]:
-        logger.warning(sentence)
     overrides = HeaderOverrides(
         frame_id=parameters["override_frame_id"], wall_time=parameters["override_timestamps_with_wall_time"]
     )
@@ -140,6 +139,8 @@ def _bridge(node: Node, entries: list[BridgeEntry]) -> int:
             )
         except BridgeError as error:
             raise _UsageError(error.errors) from None
+        for sentence in [*_parameter_advice(node, entries), *_entry_advice(entries)]:
+            logger.warning(sentence)
         executor = SingleThreadedExecutor(context=node.context)
         executor.add_node(node)
         spinner = _Spinner(executor)
@@ -164,13 +165,15 @@ class _Spinner(threading.Thread):
         """Spin until the executor is shut down."""
         from rclpy.executors import ExternalShutdownException, ShutdownException
 
+        from ros_gz_bridge.bridge import error_text
+
         try:
             self._executor.spin()
         except (ExternalShutdownException, ShutdownException):
             pass
         except Exception as error:
             self.broken = True
-            print(f"parameter_bridge: the ROS executor broke: {_one_line(error)}", file=sys.stderr)
+            print(f"parameter_bridge: the ROS executor broke: {error_text(error)}", file=sys.stderr)
             os.kill(os.getpid(), signal.SIGTERM)
 
 
@@ -250,7 +253,8 @@ def _entry_advice(entries: list[BridgeEntry]) -> Iterator[str]:
     for entry in entries:
         if entry.ros_type == "rosgraph_msgs/msg/Clock" and entry.direction is not Direction.GZ_TO_ROS:
             yield (
-                f"{entry.source}: publishes {entry.gz_topic} in Gazebo too, and Gazebo then keeps its own clock "
+                f"{entry.source}: publishes {entry.gz_topic} in Gazebo too, and Gazebo then keeps its "
+                "own clock "
                 "off that topic; bridge a clock from Gazebo to ROS only ([ or direction: GZ_TO_ROS)"
             )
 
@@ -263,11 +267,6 @@ def _creation_lines(entries: list[BridgeEntry]) -> Iterator[str]:
             yield f"Creating GZ->ROS Bridge: [{gz} -> {ros}] (Lazy {int(entry.lazy)})"
         if entry.direction.to_gz:
             yield f"Creating ROS->GZ Bridge: [{ros} -> {gz}] (Lazy {int(entry.lazy)})"
-
-
-def _one_line(error: BaseException) -> str:
-    """The text of an error of ROS without the places in its C sources."""
-    return re.sub(r", at /\S+:\d+", "", " ".join(str(error).split())) or type(error).__name__
 
 
 if __name__ == "__main__":

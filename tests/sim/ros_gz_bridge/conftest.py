@@ -5,8 +5,14 @@ import socket
 import threading
 import time
 import uuid
+import warnings
 
 import pytest
+
+with warnings.catch_warnings():
+    # The parser that ROS's message packages bring along (lark) still imports a deprecated module.
+    warnings.simplefilter("ignore", DeprecationWarning)
+    import rosidl_generator_py  # noqa: F401
 
 DEADLINE = 20.0
 

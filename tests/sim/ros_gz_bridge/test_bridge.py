@@ -1,0 +1,318 @@
+"""The running bridge, over real DDS and a Gazebo node of this process."""
+
+import math
+import uuid
+
+import pytest
+from geometry_msgs.msg import Twist, TwistStamped
+from gz.msgs.clock_pb2 import Clock as GzClock
+from gz.msgs.image_pb2 import Image as GzImage
+from gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
+from gz.msgs.twist_pb2 import Twist as GzTwist
+from gz.transport import Node, NodeOptions, Scope
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from ros_gz_bridge.bridge import Bridge, BridgeEntry, BridgeError, Direction, HeaderOverrides
+from ros_gz_bridge.config import parse_argument
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import Image, LaserScan
+
+TWIST = ("geometry_msgs/msg/Twist", "gz.msgs.Twist")
+SCAN = ("sensor_msgs/msg/LaserScan", "gz.msgs.LaserScan")
+
+
+class Stage:
+    """A node for the bridge, one for the test, and the same on the Gazebo side; topics of its own."""
+
+    def __init__(self, ros, eventually):
+        self.topic = f"/t{uuid.uuid4().hex}"
+        self.ros = ros
+        self.node = ros.new_node()
+        options = NodeOptions(partition=uuid.uuid4().hex, scope=Scope.PROCESS)
+        self.gz_bridge, self.gz = Node(options), Node(options)
+        self._eventually = eventually
+        self._ours = []
+        self._bridges = []
+
+    def bridge(self, *entries, **options):
+        bridge = Bridge(self.node, self.gz_bridge, entries, **options)
+        self._bridges.append(bridge)
+        return bridge
+
+    def entry(self, types=TWIST, direction=Direction.BIDIRECTIONAL, **options):
+        return BridgeEntry(self.topic, self.topic, *types, direction, **options)
+
+    def ros_publisher(self, ros_class, listeners=1):
+        publisher = self.ros.node.create_publisher(ros_class, self.topic, 10)
+        self._ours.append(lambda: self.ros.node.destroy_publisher(publisher))
+        self._eventually(lambda: publisher.get_subscription_count() >= listeners, "the bridge listens to ROS")
+        return publisher
+
+    def ros_subscription(self, ros_class, callback, qos=10):
+        subscription = self.ros.node.create_subscription(ros_class, self.topic, callback, qos)
+        self._ours.append(lambda: self.ros.node.destroy_subscription(subscription))
+        self._eventually(lambda: subscription.get_publisher_count() >= 1, "the bridge publishes to ROS")
+        return subscription
+
+    def close(self):
+        for bridge in self._bridges:
+            bridge.close()
+        for destroy in self._ours:
+            destroy()
+        self.ros.drop_node(self.node)
+        self.gz.close()
+        self.gz_bridge.close()
+
+
+@pytest.fixture
+def stage(ros, eventually):
+    new = Stage(ros, eventually)
+    yield new
+    new.close()
+
+
+def test_a_command_reaches_gazebo(stage, inbox):
+    bridge = stage.bridge(stage.entry(direction=Direction.ROS_TO_GZ))
+    commands = inbox()
+    stage.gz.subscribe(GzTwist, stage.topic, commands)
+    twist = Twist()
+    twist.linear.x, twist.angular.z = 0.5, -0.25
+    stage.ros_publisher(Twist).publish(twist)
+    (command,) = commands.wait(1)
+    assert (command.linear.x, command.angular.z) == (0.5, -0.25)
+    (status,) = bridge.status()
+    assert (status.ros_to_gz, status.gz_to_ros, status.dropped, status.last_error) == (1, 0, 0, None)
+
+
+@pytest.mark.parametrize("reliability", [ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT])
+def test_a_scan_reaches_both_kinds_of_ros_subscriber(stage, inbox, eventually, reliability):
+    bridge = stage.bridge(stage.entry(SCAN, Direction.GZ_TO_ROS))
+    scans = inbox()
+    stage.ros_subscription(LaserScan, scans, QoSProfile(depth=10, reliability=reliability))
+    to_ros = bridge._to_ros[0].publisher
+    eventually(lambda: to_ros.get_subscription_count() == 1, "the bridge knows its subscriber")
+    stage.gz.advertise(stage.topic, GzLaserScan).publish(
+        GzLaserScan(frame="robot::lidar", count=2, ranges=[1.0, math.inf], angle_step=0.5)
+    )
+    (scan,) = scans.wait(1)
+    assert (scan.header.frame_id, list(scan.ranges), scan.angle_increment) == (
+        "robot/lidar",
+        [1.0, math.inf],
+        0.5,
+    )
+    assert bridge.status()[0].gz_to_ros == 1
+
+
+def test_conversion_to_ros_is_done_before_gz_publish_returns(stage):
+    held = []
+    stage.bridge(
+        stage.entry(("rosgraph_msgs/msg/Clock", "gz.msgs.Clock"), Direction.GZ_TO_ROS),
+        publish=lambda publisher, message: held.append((publisher, message)),
+    )
+    clock = GzClock()
+    clock.sim.sec = 7
+    stage.gz.advertise(stage.topic, GzClock).publish(clock)
+    ((publisher, message),) = held
+    assert (publisher.topic_name, type(message), message.clock.sec) == (stage.topic, Clock, 7)
+
+
+def test_a_command_that_is_not_finite_is_dropped_counted_and_reported_once_a_burst(
+    stage, inbox, eventually, capfd
+):
+    bridge = stage.bridge(stage.entry(direction=Direction.ROS_TO_GZ))
+    commands = inbox()
+    stage.gz.subscribe(GzTwist, stage.topic, commands)
+    publisher = stage.ros_publisher(Twist)
+    bad, good = Twist(), Twist()
+    bad.angular.z = math.nan
+    for burst in (1, 2):
+        for number in range(3):
+            publisher.publish(bad)
+            eventually(
+                lambda wanted=3 * burst - 2 + number: bridge.status()[0].dropped == wanted,
+                "the command is counted",
+            )
+        publisher.publish(good)
+        commands.wait(burst)
+    (status,) = bridge.status()
+    assert (status.dropped, status.ros_to_gz, len(commands.messages)) == (6, 2, 2)
+    assert status.last_error.startswith(
+        f"geometry_msgs/msg/Twist on {stage.topic} was not bridged: angular.z is nan"
+    )
+    warnings = [line for line in capfd.readouterr().err.splitlines() if "[WARN]" in line]
+    assert len(warnings) == 2
+    assert all(stage.topic in line and "angular.z is nan" in line for line in warnings)
+
+
+def test_a_message_that_cannot_be_converted_is_dropped_with_its_reason(stage):
+    bridge = stage.bridge(stage.entry(("sensor_msgs/msg/Image", "gz.msgs.Image"), Direction.GZ_TO_ROS))
+    publisher = stage.gz.advertise(stage.topic, GzImage)
+    publisher.publish(GzImage(pixel_format_type="RGB_FLOAT32"))
+    publisher.publish(GzImage(width=1, height=1, step=1, pixel_format_type="L_INT8", data=b"x"))
+    (status,) = bridge.status()
+    assert (status.dropped, status.gz_to_ros) == (1, 1)
+    assert (
+        f"gz.msgs.Image on {stage.topic} was not bridged: the pixel format RGB_FLOAT32" in status.last_error
+    )
+
+
+def test_both_ways_without_echo_and_without_losing_repeats(stage, inbox, eventually):
+    bridge = stage.bridge(stage.entry())
+    at_gz, at_ros = inbox(), inbox()
+    stage.gz.subscribe(GzTwist, stage.topic, at_gz)
+    stage.ros_subscription(Twist, at_ros)
+    from_ros, from_gz = stage.ros_publisher(Twist, listeners=2), stage.gz.advertise(stage.topic, GzTwist)
+    eventually(
+        lambda: bridge._to_ros[0].publisher.get_subscription_count() == 2, "the bridge sees both listeners"
+    )
+    rounds = 40
+    for number in range(1, rounds + 1):
+        from_gz.publish(GzTwist())
+        from_ros.publish(Twist())
+        at_gz.wait(2 * number)
+        at_ros.wait(2 * number)
+        eventually(
+            lambda wanted=2 * number: bridge.status()[0].echoes == wanted, "both echoes are recognised"
+        )
+    (status,) = bridge.status()
+    assert (status.ros_to_gz, status.gz_to_ros, status.dropped) == (rounds, rounds, 0)
+    assert (len(at_gz.messages), len(at_ros.messages)) == (2 * rounds, 2 * rounds)
+
+
+def test_an_echo_is_recognised_when_the_owner_releases_the_message_later(stage, eventually):
+    held = []
+    bridge = stage.bridge(stage.entry(), publish=lambda publisher, message: held.append((publisher, message)))
+    from_gz = stage.gz.advertise(stage.topic, GzTwist)
+    eventually(lambda: bridge._to_ros[0].publisher.get_subscription_count() == 1, "the bridge hears itself")
+    for number in range(1, 6):
+        from_gz.publish(GzTwist())
+        publisher, message = held.pop()
+        publisher.publish(message)
+        eventually(lambda wanted=number: bridge.status()[0].echoes == wanted, "the echo is recognised")
+    assert bridge.status()[0].ros_to_gz == 0
+
+
+def test_two_opposite_entries_do_not_circulate(stage, inbox, eventually):
+    bridge = stage.bridge(
+        stage.entry(direction=Direction.GZ_TO_ROS), stage.entry(direction=Direction.ROS_TO_GZ)
+    )
+    at_ros = inbox()
+    stage.ros_subscription(Twist, at_ros)
+    eventually(
+        lambda: bridge._to_ros[0].publisher.get_subscription_count() == 2, "the bridge sees both listeners"
+    )
+    stage.gz.advertise(stage.topic, GzTwist).publish(GzTwist())
+    at_ros.wait(1)
+    eventually(lambda: bridge.status()[1].echoes == 1, "the echo is recognised")
+    assert [status.ros_to_gz for status in bridge.status()] == [0, 0]
+
+
+def test_frame_and_stamp_can_be_overridden(stage):
+    held = []
+    own = stage.entry(SCAN, Direction.GZ_TO_ROS, frame_id="own")
+    general = BridgeEntry(f"{stage.topic}/b", stage.topic, *SCAN, Direction.GZ_TO_ROS)
+    stage.bridge(
+        own,
+        general,
+        publish=lambda _, message: held.append(message),
+        overrides=HeaderOverrides(frame_id="general", wall_time=True),
+    )
+    stage.gz.advertise(stage.topic, GzLaserScan).publish(GzLaserScan(frame="lidar"))
+    assert sorted(scan.header.frame_id for scan in held) == ["general", "own"]
+    assert all(scan.header.stamp.sec > 1_600_000_000 for scan in held)
+
+
+def test_a_lazy_bridge_listens_only_while_somebody_listens_to_it(stage, inbox, eventually):
+    bridge = stage.bridge(stage.entry(SCAN, Direction.GZ_TO_ROS, lazy=True), heartbeat=0.02)
+    publisher = stage.gz.advertise(stage.topic, GzLaserScan)
+    assert not publisher.has_connections()
+    subscription = stage.ros_subscription(LaserScan, inbox())
+    eventually(publisher.has_connections, "the bridge connects")
+    stage.ros.node.destroy_subscription(subscription)
+    eventually(lambda: not publisher.has_connections(), "the bridge disconnects")
+    bridge.close()
+    assert not list(stage.node.timers)
+
+
+def test_a_lazy_bridge_to_gazebo_listens_only_while_somebody_listens_to_it(stage, inbox, eventually):
+    stage.bridge(stage.entry(direction=Direction.ROS_TO_GZ, lazy=True), heartbeat=0.02)
+    commands = inbox()
+    publisher = stage.ros_publisher(Twist, listeners=0)
+    assert publisher.get_subscription_count() == 0
+    stage.gz.subscribe(GzTwist, stage.topic, commands)
+    eventually(lambda: publisher.get_subscription_count() == 1, "the bridge connects")
+    publisher.publish(Twist())
+    commands.wait(1)
+    stage.gz.unsubscribe(stage.topic)
+    eventually(lambda: publisher.get_subscription_count() == 0, "the bridge disconnects")
+
+
+def endpoints(stage):
+    return (
+        len(list(stage.node.publishers)),
+        len(list(stage.node.subscriptions)),
+        len(list(stage.node.timers)),
+        stage.gz_bridge.advertised_topics(),
+        stage.gz_bridge.subscribed_topics(),
+    )
+
+
+def test_close_gives_everything_back_and_a_new_bridge_works(stage, inbox):
+    before = endpoints(stage)
+    entries = [stage.entry(lazy=True), BridgeEntry(f"{stage.topic}/s", f"{stage.topic}/s", *SCAN)]
+    for _ in range(3):
+        with stage.bridge(*entries) as bridge:
+            assert endpoints(stage) != before
+        bridge.close()
+        assert endpoints(stage) == before
+    commands = inbox()
+    stage.gz.subscribe(GzTwist, stage.topic, commands)
+    stage.gz.advertise(stage.topic, GzTwist).publish(GzTwist())
+    assert bridge.status()[0].gz_to_ros == 0
+    stage.bridge(stage.entry(direction=Direction.ROS_TO_GZ))
+    stage.ros_publisher(Twist).publish(Twist())
+    commands.wait(2)
+
+
+def test_two_entries_may_share_a_gazebo_topic(stage):
+    held = []
+    bridge = stage.bridge(
+        stage.entry(direction=Direction.GZ_TO_ROS),
+        BridgeEntry(f"{stage.topic}/s", stage.topic, "geometry_msgs/msg/TwistStamped", "gz.msgs.Twist"),
+        BridgeEntry(f"{stage.topic}/third", stage.topic, *TWIST, Direction.ROS_TO_GZ),
+        publish=lambda _, message: held.append(type(message)),
+    )
+    stage.gz.advertise(stage.topic, GzTwist).publish(GzTwist())
+    assert sorted(held, key=str) == [Twist, TwistStamped]
+    assert [status.gz_to_ros for status in bridge.status()] == [1, 1, 0]
+
+
+def test_entries_that_cannot_work_are_all_named_and_nothing_stays(stage):
+    before = endpoints(stage)
+    wrong = BridgeEntry("/a", "/a", "std_msgs/msg/Bol", "gz.msgs.Boolean", source="b.yaml:1")
+    also = BridgeEntry("/b", "/b", "std_msgs/msg/Bool", "gz.msgs.Bolean", source="b.yaml:9")
+    with pytest.raises(BridgeError) as caught:
+        stage.bridge(stage.entry(), wrong, also)
+    assert [sentence.split(": ")[0] for sentence in caught.value.errors] == ["b.yaml:1", "b.yaml:9"]
+    with pytest.raises(BridgeError, match="carries gz.msgs.Twist already, not gz.msgs.LaserScan"):
+        stage.bridge(
+            stage.entry(direction=Direction.ROS_TO_GZ),
+            BridgeEntry("/other", stage.topic, *SCAN, Direction.ROS_TO_GZ, source="b.yaml:3"),
+        )
+    with pytest.raises(BridgeError, match=r"b\.yaml:4: cannot bridge /1a"):
+        stage.bridge(stage.entry(), BridgeEntry("/1a", "/a", *TWIST, source="b.yaml:4"))
+    assert endpoints(stage) == before
+
+
+def test_an_entry_from_the_command_line_runs(stage, inbox, eventually):
+    bridge = stage.bridge(parse_argument(f"{stage.topic}@sensor_msgs/msg/Image[gz.msgs.Image"))
+    images = inbox()
+    stage.ros_subscription(Image, images)
+    eventually(
+        lambda: bridge._to_ros[0].publisher.get_subscription_count() == 1, "the bridge knows its subscriber"
+    )
+    pixels = bytes(range(12))
+    stage.gz.advertise(stage.topic, GzImage).publish(
+        GzImage(width=2, height=2, step=6, pixel_format_type="RGB_INT8", data=pixels)
+    )
+    (image,) = images.wait(1)
+    assert (image.encoding, image.step, bytes(image.data)) == ("rgb8", 6, pixels)

@@ -1,0 +1,251 @@
+"""parameter_bridge as an ordinary process, between a Gazebo node and a ROS node of this one."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import threading
+
+import pytest
+from geometry_msgs.msg import Twist
+from gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
+from gz.msgs.twist_pb2 import Twist as GzTwist
+from gz.transport import Node
+from sensor_msgs.msg import LaserScan
+
+DEADLINE = 20.0
+COMMAND = [sys.executable, "-m", "ros_gz_bridge.parameter_bridge"]
+
+
+class Process:
+    """A running parameter_bridge whose log is read as it comes."""
+
+    def __init__(self, *arguments, command=COMMAND):
+        self.process = subprocess.Popen(
+            [*command, *arguments],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+        )
+        self.lines = []
+        self._changed = threading.Condition()
+        self._reader = threading.Thread(target=self._read)
+        self._reader.start()
+
+    def _read(self):
+        for line in self.process.stderr:
+            with self._changed:
+                self.lines.append(line.rstrip())
+                self._changed.notify_all()
+        self.process.stderr.close()
+
+    def wait_for(self, words):
+        with self._changed:
+            found = self._changed.wait_for(lambda: any(words in line for line in self.lines), DEADLINE)
+            assert found, f"no {words!r} in {self.lines}"
+
+    def stop(self, number=signal.SIGINT):
+        """Send a signal and return the exit code."""
+        os.killpg(self.process.pid, number)
+        code = self.process.wait(DEADLINE)
+        self._reader.join(DEADLINE)
+        return code
+
+    def end(self):
+        if self.process.poll() is None:
+            os.killpg(self.process.pid, signal.SIGKILL)
+            self.process.wait(DEADLINE)
+        self._reader.join(DEADLINE)
+
+
+@pytest.fixture
+def start(ros_domain):
+    running = []
+
+    def run(*arguments, **options):
+        running.append(Process(*arguments, **options))
+        return running[-1]
+
+    yield run
+    for process in running:
+        process.end()
+
+
+def run(*arguments):
+    return subprocess.run([*COMMAND, *arguments], capture_output=True, text=True, timeout=60, check=False)
+
+
+CONFIG = """\
+- ros_topic_name: /base/cmd_vel
+  gz_topic_name: /model/robot/cmd_vel
+  ros_type_name: geometry_msgs/msg/Twist
+  gz_type_name: gz.msgs.Twist
+  direction: ROS_TO_GZ
+- ros_topic_name: /base/scan
+  gz_topic_name: /lidar
+  ros_type_name: sensor_msgs/msg/LaserScan
+  gz_type_name: gz.msgs.LaserScan
+  direction: GZ_TO_ROS
+"""
+
+
+@pytest.fixture(params=["arguments", "file"])
+def bridged(request, start, tmp_path):
+    """(process, ROS command topic, gz command topic, ROS scan topic, gz scan topic) for both ways to configure."""
+    if request.param == "file":
+        file = tmp_path / "bridge.yaml"
+        file.write_text(CONFIG)
+        process = start("--ros-args", "-p", f"config_file:={file}")
+        topics = ("/base/cmd_vel", "/model/robot/cmd_vel", "/base/scan", "/lidar")
+    else:
+        process = start(
+            "/go@geometry_msgs/msg/Twist]gz.msgs.Twist",
+            "/scan@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan",
+            "--ros-args",
+            "-r",
+            "/go:=/renamed",
+        )
+        topics = ("/renamed", "/go", "/scan", "/scan")
+    process.wait_for("ready: 2 bridges")
+    return (process, *topics)
+
+
+def test_messages_pass_both_ways(bridged, ros, inbox, eventually):
+    process, ros_command, gz_command, ros_scan, gz_scan = bridged
+    commands, scans = inbox(), inbox()
+    publisher = ros.node.create_publisher(Twist, ros_command, 10)
+    subscription = ros.node.create_subscription(LaserScan, ros_scan, scans, 10)
+    try:
+        with Node() as gz:
+            gz.subscribe(GzTwist, gz_command, commands)
+            gz_publisher = gz.advertise(gz_scan, GzLaserScan)
+            assert gz_publisher.wait_for_subscribers(timeout=DEADLINE)
+            eventually(lambda: publisher.get_subscription_count() == 1, "the bridge listens to ROS")
+            eventually(lambda: subscription.get_publisher_count() == 1, "the bridge publishes to ROS")
+            twist = Twist()
+            twist.linear.x = 1.5
+            # Discovery is one-sided for a moment: the first messages may find the other end not yet listening.
+            sent = iter(range(1000))
+            eventually(
+                lambda: publisher.publish(twist) or next(sent) > 0 and commands.messages, "a command arrives"
+            )
+            scan = GzLaserScan(frame="a::b", count=1, ranges=[2.5])
+            eventually(lambda: gz_publisher.publish(scan) and scans.messages, "a scan arrives")
+    finally:
+        ros.node.destroy_publisher(publisher)
+        ros.node.destroy_subscription(subscription)
+    assert commands.messages[0].linear.x == 1.5
+    assert (scans.messages[0].header.frame_id, list(scans.messages[0].ranges)) == ("a/b", [2.5])
+    process.wait_for(
+        "Passing message from ROS geometry_msgs/msg/Twist to Gazebo gz.msgs.Twist (showing msg only once"
+    )
+    assert process.stop() == 0
+    log = "\n".join(process.lines)
+    assert f"Creating ROS->GZ Bridge: [{'/go' if gz_command == '/go' else ros_command} (geometry_msgs" in log
+    assert re.search(
+        rf"Creating GZ->ROS Bridge: \[{gz_scan} \(gz.msgs.LaserScan\) -> {ros_scan} \(sensor_msgs", log
+    )
+    assert "Traceback" not in log
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("moment", ["Creating", "ready: 1 bridge"])
+def test_a_signal_ends_it_cleanly_at_any_moment(start, number, moment):
+    process = start("/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock")
+    process.wait_for(moment)
+    assert process.stop(number) == 0
+    assert not [line for line in process.lines if "Traceback" in line or "rror" in line]
+
+
+def test_an_interrupt_ignored_by_the_parent_still_ends_it(start):
+    shell = ["sh", "-c", 'trap "" INT; exec "$@"', "sh", *COMMAND]
+    process = start("/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock", command=shell)
+    process.wait_for("ready: 1 bridge")
+    assert process.stop(signal.SIGINT) == 0
+
+
+def test_the_command_is_installed_under_its_name(start):
+    process = start(
+        "/clock@rosgraph_msgs/msg/Clock@gz.msgs.Clock",
+        command=[os.path.join(sys.prefix, "bin", "parameter_bridge")],
+    )
+    process.wait_for("ready: 1 bridge")
+    process.wait_for("bridge a clock from Gazebo to ROS only")
+    assert process.stop() == 0
+
+
+def test_parameters_that_change_nothing_are_named(start):
+    process = start(
+        "/odom@nav_msgs/msg/Odometry[gz.msgs.Odometry",
+        *("--ros-args", "-p", "confg_file:=x", "-p", "qos_overrides./odm.publisher.depth:=3"),
+        *("-p", "qos_overrides./odom.publisher.depth:=3", "-p", "override_frame_id:=map"),
+    )
+    process.wait_for("ready: 1 bridge")
+    warnings = [line.split("]: ", 1)[1] for line in process.lines if "[WARN]" in line]
+    assert warnings == [
+        "the parameter confg_file is not known here and changes nothing; did you mean config_file?",
+        "the parameter qos_overrides./odm.publisher.depth names no endpoint of this bridge and changes nothing; "
+        "did you mean qos_overrides./odom.publisher.depth?",
+    ]
+    assert process.stop() == 0
+
+
+def test_without_arguments_it_explains_itself(ros_domain):
+    done = run()
+    assert done.stdout.startswith("usage: parameter_bridge TOPIC@ROS_TYPE@GZ_TYPE")
+    assert (done.returncode, done.stderr) == (2, "")
+    assert run("--help").returncode == 0
+
+
+def test_every_fault_is_listed_without_traceback(ros_domain, tmp_path):
+    done = run("/a@std_msgs/String@gz.msgs.StringMsg", "/b@std_msgs/msg/Bool", "c")
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert len(done.stderr.splitlines()) == 3
+    assert all(line.startswith("parameter_bridge: argument '") for line in done.stderr.splitlines())
+
+
+GOOD = "/a@std_msgs/msg/Bool@gz.msgs.Boolean"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--ros-args", "-p", "config_file:=/none.yaml"], "/none.yaml: cannot read the bridge configuration"),
+        (
+            ["--ros-args", "-p", "lazy:=true"],
+            "nothing to bridge; give bridges as arguments or -p config_file:=FILE",
+        ),
+        ([GOOD, "--ros-args", "-p", "lazy:=3"], "the parameter lazy must be true or false, not 3"),
+        ([GOOD, "--ros-args", "-p", "subscription_heartbeat:=0"], "must be a number of ms above 0, not 0"),
+        (
+            [GOOD, "--ros-args", "-p", "config_file:=x.yaml"],
+            "bridges are given on the command line and in x.yaml",
+        ),
+        (
+            [GOOD, "--ros-args", "--nonsense"],
+            "ROS does not know these arguments after --ros-args: ['--nonsense']",
+        ),
+        (["/{x}@std_msgs/msg/Bool@gz.msgs.Boolean"], "cannot bridge /{x}: failed to resolve name"),
+        ([GOOD, "--ros-args", "-r", ":="], "ROS did not start: Failed to parse ROS arguments"),
+    ],
+)
+def test_a_start_that_fails_says_why_in_one_sentence(ros_domain, arguments, words):
+    done = run(*arguments)
+    assert done.returncode == 2
+    *_, line = done.stderr.splitlines()
+    assert "Traceback" not in done.stderr
+    assert line.startswith("parameter_bridge: ")
+    assert words in line
+
+
+def test_a_broken_file_lists_all_its_faults(ros_domain, tmp_path):
+    file = tmp_path / "b.yaml"
+    file.write_text(CONFIG.replace("direction", "directon").replace("gz.msgs.Twist", "gz.msgs.Twit"))
+    done = run("--ros-args", "-p", f"config_file:={file}")
+    assert done.returncode == 2
+    places = [line.split(": ")[1] for line in done.stderr.splitlines()]
+    assert places == [f"{file}:5", f"{file}:3", f"{file}:10"]
