@@ -1,0 +1,41 @@
+"""What the tests of the simulator share: small worlds as text, and nodes that never leave the process."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import pytest
+
+from gz.sim.world import World
+from gz.transport import Node, NodeOptions, Scope
+
+PLUGINS = """
+<plugin filename="gz-sim-physics-system" name="gz::sim::systems::Physics"/>
+<plugin filename="gz-sim-sensors-system" name="gz::sim::systems::Sensors"/>
+"""
+
+
+@pytest.fixture
+def world_text() -> Callable[..., str]:
+    """Wraps the inside of a <world> into an SDF text."""
+
+    def wrap(inside: str, *, version: str = "1.10", step: float = 0.001) -> str:
+        physics = f"<physics type='x'><max_step_size>{step}</max_step_size></physics>"
+        return f"<sdf version='{version}'><world name='w'>{physics}{PLUGINS}{inside}</world></sdf>"
+
+    return wrap
+
+
+@pytest.fixture
+def load_text(world_text: Callable[..., str]) -> Callable[..., World]:
+    def load(inside: str, **options: object) -> World:
+        wrapping = {key: options.pop(key) for key in ("version", "step") if key in options}
+        return World.from_string(world_text(inside, **wrapping), **options)  # type: ignore[arg-type]
+
+    return load
+
+
+@pytest.fixture
+def node() -> Iterator[Node]:
+    with Node(NodeOptions(scope=Scope.PROCESS)) as made:
+        yield made

@@ -1,0 +1,96 @@
+"""XML as Gazebo reads it: lenient where tinyxml2 is, exact about lines, one sentence when it is broken."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from gz.sim.errors import SdfError
+from gz.sim.sdf.element import Element, parse
+
+
+def test_what_strict_parsers_refuse_is_read_with_its_lines() -> None:
+    text = "\n  \n<?xml version='1.0'?>\n<!-- a -- b\n gz service --req 'x' -->\n<sdf version='1.9'>\n<world name='w' gz:x='1'>\n<gz:policies/>\n</world></sdf>"
+    root = parse(text, "demo.sdf")
+    world = root.find("world")
+    assert world is not None and world.where == "demo.sdf:7"
+    assert world.children[0].tag == "gz:policies" and world.children[0].line == 8
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        ("<sdf>\n<world>\n</sdf>", 3),
+        ("<sdf>\n<world name=w/></sdf>", 2),
+        ("", 1),
+        ("<sdf>", 1),
+        ("no xml at all", 1),
+        ("<sdf>&#0;</sdf>", 1),
+    ],
+)
+def test_malformed_xml_is_one_sentence_with_the_line(text: str, line: int) -> None:
+    with pytest.raises(SdfError) as caught:
+        parse(text, "broken.sdf")
+    message = str(caught.value)
+    assert message.startswith(f"broken.sdf:{line}: ") and "well-formed" in message and "\n" not in message
+
+
+def test_an_entity_bomb_does_not_go_off() -> None:
+    text = "<!DOCTYPE x [<!ENTITY a 'aaaa'><!ENTITY b '&a;&a;'>]><sdf>&b;</sdf>"
+    with pytest.raises(SdfError):
+        parse(text)
+
+
+@given(st.text())
+def test_any_text_is_read_or_refused_with_a_sentence(text: str) -> None:
+    try:
+        assert isinstance(parse(text, "f"), Element)
+    except SdfError as error:
+        assert str(error).startswith("f:")
+
+
+@given(st.text(alphabet="<>/=\"' abc!-?\n", max_size=60))
+def test_xml_like_noise_is_read_or_refused_with_a_sentence(text: str) -> None:
+    try:
+        parse(f"<sdf>{text}</sdf>", "f")
+    except SdfError as error:
+        assert str(error).startswith("f:")
+
+
+@given(st.lists(st.floats(-1e6, 1e6), min_size=3, max_size=3))
+def test_numbers_are_read_exactly(values: list[float]) -> None:
+    element = parse(f"<a><size> {values[0]!r}\n{values[1]!r}\t{values[2]!r} </size></a>")
+    assert element.vector("size", (0.0, 0.0, 0.0)) == tuple(values)
+
+
+@pytest.mark.parametrize("text", ["1 2", "1 2 3 4", "one 2 3", "1 2 nan"])
+def test_a_wrong_vector_is_blamed_where_it_stands(text: str) -> None:
+    root = parse(f"<a>\n<size>{text}</size></a>", "f.sdf")
+    with pytest.raises(SdfError, match=r"^f\.sdf:2: <size>"):
+        root.vector("size", (0.0, 0.0, 0.0))
+
+
+def test_poses_in_degrees_and_quaternions() -> None:
+    root = parse(
+        "<a><pose degrees='true'>1 2 3 0 0 90</pose></a>",
+    )
+    pose = root.children[0].pose()
+    assert pose.yaw() == pytest.approx(math.pi / 2)
+    quaternion = parse("<a><pose rotation_format='quat_xyzw'>1 2 3  0 0 2 2</pose></a>").children[0].pose()
+    assert quaternion.is_close(pose)
+
+
+@pytest.mark.parametrize("text", ["inf 0 0 0 0 0", "0 0 0 inf 0 0", "0 0 0", "x"])
+def test_poses_that_are_none_are_refused(text: str) -> None:
+    with pytest.raises(SdfError, match="<pose>"):
+        parse(f"<a><pose>{text}</pose></a>").children[0].pose()
+
+
+def test_booleans() -> None:
+    root = parse("<a><x>TRUE</x><y>0</y><z>yes</z></a>", "f")
+    assert root.flag("x", False) is True and root.flag("y", True) is False and root.flag("none", True) is True
+    with pytest.raises(SdfError, match="true or false, got 'yes'"):
+        root.flag("z", False)
