@@ -1,4 +1,4 @@
-"""Another process for the tests: does what it is told on stdin, one JSON object a line, and answers on stdout."""
+"""Another process for the tests: does what it is told on stdin, in JSON lines, and answers on stdout."""
 
 import json
 import os
