@@ -100,7 +100,8 @@ class Bridge:
     Give it a Gazebo node of its own: closing drops every subscription that node has on the bridged topics.
     The ROS node may have other endpoints; it must be spun by its owner for messages from ROS to pass.
     ``publish`` receives each ROS publisher and the message meant for it, and decides when it leaves; by
-    default it leaves at once. ``heartbeat`` (s) is how often lazy entries look for listeners. Raises
+    default it leaves at once. ``heard`` is shown every message that comes from ROS, before it is judged and
+    converted. ``heartbeat`` (s) is how often lazy entries look for listeners. Raises
     ``BridgeError`` listing every entry that cannot work, and then leaves nothing behind.
     """
 
@@ -111,6 +112,7 @@ class Bridge:
         entries: Iterable[BridgeEntry],
         publish: Callable[[Publisher, Any], None] | None = None,
         *,
+        heard: Callable[[BridgeEntry, Any], None] | None = None,
         overrides: HeaderOverrides | None = None,
         heartbeat: float = 1.0,
     ) -> None:
@@ -118,6 +120,7 @@ class Bridge:
         self._ros_node = ros_node
         self._gz_node = gz_node
         self._publish = publish or _publish_now
+        self._heard = heard
         self._overrides = overrides or HeaderOverrides()
         self._gz_echo = GzEcho()
         self._announced: set[tuple[str, str]] = set()
@@ -402,6 +405,8 @@ class _RosToGz(_Link):
     def _on_message(self, ros: Any) -> None:
         if not self.connected:
             return
+        if self._bridge._heard is not None:
+            self._bridge._heard(self.entry, ros)
         pair = self._pair
         fault = pair.fault(ros) if pair.fault is not None else None
         if fault is not None:
