@@ -1,0 +1,177 @@
+"""The world as a library: time, truth, geometry, and the same bytes in every process."""
+
+from __future__ import annotations
+
+import math
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from gz.msgs.twist_pb2 import Twist
+from gz.sim.errors import SimError
+from gz.sim.world import World
+from gz.transport import Node, NodeOptions, Scope
+
+Load = Callable[..., World]
+
+
+def test_time_is_exact_integers() -> None:
+    world = World.load("lidar_room")
+    assert (world.name, world.step_size_ns, world.iterations, world.sim_time_ns) == ("lidar_room", 1_000_000, 0, 0)
+    world.step()
+    world.step(2999)
+    assert (world.iterations, world.sim_time_ns) == (3000, 3_000_000_000)
+
+
+def test_names_and_truth_at_the_start() -> None:
+    world = World.load("lidar_room.sdf")
+    assert world.model_names() == ["robot"]
+    assert set(world.model_names(static=True)) > {"robot", "ground_plane", "crate"}
+    assert tuple(world.pose("robot").position) == (-2, 0, 0)
+    assert world.pose("crate").yaw() == pytest.approx(0.5)
+    assert tuple(world.link_pose("robot", "lidar_link").position) == pytest.approx((-2, 0, 0.18))
+    assert tuple(world.velocity("crate").linear) == (0, 0, 0)
+
+
+@pytest.mark.parametrize("ask", [lambda w: w.pose("robt"), lambda w: w.velocity("robt"), lambda w: w.link_pose("robt", "x")])
+def test_unknown_models_are_answered_with_the_nearest(ask: Callable[[World], object]) -> None:
+    with pytest.raises(SimError, match="did you mean 'robot'"):
+        ask(World.load("lidar_room.sdf"))
+
+
+def test_unknown_links_are_answered_with_the_nearest() -> None:
+    with pytest.raises(SimError, match="did you mean 'base_link'"):
+        World.load("lidar_room.sdf").link_pose("robot", "baselink")
+
+
+def test_pose_and_velocity_are_those_of_the_model_frame_not_of_its_link(load_text: Load) -> None:
+    world = load_text(
+        "<gravity>0 0 0</gravity><model name='m'><pose>1 2 3 0 0 0.3</pose><link name='l'><pose>0 0.5 0 0 0 1</pose></link></model>"
+    )
+    assert tuple(world.pose("m").position) == pytest.approx((1, 2, 3))
+    assert world.pose("m").yaw() == pytest.approx(0.3)
+    world.data.qvel[:] = (0, 0, 0, 0, 0, 2.0)
+    world.step(100)
+    # The link turns about itself at 2 rad/s, so the model frame circles round it at 0.5 m.
+    velocity = world.velocity("m")
+    assert tuple(velocity.angular) == pytest.approx((0, 0, 2))
+    assert np.linalg.norm(velocity.linear) == pytest.approx(1.0, rel=1e-6)
+    before = world.pose("m").position
+    world.step()
+    assert world.pose("m").position - before == pytest.approx(velocity.linear * 1e-3, abs=3e-6)
+
+
+def test_truth_is_of_this_moment_not_of_the_step_before(load_text: Load) -> None:
+    world = load_text("<gravity>0 0 0</gravity><model name='m'><link name='l'/></model>")
+    world.data.qvel[0] = 1.0
+    world.step(1000)
+    assert world.pose("m").position[0] == pytest.approx(1.0, abs=1e-9)
+
+
+def test_geometry_lists_every_visual_with_full_extents(load_text: Load) -> None:
+    visual = "<visual name='{0}'><pose>0 0 1 0 0 0</pose><geometry>{1}</geometry><material><diffuse>1 0.5 0 1</diffuse></material><transparency>0.5</transparency></visual>"
+    shapes = {
+        "box": ("<box><size>1 2 3</size></box>", (1, 2, 3)),
+        "sphere": ("<sphere><radius>2</radius></sphere>", (4, 4, 4)),
+        "cylinder": ("<cylinder><radius>1</radius><length>3</length></cylinder>", (2, 2, 3)),
+        "capsule": ("<capsule><radius>1</radius><length>3</length></capsule>", (2, 2, 3)),
+        "ellipsoid": ("<ellipsoid><radii>1 2 3</radii></ellipsoid>", (2, 4, 6)),
+        "plane": ("<plane><normal>1 0 0</normal><size>5 6</size></plane>", (5, 6, 0)),
+    }
+    inside = "".join(visual.format(kind, text) for kind, (text, _) in shapes.items())
+    world = load_text(f"<model name='m'><static>1</static><link name='l'>{inside}</link></model>")
+    listed = {shape.kind: shape for shape in world.geometry()}
+    assert {kind: shape.size for kind, shape in listed.items()} == {kind: size for kind, (_, size) in shapes.items()}
+    assert listed["box"].rgba == (1, 0.5, 0, 0.5)
+    assert (listed["box"].model, listed["box"].link, listed["box"].name) == ("m", "l", "box")
+    assert listed["plane"].pose.transform((0, 0, 1)) == pytest.approx((1, 0, 1))
+
+
+def test_a_world_without_physics_plugin_says_so(load_text: Load, world_text: Callable[..., str]) -> None:
+    text = world_text("").replace('<plugin filename="gz-sim-physics-system" name="gz::sim::systems::Physics"/>', "")
+    assert any("not Physics" in warning for warning in World.from_string(text).warnings)
+    assert load_text("").warnings == []
+
+
+def test_unstable_physics_is_an_error_not_a_jump(load_text: Load) -> None:
+    world = load_text("<model name='m'><link name='l'/></model>")
+    world.data.qvel[:] = math.nan
+    with pytest.raises(SimError, match="became unstable"):
+        world.step()
+
+
+def test_a_world_is_attached_to_one_node() -> None:
+    with Node(NodeOptions(scope=Scope.PROCESS)) as one, Node(NodeOptions(scope=Scope.PROCESS)) as two:
+        world = World.load("lidar_room.sdf", node=one)
+        world.attach(one)
+        with pytest.raises(SimError, match="already attached"):
+            world.attach(two)
+
+
+RUN = """
+import hashlib, sys
+from gz.msgs.laserscan_pb2 import LaserScan
+from gz.msgs.odometry_pb2 import Odometry
+from gz.msgs.twist_pb2 import Twist
+from gz.sim.world import World
+from gz.transport import Node, NodeOptions, Scope
+digest = hashlib.sha256()
+with Node(NodeOptions(scope=Scope.PROCESS)) as node:
+    world = World.load("lidar_room.sdf", seed=int(sys.argv[1]), node=node)
+    node.subscribe(LaserScan, "/lidar/scan", lambda m: digest.update(m.SerializeToString(deterministic=True)))
+    node.subscribe(Odometry, "/model/robot/odometry", lambda m: digest.update(m.SerializeToString(deterministic=True)))
+    publisher = node.advertise("/model/robot/cmd_vel", Twist)
+    for tick in range(200):
+        command = Twist()
+        command.linear.x, command.angular.z = 0.5 - tick * 0.002, (tick % 7) * 0.1
+        publisher.publish(command)
+        world.step(10)
+        pose, velocity = world.pose("robot"), world.velocity("robot")
+        digest.update(pose.position.tobytes() + pose.quaternion.tobytes() + velocity.linear.tobytes())
+    digest.update(world.data.qpos.tobytes() + world.data.qvel.tobytes())
+print(digest.hexdigest())
+"""
+
+
+def run_in_a_process(seed: int) -> str:
+    environment = {**os.environ, "PYTHONHASHSEED": "random"}
+    done = subprocess.run(
+        [sys.executable, "-c", RUN, str(seed)], capture_output=True, text=True, timeout=60, env=environment, check=True
+    )
+    assert done.stderr == ""
+    return done.stdout.strip()
+
+
+def test_same_seed_and_commands_give_the_same_bytes_in_two_processes() -> None:
+    first = run_in_a_process(7)
+    assert len(first) == 64
+    assert run_in_a_process(7) == first
+    assert run_in_a_process(8) != first
+
+
+def test_commands_from_another_thread_do_not_disturb_stepping() -> None:
+    import threading
+
+    with Node(NodeOptions(scope=Scope.PROCESS)) as node:
+        world = World.load("lidar_room.sdf", node=node)
+        publisher = node.advertise("/model/robot/cmd_vel", Twist)
+        stop = threading.Event()
+
+        def hammer() -> None:
+            command = Twist()
+            command.linear.x = 0.3
+            while not stop.is_set():
+                publisher.publish(command)
+
+        thread = threading.Thread(target=hammer)
+        thread.start()
+        try:
+            world.step(2000)
+        finally:
+            stop.set()
+            thread.join(10)
+        assert world.velocity("robot").linear[0] == pytest.approx(0.3, rel=0.01)
