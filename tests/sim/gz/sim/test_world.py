@@ -10,7 +10,6 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-
 from gz.msgs.twist_pb2 import Twist
 from gz.sim.errors import SimError
 from gz.sim.world import World
@@ -21,7 +20,12 @@ Load = Callable[..., World]
 
 def test_time_is_exact_integers() -> None:
     world = World.load("lidar_room")
-    assert (world.name, world.step_size_ns, world.iterations, world.sim_time_ns) == ("lidar_room", 1_000_000, 0, 0)
+    assert (world.name, world.step_size_ns, world.iterations, world.sim_time_ns) == (
+        "lidar_room",
+        1_000_000,
+        0,
+        0,
+    )
     world.step()
     world.step(2999)
     assert (world.iterations, world.sim_time_ns) == (3000, 3_000_000_000)
@@ -37,7 +41,9 @@ def test_names_and_truth_at_the_start() -> None:
     assert tuple(world.velocity("crate").linear) == (0, 0, 0)
 
 
-@pytest.mark.parametrize("ask", [lambda w: w.pose("robt"), lambda w: w.velocity("robt"), lambda w: w.link_pose("robt", "x")])
+@pytest.mark.parametrize(
+    "ask", [lambda w: w.pose("robt"), lambda w: w.velocity("robt"), lambda w: w.link_pose("robt", "x")]
+)
 def test_unknown_models_are_answered_with_the_nearest(ask: Callable[[World], object]) -> None:
     with pytest.raises(SimError, match="did you mean 'robot'"):
         ask(World.load("lidar_room.sdf"))
@@ -50,7 +56,8 @@ def test_unknown_links_are_answered_with_the_nearest() -> None:
 
 def test_pose_and_velocity_are_those_of_the_model_frame_not_of_its_link(load_text: Load) -> None:
     world = load_text(
-        "<gravity>0 0 0</gravity><model name='m'><pose>1 2 3 0 0 0.3</pose><link name='l'><pose>0 0.5 0 0 0 1</pose></link></model>"
+        "<gravity>0 0 0</gravity><model name='m'><pose>1 2 3 0 0 0.3</pose><link name='l'><pose>0 "
+        "0.5 0 0 0 1</pose></link></model>"
     )
     assert tuple(world.pose("m").position) == pytest.approx((1, 2, 3))
     assert world.pose("m").yaw() == pytest.approx(0.3)
@@ -73,7 +80,10 @@ def test_truth_is_of_this_moment_not_of_the_step_before(load_text: Load) -> None
 
 
 def test_geometry_lists_every_visual_with_full_extents(load_text: Load) -> None:
-    visual = "<visual name='{0}'><pose>0 0 1 0 0 0</pose><geometry>{1}</geometry><material><diffuse>1 0.5 0 1</diffuse></material><transparency>0.5</transparency></visual>"
+    visual = (
+        "<visual name='{0}'><pose>0 0 1 0 0 0</pose><geometry>{1}</geometry><material>"
+        "<diffuse>1 0.5 0 1</diffuse></material><transparency>0.5</transparency></visual>"
+    )
     shapes = {
         "box": ("<box><size>1 2 3</size></box>", (1, 2, 3)),
         "sphere": ("<sphere><radius>2</radius></sphere>", (4, 4, 4)),
@@ -85,14 +95,18 @@ def test_geometry_lists_every_visual_with_full_extents(load_text: Load) -> None:
     inside = "".join(visual.format(kind, text) for kind, (text, _) in shapes.items())
     world = load_text(f"<model name='m'><static>1</static><link name='l'>{inside}</link></model>")
     listed = {shape.kind: shape for shape in world.geometry()}
-    assert {kind: shape.size for kind, shape in listed.items()} == {kind: size for kind, (_, size) in shapes.items()}
+    assert {kind: shape.size for kind, shape in listed.items()} == {
+        kind: size for kind, (_, size) in shapes.items()
+    }
     assert listed["box"].rgba == (1, 0.5, 0, 0.5)
     assert (listed["box"].model, listed["box"].link, listed["box"].name) == ("m", "l", "box")
     assert listed["plane"].pose.transform((0, 0, 1)) == pytest.approx((1, 0, 1))
 
 
 def test_a_world_without_physics_plugin_says_so(load_text: Load, world_text: Callable[..., str]) -> None:
-    text = world_text("").replace('<plugin filename="gz-sim-physics-system" name="gz::sim::systems::Physics"/>', "")
+    text = world_text("").replace(
+        '<plugin filename="gz-sim-physics-system" name="gz::sim::systems::Physics"/>', ""
+    )
     assert any("not Physics" in warning for warning in World.from_string(text).warnings)
     assert load_text("").warnings == []
 
@@ -123,7 +137,8 @@ digest = hashlib.sha256()
 with Node(NodeOptions(scope=Scope.PROCESS)) as node:
     world = World.load("lidar_room.sdf", seed=int(sys.argv[1]), node=node)
     node.subscribe(LaserScan, "/lidar/scan", lambda m: digest.update(m.SerializeToString(deterministic=True)))
-    node.subscribe(Odometry, "/model/robot/odometry", lambda m: digest.update(m.SerializeToString(deterministic=True)))
+    node.subscribe(Odometry, "/model/robot/odometry", lambda m:
+        digest.update(m.SerializeToString(deterministic=True)))
     publisher = node.advertise("/model/robot/cmd_vel", Twist)
     for tick in range(200):
         command = Twist()
@@ -140,7 +155,12 @@ print(digest.hexdigest())
 def run_in_a_process(seed: int) -> str:
     environment = {**os.environ, "PYTHONHASHSEED": "random"}
     done = subprocess.run(
-        [sys.executable, "-c", RUN, str(seed)], capture_output=True, text=True, timeout=60, env=environment, check=True
+        [sys.executable, "-c", RUN, str(seed)],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        env=environment,
+        check=True,
     )
     assert done.stderr == ""
     return done.stdout.strip()

@@ -8,20 +8,20 @@ from collections.abc import Callable
 import mujoco
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
-
 from gz.sim.errors import SdfError
 from gz.sim.physics import recipe
 from gz.sim.pose import Pose
 from gz.sim.world import World
+from hypothesis import given
+from hypothesis import strategies as st
 
 Load = Callable[..., World]
 
 
 def box(name: str, pose: str, mu: float, static: bool, size: str = "0.2 0.2 0.2") -> str:
     return f"""<model name='{name}'><static>{static}</static><pose>{pose}</pose><link name='l'>
-      <inertial><mass>1</mass><inertia><ixx>0.0067</ixx><iyy>0.0067</iyy><izz>0.0067</izz></inertia></inertial>
+      <inertial><mass>1</mass><inertia><ixx>0.0067</ixx><iyy>0.0067</iyy><izz>0.0067</izz></inertia>
+      </inertial>
       <collision name='c'><geometry><box><size>{size}</size></box></geometry>
       <surface><friction><ode><mu>{mu}</mu></ode></friction></surface></collision></link></model>"""
 
@@ -50,7 +50,9 @@ def test_a_body_without_friction_slides_on(load_text: Load) -> None:
 
 
 def test_free_fall_and_gravity_switched_off(load_text: Load) -> None:
-    still = box("still", "3 0 5 0 0 0", 1, False).replace("<link name='l'>", "<link name='l'><gravity>0</gravity>")
+    still = box("still", "3 0 5 0 0 0", 1, False).replace(
+        "<link name='l'>", "<link name='l'><gravity>0</gravity>"
+    )
     world = load_text(box("falls", "0 0 5 0 0 0", 1, False) + still)
     world.step(500)
     assert world.velocity("falls").linear[2] == pytest.approx(-9.8 * 0.5, rel=1e-6)
@@ -65,10 +67,13 @@ def test_collide_bitmask_decides_who_touches(load_text: Load) -> None:
     assert world.pose("ghost").position[2] < -0.5
 
 
-PENDULUM = """<model name='p'><link name='base'/><joint name='fix' type='fixed'><parent>world</parent><child>base</child></joint>
+PENDULUM = """<model name='p'><link name='base'/><joint name='fix' type='fixed'><parent>world</parent>
+      <child>base</child></joint>
   <link name='bob'><pose>0 0 1 0 0 0</pose>
-    <inertial><pose>1 0 0 0 0 0</pose><mass>2</mass><inertia><ixx>1e-4</ixx><iyy>1e-4</iyy><izz>1e-4</izz></inertia></inertial></link>
-  <joint name='swing' type='{kind}'><parent>base</parent><child>bob</child><axis><xyz>0 1 0</xyz>{axis}</axis></joint></model>"""
+    <inertial><pose>1 0 0 0 0 0</pose><mass>2</mass><inertia><ixx>1e-4</ixx><iyy>1e-4</iyy><izz>1e-4</izz>
+      </inertia></inertial></link>
+  <joint name='swing' type='{kind}'><parent>base</parent><child>bob</child><axis>
+      <xyz>0 1 0</xyz>{axis}</axis></joint></model>"""
 
 
 def test_a_pendulum_swings_with_its_period(load_text: Load) -> None:
@@ -83,7 +88,9 @@ def test_a_pendulum_swings_with_its_period(load_text: Load) -> None:
 
 
 def test_joint_limits_hold(load_text: Load) -> None:
-    world = load_text(PENDULUM.format(kind="revolute", axis="<limit><lower>-0.1</lower><upper>0.5</upper></limit>"))
+    world = load_text(
+        PENDULUM.format(kind="revolute", axis="<limit><lower>-0.1</lower><upper>0.5</upper></limit>")
+    )
     world.step(3000)
     assert world.data.qpos[0] == pytest.approx(0.5, abs=0.02)
 
@@ -114,10 +121,20 @@ def test_full_inertia_matrices_keep_their_meaning(
 
     turn = matrix(Pose.from_rpy((0, 0, 0), rpy).quaternion)
     full = turn @ np.diag(principal) @ turn.T
-    tags = {"ixx": full[0, 0], "iyy": full[1, 1], "izz": full[2, 2], "ixy": full[0, 1], "ixz": full[0, 2], "iyz": full[1, 2]}
-    inertia = "".join(f"<{tag}>{value!r}</{tag}>".replace("np.float64(", "").replace(")", "") for tag, value in tags.items())
+    tags = {
+        "ixx": full[0, 0],
+        "iyy": full[1, 1],
+        "izz": full[2, 2],
+        "ixy": full[0, 1],
+        "ixz": full[0, 2],
+        "iyz": full[1, 2],
+    }
+    inertia = "".join(
+        f"<{tag}>{value!r}</{tag}>".replace("np.float64(", "").replace(")", "") for tag, value in tags.items()
+    )
     world = World.from_string(
-        "<sdf version='1.9'><world name='w'><model name='m'><link name='l'><inertial><pose>0 0 0 0.3 0.2 0.1</pose>"
+        "<sdf version='1.9'><world name='w'><model name='m'><link name='l'><inertial><pose>0 0 0 "
+        "0.3 0.2 0.1</pose>"
         f"<inertia>{inertia}</inertia></inertial></link></model></world></sdf>"
     )
     body = world.model.body("m::l")
@@ -129,7 +146,10 @@ def test_full_inertia_matrices_keep_their_meaning(
 
 
 def test_links_of_one_model_do_not_collide_unless_asked(load_text: Load) -> None:
-    part = "<link name='{}'><collision name='c'><geometry><sphere><radius>0.5</radius></sphere></geometry></collision></link>"
+    part = (
+        "<link name='{}'><collision name='c'><geometry><sphere><radius>0.5</radius></sphere>"
+        "</geometry></collision></link>"
+    )
     both = part.format("a") + part.format("b")
     apart = load_text(f"<model name='m'>{both}</model>")
     touching = load_text(f"<model name='m'><self_collide>1</self_collide>{both}</model>")
@@ -137,8 +157,14 @@ def test_links_of_one_model_do_not_collide_unless_asked(load_text: Load) -> None
 
 
 def test_a_second_joint_closes_a_loop(load_text: Load) -> None:
-    links = "<link name='a'/><link name='b'><pose>1 0 0 0 0 0</pose></link><link name='c'><pose>2 0 0 0 0 0</pose></link>"
-    joint = "<joint name='{0}{1}' type='revolute'><parent>{0}</parent><child>{1}</child><axis><xyz>0 0 1</xyz></axis></joint>"
+    links = (
+        "<link name='a'/><link name='b'><pose>1 0 0 0 0 0</pose></link><link name='c'><pose>2 "
+        "0 0 0 0 0</pose></link>"
+    )
+    joint = (
+        "<joint name='{0}{1}' type='revolute'><parent>{0}</parent><child>{1}</child><axis>"
+        "<xyz>0 0 1</xyz></axis></joint>"
+    )
     joints = joint.format("a", "b") + joint.format("b", "c") + joint.format("c", "a")
     world = load_text(f"<model name='m'>{links}{joints}</model>")
     assert world.model.neq == 1

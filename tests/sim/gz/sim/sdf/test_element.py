@@ -5,15 +5,17 @@ from __future__ import annotations
 import math
 
 import pytest
+from gz.sim.errors import SdfError
+from gz.sim.sdf.element import Element, parse
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz.sim.errors import SdfError
-from gz.sim.sdf.element import Element, parse
-
 
 def test_what_strict_parsers_refuse_is_read_with_its_lines() -> None:
-    text = "\n  \n<?xml version='1.0'?>\n<!-- a -- b\n gz service --req 'x' -->\n<sdf version='1.9'>\n<world name='w' gz:x='1'>\n<gz:policies/>\n</world></sdf>"
+    text = (
+        "\n  \n<?xml version='1.0'?>\n<!-- a -- b\n gz service --req 'x' -->\n<sdf "
+        "version='1.9'>\n<world name='w' gz:x='1'>\n<gz:policies/>\n</world></sdf>"
+    )
     root = parse(text, "demo.sdf")
     world = root.find("world")
     assert world is not None and world.where == "demo.sdf:7"

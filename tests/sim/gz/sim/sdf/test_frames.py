@@ -7,17 +7,19 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
-
 from gz.sim.errors import Diagnostics, SdfError
 from gz.sim.pose import Pose
 from gz.sim.sdf.description import Model
 from gz.sim.sdf.reader import read_world
+from hypothesis import given
+from hypothesis import strategies as st
 
 
 def model(inside: str, attributes: str = "", version: str = "1.10") -> Model:
-    text = f"<sdf version='{version}'><world name='w'><model name='m' {attributes}>{inside}</model></world></sdf>"
+    text = (
+        f"<sdf version='{version}'><world name='w'><model name='m' {attributes}>{inside}</model>"
+        "</world></sdf>"
+    )
     return read_world(text, "f.sdf", Diagnostics()).models[0]
 
 
@@ -38,7 +40,8 @@ def test_relative_to_links_joints_and_frames_in_any_order() -> None:
     made = model(
         "<link name='c'><pose relative_to='f'>0 0 1 0 0 0</pose></link>"
         "<frame name='f' attached_to='a'><pose relative_to='j'>1 0 0 0 0 0</pose></frame>"
-        "<joint name='j' type='fixed'><pose>0 0 0 0 0 1.5707963267948966</pose><parent>a</parent><child>b</child></joint>"
+        "<joint name='j' type='fixed'><pose>0 0 0 0 0 1.5707963267948966</pose><parent>a</parent>"
+        "<child>b</child></joint>"
         "<link name='a'><pose>5 0 0 0 0 0</pose></link>"
         "<link name='b'><pose relative_to='a'>0 2 0 0 0 0</pose></link>"
     )
@@ -91,7 +94,9 @@ def test_nested_models_are_flattened_with_scoped_names() -> None:
 
 
 def test_placement_frame_puts_that_frame_at_the_pose() -> None:
-    made = model("<pose>3 0 0 0 0 0</pose><link name='a'><pose>1 1 0 0 0 0</pose></link>", "placement_frame='a'")
+    made = model(
+        "<pose>3 0 0 0 0 0</pose><link name='a'><pose>1 1 0 0 0 0</pose></link>", "placement_frame='a'"
+    )
     assert (made.pose * made.links[0].pose).is_close(Pose((3, 0, 0)))
 
 
@@ -115,7 +120,8 @@ def test_joint_to_a_frame_means_the_link_behind_it() -> None:
 @pytest.mark.parametrize(
     ("inside", "sentence"),
     [
-        ("<link name='a'><pose relative_to='b'>0 0 0 0 0 0</pose></link>\n<link name='b'><pose relative_to='a'/></link>", "circle"),
+        ("<link name='a'><pose relative_to='b'>0 0 0 0 0 0</pose></link>\n<link name='b'><pose "
+"relative_to='a'/></link>", "circle"),
         ("<link name='base'><pose relative_to='bse'/></link><link name='x'/>", "did you mean 'base'"),
         ("<link name='a'/><link name='a'/>", "is already"),
         ("<link name='a'/><frame name='f' attached_to='g'/><frame name='g' attached_to='f'/>"

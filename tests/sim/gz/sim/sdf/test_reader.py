@@ -1,4 +1,6 @@
-"""Worlds from SDF: includes, unknown words, wrong values; every message names file, line and the nearest valid name."""
+"""Worlds from SDF: includes, unknown words, wrong values; every message names file, line and the nearest
+valid name.
+"""
 
 from __future__ import annotations
 
@@ -6,13 +8,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
-
 from gz.sim.errors import Diagnostics, ResourceError, SdfError
 from gz.sim.sdf.reader import read_world
 from gz.sim.sdf.resources import BUILT_IN_WORLDS
 from gz.sim.world import World
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 ROOM = (BUILT_IN_WORLDS / "lidar_room.sdf").read_text()
 
@@ -30,7 +31,8 @@ def test_built_in_worlds_load_without_a_warning(name: str) -> None:
 
 def test_an_unknown_element_is_one_warning_with_the_nearest_word_and_the_rest_runs() -> None:
     world, warnings = read(
-        "<model name='m'><link name='l'>\n<colision name='c'/><visual name='v'><geometry><sphere><raduis>1</raduis>"
+        "<model name='m'><link name='l'>\n<colision name='c'/><visual name='v'><geometry><sphere>"
+        "<raduis>1</raduis>"
         "</sphere></geometry></visual></link></model>"
     )
     assert len(warnings) == 2
@@ -40,7 +42,9 @@ def test_an_unknown_element_is_one_warning_with_the_nearest_word_and_the_rest_ru
 
 
 def test_foreign_prefixes_plugins_and_gui_are_nobodys_business() -> None:
-    _, warnings = read("<gz:policies/><gui><anything/></gui><plugin name='gz::sim::systems::Physics'><x/></plugin>")
+    _, warnings = read(
+        "<gz:policies/><gui><anything/></gui><plugin name='gz::sim::systems::Physics'><x/></plugin>"
+    )
     assert warnings == []
 
 
@@ -49,16 +53,23 @@ def test_foreign_prefixes_plugins_and_gui_are_nobodys_business() -> None:
     [
         ("<model name='m'/>", "has no link"),
         ("<model><link name='l'/></model>", "needs a name"),
-        ("<model name='m'><link name='l'><inertial><mass>0</mass></inertial></link></model>", "<mass> must be greater"),
-        ("<model name='m'><link name='l'><inertial><inertia><ixx>-1</ixx></inertia></inertial></link></model>", "positive"),
-        ("<model name='m'><link name='l'><inertial><inertia><ixx>9</ixx></inertia></inertial></link></model>", "add up"),
-        ("<model name='m'><link name='l'><visual name='v'><geometry><box><size>1 -1 1</size></box></geometry></visual>"
+        ("<model name='m'><link name='l'><inertial><mass>0</mass></inertial></link>"
+"</model>", "<mass> must be greater"),
+        ("<model name='m'><link name='l'><inertial><inertia><ixx>-1</ixx></inertia></inertial>"
+"</link></model>", "positive"),
+        ("<model name='m'><link name='l'><inertial><inertia><ixx>9</ixx></inertia></inertial>"
+"</link></model>", "add up"),
+        ("<model name='m'><link name='l'><visual name='v'><geometry><box><size>1 -1 1</size></box>"
+"</geometry></visual>"
          "</link></model>", "size of <box>"),
-        ("<model name='m'><link name='l'/><joint name='j' type='revolut'><parent>l</parent><child>l</child></joint></model>",
+        ("<model name='m'><link name='l'/><joint name='j' type='revolut'><parent>l</parent>"
+"<child>l</child></joint></model>",
          "did you mean 'revolute'"),
-        ("<model name='m'><link name='base'/><joint name='j' type='fixed'><parent>base</parent><child>bse</child></joint>"
+        ("<model name='m'><link name='base'/><joint name='j' type='fixed'><parent>base</parent>"
+"<child>bse</child></joint>"
          "</model>", "did you mean 'base'"),
-        ("<model name='m'><link name='a'/><link name='b'/><joint name='j' type='revolute'><parent>a</parent><child>b</child>"
+        ("<model name='m'><link name='a'/><link name='b'/><joint name='j' type='revolute'>"
+"<parent>a</parent><child>b</child>"
          "<axis><xyz>0 0 0</xyz></axis></joint></model>", "no direction"),
         ("<physics><max_step_size>0</max_step_size></physics>", "max_step_size"),
         ("<include/>", "needs a <uri>"),
@@ -75,13 +86,19 @@ def test_wrong_worlds_are_refused_with_file_line_and_reason(inside: str, sentenc
 
 
 def test_files_that_are_no_worlds() -> None:
-    for text, sentence in (("<a/>", "must be <sdf>"), ("<sdf version='x'/>", "1.10"), ("<sdf version='1.9'/>", "no <world>")):
+    for text, sentence in (
+        ("<a/>", "must be <sdf>"),
+        ("<sdf version='x'/>", "1.10"),
+        ("<sdf version='1.9'/>", "no <world>"),
+    ):
         with pytest.raises(SdfError, match=sentence):
             read_world(text, "f.sdf", Diagnostics())
 
 
 def test_a_missing_world_names_the_nearest_one() -> None:
-    with pytest.raises(ResourceError, match=r"'lidar_rom\.sdf' was not found .* did you mean 'lidar_room\.sdf'"):
+    with pytest.raises(
+        ResourceError, match=r"'lidar_rom\.sdf' was not found .* did you mean 'lidar_room\.sdf'"
+    ):
         World.load("lidar_rom.sdf")
 
 
@@ -92,7 +109,10 @@ def test_a_world_that_cannot_be_read(tmp_path: Path) -> None:
         World.load(path)
 
 
-MODEL = "<sdf version='1.9'><model name='{}'><pose>9 9 9 0 0 0</pose><link name='l'><pose>{} 0 0 0 0 0</pose></link></model></sdf>"
+MODEL = (
+    "<sdf version='1.9'><model name='{}'><pose>9 9 9 0 0 0</pose><link name='l'><pose>{} 0 0 0 "
+    "0 0</pose></link></model></sdf>"
+)
 
 
 def shelf(folder: Path, name: str) -> None:
@@ -145,15 +165,22 @@ def test_a_model_that_includes_itself_is_refused(tmp_path: Path, monkeypatch: py
 
 def test_shapes_that_are_not_built_are_named(load_text: Callable[..., World]) -> None:
     world = load_text(
-        "<model name='m'><static>1</static><link name='l'><visual name='v'><geometry><mesh><uri>a.dae</uri></mesh>"
+        "<model name='m'><static>1</static><link name='l'><visual name='v'><geometry><mesh>"
+        "<uri>a.dae</uri></mesh>"
         "</geometry></visual></link></model>"
     )
     assert any("<mesh> geometry is not simulated" in warning for warning in world.warnings)
 
 
 @settings(suppress_health_check=[HealthCheck.too_slow], deadline=None, max_examples=150)
-@given(st.integers(0, len(ROOM) - 1), st.integers(1, 40), st.sampled_from(["", "x", "-", "<", "0", " ", "nan", "1e999"]))
-def test_a_damaged_world_is_read_or_refused_with_a_sentence(start: int, length: int, replacement: str) -> None:
+@given(
+    st.integers(0, len(ROOM) - 1),
+    st.integers(1, 40),
+    st.sampled_from(["", "x", "-", "<", "0", " ", "nan", "1e999"]),
+)
+def test_a_damaged_world_is_read_or_refused_with_a_sentence(
+    start: int, length: int, replacement: str
+) -> None:
     text = ROOM[:start] + replacement + ROOM[start + length :]
     try:
         read_world(text, "room.sdf", Diagnostics())

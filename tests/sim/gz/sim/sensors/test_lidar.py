@@ -1,16 +1,16 @@
-"""The lidar against plane geometry: every beam of the built-in room, near and far limits, clipping, noise, rates."""
+"""The lidar against plane geometry: every beam of the built-in room, near and far limits, clipping,
+noise, rates.
+"""
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
-
 from gz.msgs.laserscan_pb2 import LaserScan
 from gz.msgs.twist_pb2 import Twist
 from gz.sim.errors import SdfError
@@ -18,8 +18,11 @@ from gz.sim.sensors.lidar import Lidar
 from gz.sim.systems.sensors import Sensors
 from gz.sim.world import World
 from gz.transport import Node
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 Load = Callable[..., World]
+_numbers = itertools.count()
 
 
 def lidar_of(world: World) -> Lidar:
@@ -63,7 +66,9 @@ def ellipse(x: float, y: float, a: float, b: float, turn: float, angle: float) -
 
 
 def room_at(x: float, y: float, z: float, angle: float) -> float:
-    """What the built-in room looks like from (x, y, z) towards `angle`, written down independently of the SDF reader."""
+    """What the built-in room looks like from (x, y, z) towards `angle`, written down independently of
+    the SDF reader.
+    """
     ball = math.sqrt(0.35**2 - (0.35 - z) ** 2)
     boulder = math.sqrt(1 - ((z - 0.3) / 0.4) ** 2)
     return min(
@@ -85,7 +90,9 @@ def test_every_beam_of_the_room_is_where_geometry_says() -> None:
     assert (lidar.topic, lidar.frame_id, lidar.horizontal.count) == ("/lidar/scan", "lidar_link", 360)
     assert lidar.horizontal.step == pytest.approx(2 * math.pi / 359)
     measured = lidar.ranges()
-    antenna = [i for i, angle in enumerate(lidar.horizontal.angles) if circle(-0.0752, 0.0274, 0.002, angle) < 1]
+    antenna = [
+        i for i, angle in enumerate(lidar.horizontal.angles) if circle(-0.0752, 0.0274, 0.002, angle) < 1
+    ]
     assert 2 <= len(antenna) <= 4
     for index, angle in enumerate(lidar.horizontal.angles):
         expected = room_at(-2.0, 0.0, 0.18, angle)
@@ -112,29 +119,44 @@ def test_the_scan_follows_the_robot() -> None:
 
 
 RIG = """<model name='rig'><static>1</static><pose>0 0 1 0 0 0</pose><link name='l'>{parts}
-  <sensor name='s' type='{kind}'><update_rate>{rate}</update_rate><lidar><scan><horizontal><samples>{samples}</samples>
-  <min_angle>-1.5707963267948966</min_angle><max_angle>1.5707963267948966</max_angle></horizontal>{vertical}</scan>
+  <sensor name='s' type='{kind}'><update_rate>{rate}</update_rate><lidar><scan><horizontal>
+      <samples>{samples}</samples>
+  <min_angle>-1.5707963267948966</min_angle><max_angle>1.5707963267948966</max_angle>
+      </horizontal>{vertical}</scan>
   <range><min>{near}</min><max>10</max></range>{noise}</lidar></sensor></link></model>"""
 
 
 def rig(**changes: Any) -> str:
-    usual = {"parts": "", "kind": "gpu_lidar", "rate": 10, "samples": 3, "vertical": "", "near": 0.3, "noise": ""}
+    usual = {
+        "parts": "",
+        "kind": "gpu_lidar",
+        "rate": 10,
+        "samples": 3,
+        "vertical": "",
+        "near": 0.3,
+        "noise": "",
+    }
     return RIG.format(**{**usual, **changes})
 
 
 def part(kind: str, pose: str, geometry: str) -> str:
-    return f"<{kind} name='{abs(hash((kind, pose, geometry)))}'><pose>{pose}</pose><geometry>{geometry}</geometry></{kind}>"
+    return f"<{kind} name='{next(_numbers)}'><pose>{pose}</pose><geometry>{geometry}</geometry></{kind}>"
 
 
 def wall(kind: str, x: float) -> str:
     body = part(kind, "0 0 0 0 0 0", "<box><size>0.2 1 1</size></box>")
-    return f"<model name='{kind}{x}'><static>1</static><pose>{x} 0 1 0 0 0</pose><link name='l'>{body}</link></model>"
+    return (
+        f"<model name='{kind}{x}'><static>1</static><pose>{x} 0 1 0 0 0</pose><link "
+        f"name='l'>{body}</link></model>"
+    )
 
 
 def test_gpu_lidar_sees_visuals_and_lidar_sees_collisions(load_text: Load) -> None:
     walls = wall("visual", 3.1) + wall("collision", 2.1)
     assert lidar_of(load_text(rig() + walls)).ranges().tolist() == pytest.approx([math.inf, 3.0, math.inf])
-    assert lidar_of(load_text(rig(kind="lidar") + walls)).ranges().tolist() == pytest.approx([math.inf, 2.0, math.inf])
+    assert lidar_of(load_text(rig(kind="lidar") + walls)).ranges().tolist() == pytest.approx(
+        [math.inf, 2.0, math.inf]
+    )
 
 
 def test_near_far_and_clipped(load_text: Load) -> None:
@@ -156,7 +178,9 @@ SHAPES = {
 
 
 @pytest.mark.parametrize("shape", sorted(SHAPES))
-def test_a_housing_round_the_sensor_is_looked_through_but_the_same_shape_ahead_is_seen(load_text: Load, shape: str) -> None:
+def test_a_housing_round_the_sensor_is_looked_through_but_the_same_shape_ahead_is_seen(
+    load_text: Load, shape: str
+) -> None:
     housing = part("visual", "0.1 0.05 0 0 0 0", SHAPES[shape])
     ahead = part("visual", "2 0 0 0 0 0", SHAPES[shape])
     world = load_text(rig(parts=housing + ahead))
@@ -166,7 +190,9 @@ def test_a_housing_round_the_sensor_is_looked_through_but_the_same_shape_ahead_i
 
 
 def test_rows_come_lowest_first(load_text: Load) -> None:
-    vertical = "<vertical><samples>3</samples><min_angle>-0.5</min_angle><max_angle>0.5</max_angle></vertical>"
+    vertical = (
+        "<vertical><samples>3</samples><min_angle>-0.5</min_angle><max_angle>0.5</max_angle></vertical>"
+    )
     floor = "<include><uri>model://ground_plane</uri></include>"
     ranges = lidar_of(load_text(rig(vertical=vertical, samples=5) + floor)).ranges()
     assert ranges.shape == (15,)
@@ -178,9 +204,21 @@ def test_rows_come_lowest_first(load_text: Load) -> None:
 @given(st.floats(-math.pi, math.pi), st.floats(0.5, 9.0), st.floats(0.05, 0.4))
 def test_a_pillar_anywhere_is_measured(angle: float, distance: float, radius: float) -> None:
     x, y = (distance + radius) * math.cos(angle), (distance + radius) * math.sin(angle)
-    pillar = part("visual", f"{x!r} {y!r} 0 0 0 0", f"<cylinder><radius>{radius!r}</radius><length>1</length></cylinder>")
-    sensor = rig(samples=181).replace("-1.5707963267948966", "-3.141592653589793").replace("1.5707963267948966", "3.141592653589793")
-    sdf = f"<sdf version='1.9'><world name='w'><plugin name='gz::sim::systems::Sensors'/>{sensor}<model name='p'><static>1</static><pose>0 0 1 0 0 0</pose><link name='l'>{pillar}</link></model></world></sdf>"
+    pillar = part(
+        "visual",
+        f"{x!r} {y!r} 0 0 0 0",
+        f"<cylinder><radius>{radius!r}</radius><length>1</length></cylinder>",
+    )
+    sensor = (
+        rig(samples=181)
+        .replace("-1.5707963267948966", "-3.141592653589793")
+        .replace("1.5707963267948966", "3.141592653589793")
+    )
+    sdf = (
+        "<sdf version='1.9'><world name='w'><plugin "
+        f"name='gz::sim::systems::Sensors'/>{sensor}<model name='p'><static>1</static><pose>0 0 1 0 0 "
+        f"0</pose><link name='l'>{pillar}</link></model></world></sdf>"
+    )
     lidar = lidar_of(World.from_string(sdf))
     for beam, measured in zip(lidar.horizontal.angles, lidar.ranges(), strict=True):
         expected = circle(x, y, radius, beam)
@@ -202,7 +240,9 @@ def test_noise_is_seeded_per_scan_and_only_on_what_was_measured(load_text: Load,
         with Node(NodeOptions(scope=Scope.PROCESS)) as own:
             world = load_text(world_text, seed=seed, node=own)
             world.step(listen_from)
-            own.subscribe(LaserScan, lidar_of(world).topic, lambda message: heard.append(list(message.ranges)))
+            own.subscribe(
+                LaserScan, lidar_of(world).topic, lambda message: heard.append(list(message.ranges))
+            )
             world.step(500 - listen_from)
         return heard
 
@@ -277,8 +317,12 @@ def test_impossible_lidars_are_refused(load_text: Load, old: str, new: str, sent
         load_text(rig().replace(old, new))
 
 
-def test_a_world_without_the_sensors_system_says_why_its_lidar_is_silent(world_text: Callable[..., str]) -> None:
-    text = world_text(rig()).replace('<plugin filename="gz-sim-sensors-system" name="gz::sim::systems::Sensors"/>', "")
+def test_a_world_without_the_sensors_system_says_why_its_lidar_is_silent(
+    world_text: Callable[..., str],
+) -> None:
+    text = world_text(rig()).replace(
+        '<plugin filename="gz-sim-sensors-system" name="gz::sim::systems::Sensors"/>', ""
+    )
     warnings = World.from_string(text).warnings
     assert len(warnings) == 1 and "does not load the Sensors system" in warnings[0]
 

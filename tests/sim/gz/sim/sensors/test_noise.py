@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-
 from gz.sim.errors import SdfError
 from gz.sim.sdf.element import parse
 from gz.sim.sensors.noise import Noise

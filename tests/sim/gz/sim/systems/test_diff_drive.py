@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-
 from gz.msgs.boolean_pb2 import Boolean
 from gz.msgs.odometry_pb2 import Odometry
 from gz.msgs.pose_v_pb2 import Pose_V
@@ -33,7 +32,8 @@ def robot_world(change: Callable[[str], str] = lambda text: text) -> World:
     """The built-in robot alone on the ground, its file changed by `change`."""
     model = change(ROBOT[ROBOT.index("<model") : ROBOT.index("</sdf>")])
     return World.from_string(
-        "<sdf version='1.10'><world name='w'><plugin filename='gz-sim-physics-system' name='gz::sim::systems::Physics'/>"
+        "<sdf version='1.10'><world name='w'><plugin filename='gz-sim-physics-system' "
+        "name='gz::sim::systems::Physics'/>"
         "<plugin filename='gz-sim-sensors-system' name='gz::sim::systems::Sensors'/>"
         f"<include><uri>model://ground_plane</uri></include>{model}</world></sdf>",
         file_name="robot.sdf",
@@ -66,7 +66,9 @@ def test_steady_speed_is_what_was_commanded(linear: float, angular: float) -> No
 
 
 @pytest.mark.parametrize("integrator", [True, False])
-def test_both_integrators_of_the_recipe_drive_alike(integrator: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_both_integrators_of_the_recipe_drive_alike(
+    integrator: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr("gz.sim.physics.recipe.DISCRETE", integrator)
     world = robot_world()
     drive_of(world).command(0.5, 0.1)
@@ -111,7 +113,9 @@ def test_odometry_on_the_wire(node: Node) -> None:
     node.advertise("/model/robot/cmd_vel", Twist).publish(twist(0.5, 0.1))
     start = world.pose("robot")
     world.step(3000)
-    stamps = [message.header.stamp.sec * 1000 + message.header.stamp.nsec // 1_000_000 for message in odometry]
+    stamps = [
+        message.header.stamp.sec * 1000 + message.header.stamp.nsec // 1_000_000 for message in odometry
+    ]
     assert stamps == list(range(20, 3001, 20))
     last = odometry[-1]
     data = {entry.key: list(entry.value) for entry in last.header.data}
@@ -120,7 +124,9 @@ def test_odometry_on_the_wire(node: Node) -> None:
     assert last.twist.angular.z == pytest.approx(0.1, rel=0.01)
     moved = start.inverse() * world.pose("robot")
     # Odometry starts at zero wherever the robot does, and over-reads by the slip of the start (30 to 35 mm).
-    assert math.hypot(last.pose.position.x - moved.position[0], last.pose.position.y - moved.position[1]) < 0.05
+    assert (
+        math.hypot(last.pose.position.x - moved.position[0], last.pose.position.y - moved.position[1]) < 0.05
+    )
     assert last.pose.position.x > moved.position[0]
     assert frames[-1].pose[0].position == last.pose.position
     assert {entry.key: list(entry.value) for entry in frames[-1].pose[0].header.data} == data
@@ -175,7 +181,8 @@ def test_acceleration_limits_and_own_topics() -> None:
     def change(text: str) -> str:
         return text.replace(
             "<odom_publish_frequency>50</odom_publish_frequency>",
-            "<max_linear_acceleration>0.5</max_linear_acceleration><topic>my cmd</topic><odom_topic>/o</odom_topic>"
+            "<max_linear_acceleration>0.5</max_linear_acceleration><topic>my cmd</topic>"
+            "<odom_topic>/o</odom_topic>"
             "<tf_topic>t</tf_topic><frame_id>odom</frame_id><child_frame_id>base</child_frame_id>",
         )
 
@@ -197,7 +204,11 @@ def test_acceleration_limits_and_own_topics() -> None:
         ("<left_joint>left_wheel_joint</left_joint>", "", "at least one <left_joint>"),
         ("<left_joint>left_wheel_joint<", "<left_joint>caster_joint<", "is a ball joint"),
         ("<wheel_radius>0.05<", "<wheel_radius>0<", "<wheel_radius> must be greater than zero"),
-        ("<wheel_separation>0.25<", "<wheel_separation>wide<", "<wheel_separation> needs a number, got 'wide'"),
+        (
+            "<wheel_separation>0.25<",
+            "<wheel_separation>wide<",
+            "<wheel_separation> needs a number, got 'wide'",
+        ),
     ],
 )
 def test_wrong_parameters_are_refused_at_their_line(old: str, new: str, sentence: str) -> None:
@@ -231,7 +242,10 @@ def test_all_spellings_of_the_system_are_found(spelling: str) -> None:
     [
         ("filename='x' name='gz::sim::systems::DifDrive'", "did you mean 'DiffDrive'"),
         ("filename='libgazebo_ros_diff_drive.so' name='d'", "use gz-sim-diff-drive-system"),
-        ("filename='gz-sim-thruster-system' name='gz::sim::systems::Thruster'", "exists in Gazebo but not in this"),
+        (
+            "filename='gz-sim-thruster-system' name='gz::sim::systems::Thruster'",
+            "exists in Gazebo but not in this",
+        ),
     ],
 )
 def test_other_systems_are_one_warning_with_a_hint(spelling: str, hint: str) -> None:

@@ -1,0 +1,165 @@
+"""`gz sim` as a real process: it runs a world, obeys commands from another process, and ends cleanly."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import uuid
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import psutil
+import pytest
+from gz.msgs.clock_pb2 import Clock
+from gz.msgs.laserscan_pb2 import LaserScan
+from gz.msgs.odometry_pb2 import Odometry
+from gz.msgs.twist_pb2 import Twist
+from gz.msgs.world_stats_pb2 import WorldStatistics
+from gz.transport import Node
+
+GZ = [sys.executable, "-c", "import sys; from gz.command import main; sys.exit(main())", "sim"]
+DEADLINE = 30
+
+
+@pytest.fixture(autouse=True)
+def partition(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("GZ_IP", "127.0.0.1")
+    monkeypatch.setenv("GZ_PARTITION", uuid.uuid4().hex)
+
+
+@pytest.fixture
+def start() -> Iterator[Callable[..., subprocess.Popen[str]]]:
+    """Starts `gz sim` in a process group of its own; nothing of it outlives the test."""
+    started: list[subprocess.Popen[str]] = []
+
+    def run(*arguments: str) -> subprocess.Popen[str]:
+        process = subprocess.Popen(
+            [*GZ, *arguments],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+            env=os.environ.copy(),
+        )
+        started.append(process)
+        return process
+
+    yield run
+    for process in started:
+        if process.poll() is None:
+            os.killpg(process.pid, signal.SIGKILL)
+        process.communicate(timeout=DEADLINE)
+
+
+class Heard:
+    """Counts messages of one topic and lets a test wait for one that fulfils a condition."""
+
+    def __init__(self, node: Node, kind: type, topic: str) -> None:
+        self._changed = threading.Condition()
+        self._messages: list[Any] = []
+        node.subscribe(kind, topic, self._take)
+
+    def _take(self, message: Any) -> None:
+        with self._changed:
+            self._messages.append(message)
+            self._changed.notify_all()
+
+    def wait(self, condition: Callable[[Any], bool]) -> Any:
+        with self._changed:
+            assert self._changed.wait_for(lambda: any(map(condition, self._messages)), DEADLINE)
+            return next(filter(condition, self._messages))
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_running_world_obeys_another_process_and_ends_with_zero(
+    start: Callable[..., subprocess.Popen[str]], number: signal.Signals
+) -> None:
+    with Node() as node:
+        clock = Heard(node, Clock, "/clock")
+        odometry = Heard(node, Odometry, "/model/robot/odometry")
+        scans = Heard(node, LaserScan, "/lidar/scan")
+        process = start("lidar_room.sdf", "-r", "-s")
+        first = clock.wait(lambda message: True)
+        clock.wait(lambda message: message.sim.sec > first.sim.sec)
+        assert len(scans.wait(lambda message: True).ranges) == 360
+        publisher = node.advertise("/model/robot/cmd_vel", Twist)
+        assert publisher.wait_for_subscribers(1, DEADLINE)
+        command = Twist()
+        command.linear.x = 0.4
+        publisher.publish(command)
+        odometry.wait(lambda message: message.pose.position.x > 0.2)
+        children = psutil.Process(process.pid).children(recursive=True)
+        process.send_signal(number)
+        out, err = process.communicate(timeout=DEADLINE)
+    assert (process.returncode, out, err) == (0, "", "")
+    assert children == []
+
+
+def test_a_world_starts_paused_unless_told_to_run(start: Callable[..., subprocess.Popen[str]]) -> None:
+    with Node() as node:
+        stats = Heard(node, WorldStatistics, "/stats")
+        process = start("empty.sdf", "-s")
+        message = stats.wait(lambda message: True)
+        assert message.paused and message.iterations == 0
+        process.send_signal(signal.SIGINT)
+        _, err = process.communicate(timeout=DEADLINE)
+    assert process.returncode == 0
+    assert "paused; start it with -r" in err
+
+
+def run_to_end(start: Callable[..., subprocess.Popen[str]], *arguments: str) -> tuple[int, str]:
+    process = start(*arguments)
+    out, err = process.communicate(timeout=DEADLINE)
+    assert out == "" and err.count("\n") <= 1, "one sentence, no traceback"
+    return process.returncode, err
+
+
+def test_iterations_end_by_themselves(start: Callable[..., subprocess.Popen[str]]) -> None:
+    assert run_to_end(start, "empty.sdf", "-r", "-s", "--iterations", "100", "-z", "100000") == (0, "")
+
+
+def test_errors_are_one_sentence(start: Callable[..., subprocess.Popen[str]], tmp_path: Path) -> None:
+    broken = tmp_path / "broken.sdf"
+    broken.write_text("<sdf version='1.9'>\n<world name='w'>\n</sdf>")
+    code, err = run_to_end(start, "-r", str(broken))
+    assert code == 1 and err.startswith(f"gz sim: {broken}:3: this is not well-formed XML")
+    code, err = run_to_end(start, "-r", "lidar_rom.sdf")
+    assert code == 1 and "did you mean 'lidar_room.sdf'" in err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["--iteratons", "5", "empty.sdf"], "did you mean '--iterations'"),
+        (["--iterations", "-5", "empty.sdf"], "zero or more"),
+        (["empty.sdf", "other.sdf"], "second file 'other.sdf'"),
+        (["-g"], "use -s"),
+        ([], "which world"),
+    ],
+)
+def test_arguments_that_make_no_sense_exit_with_two(
+    arguments: list[str], sentence: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from gz.sim import command
+
+    monkeypatch.setattr(command.signal, "signal", lambda *_: None)
+    try:
+        code = command.main(arguments)
+    except SystemExit as stopped:
+        code = stopped.code
+    assert code == 2
+    assert sentence in capsys.readouterr().err
+
+
+def test_warnings_have_a_place_and_verbosity_hides_them(
+    start: Callable[..., subprocess.Popen[str]], tmp_path: Path
+) -> None:
+    world = tmp_path / "w.sdf"
+    world.write_text("<sdf version='1.9'><world name='w'>\n<modle name='m'/></world></sdf>")
+    code, err = run_to_end(start, "-r", str(world), "--iterations", "1")
+    assert code == 0 and err.startswith(f"[Wrn] {world}:2: ") and "did you mean 'model'" in err
+    assert run_to_end(start, "-r", "-v", "0", str(world), "--iterations", "1") == (0, "")

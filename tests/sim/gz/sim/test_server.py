@@ -1,0 +1,141 @@
+"""A world on the wire: clock after every step, statistics ten times a second, paused start, pacing, stop."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+from gz.msgs.clock_pb2 import Clock
+from gz.msgs.world_stats_pb2 import WorldStatistics
+from gz.sim.server import Server
+from gz.sim.world import World
+from gz.transport import Node
+
+
+@pytest.fixture
+def server(node: Node) -> Server:
+    return Server(World.load("lidar_room.sdf"), node)
+
+
+@pytest.fixture
+def running() -> Iterator[Callable[..., threading.Event]]:
+    """Runs a server in a thread; whatever happens, it is stopped and joined."""
+    threads: list[tuple[threading.Thread, threading.Event]] = []
+
+    def start(server: Server, **options: Any) -> threading.Event:
+        stop = threading.Event()
+        thread = threading.Thread(target=lambda: server.run(stop=stop, **options))
+        thread.start()
+        threads.append((thread, stop))
+        return stop
+
+    yield start
+    for thread, stop in threads:
+        stop.set()
+        thread.join(20)
+        assert not thread.is_alive()
+
+
+def test_clock_follows_every_step_call(server: Server, node: Node) -> None:
+    root: list[int] = []
+    scoped: list[int] = []
+    node.subscribe(Clock, "/clock", lambda m: root.append(m.sim.sec * 10**9 + m.sim.nsec))
+    node.subscribe(Clock, "/world/lidar_room/clock", lambda m: scoped.append(m.sim.sec * 10**9 + m.sim.nsec))
+    server.step()
+    server.step(10)
+    server.step(1989)
+    assert root == scoped == [1_000_000, 11_000_000, 2_000_000_000]
+
+
+def test_statistics_come_every_tenth_of_a_simulated_second(server: Server, node: Node) -> None:
+    heard: list[Any] = []
+    node.subscribe(WorldStatistics, "/world/lidar_room/stats", heard.append)
+    for _ in range(100):
+        server.step(10)
+    assert [message.sim_time.nsec // 1_000_000 + message.sim_time.sec * 1000 for message in heard] == list(
+        range(100, 1001, 100)
+    )
+    last = heard[-1]
+    assert (last.iterations, last.paused, last.step_size.nsec) == (1000, False, 1_000_000)
+    server.step(1000)
+    assert len(heard) == 11, "one long step gives one message, not ten"
+
+
+def test_run_ends_after_its_iterations(server: Server) -> None:
+    server.run(real_time_factor=0.0, iterations=1234)
+    assert server.world.iterations == 1234
+
+
+def test_run_keeps_pace_with_the_wall_clock(server: Server, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With a clock that only moves when the server waits, simulated time and waited time are the same."""
+    now = [0]
+    monkeypatch.setattr("gz.sim.server.time.monotonic_ns", lambda: now[0])
+
+    class Waits(threading.Event):
+        def wait(self, timeout: float | None = None) -> bool:
+            assert timeout is not None
+            now[0] += round(timeout * 1e9)
+            return False
+
+    server.run(real_time_factor=2.0, iterations=1000, stop=Waits())
+    assert now[0] == pytest.approx(0.5e9, rel=1e-6)
+
+
+def test_run_does_not_catch_up_in_a_burst(server: Server, monkeypatch: pytest.MonkeyPatch) -> None:
+    now = [0]
+    waited = [0.0]
+    monkeypatch.setattr("gz.sim.server.time.monotonic_ns", lambda: now[0])
+    original = server.step
+
+    def slow_step(n: int = 1) -> None:
+        original(n)
+        if server.world.iterations == 500:
+            now[0] += 10_000_000_000
+
+    monkeypatch.setattr(server, "step", slow_step)
+
+    class Waits(threading.Event):
+        def wait(self, timeout: float | None = None) -> bool:
+            assert timeout is not None
+            now[0] += round(timeout * 1e9)
+            waited[0] += timeout
+            return False
+
+    server.run(real_time_factor=1.0, iterations=1000, stop=Waits())
+    assert waited[0] == pytest.approx(1.0, abs=0.02)
+
+
+def test_a_paused_server_does_not_step_but_keeps_telling(
+    server: Server, node: Node, running: Callable[..., threading.Event]
+) -> None:
+    paused, resumed = threading.Event(), threading.Event()
+
+    def on_stats(message: Any) -> None:
+        (paused if message.paused and message.iterations == 0 else resumed).set()
+
+    node.subscribe(WorldStatistics, "/stats", on_stats)
+    server.paused = True
+    running(server, real_time_factor=0.0)
+    assert paused.wait(20)
+    assert server.world.iterations == 0
+    server.paused = False
+    assert resumed.wait(20)
+
+
+def test_the_command_of_a_thread_reaches_a_running_server(
+    server: Server, node: Node, running: Callable[..., threading.Event]
+) -> None:
+    from gz.msgs.odometry_pb2 import Odometry
+    from gz.msgs.twist_pb2 import Twist
+
+    moving = threading.Event()
+    node.subscribe(
+        Odometry, "/model/robot/odometry", lambda m: moving.set() if m.twist.linear.x > 0.2 else None
+    )
+    running(server, real_time_factor=0.0)
+    command = Twist()
+    command.linear.x = 0.3
+    node.advertise("/model/robot/cmd_vel", Twist).publish(command)
+    assert moving.wait(20)
