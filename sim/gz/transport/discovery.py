@@ -23,6 +23,7 @@ SILENCE_LIMIT_S = 3.0
 COMPLETE_AFTER_S = HEARTBEAT_S + 0.1
 """After so long every other process has sent a heartbeat, so the list of what there is, is complete."""
 _RECEIVE_BUFFER_BYTES = 1 << 20
+_MOST_AT_ONCE = 1000
 
 RecordKey = tuple[str, str, str]
 """(process, node, address)"""
@@ -146,8 +147,8 @@ class DiscoveryChannel:
     # ---- receiving and the clock (one thread only)
 
     def receive(self) -> None:
-        """Takes all datagrams that wait."""
-        while self._open:
+        """Takes the datagrams that wait, up to a limit, so that a flood of them does not starve the data."""
+        for _ in range(_MOST_AT_ONCE):
             try:
                 data, source = self._socket.recvfrom(datagram.MAX_DATAGRAM_BYTES)
             except (BlockingIOError, InterruptedError):

@@ -6,6 +6,7 @@ the switchboard of the process and, unless its scope is PROCESS, with the networ
 
 from __future__ import annotations
 
+import contextlib
 import uuid
 from collections.abc import Callable
 from types import TracebackType
@@ -53,7 +54,7 @@ class Node:
             options,
         )
         SWITCHBOARD.add_publisher(publisher)
-        self._publishers.append(publisher)
+        self._publishers = [*(each for each in self._publishers if each.valid()), publisher]
         if publisher.scope != Scope.PROCESS:
             from gz.transport import network
 
@@ -127,7 +128,8 @@ class Node:
         return bool(ended)
 
     def _end(self, subscription: Subscription) -> None:
-        self._subscriptions.remove(subscription)
+        with contextlib.suppress(ValueError):  # another thread ended it at the same moment
+            self._subscriptions.remove(subscription)
         SWITCHBOARD.remove_subscription(subscription)
         if subscription.scope != Scope.PROCESS:
             from gz.transport import network

@@ -15,7 +15,7 @@ import pytest
 from gz.msgs.discovery_pb2 import Discovery
 from gz.transport import datagram
 
-DEADLINE_S = 30.0
+DEADLINE_S = 20.0
 
 
 class Peer:
@@ -117,6 +117,10 @@ class Eavesdropper:
         message.pub.scope = Discovery.Publisher.ALL
         message.pub.msg_pub.ctrl = "unused"
         message.pub.msg_pub.msg_type = type_name
+        self.send_bytes(datagram.encode(message))
+
+    def bye(self):
+        message = Discovery(version=10, process_uuid=self.process_uuid, type=Discovery.BYE)
         self.send_bytes(datagram.encode(message))
 
     def close(self):

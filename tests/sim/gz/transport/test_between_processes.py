@@ -6,7 +6,7 @@ import pytest
 import zmq
 from gz.msgs.discovery_pb2 import Discovery
 from gz.msgs.stringmsg_pb2 import StringMsg
-from gz.transport import Node, NodeOptions
+from gz.transport import Node, NodeOptions, inlet
 from gz.transport.naming import fully_qualified
 
 
@@ -196,6 +196,43 @@ def test_a_callback_may_use_the_node(node, start_peer, inbox):
     assert [message.data for message in inbox.take()] == ["again"]
 
 
+def test_the_publisher_is_told_when_a_subscription_ends(node, start_peer, eavesdropper, partition):
+    name = fully_qualified(partition, "", "/chat")
+    node.advertise("/chat", StringMsg)
+    peer = start_peer()
+    peer.ask("subscribe", topic="/chat")
+    here = eavesdropper.until(lambda m: m.type == Discovery.NEW_CONNECTION and m.pub.topic == name)[-1]
+    assert here.pub.process_uuid == here.process_uuid
+    assert here.pub.msg_pub.msg_type == "gz.msgs.StringMsg"
+    peer.ask("unsubscribe", topic="/chat")
+    end = eavesdropper.until(lambda m: m.type == Discovery.END_CONNECTION and m.pub.topic == name)[-1]
+    assert (end.pub.process_uuid, end.pub.node_uuid) == (here.pub.process_uuid, here.pub.node_uuid)
+    assert end.pub.msg_pub.ctrl == here.pub.msg_pub.ctrl
+
+
+def test_an_address_that_is_not_of_this_machine_is_reported_and_replaced(node, start_peer, inbox):
+    node.subscribe(StringMsg, "/chat", inbox)
+    peer = start_peer(GZ_IP="203.0.113.9")
+    peer.ask("advertise", topic="/chat")
+    assert peer.ask("wait", topic="/chat")
+    peer.ask("publish", topic="/chat", text="hello")
+    assert [message.data for message in inbox.take()] == ["hello"]
+    code, errors = peer.finish()
+    assert code == 0
+    assert "GZ_IP" in errors
+    assert "203.0.113.9" in errors
+
+
+def test_what_is_published_right_before_the_end_arrives(node, start_peer, inbox):
+    node.subscribe(StringMsg, "/chat", inbox)
+    peer = start_peer()
+    peer.ask("advertise", topic="/chat")
+    assert peer.ask("wait", topic="/chat")
+    peer.ask("threads", topic="/chat", threads=1, count=100)
+    assert peer.finish() == (0, "")
+    assert [message.data for message in inbox.take(100)] == [f"0 {number}" for number in range(100)]
+
+
 @pytest.fixture
 def foreign_publisher(partition, eavesdropper):
     """A publisher made of bare sockets, so it can also send what ours never would."""
@@ -252,6 +289,21 @@ def test_rubbish_on_the_discovery_port_changes_nothing(
     data = StringMsg(data="good").SerializeToString()
     foreign_publisher.send_multipart([name.encode(), endpoint.encode(), data, b"gz.msgs.StringMsg"])
     assert [message.data for message in inbox.take()] == ["good"]
+
+
+def test_the_connection_to_a_publisher_that_is_gone_is_given_up_and_made_again(
+    node, inbox, partition, eavesdropper, foreign_publisher, monkeypatch
+):
+    monkeypatch.setattr(inlet, "LEAVE_AFTER_S", 0.0)
+    name = fully_qualified(partition, "", "/foo")
+    endpoint = foreign_publisher.getsockopt_string(zmq.LAST_ENDPOINT)
+    node.subscribe(StringMsg, "/foo", inbox)
+    eavesdropper.advertise(name, endpoint, "gz.msgs.StringMsg")
+    assert foreign_publisher.recv() == b"\x01" + name.encode()
+    eavesdropper.bye()
+    assert foreign_publisher.recv() == b"\x00" + name.encode()
+    eavesdropper.advertise(name, endpoint, "gz.msgs.StringMsg")
+    assert foreign_publisher.recv() == b"\x01" + name.encode()
 
 
 def test_a_large_message_arrives_whole(node, start_peer):
