@@ -253,6 +253,7 @@ class _Link:
 
     def __init__(self, bridge: Bridge, row: _Row) -> None:
         self.entry = row.entry
+        self.ros_topic = row.ros_topic
         self.connected = False
         self._bridge = bridge
         self.gz_topic = bridge._gz_name(row.entry.gz_topic)
@@ -287,7 +288,6 @@ class _GzToRos(_Link):
     def __init__(self, bridge: Bridge, row: _Row, heard_by: tuple[EchoFilter, ...]) -> None:
         super().__init__(bridge, row)
         self.subscribed = False
-        self._own_listeners = len(heard_by)
         self.publisher = bridge._ros_node.create_publisher(
             row.pair.ros_class,
             row.entry.ros_topic,
@@ -300,7 +300,8 @@ class _GzToRos(_Link):
 
     def wanted(self) -> bool:
         """Whether anybody but this bridge listens on the ROS side."""
-        return bool(self.publisher.get_subscription_count() > self._own_listeners)
+        own = sum(link.connected and link.ros_topic == self.ros_topic for link in self._bridge._to_gz)
+        return bool(self.publisher.get_subscription_count() > own)
 
     def connect(self) -> None:
         """Listen to Gazebo. Raises ``BridgeError`` when ``gz.transport`` refuses."""

@@ -65,10 +65,9 @@ def main(argv: list[str] | None = None) -> int:
     """Run the bridge until SIGINT or SIGTERM: exit code 0; 2 if it could not start, 1 if it broke."""
     # Signals are blocked in every thread and fetched by one sigwait: none is lost in a library's wait set,
     # none
-    # strikes in the middle of setting up, and one ignored by the parent (a shell's '&') is heard again.
+    # strikes in the middle of setting up, and one the parent ignores (a shell's '&') is heard: Linux keeps a
+    # blocked signal whatever its handler.
     signal.pthread_sigmask(signal.SIG_BLOCK, _STOP_SIGNALS)
-    for number in _STOP_SIGNALS:
-        signal.signal(number, signal.SIG_DFL)
     argv = sys.argv if argv is None else ["parameter_bridge", *argv]
     if len(argv) == 1 or {"-h", "--help"} & set(argv[1:]):
         print(HELP, end="")

@@ -1,4 +1,4 @@
-"""A DDS domain and a Gazebo partition nobody else uses, a spinning ROS context, and waiting with a deadline."""
+"""A DDS domain and a Gazebo partition nobody else uses, a spinning ROS context, waiting with a deadline."""
 
 import random
 import socket
@@ -18,7 +18,7 @@ DEADLINE = 20.0
 
 
 class Inbox:
-    """A callback that keeps what it is given; `wait(n)` returns the first n messages or fails at the deadline."""
+    """A callback that keeps what it is given; `wait(n)` returns n messages, or fails in time."""
 
     def __init__(self):
         self.messages = []
@@ -56,7 +56,7 @@ def inbox():
 
 @pytest.fixture(scope="session")
 def ros_domain(tmp_path_factory):
-    """The number of a DDS domain held for this session, with the environment set for this process and children."""
+    """The number of a DDS domain held for this session, set in the environment for children too."""
     numbers = list(range(1, 102))
     random.shuffle(numbers)
     for number in numbers:

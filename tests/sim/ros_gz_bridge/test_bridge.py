@@ -221,6 +221,19 @@ def test_frame_and_stamp_can_be_overridden(stage):
     assert all(scan.header.stamp.sec > 1_600_000_000 for scan in held)
 
 
+def test_the_owner_is_shown_what_comes_from_ros_even_if_it_is_dropped(stage, eventually):
+    shown = []
+    bridge = stage.bridge(
+        stage.entry(direction=Direction.ROS_TO_GZ),
+        heard=lambda entry, ros: shown.append((entry, ros.linear.x)),
+    )
+    twist = Twist()
+    twist.linear.x = math.inf
+    stage.ros_publisher(Twist).publish(twist)
+    eventually(lambda: bridge.status()[0].dropped == 1, "the command is dropped")
+    assert shown == [(bridge.entries[0], math.inf)]
+
+
 def test_a_lazy_bridge_listens_only_while_somebody_listens_to_it(stage, inbox, eventually):
     bridge = stage.bridge(stage.entry(SCAN, Direction.GZ_TO_ROS, lazy=True), heartbeat=0.02)
     publisher = stage.gz.advertise(stage.topic, GzLaserScan)
@@ -244,6 +257,16 @@ def test_a_lazy_bridge_to_gazebo_listens_only_while_somebody_listens_to_it(stage
     commands.wait(1)
     stage.gz.unsubscribe(stage.topic)
     eventually(lambda: publisher.get_subscription_count() == 0, "the bridge disconnects")
+
+
+def test_a_lazy_bridge_both_ways_is_not_kept_awake_by_itself(stage, inbox, eventually):
+    bridge = stage.bridge(stage.entry(lazy=True), heartbeat=0.02)
+    to_ros = bridge._to_ros[0]
+    subscription = stage.ros_subscription(Twist, inbox())
+    eventually(lambda: to_ros.connected and bridge._to_gz[0].connected, "both ways connect")
+    stage.ros.node.destroy_subscription(subscription)
+    eventually(lambda: not to_ros.connected, "nobody but the bridge itself listens to ROS")
+    assert to_ros.publisher.get_subscription_count() <= 1
 
 
 def endpoints(stage):
@@ -293,7 +316,7 @@ def test_entries_that_cannot_work_are_all_named_and_nothing_stays(stage):
     with pytest.raises(BridgeError) as caught:
         stage.bridge(stage.entry(), wrong, also)
     assert [sentence.split(": ")[0] for sentence in caught.value.errors] == ["b.yaml:1", "b.yaml:9"]
-    with pytest.raises(BridgeError, match="carries gz.msgs.Twist already, not gz.msgs.LaserScan"):
+    with pytest.raises(BridgeError, match=r"carries gz\.msgs\.Twist already, not gz\.msgs\.LaserScan"):
         stage.bridge(
             stage.entry(direction=Direction.ROS_TO_GZ),
             BridgeEntry("/other", stage.topic, *SCAN, Direction.ROS_TO_GZ, source="b.yaml:3"),

@@ -1,4 +1,4 @@
-"""Every pair in the table survives the way there and back, apart from what the other side has no words for."""
+"""Every pair in the table survives the way there and back, but for what the other side has no words for."""
 
 import math
 from array import array

@@ -31,7 +31,8 @@ def publish(echo_filter, clock, content, took=20 * US):
 
 
 steps = st.lists(
-    st.tuples(st.sampled_from(["own", "foreign", "during"]), st.sampled_from([b"a", b"b"])), max_size=40
+    st.tuples(st.sampled_from(["own", "foreign", "during", "other"]), st.sampled_from([b"a", b"b"])),
+    max_size=40,
 )
 
 
@@ -46,6 +47,9 @@ def test_what_passes_is_exactly_what_others_sent(script, order):
         if kind == "during":  # somebody else sends the same in the same microsecond
             arriving.append((content, clock.now - 5 * US))
             foreign[content] += 1
+        if kind == "other":  # or something else
+            arriving.append((b"other", clock.now - 5 * US))
+            foreign[b"other"] += 1
         if kind == "foreign":
             clock.now += 100 * US
             arriving.append((content, clock.now))
