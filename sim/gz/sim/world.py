@@ -19,7 +19,7 @@ from gz.sim.errors import LOG, Diagnostics, SimError, nearest
 from gz.sim.physics.builder import build_spec, scoped
 from gz.sim.physics.recipe import JointServo
 from gz.sim.pose import Pose, Velocity, rotate
-from gz.sim.sdf.description import Link, Model, WorldDescription
+from gz.sim.sdf.description import Link, Model, Plugin, WorldDescription
 from gz.sim.sdf.reader import read_world, read_world_file
 from gz.sim.sdf.resources import find_world
 from gz.sim.sensors.registry import sensor_types
@@ -114,27 +114,32 @@ class World:
         """Everything this world was warned about, one sentence each."""
         return self.diagnostics.warnings
 
-    def _build(self) -> None:
+    def _choose_systems(self) -> dict[str, list[JointServo]]:
+        """Find the class of every plugin; return the joints they drive, by model."""
+        self._chosen: list[tuple[type[System], Model | None, Plugin]] = []
         servos: dict[str, list[JointServo]] = {}
-        self._plugins: list[tuple[type[System], Model | None, int]] = []
-        for model in [None, *self.description.models]:
-            plugins = self.description.plugins if model is None else model.plugins
-            for index, plugin in enumerate(plugins):
+        for plugin in self.description.plugins:
+            found = find_system(plugin, self.diagnostics)
+            if found is not None:
+                self._chosen.append((found, None, plugin))
+        for model in self.description.models:
+            taken = servos.setdefault(model.name, [])
+            for plugin in model.plugins:
                 found = find_system(plugin, self.diagnostics)
                 if found is None:
                     continue
-                self._plugins.append((found, model, index))
-                if model is None:
-                    continue
-                if model.static:
+                driven = found.servos(model, plugin)
+                if driven and model.static:
                     text = f"model '{model.name}' is static, so its system {found.name} cannot move it"
                     self.diagnostics.warn(plugin.element.where, text)
-                    self._plugins.pop()
                     continue
-                taken = servos.setdefault(model.name, [])
-                for servo in found.servos(model, plugin):
-                    if all(servo.joint != other.joint for other in taken):
-                        taken.append(servo)
+                names = {servo.joint for servo in taken}
+                taken.extend(servo for servo in driven if servo.joint not in names)
+                self._chosen.append((found, model, plugin))
+        return servos
+
+    def _build(self) -> None:
+        servos = self._choose_systems()
         spec = build_spec(self.description, servos, self.diagnostics)
         mujoco.set_mju_user_warning(lambda text: LOG.warning("physics: %s", text))
         try:
@@ -145,12 +150,18 @@ class World:
         self.data = mujoco.MjData(self.model)
         mujoco.mj_forward(self.model, self.data)
         self._refreshed = 0
+        # Per moving model: the body of its canonical link, and the model frame seen from it.
+        self._canonical: dict[str, tuple[int, Pose]] = {}
+        for model in self.description.models:
+            canonical = model.link(model.canonical_link)
+            if canonical is not None and not model.static:
+                body = int(self.model.body(scoped(model, canonical.name)).id)
+                self._canonical[model.name] = (body, canonical.pose.inverse())
 
     def _start_systems(self) -> None:
-        for found, model, index in self._plugins:
-            plugins = self.description.plugins if model is None else model.plugins
+        for found, model, plugin in self._chosen:
             made = found()
-            made.configure(self, model, plugins[index])
+            made.configure(self, model, plugin)
             self.systems.append(made)
         names = {made.name for made in self.systems}
         wanted = {system_name(plugin) for plugin in self.description.plugins}
@@ -235,11 +246,11 @@ class World:
         model.
         """
         found = self._model(model)
-        if found.static or not found.canonical_link:
+        if found.static:
             return found.pose
-        link = found.link(found.canonical_link)
-        assert link is not None
-        return self._link_pose(found, link) * link.pose.inverse()
+        body, link_model = self._canonical[model]
+        self.refresh()
+        return Pose(self.data.xpos[body], self.data.xquat[body]) * link_model
 
     def link_pose(self, model: str, link: str) -> Pose:
         """Return where a link's frame is now, in the world frame; raise `SimError` for an unknown model or
@@ -264,13 +275,11 @@ class World:
         self.refresh()
         mujoco.mj_comPos(self.model, self.data)
         mujoco.mj_comVel(self.model, self.data)
-        link = found.link(found.canonical_link)
-        assert link is not None
-        body = self.model.body(scoped(found, link.name)).id
+        body, link_model = self._canonical[model]
         both = np.zeros(6)
         mujoco.mj_objectVelocity(self.model, self.data, mujoco.mjtObj.mjOBJ_XBODY, body, both, 0)
         angular, linear = both[:3].copy(), both[3:].copy()
-        offset = rotate(self.data.xquat[body], link.pose.inverse().position)
+        offset = rotate(self.data.xquat[body], link_model.position)
         return Velocity(linear + np.cross(angular, offset), angular)
 
     def geometry(self) -> list[VisualShape]:

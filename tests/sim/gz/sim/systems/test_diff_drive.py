@@ -254,6 +254,12 @@ def test_other_systems_are_one_warning_with_a_hint(spelling: str, hint: str) -> 
     assert [hint in warning for warning in world.warnings].count(True) == 1
 
 
+def test_a_static_robot_cannot_be_driven_and_says_so() -> None:
+    world = robot_world(lambda text: text.replace("<link name=", "<static>1</static><link name=", 1))
+    assert world.systems == [system for system in world.systems if system.name == "Sensors"]
+    assert any("is static, so its system DiffDrive" in warning for warning in world.warnings)
+
+
 def test_the_room_leaves_way_for_the_first_drive() -> None:
     """0.5 m/s with 0.1 rad/s for 5 s, then 1.5 m more, without touching anything but the ground."""
     world = World.load(BUILT_IN_WORLDS / "lidar_room.sdf")
