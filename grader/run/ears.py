@@ -56,29 +56,29 @@ class Ears:
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self._node)
         self.held: list[tuple[str, Any, Any]] = []
-        self.bridge = Bridge(self._node, gz_node, entries, publish=self._hold)
+        self.bridge = Bridge(self._node, gz_node, entries, publish=self._hold, heard=self._bridge_heard)
         self._out = {e.ros_topic: e.ros_type for e in entries if e.direction.to_ros}
         self._in = {e.ros_topic: e.ros_type for e in entries if e.direction.to_gz} | observe
-        self._bridged = [i for i, e in enumerate(entries) if e.direction.to_gz]
-        self._tapped: Counter[str] = Counter()
+        self.received: Counter[str] = Counter()
         self._heard = heard
-        self._taps = {
-            topic: self._node.create_subscription(
-                message_class(kind), topic, self._tap(topic), QoSProfile(depth=TAP_DEPTH)
-            )
-            for topic, kind in self._in.items()
-        }
+        for topic, kind in observe.items():
+            self._node.create_subscription(message_class(kind), topic, self._tap(topic), QoSProfile(depth=TAP_DEPTH))
+        # One publisher and one subscription a topic, so one match on either side is a complete match.
         self._publishers = {p.topic_name: p for p in self._node.publishers if p.topic_name in self._out}
+        self._subscriptions = {s.topic_name: s for s in self._node.subscriptions if s.topic_name in self._in}
 
     def _hold(self, publisher: Any, message: Any) -> None:
         self.held.append((publisher.topic_name, publisher, message))
 
-    def _tap(self, topic: str) -> Callable[[Any], None]:
-        def tapped(message: Any) -> None:
-            self._tapped[topic] += 1
-            self._heard(topic, message)
+    def _bridge_heard(self, entry: BridgeEntry, message: Any) -> None:
+        self._count(entry.ros_topic, message)
 
-        return tapped
+    def _tap(self, topic: str) -> Callable[[Any], None]:
+        return lambda message: self._count(topic, message)
+
+    def _count(self, topic: str, message: Any) -> None:
+        self.received[topic] += 1
+        self._heard(topic, message)
 
     def take_held(self) -> list[tuple[str, Any, Any]]:
         """Return what the simulator published since the last call: /clock first, then by topic name.
@@ -88,17 +88,6 @@ class Ears:
         held, self.held = self.held, []
         return sorted(held, key=lambda item: (item[0] != "/clock", item[0]))
 
-    @property
-    def received(self) -> Counter[str]:
-        """Messages that have arrived here by topic; for a bridged topic those that went through the bridge too."""
-        count = self._tapped.copy()
-        status = self.bridge.status()
-        for index in self._bridged:
-            s = status[index]
-            topic = s.entry.ros_topic
-            count[topic] = min(count[topic], s.ros_to_gz + s.dropped + s.echoes)
-        return count
-
     def dropped(self) -> dict[str, int]:
         """Return how many messages the bridge refused, by ROS topic."""
         return {s.entry.ros_topic: s.dropped for s in self.bridge.status() if s.dropped}
@@ -106,11 +95,8 @@ class Ears:
     def pump(self) -> None:
         """Take everything that has arrived, without waiting."""
         before = -1
-        while before != (before := self._work()):
+        while before != (before := self.received.total()):
             self._executor.spin_once(timeout_sec=0)
-
-    def _work(self) -> int:
-        return sum(self._tapped.values()) + sum(self.received.values())
 
     def publishes(self, topic: str) -> str | None:
         """ROS type of what the bridge publishes on a topic, or None."""
@@ -124,7 +110,7 @@ class Ears:
         """How many of the student's endpoints of a kind (publisher, subscription) are matched on a topic."""
         if kind == "subscription":
             return int(self._publishers[topic].get_subscription_count()) if topic in self._publishers else 0
-        return int(self._taps[topic].get_publisher_count()) if topic in self._taps else 0
+        return int(self._subscriptions[topic].get_publisher_count()) if topic in self._subscriptions else 0
 
     def close(self) -> None:
         """Leave the ROS graph."""

@@ -13,11 +13,12 @@ from collections import Counter
 from collections.abc import Callable
 from typing import Any, Protocol
 
+from grader.run.participant import qos_can_match
 from grader.run.student import Endpoint, Student
 
-PATIENCE = 1.0  # [s] of wall time a node may need for one message before it is paced
-GIVING_UP = 8  # after so many times it is paced for the rest of the run
-START_UP = 15.0  # [s] of wall time from process start to a node that spins
+PATIENCE = 3.0  # [s] of wall time a node may need for one message before it is paced
+GIVING_UP = 3  # after so many times it is paced for the rest of the run
+START_UP = 10.0  # [s] of wall time from process start to a node that spins
 MATCHING = 2.0  # [s] of wall time for DDS to match the endpoints of a new node
 CLOCK_AGAIN = 0.05  # [s] /clock is best effort on the student's side, so it is sent again until it was seen
 LOOK_ROUND = 0.002  # [s] how long to listen to the student before listening to ROS
@@ -43,14 +44,11 @@ class Ears(Protocol):
 
 
 def can_match(endpoint: Endpoint, ears: Ears) -> bool:
-    """Whether DDS will ever connect this endpoint with the grader's.
-
-    The grader publishes and subscribes reliable and volatile, as ros_gz_bridge does: a best-effort publisher does
-    not reach it, and a transient-local subscription does not accept it.
-    """
-    if endpoint.kind == "publisher":
-        return ears.listens(endpoint.topic) == endpoint.type and endpoint.reliability != "BEST_EFFORT"
-    return ears.publishes(endpoint.topic) == endpoint.type and endpoint.durability != "TRANSIENT_LOCAL"
+    """Whether DDS will ever connect this endpoint with the grader's."""
+    ours = ears.listens if endpoint.kind == "publisher" else ears.publishes
+    return ours(endpoint.topic) == endpoint.type and qos_can_match(
+        endpoint.kind, endpoint.reliability, endpoint.durability
+    )
 
 
 class RealTime:
@@ -63,6 +61,7 @@ class RealTime:
         self.ears = ears
         self.paced_ticks = 0
         self._due: float | None = None
+        self._lost: Counter[str] = Counter()  # published by the student, never arrived
 
     def await_ready(self) -> bool:
         """Wait until the node spins and DDS has matched its endpoints; False if it does not within `START_UP`."""
@@ -86,6 +85,26 @@ class RealTime:
             self.student.wait(LOOK_ROUND)
             self.ears.pump()
 
+    def everything_arrived(self) -> bool:
+        """Whether all that the student's process says it published is here; answers it if it waits for that."""
+        published = self.student.progress.published if self.student.progress else {}
+
+        def arrived() -> bool:
+            received = self.ears.received
+            return all(
+                received[topic] + self._lost[topic] >= count
+                for topic, count in published.items()
+                if self.ears.listens(topic)
+            )
+
+        if not arrived():
+            self.ears.pump()
+            if not arrived():
+                return False
+        if self.student.wants_answer:
+            self.student.answer()
+        return True
+
     def deliver(self, topic: str, publisher: Any, message: Any, now_ns: int) -> None:
         """Publish one message of the simulator at simulated time `now_ns` [ns]."""
         publisher.publish(message)
@@ -103,6 +122,7 @@ class RealTime:
             else:
                 time.sleep(left)  # nobody to listen to; only the clock passes
             self.ears.pump()
+            self.everything_arrived()
         self.ears.pump()
 
 
@@ -114,7 +134,6 @@ class LockStep(RealTime):
     def __init__(self, student: Student, ears: Ears) -> None:
         super().__init__(student, ears)
         self._sent: Counter[str] = Counter()  # messages the student's process must have taken
-        self._lost: Counter[str] = Counter()  # published by the student, never arrived
         self._seen_endpoints: tuple[Endpoint, ...] | None = None
         self._now_ns = 0
         self._free = False  # paced at the moment
@@ -156,17 +175,12 @@ class LockStep(RealTime):
 
     def _settled(self) -> bool:
         progress = self.student.progress
-        if progress is None:
+        if progress is None or not self.everything_arrived():
             return False
         if progress.clock is not None and progress.clock < self._now_ns:
             return False
         if any(progress.taken.get(topic, 0) < count for topic, count in self._sent.items()):
             return False
-        for topic, count in progress.published.items():
-            if self.ears.listens(topic) and self.ears.received[topic] + self._lost[topic] < count:
-                self.ears.pump()
-                if self.ears.received[topic] + self._lost[topic] < count:
-                    return False
         return True
 
     def _settle(self, again: Callable[[], None] | None) -> None:
@@ -189,12 +203,8 @@ class LockStep(RealTime):
     def _take_last_words(self) -> None:
         """The process has ended: wait for what it published just before."""
         deadline = time.monotonic() + PATIENCE
-        published = self.student.progress.published if self.student.progress else {}
-        while time.monotonic() < deadline and any(
-            self.ears.listens(topic) and self.ears.received[topic] + self._lost[topic] < count
-            for topic, count in published.items()
-        ):
-            self.ears.pump()
+        while time.monotonic() < deadline and not self.everything_arrived():
+            pass
 
     def _fall_out_of_step(self) -> None:
         """Stop waiting: what was not taken by now counts as lost, and time goes on at the pace of the wall."""

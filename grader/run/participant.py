@@ -4,10 +4,11 @@ This file is started as a script, in the student's own process, by `grader.run.s
 ours. It watches three places in rclpy (the executor's wait, every publish, every take) and then runs the file as
 `__main__`. Each time an executor is about to go to sleep it sends one report over an inherited socket:
 
-    {"clock": ns, "taken": {topic: n}, "published": {topic: n}, "endpoints": [...]}
+    {"clock": ns, "taken": {topic: n}, "published": {topic: n}, "flushes": n, "endpoints": [...]}
 
 `endpoints` is there only when it changed; `clock` is the smallest simulated time any spinning node has been told, `taken` and `published` count messages
-since the start. The grader advances simulated time only when those numbers show that everything it sent was
+since the start, the latter only while somebody listened; when `flushes` grows, the process
+waits for an answer before it takes a publisher down. The grader advances simulated time only when those numbers show that everything it sent was
 taken. Nothing here is trusted: a process that lies about itself only spoils its own run.
 """
 
@@ -30,17 +31,19 @@ from typing import Any
 
 PR_SET_PDEATHSIG = 1
 SOCKET_FD = "COURSE_PARTICIPANT_FD"
-LISTENED = "COURSE_LISTENED_TOPICS"
+TOPICS = "COURSE_TOPICS"
 UNMATCHED_SLICE = 0.005  # [s] how often an unmatched publisher is looked at; DDS gives no event we could wait for
+POOL_SLICE = 0.001  # [s] how often a running pool callback is looked at, should its end not wake us
+FLUSH_PATIENCE = 1.0  # [s] for the grader to receive the last messages before a publisher goes away
 MATCH_PATIENCE = 2.0  # [s] after that a publisher nobody matches is simply unmatched
 
 
 class Watch:
     """Counts what one process publishes and takes, and reports it whenever its executors go idle."""
 
-    def __init__(self, channel: socket.socket, listened: dict[str, str]) -> None:
+    def __init__(self, channel: socket.socket, topics: dict[str, str]) -> None:
         self._channel = channel
-        self._listened = listened  # topic -> ROS type the grader subscribes to
+        self._topics = topics  # the grader's: topic -> ROS type
         self._taken: Counter[str] = Counter()
         self._published: Counter[str] = Counter()
         self._clock_seen: dict[int, int] = {}  # id(TimeSource) -> ns
@@ -50,13 +53,16 @@ class Watch:
         self._layout: tuple[Any, ...] = ()
         self._endpoints: list[dict[str, Any]] = []
         self._reported_endpoints: list[dict[str, Any]] = []
-        self._unmatched_since: dict[str, float] = {}
+        self._unmatched_since: dict[tuple[str, str], float] = {}
         self._awaited: set[int] = set()  # id(publisher) of those whose match was waited for
         self._last_report = ""
+        self._flushes = 0
 
     def install(self) -> None:
         """Put the three watches into rclpy."""
-        from rclpy.executors import Executor, TimeoutException
+        from rclpy.context import Context
+        from rclpy.executors import ConditionReachedException, Executor, TimeoutException
+        from rclpy.node import Node
         from rclpy.publisher import Publisher
         from rclpy.time_source import TimeSource
 
@@ -68,28 +74,34 @@ class Watch:
             executor: Any, timeout_sec: Any = None, nodes: Any = None, condition: Any = lambda: False
         ) -> Any:
             watch._waiting[id(executor)] = False
-            try:
-                return wait(executor, 0, nodes, condition)
-            except TimeoutException:
-                if timeout_sec is not None and not hasattr(timeout_sec, "timeout") and timeout_sec == 0:
-                    watch.executor_idle(executor)
-                    raise
-            deadline = None
             seconds = getattr(timeout_sec, "timeout", timeout_sec)
-            if seconds is not None and seconds >= 0:
-                deadline = time.monotonic() + seconds
+            deadline = None if seconds is None or seconds < 0 else time.monotonic() + seconds
+            patience: float | None = 0.0
             while True:
-                left = None if deadline is None else max(0.0, deadline - time.monotonic())
-                slice_ = watch.executor_idle(executor)
-                patience = left if slice_ is None else slice_ if left is None else min(slice_, left)
+                # A callback may still run in the executor's pool; its end wakes the wait.
+                running = [future for future in getattr(executor, "_futures", ()) if not future.done()]
+
+                def ended(running: list[Any] = running) -> bool:
+                    return condition() or all(future.done() for future in running)
+
                 try:
-                    found = wait(executor, patience, nodes, condition)
+                    found = wait(executor, patience, nodes, ended if running and patience else condition)
                 except TimeoutException:
-                    if deadline is not None and time.monotonic() >= deadline:
+                    if patience and deadline is not None and time.monotonic() >= deadline:
+                        raise
+                except ConditionReachedException:
+                    if condition():
                         raise
                 else:
                     watch._waiting[id(executor)] = False
                     return found
+                # A callback that has ended becomes `done` a moment after it woke the wait, hence the short slice.
+                busy = any(not future.done() for future in running)
+                slice_ = POOL_SLICE if busy else watch.executor_idle(executor)
+                if seconds == 0:
+                    raise TimeoutException
+                left = None if deadline is None else max(1e-6, deadline - time.monotonic())
+                patience = left if slice_ is None else slice_ if left is None else min(slice_, left)
 
         def watched_take(executor: Any, subscription: Any) -> Any:
             callback = take(executor, subscription)
@@ -99,13 +111,25 @@ class Watch:
 
         def watched_publish(publisher: Any, message: Any) -> None:
             watch.await_match(publisher)
+            heard = publisher.get_subscription_count() > 0
             publish(publisher, message)
-            watch._published[watch.topic_of(publisher)] += 1
+            if heard:
+                watch._published[watch.topic_of(publisher)] += 1
 
         def watched_clock(source: Any, message: Any) -> None:
             clock_callback(source, message)
             watch._clock_seen[id(source)] = message.clock.sec * 1_000_000_000 + message.clock.nanosec
 
+        def flushed(function: Any) -> Any:
+            def after_flush(*args: Any, **kwargs: Any) -> Any:
+                watch.flush()
+                return function(*args, **kwargs)
+
+            return after_flush
+
+        # A writer that goes away takes messages with it that its reader has not looked at yet.
+        for owner, name in ((Node, "destroy_node"), (Node, "destroy_publisher"), (Context, "shutdown")):
+            setattr(owner, name, flushed(getattr(owner, name)))
         Executor.wait_for_ready_callbacks = watched_wait
         Executor._take_subscription = watched_take
         Publisher.publish = watched_publish
@@ -120,7 +144,8 @@ class Watch:
         if id(publisher) in self._awaited:
             return
         self._awaited.add(id(publisher))
-        if self._listened.get(self.topic_of(publisher)) != type_name(publisher):
+        endpoint = self._describe("", "publisher", publisher, 0)
+        if self._topics.get(endpoint["topic"]) != endpoint["type"] or not qos_can_match(**endpoint):
             return
         deadline = time.monotonic() + MATCH_PATIENCE
         while not publisher.get_subscription_count() and time.monotonic() < deadline:
@@ -135,19 +160,22 @@ class Watch:
 
     def executor_idle(self, executor: Any) -> float | None:
         """Report if every executor is idle; return how long [s] the coming wait may last (None: for ever)."""
-        if any(not future.done() for future in getattr(executor, "_futures", ())):
-            return 0.001  # a callback still runs in the executor's thread pool
         self._waiting[id(executor)] = True
         for node in executor.get_nodes():
             self._nodes[id(node)] = node
         self._refresh_endpoints()
         if all(self._waiting.values()):
             self.report()
-        return UNMATCHED_SLICE if self._unmatched_since else None
+        return UNMATCHED_SLICE if self._impatient() else None
+
+    def _impatient(self) -> bool:
+        """Whether an endpoint may still be about to match."""
+        now = time.monotonic()
+        return any(now - since < MATCH_PATIENCE for since in self._unmatched_since.values())
 
     def _refresh_endpoints(self) -> None:
         layout = tuple((key, len(n._publishers), len(n._subscriptions)) for key, n in self._nodes.items())
-        if layout == self._layout and not self._unmatched_since:
+        if layout == self._layout and not self._impatient():
             return
         if layout != self._layout:
             self._topic_of.clear()  # ids of destroyed endpoints may be used again
@@ -162,16 +190,12 @@ class Watch:
                 matched = subscription.get_publisher_count()
                 self._endpoints.append(self._describe(name, "subscription", subscription, matched))
         now = time.monotonic()
-        waiting = {
-            e["topic"]
+        waiting = [
+            (e["kind"], e["topic"])
             for e in self._endpoints
-            if e["kind"] == "publisher" and not e["matched"] and self._listened.get(e["topic"]) == e["type"]
-        }
-        self._unmatched_since = {
-            topic: since
-            for topic in waiting
-            if now - (since := self._unmatched_since.get(topic, now)) < MATCH_PATIENCE
-        }
+            if not e["matched"] and self._topics.get(e["topic"]) == e["type"] and qos_can_match(**e)
+        ]
+        self._unmatched_since = {key: self._unmatched_since.get(key, now) for key in waiting}
 
     def _describe(self, node: str, kind: str, endpoint: Any, matched: int) -> dict[str, Any]:
         qos = endpoint.qos_profile
@@ -185,6 +209,14 @@ class Watch:
             "matched": matched,
         }
 
+    def flush(self) -> None:
+        """Wait until the grader has received everything published so far, or for `FLUSH_PATIENCE`."""
+        self._flushes += 1
+        self.report()
+        with contextlib.suppress(OSError):
+            self._channel.settimeout(FLUSH_PATIENCE)
+            self._channel.recv(64)
+
     def report(self) -> None:
         """Send the counts if they changed since the last report."""
         spinning = [n._time_source for n in self._nodes.values() if n._time_source.ros_time_is_active]
@@ -192,6 +224,7 @@ class Watch:
             "clock": min((self._clock_seen.get(id(s), 0) for s in spinning), default=None),
             "taken": self._taken,
             "published": self._published,
+            "flushes": self._flushes,
         }
         if self._endpoints != self._reported_endpoints:
             report["endpoints"] = self._reported_endpoints = self._endpoints
@@ -205,6 +238,14 @@ class Watch:
 def type_name(endpoint: Any) -> str:
     """ROS type of a publisher or subscription, such as `geometry_msgs/msg/Twist`."""
     return f"{endpoint.msg_type.__module__.split('.')[0]}/msg/{endpoint.msg_type.__name__}"
+
+
+def qos_can_match(kind: str, reliability: str, durability: str, **_: Any) -> bool:
+    """Whether an endpoint's QoS fits the grader's, which is reliable and volatile as ros_gz_bridge's is.
+
+    A best-effort publisher does not reach it, and a transient-local subscription does not accept it.
+    """
+    return reliability != "BEST_EFFORT" if kind == "publisher" else durability != "TRANSIENT_LOCAL"
 
 
 def print_student_traceback(error: BaseException, file: str) -> None:
@@ -232,8 +273,11 @@ def main() -> None:
     sys.path.insert(0, str(Path(file).parent))
     channel = socket.socket(fileno=int(os.environ.pop(SOCKET_FD)))
     os.set_inheritable(channel.fileno(), False)
-    watch = Watch(channel, json.loads(os.environ.pop(LISTENED)))
+    watch = Watch(channel, json.loads(os.environ.pop(TOPICS)))
     watch.install()
+    # A MultiThreadedExecutor offers a callback again and again until a pool thread takes it up; with Python's usual
+    # 5 ms between thread switches that would cost more than the callback.
+    sys.setswitchinterval(0.0002)
     try:
         runpy.run_path(file, run_name="__main__")
     except SystemExit:
@@ -242,7 +286,7 @@ def main() -> None:
         print_student_traceback(error, file)
         sys.exit(130 if isinstance(error, KeyboardInterrupt) else 1)
     finally:
-        watch.report()  # what was published after the last wait
+        watch.flush()
 
 
 if __name__ == "__main__":

@@ -66,12 +66,12 @@ def run(exercise: Exercise, submission: Submission, trial: Trial, pace: str, pat
         entries = load_yaml(exercise.bridge)
     except (ConfigError, OSError) as error:
         raise ManifestError(str(error)) from None
-    listened = {e.ros_topic: e.ros_type for e in entries if e.direction.to_gz} | exercise.observe
+    topics = {e.ros_topic: e.ros_type for e in entries} | exercise.observe
     with contextlib.ExitStack() as stack:
         domain = stack.enter_context(Domain())
         sandbox = Sandbox(domain.id)
         stack.callback(sandbox.close)
-        student = Student(submission.file, sandbox, listened)  # first: it starts up while we do
+        student = Student(submission.file, sandbox, topics)  # first: it starts up while we do
         stack.callback(student.close)
         stack.enter_context(_environment(sandbox.grader_environment()))
         return _Session(exercise, submission, trial, pace, path, entries, domain.id, student, stack).run()

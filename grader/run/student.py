@@ -48,6 +48,7 @@ class Progress:
     clock: int | None = None  # [ns] simulated time its nodes have seen; None: none follows /clock
     taken: dict[str, int] = field(default_factory=dict)
     published: dict[str, int] = field(default_factory=dict)
+    flushes: int = 0  # how often it has asked to be told that everything arrived
     endpoints: tuple[Endpoint, ...] = ()
 
     @staticmethod
@@ -60,6 +61,7 @@ class Progress:
                 clock=None if clock is None else int(clock),
                 taken={str(k): int(v) for k, v in raw["taken"].items()},
                 published={str(k): int(v) for k, v in raw["published"].items()},
+                flushes=int(raw["flushes"]),
                 endpoints=tuple(Endpoint(**e) for e in raw["endpoints"])
                 if "endpoints" in raw
                 else before.endpoints
@@ -76,16 +78,16 @@ class Student:
     `progress` is its latest report (None before the first), `exit_code` is None while it runs.
     """
 
-    def __init__(self, file: Path, sandbox: Sandbox, listened: dict[str, str]) -> None:
+    def __init__(self, file: Path, sandbox: Sandbox, topics: dict[str, str]) -> None:
         """Start `file` with simulated time switched on.
 
-        `listened` maps the topics the grader subscribes to onto their ROS types.
+        `topics` maps the topics the grader publishes or subscribes to onto their ROS types.
         """
         ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         ours.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 20)
         environment = sandbox.student_environment() | {
             participant.SOCKET_FD: str(theirs.fileno()),
-            participant.LISTENED: json.dumps(listened),
+            participant.TOPICS: json.dumps(topics),
         }
         self._children_before = _children()
         command = [sys.executable, "-P", participant.__file__, str(file)]
@@ -116,7 +118,7 @@ class Student:
         self._lines: list[str] = []
         self._line_count = 0
         self.progress: Progress | None = None
-        self.reports = 0
+        self._answered = 0
         self.exit_code: int | None = None
         self.ended_by_us = False
 
@@ -141,6 +143,18 @@ class Student:
         if self._channel.fileno() not in self._selector.get_map():
             self._reap()
         return bool(ready)
+
+    @property
+    def wants_answer(self) -> bool:
+        """Whether it waits to be told that everything it published has arrived."""
+        return self.progress is not None and self.progress.flushes > self._answered
+
+    def answer(self) -> None:
+        """Tell it that everything it published has arrived."""
+        if self.progress is not None:
+            self._answered = self.progress.flushes
+            with contextlib.suppress(OSError):
+                self._channel.send(b"arrived")
 
     def take_lines(self) -> list[str]:
         """Return the lines written since the last call."""
@@ -183,7 +197,6 @@ class Student:
             progress = Progress.parse(data, self.progress)
             if progress is not None:
                 self.progress = progress
-                self.reports += 1
 
     def _reap(self) -> None:
         """The socket is closed: the process has exited, or shut its own ears; then it is ended."""
@@ -197,6 +210,8 @@ class Student:
 
     def stop(self) -> None:
         """End the process group and every descendant: SIGINT, then SIGTERM, then SIGKILL."""
+        with contextlib.suppress(OSError):
+            self._channel.shutdown(socket.SHUT_WR)  # nobody is going to answer it any more
         if self._process.poll() is None:
             self.ended_by_us = True
             for escalation in (signal.SIGINT, signal.SIGTERM):
