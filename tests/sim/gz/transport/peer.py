@@ -4,6 +4,7 @@ import json
 import os
 import sys
 import threading
+import warnings
 
 from gz.msgs.stringmsg_pb2 import StringMsg
 from gz.transport import Node, NodeOptions
@@ -32,7 +33,9 @@ def publish_from_threads(publisher, threads, count):
 
 
 def publish_from_forked_child(publisher, text):
-    child = os.fork()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)  # newer Pythons warn of forking beside threads
+        child = os.fork()
     if child == 0:
         arrived = publisher.wait_for_subscribers(timeout=10)
         publisher.publish(StringMsg(data=text))
