@@ -1,4 +1,4 @@
-"""What one bridge is: two topic names, two types, a direction and its options.
+"""What one bridge is: two topic names, two types, a direction and its options; and what became of it.
 
 Entries are made by ``config`` (from YAML or the command line) and taken by ``bridge.Bridge``. Nothing here
 imports ROS, so a file can be checked before any node exists.
@@ -7,6 +7,7 @@ imports ROS, so a file can be checked before any node exists.
 from __future__ import annotations
 
 import enum
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 
@@ -61,3 +62,39 @@ class BridgeEntry:
     def same_route(self) -> tuple[str, str, str, str]:
         """What makes two entries the same route: both topics and both types."""
         return (self.ros_topic, self.gz_topic, self.ros_type, self.gz_type)
+
+
+@dataclass
+class EntryStatus:
+    """What went through one entry so far, in messages.
+
+    ``dropped`` were refused or could not be converted (``last_error`` says why); ``echoes`` are the bridge's
+    own messages coming back, which are ignored.
+    """
+
+    entry: BridgeEntry
+    ros_to_gz: int = 0
+    gz_to_ros: int = 0
+    dropped: int = 0
+    echoes: int = 0
+    last_error: str | None = None
+
+
+@dataclass(frozen=True)
+class HeaderOverrides:
+    """What a bridge writes over the header of every message going to ROS.
+
+    ``frame_id`` replaces the frame unless the entry has one of its own; ``wall_time`` replaces the stamp with
+    the system clock.
+    """
+
+    frame_id: str = ""
+    wall_time: bool = False
+
+
+class BridgeError(RuntimeError):
+    """Entries that cannot be set up; ``errors`` holds one sentence for each."""
+
+    def __init__(self, errors: Iterable[str]) -> None:
+        self.errors = list(errors)
+        super().__init__("\n".join(self.errors))

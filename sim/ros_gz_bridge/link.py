@@ -1,0 +1,235 @@
+"""The two ways through one entry of a bridge: from Gazebo to ROS, and from ROS to Gazebo.
+
+``bridge.Bridge`` makes one of these for each direction of each entry. Each owns its endpoint on the ROS side,
+converts what arrives, counts it, and says once when a run of messages could not be bridged.
+"""
+
+from __future__ import annotations
+
+import re
+import time
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from gz.transport import SubscribeOptions
+from rclpy.exceptions import InvalidHandle
+from rclpy.publisher import Publisher
+from rclpy.qos import QoSPolicyKind, QoSProfile
+from rclpy.qos_overriding_options import QoSOverridingOptions
+
+from ros_gz_bridge.echo_filter import EchoAwarePublisher, EchoFilter
+from ros_gz_bridge.entry import BridgeEntry, BridgeError, EntryStatus
+from ros_gz_bridge.type_pairs import TypePair
+
+if TYPE_CHECKING:
+    from ros_gz_bridge.bridge import Bridge
+
+_PUBLISHER_POLICIES = (
+    QoSPolicyKind.DEADLINE,
+    QoSPolicyKind.DEPTH,
+    QoSPolicyKind.DURABILITY,
+    QoSPolicyKind.HISTORY,
+    QoSPolicyKind.LIVELINESS,
+    QoSPolicyKind.RELIABILITY,
+)
+
+
+@dataclass(frozen=True)
+class Row:
+    """An entry with its counters, its pair and its topic as ROS names it, after remapping."""
+
+    entry: BridgeEntry
+    status: EntryStatus
+    pair: TypePair
+    ros_topic: str
+
+
+class Link:
+    """What both directions of an entry share: counting, and one warning for a run of bad messages."""
+
+    def __init__(self, bridge: Bridge, row: Row) -> None:
+        self.entry = row.entry
+        self.ros_topic = row.ros_topic
+        self.connected = False
+        self._bridge = bridge
+        self.gz_topic = bridge._gz_name(row.entry.gz_topic)
+        self._pair = row.pair
+        self._status = row.status
+        self._closed = False
+        self._dropping = False
+
+    def _count(self, field: str) -> None:
+        with self._bridge._status_lock:
+            setattr(self._status, field, getattr(self._status, field) + 1)
+
+    def _passed(self, field: str) -> None:
+        self._dropping = False
+        self._count(field)
+
+    def _drop(self, ros_or_gz_type: str, topic: str, reason: str) -> None:
+        fault = f"{ros_or_gz_type} on {topic} was not bridged: {reason}"
+        with self._bridge._status_lock:
+            self._status.dropped += 1
+            self._status.last_error = fault
+        if not self._dropping:
+            self._dropping = True
+            self._bridge._ros_node.get_logger().warning(
+                f"{fault} (said once, until a message passes this bridge again)"
+            )
+
+
+class GzToRos(Link):
+    """One entry's way from Gazebo to ROS."""
+
+    def __init__(self, bridge: Bridge, row: Row, heard_by: tuple[EchoFilter, ...]) -> None:
+        super().__init__(bridge, row)
+        self.subscribed = False
+        self.publisher = bridge._ros_node.create_publisher(
+            row.pair.ros_class,
+            row.entry.ros_topic,
+            QoSProfile(depth=row.entry.publisher_queue),
+            qos_overriding_options=QoSOverridingOptions(_PUBLISHER_POLICIES),
+            publisher_class=EchoAwarePublisher if heard_by else Publisher,
+        )
+        if heard_by:
+            self.publisher.filters = heard_by
+
+    def wanted(self) -> bool:
+        """Whether anybody but this bridge listens on the ROS side."""
+        own = sum(link.connected and link.ros_topic == self.ros_topic for link in self._bridge._to_gz)
+        return bool(self.publisher.get_subscription_count() > own)
+
+    def connect(self) -> None:
+        """Listen to Gazebo. Raises ``BridgeError`` when ``gz.transport`` refuses."""
+        self.connected = True
+        if not self.subscribed:
+            self.subscribed = True
+            if not self._bridge._gz_node.subscribe(
+                self._pair.gz_class, self.entry.gz_topic, self._on_message, SubscribeOptions()
+            ):
+                raise BridgeError(
+                    [sentence(self.entry, f"cannot subscribe to the Gazebo topic {self.entry.gz_topic}")]
+                )
+
+    def disconnect(self) -> None:
+        """Stop listening to Gazebo."""
+        if self.connected:
+            self.connected = False
+            self._bridge._disconnect_gz(self.gz_topic)
+
+    def close(self) -> None:
+        """Stop listening and give back the publisher; a message on its way through may still leave."""
+        self.disconnect()
+        if not self._closed:
+            self._closed = True
+            self._bridge._ros_node.destroy_publisher(self.publisher)
+
+    def _on_message(self, gz: Any) -> None:
+        if not self.connected:
+            return
+        if self._bridge._gz_echo.is_echo(self.gz_topic, gz):
+            self._count("echoes")
+            return
+        try:
+            ros = self._pair.to_ros(gz)
+            self._override_header(ros)
+        except Exception as error:
+            self._drop(self._pair.gz_type, self.entry.gz_topic, str(error))
+            return
+        try:
+            self._bridge._publish(self.publisher, ros)
+        except InvalidHandle:
+            if not self._closed:
+                raise
+            return
+        self._passed("gz_to_ros")
+
+    def _override_header(self, ros: Any) -> None:
+        header = getattr(ros, "header", None)
+        if header is None:
+            return
+        overrides = self._bridge._overrides
+        if frame_id := self.entry.frame_id or overrides.frame_id:
+            header.frame_id = frame_id
+        if overrides.wall_time:
+            header.stamp.sec, header.stamp.nanosec = divmod(time.time_ns(), 10**9)
+
+
+class RosToGz(Link):
+    """One entry's way from ROS to Gazebo."""
+
+    def __init__(self, bridge: Bridge, row: Row, echo_filter: EchoFilter | None) -> None:
+        super().__init__(bridge, row)
+        self._echo_filter = echo_filter
+        self._publisher = bridge._gz_publisher(row.entry.gz_topic, row.pair)
+        self.subscription: Any = None
+
+    def wanted(self) -> bool:
+        """Whether anybody listens on the Gazebo side (a bidirectional entry hears itself, so always)."""
+        return bool(self._publisher.has_connections())
+
+    def connect(self) -> None:
+        """Listen to ROS."""
+        if self.connected:
+            return
+        self.connected = True
+        # rclpy looks at the number of parameters: with two it passes the stamps of the message along.
+        self.subscription = self._bridge._ros_node.create_subscription(
+            self._pair.ros_class,
+            self.entry.ros_topic,
+            self._on_message if self._echo_filter is None else self._on_message_with_info,
+            QoSProfile(depth=self.entry.subscriber_queue),
+            qos_overriding_options=QoSOverridingOptions.with_default_policies(),
+        )
+
+    def disconnect(self) -> None:
+        """Stop listening to ROS."""
+        self.connected = False
+        if self.subscription is not None:
+            self._bridge._ros_node.destroy_subscription(self.subscription)
+            self.subscription = None
+
+    def close(self) -> None:
+        """Stop listening; a message on its way through may still leave."""
+        self.disconnect()
+
+    def _on_message_with_info(self, ros: Any, info: dict[str, int]) -> None:
+        if self._echo_filter is not None and self._echo_filter.is_echo(ros, info["source_timestamp"]):
+            self._count("echoes")
+        else:
+            self._on_message(ros)
+
+    def _on_message(self, ros: Any) -> None:
+        if not self.connected:
+            return
+        if self._bridge._heard is not None:
+            self._bridge._heard(self.entry, ros)
+        pair = self._pair
+        fault = pair.fault(ros) if pair.fault is not None else None
+        if fault is not None:
+            self._drop(pair.ros_type, self.entry.ros_topic, f"{fault}; only finite numbers can be commanded")
+            return
+        try:
+            gz = pair.to_gz(ros)
+        except Exception as error:
+            self._drop(pair.ros_type, self.entry.ros_topic, str(error))
+            return
+        self._bridge._announce(pair)
+        with self._bridge._gz_echo.publishing(self.gz_topic, gz):
+            taken = self._publisher.publish(gz)
+        if taken:
+            self._passed("ros_to_gz")
+        else:
+            self._drop(
+                pair.ros_type, self.entry.ros_topic, f"gz.transport refused it on {self.entry.gz_topic}"
+            )
+
+
+def error_text(error: BaseException) -> str:
+    """The text of an error in one line, without the places in ROS's C sources that it may carry."""
+    return re.sub(r", at /\S+:\d+", "", " ".join(str(error).split())) or type(error).__name__
+
+
+def sentence(entry: BridgeEntry, text: str) -> str:
+    """``text`` after the place the entry was written, if that is known."""
+    return f"{entry.source}: {text}" if entry.source else text
