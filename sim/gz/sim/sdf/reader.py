@@ -87,11 +87,12 @@ class _WorldReader:
         scope = Scope("world", world)
         models: list[tuple[Element, Model]] = []
         for child in world.children:
-            element = self._open(child, 0) if child.tag == "include" else child
-            if element is None:
+            opened = self._open(child, 0, self._version)
+            if opened is None:
                 continue
+            element, version = opened
             if element.tag == "model":
-                model, nested, pose, base = self._model(element, False, 0)
+                model, nested, pose, base = self._model(element, version, False, 0)
                 scope.add(element.name, child, pose=pose, relative_to=base, nested=nested)
                 models.append((element, model))
             elif element.tag == "frame":
@@ -126,8 +127,15 @@ class _WorldReader:
         description.step_size_ns = step_ns
         description.real_time_factor = max(0.0, physics.number("real_time_factor", 1.0))
 
-    def _open(self, include: Element, depth: int) -> Element | None:
-        """Return the `<model>` (or `<light>`) an `<include>` brings, with the include's overrides put in."""
+    def _open(
+        self, include: Element, depth: int, version: tuple[int, int]
+    ) -> tuple[Element, tuple[int, int]] | None:
+        """Return what an `<include>` brings, its overrides put in, and the SDF version of its file.
+
+        Any other element is returned as it is, with the `version` of the file it stands in.
+        """
+        if include.tag != "include":
+            return include, version
         uri = include.text_of("uri")
         if not uri:
             raise include.error("<include> needs a <uri>, for example <uri>model://ground_plane</uri>")
@@ -161,12 +169,12 @@ class _WorldReader:
         if placement:
             found.attributes["placement_frame"] = placement
         found.children.extend(include.all("plugin"))
-        return found
+        return found, _version(root)
 
-    def _model(self, element: Element, static: bool, depth: int) -> tuple[Model, Scope, Pose, str]:
-        """Read a model; return it flattened, its scope, its stated pose and the frame that pose is given
-        in.
-        """
+    def _model(
+        self, element: Element, version: tuple[int, int], static: bool, depth: int
+    ) -> tuple[Model, Scope, Pose, str]:
+        """Read a model; return it flattened, its scope, its stated pose and the frame of that pose."""
         if not element.name:
             raise element.error("<model> needs a name attribute")
         static = static or element.flag("static", False)
@@ -174,11 +182,12 @@ class _WorldReader:
         scope = Scope("__model__", element)
         nested: list[tuple[str, Model]] = []
         for child in element.children:
-            opened = self._open(child, depth + 1) if child.tag == "include" else child
-            if opened is None:
+            brought = self._open(child, depth + 1, version)
+            if brought is None:
                 continue
+            opened, own_version = brought
             if opened.tag == "model":
-                inner, inner_scope, pose, base = self._model(opened, static, depth + 1)
+                inner, inner_scope, pose, base = self._model(opened, own_version, static, depth + 1)
                 scope.add(opened.name, child, pose=pose, relative_to=base, nested=inner_scope)
                 nested.append((opened.name, inner))
             elif opened.tag in ("link", "frame", "joint"):
@@ -192,7 +201,7 @@ class _WorldReader:
         if model.links:
             model.canonical_link = scope.canonical_link(element)
         for joint in element.all("joint"):
-            model.joints.append(read_joint(joint, scope, model, self._version, self._diagnostics))
+            model.joints.append(read_joint(joint, scope, model, version, self._diagnostics))
         pose, base = _pose_and_base(element)
         placement = element.attributes.get("placement_frame", "")
         if placement:

@@ -60,6 +60,7 @@ def test_statistics_come_every_tenth_of_a_simulated_second(server: Server, node:
     last = heard[-1]
     assert (last.iterations, last.paused, last.step_size.nsec) == (1000, False, 1_000_000)
     server.step(1000)
+    server.step(10)
     assert len(heard) == 11, "one long step gives one message, not ten"
 
 

@@ -143,6 +143,31 @@ def test_include_finds_models_on_the_resource_path_and_overrides(
     assert second.links[0].pose.position[0] == 2
 
 
+def test_an_included_file_is_read_by_the_rules_of_its_own_version(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "veteran").mkdir()
+    (tmp_path / "veteran" / "model.sdf").write_text(
+        "<sdf version='1.4'><model name='m'><link name='a'/><link name='b'><pose>0 0 0 0 0 "
+        "1.5707963267948966</pose>"
+        "</link><joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>1 0 "
+        "0</xyz></axis></joint>"
+        "</model></sdf>"
+    )
+    monkeypatch.setenv("GZ_SIM_RESOURCE_PATH", str(tmp_path))
+    world, _ = read("<include><uri>model://veteran</uri></include>")
+    axis = world.models[0].joints[0].axis  # type: ignore[attr-defined]
+    assert axis.direction == pytest.approx((0, -1, 0))
+
+
+def test_a_world_is_found_on_the_resource_path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "own.sdf").write_text("<sdf version='1.9'><world name='mine'/></sdf>")
+    monkeypatch.setenv("GZ_SIM_RESOURCE_PATH", str(tmp_path))
+    assert World.load("own.sdf").name == World.load("own").name == "mine"
+    with pytest.raises(ResourceError, match=r"did you mean 'own\.sdf'"):
+        World.load("owm.sdf")
+
+
 def test_a_missing_include_is_skipped_with_a_warning_and_fuel_ground_planes_are_replaced() -> None:
     world, warnings = read(
         "<include><uri>model://two_wheel_robt</uri></include>"
