@@ -39,8 +39,8 @@ def write_verdicts(recorder: Recorder, score: Score, max_score: float, end_s: fl
         )
     recorder.properties(
         "result",
-        score=score.points,
-        max_score=max_score,
+        score=float(score.points),
+        max_score=float(max_score),
         outcome=score.outcome,
         diagnosis=score.diagnosis,
         truth_sha256=score.truth_sha256,

@@ -50,7 +50,7 @@ def score(recording: Recording, exercise: Exercise) -> Score:
     diagnosis = diagnose(recording)
     if failed and not diagnosis:
         worst = max(failed, key=lambda check: check.spec.points)
-        diagnosis = f"{worst.spec.title}: expected {worst.finding.expected}; {worst.finding.measured}."
+        diagnosis = f"{worst.spec.title}: {worst.finding.measured}. {worst.spec.hint}"
     return Score(checks, outcome_of(recording), diagnosis if failed else "", truth_sha256(recording, exercise.robot))
 
 

@@ -4,6 +4,7 @@
     conditions = [{ signal = "truth/robot/linear_x", low = -0.02, high = 0.02 }]
     last = 1.5                # [s] before the end of the run
     unit = "m/s"
+    command = "topics/cmd_vel/linear/x"    # optional: what to look at when it does not
 """
 
 from __future__ import annotations
@@ -15,6 +16,8 @@ import numpy as np
 from grader.record.reading import Recording
 from grader.score.check import Band, Finding, check_kind
 from grader.score.steps import Condition, fulfilled, value_at
+
+STILL = 0.5  # [s] before the end: a command this late means that they never ceased
 
 
 @check_kind("stays_in_band")
@@ -33,4 +36,18 @@ def stays_in_band(recording: Recording, parameters: dict[str, Any]) -> Finding:
     at = float(edges[:-1][~holds][0])
     values = [(c.signal, value_at(recording, c.signal, at)) for c in conditions]
     shown = ", ".join(f"{name} was {value:.2f}" if value is not None else f"{name} had no value" for name, value in values)
-    return Finding(False, expected, f"{shown}{unit} at {at:.2f} s", float(np.round(at, 3)), bands)
+    measured = f"{shown}{unit} at {at:.2f} s{_last_command(recording, parameters, end)}"
+    return Finding(False, expected, measured, float(np.round(at, 3)), bands)
+
+
+def _last_command(recording: Recording, parameters: dict[str, Any], end: float) -> str:
+    """What the signal behind it said last: nothing any more, or still the same?"""
+    if "command" not in parameters:
+        return ""
+    signal = recording.signal(parameters["command"])
+    if not len(signal):
+        return ""
+    time, value = signal.times[-1] / 1e9, signal.values[-1]
+    if time > end - STILL and value:
+        return f"; commands of {value:.2f} were still coming at {time:.2f} s"
+    return f"; the last command came at {time:.2f} s and was {value:.2f}"
