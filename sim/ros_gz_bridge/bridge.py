@@ -12,13 +12,13 @@ import threading
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from gz.transport import AdvertiseMessageOptions, naming
-from gz.transport import Node as GzNode
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node as RosNode
 from rclpy.publisher import Publisher
 from rclpy.timer import Timer
 
+from gz.transport import AdvertiseMessageOptions, naming
+from gz.transport import Node as GzNode
 from ros_gz_bridge.echo_filter import EchoFilter, GzEcho
 from ros_gz_bridge.entry import BridgeEntry, BridgeError, Direction, EntryStatus, HeaderOverrides
 from ros_gz_bridge.link import GzToRos, RosToGz, Row, error_text, sentence

@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any
 
 import yaml
-from gz.transport import naming
 
+from gz.transport import naming
 from ros_gz_bridge.entry import BridgeEntry, Direction
 from ros_gz_bridge.type_pairs import UnknownPairError, canonical_gz_type, find_pair, pairs
 

@@ -11,12 +11,12 @@ import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from gz.transport import SubscribeOptions
 from rclpy.exceptions import InvalidHandle
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSPolicyKind, QoSProfile
 from rclpy.qos_overriding_options import QoSOverridingOptions
 
+from gz.transport import SubscribeOptions
 from ros_gz_bridge.echo_filter import EchoAwarePublisher, EchoFilter
 from ros_gz_bridge.entry import BridgeEntry, BridgeError, EntryStatus
 from ros_gz_bridge.type_pairs import TypePair

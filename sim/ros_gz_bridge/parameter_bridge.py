@@ -114,9 +114,9 @@ def _run(argv: list[str]) -> int:
 
 def _bridge(node: Node, entries: list[BridgeEntry]) -> int:
     """Set the bridges up, wait for a signal, take them down."""
-    from gz.transport import Node as GzNode
     from rclpy.executors import SingleThreadedExecutor
 
+    from gz.transport import Node as GzNode
     from ros_gz_bridge.bridge import Bridge, BridgeError, HeaderOverrides
 
     parameters = _read_parameters(node)

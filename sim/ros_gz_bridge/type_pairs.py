@@ -17,9 +17,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from gz.msgs import message_class
-
 import ros_gz_bridge.convert
+from gz.msgs import message_class
 
 _GZ_PREFIXES = ("ignition.msgs.", "gz_msgs.", "ign_msgs.")
 

@@ -16,6 +16,7 @@ from ros_gz_bridge.type_pairs import add_pair, type_pair
 def _data_pair(ros_type: str, gz_type: str) -> None:
     """Pair two messages that carry their value in one field ``data``."""
     import std_msgs.msg
+
     from gz.msgs import message_class
 
     ros_class = getattr(std_msgs.msg, ros_type.rpartition("/")[2])

@@ -9,12 +9,13 @@ from gz.msgs.clock_pb2 import Clock as GzClock
 from gz.msgs.image_pb2 import Image as GzImage
 from gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
 from gz.msgs.twist_pb2 import Twist as GzTwist
-from gz.transport import Node, NodeOptions, Scope
 from rclpy.qos import QoSProfile, ReliabilityPolicy
-from ros_gz_bridge.bridge import Bridge, BridgeEntry, BridgeError, Direction, HeaderOverrides
-from ros_gz_bridge.config import parse_argument
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Image, LaserScan
+
+from gz.transport import Node, NodeOptions, Scope
+from ros_gz_bridge.bridge import Bridge, BridgeEntry, BridgeError, Direction, HeaderOverrides
+from ros_gz_bridge.config import parse_argument
 
 TWIST = ("geometry_msgs/msg/Twist", "gz.msgs.Twist")
 SCAN = ("sensor_msgs/msg/LaserScan", "gz.msgs.LaserScan")

@@ -4,6 +4,7 @@ import pytest
 import yaml
 from hypothesis import example, given
 from hypothesis import strategies as st
+
 from ros_gz_bridge import type_pairs
 from ros_gz_bridge.config import (
     MAX_BYTES,

@@ -12,10 +12,11 @@ from gz.msgs.pose_pb2 import Pose as GzPose
 from gz.msgs.time_pb2 import Time as GzTime
 from hypothesis import given
 from hypothesis import strategies as st
+from sensor_msgs.msg import Image, LaserScan
+
 from ros_gz_bridge import type_pairs
 from ros_gz_bridge.header import header_to_ros, set_header_value
 from ros_gz_bridge.type_pairs import ConversionError, find_pair
-from sensor_msgs.msg import Image, LaserScan
 
 PAIRS = type_pairs.pairs()
 _SCALARS = {

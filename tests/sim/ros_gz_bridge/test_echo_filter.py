@@ -6,6 +6,7 @@ from collections import Counter
 from gz.msgs.stringmsg_pb2 import StringMsg
 from hypothesis import given
 from hypothesis import strategies as st
+
 from ros_gz_bridge.echo_filter import EchoFilter, GzEcho
 
 US = 1000

@@ -11,8 +11,9 @@ import pytest
 from geometry_msgs.msg import Twist
 from gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
 from gz.msgs.twist_pb2 import Twist as GzTwist
-from gz.transport import Node
 from sensor_msgs.msg import LaserScan
+
+from gz.transport import Node
 
 DEADLINE = 20.0
 COMMAND = [sys.executable, "-m", "ros_gz_bridge.parameter_bridge"]

@@ -1,6 +1,7 @@
 """The table of pairs is found by looking into its folder, and says what is missing."""
 
 import pytest
+
 import ros_gz_bridge.convert
 from ros_gz_bridge import type_pairs
 from ros_gz_bridge.type_pairs import MissingPackageError, UnknownPairError, canonical_gz_type, find_pair
