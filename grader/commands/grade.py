@@ -25,11 +25,13 @@ def register(app: typer.Typer) -> None:
 def grade_command(
     exercise: Annotated[str, typer.Argument(help="Exercise, such as 03_teleop or 03.")],
     submission: Annotated[
-        Path | None, typer.Option(help="File to grade, or a folder with it. Default: your copy in exercises/.")
+        Path | None,
+        typer.Option(help="File to grade, or a folder with it. Default: your copy in exercises/."),
     ] = None,
     seed: Annotated[int, typer.Option(help="Seed of sensor noise and of the grader's own commands.")] = 0,
     pace: Annotated[
-        str, typer.Option(help="lockstep (as fast as it goes, always the same) or realtime (paced to the wall clock).")
+        str,
+        typer.Option(help="lockstep (as fast as it goes, always the same) or realtime (paced to the wall clock)."),
     ] = "lockstep",
     out: Annotated[Path | None, typer.Option(help="Folder for the recording. Default: runs/EXERCISE.")] = None,
     json: Annotated[Path | None, typer.Option(help="Write the report as JSON to this file.")] = None,

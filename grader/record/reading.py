@@ -45,7 +45,7 @@ class Recording:
         if not path.is_file():
             raise UsageError(f"no recording at {path}: give the .rrd file that `course grade` wrote")
         self.path = path
-        self._rows: dict[tuple[str, str], list[tuple[np.ndarray, list[Any]]]] = {}
+        self._rows: dict[tuple[str, str], list[tuple[np.ndarray, Any]]] = {}  # times, arrow column
         self._static: dict[str, dict[str, Any]] = {}
         try:
             with warnings.catch_warnings():

@@ -17,10 +17,11 @@ Entities (names are what a manifest's checks refer to, without the leading slash
 
 from __future__ import annotations
 
+import contextlib
 import math
 import uuid
 from collections import defaultdict
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import Any
@@ -67,7 +68,7 @@ class Recorder:
             times.append(self.now_ns)
             values.append(value)
 
-    def pose(self, entity: str, position: Sequence[float], quaternion_wxyz: Sequence[float]) -> None:
+    def pose(self, entity: str, position: Iterable[float], quaternion_wxyz: Iterable[float]) -> None:
         """Log a pose relative to the parent entity: metres, unit quaternion."""
         times, positions, quaternions = self._poses[entity]
         times.append(self.now_ns)
@@ -120,7 +121,7 @@ class Recorder:
             flat = np.concatenate(clouds)
             self._send(entity, times, rr.Points3D.columns(positions=flat).partition(lengths))
         for pending in (self._scalars, self._poses, self._texts, self._arrays, self._points):
-            pending.clear()  # type: ignore[attr-defined]
+            pending.clear()
         self.stream.flush()
 
     def states(self, entity: str, times_ns: Sequence[int], states: Sequence[str]) -> None:
@@ -145,6 +146,15 @@ class Recorder:
             self.close()
         else:
             self.abandon()
+
+    @contextlib.contextmanager
+    def abandoned_on_error(self) -> Iterator[None]:
+        """Remove the unfinished file if the body raises; leave it open if not."""
+        try:
+            yield
+        except BaseException:
+            self.abandon()
+            raise
 
     def close(self) -> None:
         """Finish the file and give it its name."""

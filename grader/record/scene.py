@@ -33,7 +33,11 @@ def shape(kind: str, size: Any, color: Any) -> Any:
         return rr.Cylinders3D(lengths=[size[2]], radii=[half[0]], colors=colors, fill_mode="solid")
     if kind == "capsule":
         return rr.Capsules3D(
-            lengths=[size[2]], radii=[half[0]], translations=[[0, 0, -half[2]]], colors=colors, fill_mode="solid"
+            lengths=[size[2]],
+            radii=[half[0]],
+            translations=[[0, 0, -half[2]]],
+            colors=colors,
+            fill_mode="solid",
         )
     return None
 

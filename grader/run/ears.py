@@ -12,15 +12,15 @@ from importlib import import_module
 from typing import Any
 
 import rclpy
-from gz.transport import Node as GzNode
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.qos import QoSProfile
 from rclpy.signals import SignalHandlerOptions
-from ros_gz_bridge.bridge import Bridge, BridgeEntry
 
 from grader.errors import ManifestError
+from gz.transport import Node as GzNode
+from ros_gz_bridge.bridge import Bridge, BridgeEntry
 
 TAP_DEPTH = 1000
 NODE = "ros_gz_bridge"
@@ -57,15 +57,15 @@ class Ears:
         self._executor.add_node(self._node)
         self.held: list[tuple[str, Any, Any]] = []
         self.bridge = Bridge(self._node, gz_node, entries, publish=self._hold, heard=self._bridge_heard)
-        self._out = {e.ros_topic: e.ros_type for e in entries if e.direction.to_ros}
-        self._in = {e.ros_topic: e.ros_type for e in entries if e.direction.to_gz} | observe
+        self.offered = {e.ros_topic: e.ros_type for e in entries if e.direction.to_ros}
+        self.listened = {e.ros_topic: e.ros_type for e in entries if e.direction.to_gz} | observe
         self.received: Counter[str] = Counter()
         self._heard = heard
         for topic, kind in observe.items():
             self._node.create_subscription(message_class(kind), topic, self._tap(topic), QoSProfile(depth=TAP_DEPTH))
         # One publisher and one subscription a topic, so one match on either side is a complete match.
-        self._publishers = {p.topic_name: p for p in self._node.publishers if p.topic_name in self._out}
-        self._subscriptions = {s.topic_name: s for s in self._node.subscriptions if s.topic_name in self._in}
+        self._publishers = {p.topic_name: p for p in self._node.publishers if p.topic_name in self.offered}
+        self._subscriptions = {s.topic_name: s for s in self._node.subscriptions if s.topic_name in self.listened}
 
     def _hold(self, publisher: Any, message: Any) -> None:
         self.held.append((publisher.topic_name, publisher, message))
@@ -100,11 +100,11 @@ class Ears:
 
     def publishes(self, topic: str) -> str | None:
         """ROS type of what the bridge publishes on a topic, or None."""
-        return self._out.get(topic)
+        return self.offered.get(topic)
 
     def listens(self, topic: str) -> str | None:
         """ROS type of what is subscribed to here on a topic, or None."""
-        return self._in.get(topic)
+        return self.listened.get(topic)
 
     def matched(self, topic: str, kind: str) -> int:
         """How many of the student's endpoints of a kind (publisher, subscription) are matched on a topic."""

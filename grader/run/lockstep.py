@@ -146,8 +146,10 @@ class LockStep(RealTime):
         return ready
 
     def deliver(self, topic: str, publisher: Any, message: Any, now_ns: int) -> None:
-        """Publish one message and wait until it was taken and its consequences have arrived."""
-        publisher.publish(message)
+        """Publish one message and wait until it was taken and its consequences have arrived.
+
+        What nobody subscribes to is not published at all.
+        """
         self._now_ns = now_ns
         if not self.student.running:
             return
@@ -158,6 +160,7 @@ class LockStep(RealTime):
         readers = self.ears.matched(topic, "subscription")
         if not readers:
             return
+        publisher.publish(message)
         if topic != CLOCK:
             self._sent[topic] += readers
         if not self._free:
@@ -179,9 +182,7 @@ class LockStep(RealTime):
             return False
         if progress.clock is not None and progress.clock < self._now_ns:
             return False
-        if any(progress.taken.get(topic, 0) < count for topic, count in self._sent.items()):
-            return False
-        return True
+        return all(progress.taken.get(topic, 0) >= count for topic, count in self._sent.items())
 
     def _settle(self, again: Callable[[], None] | None) -> None:
         deadline = time.monotonic() + PATIENCE

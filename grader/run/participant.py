@@ -6,10 +6,11 @@ ours. It watches three places in rclpy (the executor's wait, every publish, ever
 
     {"clock": ns, "taken": {topic: n}, "published": {topic: n}, "flushes": n, "endpoints": [...]}
 
-`endpoints` is there only when it changed; `clock` is the smallest simulated time any spinning node has been told, `taken` and `published` count messages
-since the start, the latter only while somebody listened; when `flushes` grows, the process
-waits for an answer before it takes a publisher down. The grader advances simulated time only when those numbers show that everything it sent was
-taken. Nothing here is trusted: a process that lies about itself only spoils its own run.
+`endpoints` is there only when it changed; `clock` is the smallest simulated time any spinning node has been told;
+`taken` and `published` count messages since the start, the latter only while somebody listened; when `flushes` grows,
+the process waits for an answer before it takes a publisher down. The grader advances simulated time only when those
+numbers show that everything it sent was taken. Nothing here is trusted: a process that lies about itself only spoils
+its own run.
 """
 
 from __future__ import annotations

@@ -80,7 +80,9 @@ def perform(spec: CheckSpec, recording: Recording) -> Finding:
             values = recording.signal(gate["signal"]).values
             best = float(values.max()) if len(values) else 0.0
             if best < gate["reaches"]:
-                return Finding(False, finding.expected, f"{gate['otherwise']} ({finding.measured})", None, finding.bands)
+                return Finding(
+                    False, finding.expected, f"{gate['otherwise']} ({finding.measured})", None, finding.bands
+                )
     except KeyError as error:
         raise ManifestError(f"check {spec.id!r} lacks the parameter {error.args[0]!r}") from None
     return finding

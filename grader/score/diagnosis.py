@@ -5,7 +5,6 @@ Works from the facts in the recording: which endpoints the node had, how its pro
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from difflib import get_close_matches
 from typing import Any
 
@@ -28,7 +27,17 @@ def outcome_of(recording: Recording) -> str:
 def diagnose(recording: Recording) -> str:
     """Return one sentence on the first fault found, or an empty string if nothing structural is wrong."""
     facts = recording.facts()
-    for look in (_cannot_run, _died, _ended_early, _never_spun, _publishers, _subscriptions, _silent, _dropped):
+    for look in (
+        _cannot_run,
+        _died,
+        _ended_early,
+        _never_spun,
+        _publishers,
+        _subscriptions,
+        _silent,
+        _dropped,
+        _unstable,
+    ):
         if sentence := look(recording, facts):
             return sentence
     return ""
@@ -73,9 +82,7 @@ def _ended_early(recording: Recording, facts: dict[str, Any]) -> str:
 def _never_spun(recording: Recording, facts: dict[str, Any]) -> str:
     if facts.get("ready", True):
         return ""
-    return (
-        "Your node's process ran but never spun: no timer and no callback can run before rclpy.spin(node) is called."
-    )
+    return "Your node's process ran but never spun: no timer and no callback can run before rclpy.spin(node) is called."
 
 
 def _of(facts: dict[str, Any], kind: str) -> list[dict[str, str]]:
@@ -138,3 +145,5 @@ def _dropped(recording: Recording, facts: dict[str, Any]) -> str:
     return ""
 
 
+def _unstable(recording: Recording, facts: dict[str, Any]) -> str:
+    return f"The simulation ended early: {facts['unstable']}" if facts.get("unstable") else ""

@@ -24,7 +24,9 @@ class Condition:
         return Condition(raw["signal"], float(raw.get("low", -np.inf)), float(raw.get("high", np.inf)))
 
 
-def fulfilled(recording: Recording, conditions: list[Condition], start: float, end: float) -> tuple[np.ndarray, np.ndarray]:
+def fulfilled(
+    recording: Recording, conditions: list[Condition], start: float, end: float
+) -> tuple[np.ndarray, np.ndarray]:
     """When do all conditions hold at once between `start` and `end` [s]?
 
     Returns the edges [s], shape (n + 1,), of n intervals and whether the conditions hold in each, shape (n,). Before
@@ -37,7 +39,11 @@ def fulfilled(recording: Recording, conditions: list[Condition], start: float, e
     holds = np.ones(len(edges) - 1, dtype=bool)
     for condition, signal in zip(conditions, signals, strict=True):
         index = np.searchsorted(signal.times / 1e9, edges[:-1], side="right") - 1
-        values = np.where(index >= 0, signal.values[np.maximum(index, 0)], np.nan) if len(signal) else np.full(len(index), np.nan)
+        values = (
+            np.where(index >= 0, signal.values[np.maximum(index, 0)], np.nan)
+            if len(signal)
+            else np.full(len(index), np.nan)
+        )
         with np.errstate(invalid="ignore"):
             holds &= (values >= condition.low) & (values <= condition.high)
     return edges, holds

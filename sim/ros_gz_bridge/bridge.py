@@ -135,9 +135,7 @@ class Bridge:
                     own_filter = next((own for other, own in filters if other is row), None)
                     self._to_gz.append(RosToGz(self, row, own_filter))
             except Exception as error:
-                errors.append(
-                    sentence(row.entry, f"cannot bridge {row.entry.ros_topic}: {error_text(error)}")
-                )
+                errors.append(sentence(row.entry, f"cannot bridge {row.entry.ros_topic}: {error_text(error)}"))
         if errors:
             raise BridgeError(errors)
         for link in self._links():
@@ -168,9 +166,7 @@ class Bridge:
             publisher = self._gz_node.advertise(topic, pair.gz_class, AdvertiseMessageOptions())
             self._gz_publishers[name] = publisher
         elif publisher.type_name != pair.gz_type:
-            raise ValueError(
-                f"the Gazebo topic {topic} carries {publisher.type_name} already, not {pair.gz_type}"
-            )
+            raise ValueError(f"the Gazebo topic {topic} carries {publisher.type_name} already, not {pair.gz_type}")
         return publisher
 
     def _disconnect_gz(self, topic: str) -> None:
@@ -186,8 +182,7 @@ class Bridge:
         if key not in self._announced:
             self._announced.add(key)
             self._ros_node.get_logger().info(
-                f"Passing message from ROS {pair.ros_type} to Gazebo {pair.gz_type} "
-                "(showing msg only once per type)"
+                f"Passing message from ROS {pair.ros_type} to Gazebo {pair.gz_type} (showing msg only once per type)"
             )
 
 
@@ -204,9 +199,7 @@ def _echo_filters(rows: list[Row]) -> list[tuple[Row, EchoFilter]]:
     return [
         (
             row,
-            EchoFilter(
-                _content_of(row.pair), depths[row.ros_topic] + row.entry.subscriber_queue + _ECHO_MARGIN
-            ),
+            EchoFilter(_content_of(row.pair), depths[row.ros_topic] + row.entry.subscriber_queue + _ECHO_MARGIN),
         )
         for row in rows
         if row.entry.direction.to_gz and row.ros_topic in depths

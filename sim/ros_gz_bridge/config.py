@@ -68,30 +68,19 @@ def load_yaml(path: str | Path, *, lazy: bool = False) -> list[BridgeEntry]:
 def parse_yaml(text: str | bytes, file_name: str = "<string>", *, lazy: bool = False) -> list[BridgeEntry]:
     """As ``load_yaml``, for a text; ``file_name`` stands in the error sentences."""
     if len(text) > MAX_BYTES:
-        raise ConfigError(
-            [f"{file_name}: larger than {MAX_BYTES // 1024} KiB, which no bridge configuration needs"]
-        )
+        raise ConfigError([f"{file_name}: larger than {MAX_BYTES // 1024} KiB, which no bridge configuration needs"])
     root = _compose(text, file_name)
     if root is None or (isinstance(root, yaml.ScalarNode) and root.tag.endswith(":null")):
-        raise ConfigError(
-            [f"{file_name}: the file is empty; expected a list of bridges, each starting with '- '"]
-        )
+        raise ConfigError([f"{file_name}: the file is empty; expected a list of bridges, each starting with '- '"])
     if not isinstance(root, yaml.SequenceNode):
         raise ConfigError(
-            [
-                f"{_place(file_name, root)}: expected a list of bridges, found {_kind(root)}; "
-                "start each bridge with '- '"
-            ]
+            [f"{_place(file_name, root)}: expected a list of bridges, found {_kind(root)}; start each bridge with '- '"]
         )
     if len(root.value) > MAX_ENTRIES:
-        raise ConfigError(
-            [f"{file_name}: {len(root.value)} bridges, more than the {MAX_ENTRIES} a file may hold"]
-        )
+        raise ConfigError([f"{file_name}: {len(root.value)} bridges, more than the {MAX_ENTRIES} a file may hold"])
     errors: list[str] = []
     entries = [
-        entry
-        for node in root.value
-        if (entry := _EntryReader(file_name, node, errors, lazy).read()) is not None
+        entry for node in root.value if (entry := _EntryReader(file_name, node, errors, lazy).read()) is not None
     ]
     errors.extend(_repeated(entries))
     if errors:
@@ -151,9 +140,7 @@ def _compose(text: str | bytes, file_name: str) -> yaml.Node | None:
         place = f"{file_name}:{mark.line + 1}" if mark else file_name
         raise ConfigError([f"{place}: not valid YAML: {error.problem or error.context}"]) from None
     except yaml.reader.ReaderError as error:
-        raise ConfigError(
-            [f"{file_name}: not a YAML text: {error.reason} at position {error.position}"]
-        ) from None
+        raise ConfigError([f"{file_name}: not a YAML text: {error.reason} at position {error.position}"]) from None
     except RecursionError:
         raise ConfigError([f"{file_name}: nested too deeply for a bridge configuration"]) from None
     except ValueError as error:
@@ -179,9 +166,7 @@ class _EntryReader:
             self._collect(self._node)
             service = next((key for key in _SERVICE_KEYS if key in self._values), None)
             if service is not None:
-                self._wrong(
-                    self._values[service], f"'{service}' bridges a service; only topics can be bridged here"
-                )
+                self._wrong(self._values[service], f"'{service}' bridges a service; only topics can be bridged here")
             else:
                 entry = self._entry()
                 if not self._errors:
@@ -206,9 +191,7 @@ class _EntryReader:
         ros_type, gz_type = self._text("ros_type_name"), self._text("gz_type_name")
         for key in ("ros_type_name", "gz_type_name"):
             if key not in self._values:
-                self._wrong(
-                    self._node, f"'{key}' is missing; a bridge needs both ros_type_name and gz_type_name"
-                )
+                self._wrong(self._node, f"'{key}' is missing; a bridge needs both ros_type_name and gz_type_name")
         if ros_type and gz_type:
             for fault in _type_faults(ros_type, gz_type):
                 self._wrong(self._values["ros_type_name"], fault)
@@ -242,9 +225,7 @@ class _EntryReader:
             )
             return None, None
         if not both and not sides:
-            self._wrong(
-                self._node, "the topic is missing; give topic_name, or ros_topic_name and gz_topic_name"
-            )
+            self._wrong(self._node, "the topic is missing; give topic_name, or ros_topic_name and gz_topic_name")
             return None, None
         ros_key, gz_key = ("topic_name", "topic_name") if both else (sides[0], sides[-1])
         ros_topic = self._text(ros_key)

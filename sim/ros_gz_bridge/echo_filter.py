@@ -50,9 +50,7 @@ class EchoFilter:
     longer arrive. Thread safe: publishing and receiving happen in different threads.
     """
 
-    def __init__(
-        self, content: Callable[[Any], bytes], capacity: int, now: Callable[[], int] = time.time_ns
-    ) -> None:
+    def __init__(self, content: Callable[[Any], bytes], capacity: int, now: Callable[[], int] = time.time_ns) -> None:
         self._content = content
         self._now = now
         self._published: deque[_Publication] = deque(maxlen=capacity)
@@ -78,9 +76,7 @@ class EchoFilter:
         with self._lock:
             for publication in self._published:
                 end = publication.not_after
-                in_time = publication.not_before <= source_timestamp and (
-                    end is None or source_timestamp <= end
-                )
+                in_time = publication.not_before <= source_timestamp and (end is None or source_timestamp <= end)
                 if in_time and publication.content == content:
                     self._published.remove(publication)
                     return True

@@ -107,9 +107,7 @@ class GzToRos(Link):
             if not self._bridge._gz_node.subscribe(
                 self._pair.gz_class, self.entry.gz_topic, self._on_message, SubscribeOptions()
             ):
-                raise BridgeError(
-                    [sentence(self.entry, f"cannot subscribe to the Gazebo topic {self.entry.gz_topic}")]
-                )
+                raise BridgeError([sentence(self.entry, f"cannot subscribe to the Gazebo topic {self.entry.gz_topic}")])
 
     def disconnect(self) -> None:
         """Stop listening to Gazebo."""
@@ -220,9 +218,7 @@ class RosToGz(Link):
         if taken:
             self._passed("ros_to_gz")
         else:
-            self._drop(
-                pair.ros_type, self.entry.ros_topic, f"gz.transport refused it on {self.entry.gz_topic}"
-            )
+            self._drop(pair.ros_type, self.entry.ros_topic, f"gz.transport refused it on {self.entry.gz_topic}")
 
 
 def error_text(error: BaseException) -> str:

@@ -101,9 +101,7 @@ def _run(argv: list[str]) -> int:
     except Exception as error:
         raise _UsageError([f"ROS did not start: {error_text(error)}"]) from None
     try:
-        node = rclpy.create_node(
-            "ros_gz_bridge", context=context, automatically_declare_parameters_from_overrides=True
-        )
+        node = rclpy.create_node("ros_gz_bridge", context=context, automatically_declare_parameters_from_overrides=True)
         try:
             return _bridge(node, entries)
         finally:
@@ -209,9 +207,7 @@ def _all_entries(entries: list[BridgeEntry], parameters: dict[str, Any]) -> list
     if entries:
         return [replace(entry, lazy=lazy) for entry in entries]
     if not config_file:
-        raise _UsageError(
-            ["nothing to bridge; give bridges as arguments or -p config_file:=FILE (see --help)"]
-        )
+        raise _UsageError(["nothing to bridge; give bridges as arguments or -p config_file:=FILE (see --help)"])
     try:
         entries = load_yaml(config_file, lazy=lazy)
     except ConfigError as error:

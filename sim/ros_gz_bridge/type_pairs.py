@@ -87,9 +87,7 @@ def add_pair(
     with _lock:
         if (ros_type, gz_type) in _pairs:
             raise ValueError(f"the pair {ros_type} = {gz_type} is declared twice")
-        _pairs[ros_type, gz_type] = TypePair(
-            ros_type, gz_type, ros_class, message_class(gz_type), to_ros, to_gz, fault
-        )
+        _pairs[ros_type, gz_type] = TypePair(ros_type, gz_type, ros_class, message_class(gz_type), to_ros, to_gz, fault)
 
 
 def convertible_packages() -> list[str]:

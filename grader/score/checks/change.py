@@ -1,10 +1,10 @@
 """`change`: by how much did a signal change over a window?
 
-    kind = "change"
-    signal = "truth/robot/yaw"
-    band = [0.3, 0.7]
-    window = [0.0, 8.0]       # optional
-    unit = "rad"
+kind = "change"
+signal = "truth/robot/yaw"
+band = [0.3, 0.7]
+window = [0.0, 8.0]       # optional
+unit = "rad"
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
 """`stays_in_band`: did signals lie in their bands without a break to the end of the run?
 
-    kind = "stays_in_band"
-    conditions = [{ signal = "truth/robot/linear_x", low = -0.02, high = 0.02 }]
-    last = 1.5                # [s] before the end of the run
-    unit = "m/s"
-    command = "topics/cmd_vel/linear/x"    # optional: what to look at when it does not
+kind = "stays_in_band"
+conditions = [{ signal = "truth/robot/linear_x", low = -0.02, high = 0.02 }]
+last = 1.5                # [s] before the end of the run
+unit = "m/s"
+command = "topics/cmd_vel/linear/x"    # optional: what to look at when it does not
 """
 
 from __future__ import annotations
@@ -35,7 +35,9 @@ def stays_in_band(recording: Recording, parameters: dict[str, Any]) -> Finding:
         return Finding(True, expected, "so it did", end, bands)
     at = float(edges[:-1][~holds][0])
     values = [(c.signal, value_at(recording, c.signal, at)) for c in conditions]
-    shown = ", ".join(f"{name} was {value:.2f}" if value is not None else f"{name} had no value" for name, value in values)
+    shown = ", ".join(
+        f"{name} was {value:.2f}" if value is not None else f"{name} had no value" for name, value in values
+    )
     measured = f"{shown}{unit} at {at:.2f} s{_last_command(recording, parameters, end)}"
     return Finding(False, expected, measured, float(np.round(at, 3)), bands)
 

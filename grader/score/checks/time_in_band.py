@@ -1,10 +1,10 @@
 """`time_in_band`: for how long did one or more signals lie in their bands at the same time?
 
-    kind = "time_in_band"
-    conditions = [{ signal = "truth/robot/linear_x", low = 0.45, high = 0.55 }]
-    seconds = [4.7, 5.35]     # at least, at most; the second may be left out
-    window = [0.0, 8.0]       # optional
-    unit = "m/s"              # for the report
+kind = "time_in_band"
+conditions = [{ signal = "truth/robot/linear_x", low = 0.45, high = 0.55 }]
+seconds = [4.7, 5.35]     # at least, at most; the second may be left out
+window = [0.0, 8.0]       # optional
+unit = "m/s"              # for the report
 """
 
 from __future__ import annotations

@@ -52,9 +52,7 @@ class _Reader:
         while position < len(text):
             match = _TOKEN.match(text, position)
             if match is None:
-                raise self._error(
-                    f"expected a word, number, string or sign, but found {text[position]!r}", position
-                )
+                raise self._error(f"expected a word, number, string or sign, but found {text[position]!r}", position)
             if match.lastgroup != "space":
                 self._tokens.append((match.group(), position))
             position = match.end()
@@ -141,9 +139,7 @@ class _Reader:
                 self._enum(result.enum_type.add())
             else:
                 self._next -= 1
-                raise self._error(
-                    f"expected syntax, package, import, option, message or enum, but found {keyword!r}"
-                )
+                raise self._error(f"expected syntax, package, import, option, message or enum, but found {keyword!r}")
         return result
 
     def _message(self, result: DescriptorProto) -> None:
@@ -216,9 +212,7 @@ class _Reader:
         value = self._name("the value type of the map")
         self._expect(">")
         self._name_and_number(field)
-        entry = message.nested_type.add(
-            name="".join(part.capitalize() for part in field.name.split("_")) + "Entry"
-        )
+        entry = message.nested_type.add(name="".join(part.capitalize() for part in field.name.split("_")) + "Entry")
         entry.options.map_entry = True
         for number, (name, type_name) in enumerate((("key", key), ("value", value)), start=1):
             part = entry.field.add(name=name, number=number, label=FieldDescriptorProto.LABEL_OPTIONAL)

@@ -17,6 +17,7 @@ from typing import Any
 from google.protobuf import message_factory
 from google.protobuf.descriptor_pool import DescriptorPool
 from google.protobuf.message import Message
+
 from gz.msgs.proto_reader import read_proto
 
 PROTO_FOLDER = Path(__file__).with_name("proto")

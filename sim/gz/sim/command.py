@@ -52,30 +52,18 @@ def _count(text: str) -> int:
 
 def _parser() -> _Parser:
     parser = _Parser(prog="gz sim", description="Run a simulation.", allow_abbrev=False)
-    parser.add_argument(
-        "file", nargs="?", help="world: a path, a name in GZ_SIM_RESOURCE_PATH, or a built-in world"
-    )
-    parser.add_argument(
-        "-r", dest="run", action="store_true", help="run at once (without it the world starts paused)"
-    )
-    parser.add_argument(
-        "-s", dest="server", action="store_true", help="server only; there is no other way here"
-    )
-    parser.add_argument(
-        "-g", dest="gui", action="store_true", help="the window of a full Gazebo; refused here"
-    )
+    parser.add_argument("file", nargs="?", help="world: a path, a name in GZ_SIM_RESOURCE_PATH, or a built-in world")
+    parser.add_argument("-r", dest="run", action="store_true", help="run at once (without it the world starts paused)")
+    parser.add_argument("-s", dest="server", action="store_true", help="server only; there is no other way here")
+    parser.add_argument("-g", dest="gui", action="store_true", help="the window of a full Gazebo; refused here")
     parser.add_argument(
         "-v", "--verbose", dest="verbose", nargs="?", type=_count, const=3, default=1, metavar="LEVEL",
         help="0 silent, 1 and 2 errors and warnings, 3 messages (plain -v), 4 everything",
     )  # fmt: skip
-    parser.add_argument(
-        "--iterations", type=_count, default=0, metavar="N", help="end after N steps (0: never)"
-    )
+    parser.add_argument("--iterations", type=_count, default=0, metavar="N", help="end after N steps (0: never)")
     parser.add_argument("-z", dest="rate", type=_number, metavar="HZ", help="steps per second of wall time")
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="seed of all sensor noise")
-    parser.add_argument(
-        "--headless-rendering", action="store_true", help="accepted; sensors never need a display here"
-    )
+    parser.add_argument("--headless-rendering", action="store_true", help="accepted; sensors never need a display here")
     parser.add_argument("--force-version", metavar="N", help="accepted, there is one version")
     parser.add_argument("--physics-engine", metavar="NAME", help="accepted, MuJoCo is always used")
     parser.add_argument("--render-engine", metavar="NAME", help="accepted, rays are always cast by MuJoCo")

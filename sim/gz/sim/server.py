@@ -13,6 +13,7 @@ from typing import Any
 
 from gz.msgs.clock_pb2 import Clock
 from gz.msgs.world_stats_pb2 import WorldStatistics
+
 from gz.sim.world import World
 from gz.transport import Node
 
@@ -48,9 +49,7 @@ class Server:
         world.step(n)
         self._publish_clock()
         if world.sim_time_ns >= self._next_stats_ns:
-            self._next_stats_ns += STATS_PERIOD_NS * (
-                1 + (world.sim_time_ns - self._next_stats_ns) // STATS_PERIOD_NS
-            )
+            self._next_stats_ns += STATS_PERIOD_NS * (1 + (world.sim_time_ns - self._next_stats_ns) // STATS_PERIOD_NS)
             self._publish_stats()
 
     def run(

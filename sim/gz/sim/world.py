@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 import mujoco
 import numpy as np
+
 from gz.sim.errors import LOG, Diagnostics, SimError, nearest
 from gz.sim.physics.builder import build_spec, scoped
 from gz.sim.physics.recipe import JointServo
@@ -92,9 +93,7 @@ class World:
         return cls(description, diagnostics, seed=seed, node=node)
 
     @classmethod
-    def from_string(
-        cls, sdf: str, *, seed: int = 0, file_name: str = "<string>", node: Node | None = None
-    ) -> World:
+    def from_string(cls, sdf: str, *, seed: int = 0, file_name: str = "<string>", node: Node | None = None) -> World:
         """Load a world from SDF text; `file_name` stands for it in messages."""
         diagnostics = Diagnostics()
         return cls(read_world(sdf, file_name, diagnostics), diagnostics, seed=seed, node=node)
@@ -186,20 +185,14 @@ class World:
                         )
 
     def _hooks(self, hook: str) -> list[Callable[[UpdateInfo], None]]:
-        return [
-            getattr(each, hook)
-            for each in self.systems
-            if getattr(type(each), hook) is not getattr(System, hook)
-        ]
+        return [getattr(each, hook) for each in self.systems if getattr(type(each), hook) is not getattr(System, hook)]
 
     def attach(self, node: Node | None) -> None:
         """Let every system subscribe and advertise on `node`; a world is attached to one node at most."""
         if node is None or node is self.node:
             return
         if self.node is not None:
-            raise SimError(
-                f"world '{self.name}' is already attached to a node; load it again for another one"
-            )
+            raise SimError(f"world '{self.name}' is already attached to a node; load it again for another one")
         self.node = node
         for each in self.systems:
             each.connect(node)
@@ -237,9 +230,7 @@ class World:
         after.
         """
         moving = [model.name for model in self.description.models if not model.static]
-        return (
-            moving + [model.name for model in self.description.models if model.static] if static else moving
-        )
+        return moving + [model.name for model in self.description.models if model.static] if static else moving
 
     def pose(self, model: str) -> Pose:
         """Return where the model's frame is now, in the world frame; raise `SimError` for an unknown
@@ -260,9 +251,7 @@ class World:
         part = found.link(link)
         if part is None:
             names = [each.name for each in found.links]
-            raise SimError(
-                f"model '{model}' has no link '{link}'; {nearest(link, names, listing='its links are')}"
-            )
+            raise SimError(f"model '{model}' has no link '{link}'; {nearest(link, names, listing='its links are')}")
         return found.pose * part.pose if found.static else self._link_pose(found, part)
 
     def velocity(self, model: str) -> Velocity:
@@ -300,8 +289,7 @@ class World:
         if count == 1:
             self.diagnostics.warn(
                 "",
-                f"a command on {topic} was dropped because it is not finite ({what}); check for division "
-                "by zero",
+                f"a command on {topic} was dropped because it is not finite ({what}); check for division by zero",
             )
 
     def _model(self, name: str) -> Model:

@@ -30,10 +30,7 @@ def encode(message: Discovery) -> bytes:
 
 def decode(data: bytes) -> Discovery | None:
     """The message in a datagram; None when the datagram is not one of this protocol and version."""
-    if (
-        len(data) < _LENGTH_BYTES
-        or int.from_bytes(data[:_LENGTH_BYTES], "little") != len(data) - _LENGTH_BYTES
-    ):
+    if len(data) < _LENGTH_BYTES or int.from_bytes(data[:_LENGTH_BYTES], "little") != len(data) - _LENGTH_BYTES:
         return None
     try:
         message = Discovery.FromString(data[_LENGTH_BYTES:])

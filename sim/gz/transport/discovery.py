@@ -14,6 +14,7 @@ import time
 from collections.abc import Callable, Iterable
 
 from gz.msgs.discovery_pb2 import Discovery
+
 from gz.transport import datagram, naming
 from gz.transport.environment import NetworkSettings, complain
 from gz.transport.options import Scope

@@ -86,12 +86,8 @@ class NetworkSettings:
             group=_address(environment, "GZ_DISCOVERY_MULTICAST_IP", DEFAULT_GROUP),
             message_port=message_port,
             service_port=service_port,
-            send_high_water_mark=_number(
-                environment, "GZ_TRANSPORT_SNDHWM", DEFAULT_HIGH_WATER_MARK, 0, 2**31 - 1
-            ),
-            receive_high_water_mark=_number(
-                environment, "GZ_TRANSPORT_RCVHWM", DEFAULT_HIGH_WATER_MARK, 0, 2**31 - 1
-            ),
+            send_high_water_mark=_number(environment, "GZ_TRANSPORT_SNDHWM", DEFAULT_HIGH_WATER_MARK, 0, 2**31 - 1),
+            receive_high_water_mark=_number(environment, "GZ_TRANSPORT_RCVHWM", DEFAULT_HIGH_WATER_MARK, 0, 2**31 - 1),
         )
 
 
@@ -112,7 +108,5 @@ def _address(environment: Mapping[str, str], name: str, default: str) -> str:
     try:
         return str(ipaddress.IPv4Address(text))
     except ValueError:
-        complain(
-            f"{name} is {text!r}, but an IPv4 address such as {default} was expected; {default} is used."
-        )
+        complain(f"{name} is {text!r}, but an IPv4 address such as {default} was expected; {default} is used.")
         return default

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import zmq
+
 from gz.transport.environment import complain
 
 LEAVE_AFTER_S = 5.0
@@ -51,9 +52,7 @@ class Inlet:
             if not self._connect(address):
                 if address not in self._unusable:
                     self._unusable.add(address)
-                    complain(
-                        f"The publisher of {name} has an address that cannot be used: {address[:100]!r}."
-                    )
+                    complain(f"The publisher of {name} has an address that cannot be used: {address[:100]!r}.")
                 return False
             self._connected.add(address)
         return True

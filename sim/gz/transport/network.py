@@ -19,6 +19,7 @@ from collections.abc import Callable, Iterable
 
 import zmq
 from gz.msgs.discovery_pb2 import Discovery
+
 from gz.transport import naming
 from gz.transport.discovery import HEARTBEAT_S
 from gz.transport.dispatcher import Dispatcher
@@ -47,9 +48,7 @@ class Network:
         self._told: dict[tuple[str, str, str, str], float] = {}
         self._context: zmq.Context[zmq.Socket[bytes]] = zmq.Context()
         try:
-            self._outlet = Outlet(
-                self._context, settings.ip, settings.send_high_water_mark, SWITCHBOARD.notify
-            )
+            self._outlet = Outlet(self._context, settings.ip, settings.send_high_water_mark, SWITCHBOARD.notify)
         except zmq.ZMQError as error:
             self._context.destroy(linger=0)
             raise OSError(error.errno, f"address {settings.ip} cannot be bound ({error})") from error
@@ -167,9 +166,7 @@ class Network:
                 self._one_round(poller)
             except Exception as error:  # nothing that arrives may end this thread
                 if self._open:
-                    complain(
-                        f"Something was received that could not be used ({type(error).__name__}: {error})."
-                    )
+                    complain(f"Something was received that could not be used ({type(error).__name__}: {error}).")
 
     def _one_round(self, poller: zmq.Poller) -> None:
         wait_s = self._discovery.tick()
@@ -192,9 +189,7 @@ class Network:
         if not subscription.active:
             return
         for record in self._discovery.known(subscription.name):
-            if subscription.accepts(record.msg_pub.msg_type) and self._inlet.listen(
-                record.topic, record.address
-            ):
+            if subscription.accepts(record.msg_pub.msg_type) and self._inlet.listen(record.topic, record.address):
                 self._tell(record, subscription.node_uuid)
         self._discovery.ask(subscription.name)
 
@@ -212,9 +207,7 @@ class Network:
 
     def _on_advertise(self, record: Discovery.Publisher, is_new: bool) -> None:
         kind = record.msg_pub.msg_type
-        nodes = {
-            each.node_uuid for each in SWITCHBOARD.networked_subscriptions(record.topic) if each.accepts(kind)
-        }
+        nodes = {each.node_uuid for each in SWITCHBOARD.networked_subscriptions(record.topic) if each.accepts(kind)}
         if nodes and self._inlet.listen(record.topic, record.address):
             for node in sorted(nodes):
                 self._tell(record, node, again=is_new)
@@ -317,9 +310,7 @@ def _abandon_in_child() -> None:
     if _network is not None:
         atexit.unregister(_network.close)
         _network.abandon_after_fork()
-        _inherited.append(
-            _network
-        )  # kept, because closing the parent's ZeroMQ sockets here would disturb the parent
+        _inherited.append(_network)  # kept, because closing the parent's ZeroMQ sockets here would disturb the parent
         _network = None
 
 

@@ -13,6 +13,7 @@ from types import TracebackType
 from typing import Any
 
 from google.protobuf.message import Message
+
 from gz.transport import naming
 from gz.transport.message_info import MessageInfo, MessagePublisher
 from gz.transport.options import AdvertiseMessageOptions, NodeOptions, Scope, SubscribeOptions
@@ -158,9 +159,7 @@ class Node:
         """(publishers, subscribers) of a topic; waits like topic_list()."""
         plain = naming.split(self._qualified(topic))[1]
         published, subscribed = self._everybody()
-        return [each for each in published if each.topic == plain], [
-            each for each in subscribed if each.topic == plain
-        ]
+        return [each for each in published if each.topic == plain], [each for each in subscribed if each.topic == plain]
 
     def _everybody(self) -> tuple[list[MessagePublisher], list[MessagePublisher]]:
         """Every (publisher, subscriber) of this node's partition that it can know of."""

@@ -7,6 +7,7 @@ listens) and to every subscription of this process, in the caller's thread, befo
 from __future__ import annotations
 
 from google.protobuf.message import Message
+
 from gz.transport import naming
 from gz.transport.environment import complain
 from gz.transport.message_info import MessageInfo

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from google.protobuf.message import DecodeError, Message
+
 from gz.transport.environment import complain
 from gz.transport.message_info import MessageInfo
 from gz.transport.options import Scope, SubscribeOptions
@@ -84,6 +85,4 @@ def _report(error: Exception, topic: str) -> None:
     places = [frame for frame in frames if Path(frame.filename).parent != own] or list(frames)
     place = f"{places[-1].filename}:{places[-1].lineno}"
     text = " ".join(str(error).split())
-    complain(
-        f"The callback of topic [{topic}] raised {type(error).__name__}{': ' if text else ''}{text} ({place})"
-    )
+    complain(f"The callback of topic [{topic}] raised {type(error).__name__}{': ' if text else ''}{text} ({place})")

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from gz.msgs.discovery_pb2 import Discovery
+
 from gz.transport.discovery import DiscoveryChannel
 from gz.transport.environment import NetworkSettings
 from gz.transport.subscription import GENERIC_TYPE, Subscription
@@ -65,16 +66,10 @@ class TopicDiscovery(DiscoveryChannel):
     def subscribers(self) -> list[Discovery.Publisher]:
         """The subscribers of other processes, as far as they answered or are connected to us."""
         with self._table_lock:
-            found = {
-                (topic, *key): record
-                for topic, group in self._listed.items()
-                for key, record in group.items()
-            }
+            found = {(topic, *key): record for topic, group in self._listed.items() for key, record in group.items()}
             for topic, group in self._connected.items():
                 for (process, node), kind in group.items():
-                    record = Discovery.Publisher(
-                        topic=topic, process_uuid=process, node_uuid=node, scope="ALL"
-                    )
+                    record = Discovery.Publisher(topic=topic, process_uuid=process, node_uuid=node, scope="ALL")
                     record.msg_pub.msg_type = kind
                     found.setdefault((topic, process, node), record)
         return list(found.values())

@@ -54,9 +54,7 @@ class LaserScanPair:
             range_max=gz.range_max,
         )
         if len(gz.ranges) < start + gz.count:
-            raise ConversionError(
-                f"the scan announces {gz.count} beams a layer but carries {len(gz.ranges)} ranges"
-            )
+            raise ConversionError(f"the scan announces {gz.count} beams a layer but carries {len(gz.ranges)} ranges")
         # Assigning an array is many times faster than a list, whose every element ROS checks in Python.
         ros.ranges = array("f", gz.ranges[start : start + gz.count])
         if len(gz.intensities) >= start + gz.count:
@@ -129,9 +127,7 @@ class ImagePair:
         if encoding is None:
             number = gz.pixel_format_type
             name = PixelFormatType.Name(number) if number in PixelFormatType.values() else f"number {number}"
-            raise ConversionError(
-                f"the pixel format {name} has no ROS encoding (known: {', '.join(_ENCODINGS)})"
-            )
+            raise ConversionError(f"the pixel format {name} has no ROS encoding (known: {', '.join(_ENCODINGS)})")
         step = gz.step or gz.width * _ENCODINGS[encoding][1]
         _check_pixels(gz.width, gz.height, step, len(gz.data), encoding)
         return Image(

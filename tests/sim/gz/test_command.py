@@ -1,8 +1,9 @@
 import subprocess
 import sys
 
-import gz
 import pytest
+
+import gz
 from gz import command
 
 
@@ -12,8 +13,7 @@ def hello(tmp_path, monkeypatch):
     folder = tmp_path / "gz" / "hello"
     folder.mkdir(parents=True)
     (folder / "command.py").write_text(
-        '"""Greets."""\nprint("imported")\n\n'
-        'def main(argv):\n    print("hello", *argv)\n    return len(argv)\n'
+        '"""Greets."""\nprint("imported")\n\ndef main(argv):\n    print("hello", *argv)\n    return len(argv)\n'
     )
     monkeypatch.setattr(gz, "__path__", [*gz.__path__, str(tmp_path / "gz")])
     monkeypatch.delitem(sys.modules, "gz.hello", raising=False)

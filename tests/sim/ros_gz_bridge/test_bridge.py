@@ -116,9 +116,7 @@ def test_conversion_to_ros_is_done_before_gz_publish_returns(stage):
     assert (publisher.topic_name, type(message), message.clock.sec) == (stage.topic, Clock, 7)
 
 
-def test_a_command_that_is_not_finite_is_dropped_counted_and_reported_once_a_burst(
-    stage, inbox, eventually, capfd
-):
+def test_a_command_that_is_not_finite_is_dropped_counted_and_reported_once_a_burst(stage, inbox, eventually, capfd):
     bridge = stage.bridge(stage.entry(direction=Direction.ROS_TO_GZ))
     commands = inbox()
     stage.gz.subscribe(GzTwist, stage.topic, commands)
@@ -136,9 +134,7 @@ def test_a_command_that_is_not_finite_is_dropped_counted_and_reported_once_a_bur
         commands.wait(burst)
     (status,) = bridge.status()
     assert (status.dropped, status.ros_to_gz, len(commands.messages)) == (6, 2, 2)
-    assert status.last_error.startswith(
-        f"geometry_msgs/msg/Twist on {stage.topic} was not bridged: angular.z is nan"
-    )
+    assert status.last_error.startswith(f"geometry_msgs/msg/Twist on {stage.topic} was not bridged: angular.z is nan")
     warnings = [line for line in capfd.readouterr().err.splitlines() if "[WARN]" in line]
     assert len(warnings) == 2
     assert all(stage.topic in line and "angular.z is nan" in line for line in warnings)
@@ -151,9 +147,7 @@ def test_a_message_that_cannot_be_converted_is_dropped_with_its_reason(stage):
     publisher.publish(GzImage(width=1, height=1, step=1, pixel_format_type="L_INT8", data=b"x"))
     (status,) = bridge.status()
     assert (status.dropped, status.gz_to_ros) == (1, 1)
-    assert (
-        f"gz.msgs.Image on {stage.topic} was not bridged: the pixel format RGB_FLOAT32" in status.last_error
-    )
+    assert f"gz.msgs.Image on {stage.topic} was not bridged: the pixel format RGB_FLOAT32" in status.last_error
 
 
 def test_both_ways_without_echo_and_without_losing_repeats(stage, inbox, eventually):
@@ -162,18 +156,14 @@ def test_both_ways_without_echo_and_without_losing_repeats(stage, inbox, eventua
     stage.gz.subscribe(GzTwist, stage.topic, at_gz)
     stage.ros_subscription(Twist, at_ros)
     from_ros, from_gz = stage.ros_publisher(Twist, listeners=2), stage.gz.advertise(stage.topic, GzTwist)
-    eventually(
-        lambda: bridge._to_ros[0].publisher.get_subscription_count() == 2, "the bridge sees both listeners"
-    )
+    eventually(lambda: bridge._to_ros[0].publisher.get_subscription_count() == 2, "the bridge sees both listeners")
     rounds = 40
     for number in range(1, rounds + 1):
         from_gz.publish(GzTwist())
         from_ros.publish(Twist())
         at_gz.wait(2 * number)
         at_ros.wait(2 * number)
-        eventually(
-            lambda wanted=2 * number: bridge.status()[0].echoes == wanted, "both echoes are recognised"
-        )
+        eventually(lambda wanted=2 * number: bridge.status()[0].echoes == wanted, "both echoes are recognised")
     (status,) = bridge.status()
     assert (status.ros_to_gz, status.gz_to_ros, status.dropped) == (rounds, rounds, 0)
     assert (len(at_gz.messages), len(at_ros.messages)) == (2 * rounds, 2 * rounds)
@@ -193,14 +183,10 @@ def test_an_echo_is_recognised_when_the_owner_releases_the_message_later(stage, 
 
 
 def test_two_opposite_entries_do_not_circulate(stage, inbox, eventually):
-    bridge = stage.bridge(
-        stage.entry(direction=Direction.GZ_TO_ROS), stage.entry(direction=Direction.ROS_TO_GZ)
-    )
+    bridge = stage.bridge(stage.entry(direction=Direction.GZ_TO_ROS), stage.entry(direction=Direction.ROS_TO_GZ))
     at_ros = inbox()
     stage.ros_subscription(Twist, at_ros)
-    eventually(
-        lambda: bridge._to_ros[0].publisher.get_subscription_count() == 2, "the bridge sees both listeners"
-    )
+    eventually(lambda: bridge._to_ros[0].publisher.get_subscription_count() == 2, "the bridge sees both listeners")
     stage.gz.advertise(stage.topic, GzTwist).publish(GzTwist())
     at_ros.wait(1)
     eventually(lambda: bridge.status()[1].echoes == 1, "the echo is recognised")
@@ -331,9 +317,7 @@ def test_an_entry_from_the_command_line_runs(stage, inbox, eventually):
     bridge = stage.bridge(parse_argument(f"{stage.topic}@sensor_msgs/msg/Image[gz.msgs.Image"))
     images = inbox()
     stage.ros_subscription(Image, images)
-    eventually(
-        lambda: bridge._to_ros[0].publisher.get_subscription_count() == 1, "the bridge knows its subscriber"
-    )
+    eventually(lambda: bridge._to_ros[0].publisher.get_subscription_count() == 1, "the bridge knows its subscriber")
     pixels = bytes(range(12))
     stage.gz.advertise(stage.topic, GzImage).publish(
         GzImage(width=2, height=2, step=6, pixel_format_type="RGB_INT8", data=pixels)

@@ -243,18 +243,12 @@ def test_each_fault_has_its_sentence_and_place(text, place, words):
 
 
 def test_an_alias_bomb_is_only_a_list_of_wrong_items():
-    bomb = "- &a [x, x]\n" + "".join(
-        f"- &{chr(98 + i)} [*{chr(97 + i)}, *{chr(97 + i)}]\n" for i in range(20)
-    )
+    bomb = "- &a [x, x]\n" + "".join(f"- &{chr(98 + i)} [*{chr(97 + i)}, *{chr(97 + i)}]\n" for i in range(20))
     assert len(errors_of(bomb)) == 21
 
 
 def test_all_faults_are_listed_at_once():
-    text = (
-        bridge(direction="UP", lazy="perhaps")
-        + bridge(topic_name=None, ros_type_name="std_msgs/msg/Bol")
-        + "- 5\n"
-    )
+    text = bridge(direction="UP", lazy="perhaps") + bridge(topic_name=None, ros_type_name="std_msgs/msg/Bol") + "- 5\n"
     errors = errors_of(text)
     assert [error.split(": ")[0] for error in errors] == [
         "b.yaml:4",

@@ -62,9 +62,7 @@ def images(draw):
     step = width * _ENCODINGS[encoding][1] + padding
     data = draw(st.binary(min_size=step * height, max_size=step * height))
     header = draw(messages(type(Image().header)))
-    return Image(
-        header=header, width=width, height=height, step=step, encoding=encoding, data=array("B", data)
-    )
+    return Image(header=header, width=width, height=height, step=step, encoding=encoding, data=array("B", data))
 
 
 def plain(message):
@@ -88,9 +86,7 @@ def lossy(pair, expected):
     if pair.ros_class is LaserScan:
         expected["time_increment"] = expected["scan_time"] = 0.0
         beams = len(expected["ranges"])
-        expected["intensities"] = (
-            expected["intensities"][:beams] if len(expected["intensities"]) >= beams else []
-        )
+        expected["intensities"] = expected["intensities"][:beams] if len(expected["intensities"]) >= beams else []
     if pair.gz_type == "gz.msgs.Odometry":
         expected["pose"]["covariance"] = expected["twist"]["covariance"] = [0.0] * 36
     return expected
@@ -111,9 +107,7 @@ def test_there_and_back_is_the_same_message(pair):
 @pytest.mark.parametrize("pair", PAIRS, ids=lambda pair: f"{pair.ros_type}={pair.gz_type}")
 def test_gz_message_class_is_the_one_named(pair):
     assert pair.gz_class.DESCRIPTOR.full_name == pair.gz_type
-    assert isinstance(
-        pair.to_gz(pair.ros_class()) if pair.ros_class is not Image else GzImage(), pair.gz_class
-    )
+    assert isinstance(pair.to_gz(pair.ros_class()) if pair.ros_class is not Image else GzImage(), pair.gz_class)
 
 
 def test_last_beam_is_kept():
@@ -142,9 +136,7 @@ def test_the_middle_layer_of_a_scan_is_taken(layers, chosen):
 
 def test_a_scan_with_fewer_ranges_than_beams_is_refused():
     with pytest.raises(ConversionError, match="announces 5 beams a layer but carries 2 ranges"):
-        find_pair("sensor_msgs/msg/LaserScan", "gz.msgs.LaserScan").to_ros(
-            GzLaserScan(count=5, ranges=[1.0, 2.0])
-        )
+        find_pair("sensor_msgs/msg/LaserScan", "gz.msgs.LaserScan").to_ros(GzLaserScan(count=5, ranges=[1.0, 2.0]))
 
 
 def test_the_last_frame_id_of_a_header_counts_and_a_missing_one_is_empty():

@@ -137,15 +137,11 @@ def test_messages_pass_both_ways(bridged, ros, inbox, eventually):
         ros.node.destroy_subscription(subscription)
     assert commands.messages[0].linear.x == 1.5
     assert (scans.messages[0].header.frame_id, list(scans.messages[0].ranges)) == ("a/b", [2.5])
-    process.wait_for(
-        "Passing message from ROS geometry_msgs/msg/Twist to Gazebo gz.msgs.Twist (showing msg only once"
-    )
+    process.wait_for("Passing message from ROS geometry_msgs/msg/Twist to Gazebo gz.msgs.Twist (showing msg only once")
     assert process.stop() == 0
     log = "\n".join(process.lines)
     assert f"Creating ROS->GZ Bridge: [{'/go' if gz_command == '/go' else ros_command} (geometry_msgs" in log
-    assert re.search(
-        rf"Creating GZ->ROS Bridge: \[{gz_scan} \(gz.msgs.LaserScan\) -> {ros_scan} \(sensor_msgs", log
-    )
+    assert re.search(rf"Creating GZ->ROS Bridge: \[{gz_scan} \(gz.msgs.LaserScan\) -> {ros_scan} \(sensor_msgs", log)
     assert "Traceback" not in log
 
 

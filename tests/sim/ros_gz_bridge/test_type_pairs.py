@@ -13,14 +13,10 @@ def test_every_package_of_the_folder_contributes_pairs():
     assert {"geometry_msgs", "nav_msgs", "rosgraph_msgs", "sensor_msgs", "std_msgs"} <= with_pairs
 
 
-@pytest.mark.parametrize(
-    "spelling", ["gz.msgs.Twist", "ignition.msgs.Twist", "gz_msgs.Twist", "ign_msgs.Twist"]
-)
+@pytest.mark.parametrize("spelling", ["gz.msgs.Twist", "ignition.msgs.Twist", "gz_msgs.Twist", "ign_msgs.Twist"])
 def test_older_spellings_of_gz_types_are_the_same_pair(spelling):
     assert canonical_gz_type(spelling) == "gz.msgs.Twist"
-    assert find_pair("geometry_msgs/msg/Twist", spelling) is find_pair(
-        "geometry_msgs/msg/Twist", "gz.msgs.Twist"
-    )
+    assert find_pair("geometry_msgs/msg/Twist", spelling) is find_pair("geometry_msgs/msg/Twist", "gz.msgs.Twist")
 
 
 @pytest.mark.parametrize(
@@ -48,9 +44,7 @@ def test_a_file_for_a_package_that_is_absent_is_passed_over(tmp_path, monkeypatc
     monkeypatch.setattr(ros_gz_bridge.convert, "__path__", [*ros_gz_bridge.convert.__path__, str(tmp_path)])
     assert type_pairs.missing_packages() == ["absent_msgs"]
     assert type_pairs.pairs()
-    with pytest.raises(
-        MissingPackageError, match="needs the ROS package absent_msgs, which is not installed"
-    ):
+    with pytest.raises(MissingPackageError, match="needs the ROS package absent_msgs, which is not installed"):
         find_pair("absent_msgs/msg/Thing", "gz.msgs.Thing")
 
 
@@ -67,6 +61,4 @@ def test_a_new_file_in_the_folder_is_a_new_pair(tmp_path, monkeypatch):
 def test_the_same_pair_cannot_be_declared_twice():
     type_pairs.pairs()
     with pytest.raises(ValueError, match=r"std_msgs/msg/Bool = gz\.msgs\.Boolean is declared twice"):
-        type_pairs.add_pair(
-            "std_msgs/msg/Bool", "gz.msgs.Boolean", to_ros=lambda gz: gz, to_gz=lambda ros: ros
-        )
+        type_pairs.add_pair("std_msgs/msg/Bool", "gz.msgs.Boolean", to_ros=lambda gz: gz, to_gz=lambda ros: ros)

@@ -13,6 +13,7 @@ import math
 
 import mujoco
 import numpy as np
+
 from gz.sim.errors import Diagnostics
 from gz.sim.physics import recipe
 from gz.sim.pose import Pose, Vector, matrix, multiply, quaternion_between
@@ -177,9 +178,7 @@ class _Builder:
         body.iquat = multiply(inertial.pose.quaternion, turn)
 
     def _add_joint(self, body: mujoco.MjsBody, model: Model, joint: Joint) -> None:
-        made = body.add_joint(
-            name=scoped(model, joint.name), type=_JOINT_TYPES[joint.kind], pos=joint.pose.position
-        )
+        made = body.add_joint(name=scoped(model, joint.name), type=_JOINT_TYPES[joint.kind], pos=joint.pose.position)
         axis = joint.axis
         if axis is None:
             return
@@ -270,9 +269,7 @@ class _Builder:
                 kind, size = "box", (geometry.size[0] / 2, geometry.size[1] / 2, 0.001)
             else:
                 size = (0.0, 0.0, 1.0)
-        geom = body.add_geom(
-            name=name, type=_TYPES[kind], size=_three(size), pos=pose.position, quat=pose.quaternion
-        )
+        geom = body.add_geom(name=name, type=_TYPES[kind], size=_three(size), pos=pose.position, quat=pose.quaternion)
         geom.group = COLLISION_GROUP
         geom.contype = geom.conaffinity = part.bitmask
         geom.solref = self._solref
@@ -293,9 +290,7 @@ class _Builder:
             pose = pose * _plane_turn(geometry)
             if moving:
                 kind, size = "box", (geometry.size[0] / 2, geometry.size[1] / 2, 0.001)
-        geom = body.add_geom(
-            name=name, type=_TYPES[kind], size=_three(size), pos=pose.position, quat=pose.quaternion
-        )
+        geom = body.add_geom(name=name, type=_TYPES[kind], size=_three(size), pos=pose.position, quat=pose.quaternion)
         geom.group = VISUAL_GROUP
         geom.contype = geom.conaffinity = 0
         geom.mass = 0.0

@@ -47,9 +47,7 @@ def apply_options(spec: mujoco.MjSpec, step: float, gravity: tuple[float, float,
     option = spec.option
     option.timestep = step
     option.gravity = gravity
-    option.integrator = (
-        mujoco.mjtIntegrator.mjINT_DISCRETE if DISCRETE else mujoco.mjtIntegrator.mjINT_IMPLICITFAST
-    )
+    option.integrator = mujoco.mjtIntegrator.mjINT_DISCRETE if DISCRETE else mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     option.impratio = 10.0
     spec.compiler.degree = False

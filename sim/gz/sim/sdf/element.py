@@ -15,6 +15,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
+
 from gz.sim.errors import SdfError
 from gz.sim.pose import Pose
 
@@ -172,7 +173,6 @@ def parse(text: str, file: str = "<string>") -> Element:
         if stack:
             what += f", while <{stack[-1].tag}> (opened on line {stack[-1].line}) was open"
         raise SdfError(
-            f"{file}:{error.lineno}: this is not well-formed XML ({what}); check that every tag is "
-            "closed and quoted"
+            f"{file}:{error.lineno}: this is not well-formed XML ({what}); check that every tag is closed and quoted"
         ) from None
     return roots[0]

@@ -136,6 +136,4 @@ class Scope:
 
     def _unknown(self, name: str, asker: Element) -> Exception:
         what = "the world" if self.own == "world" else f"model '{self.element.name}'"
-        return asker.error(
-            f"{what} has no frame '{name}'; {nearest(name, self.frames, listing='its frames are')}"
-        )
+        return asker.error(f"{what} has no frame '{name}'; {nearest(name, self.frames, listing='its frames are')}")

@@ -39,9 +39,7 @@ def read_geometry(owner: Element, diagnostics: Diagnostics) -> Geometry | None:
     holder = owner.find("geometry")
     shapes = [child for child in holder.children if child.tag in CHILDREN["geometry"]] if holder else []
     if holder is None or not shapes:
-        diagnostics.warn(
-            owner.where, f"<{owner.tag}> '{owner.name}' has no <geometry> with a shape, it is left out"
-        )
+        diagnostics.warn(owner.where, f"<{owner.tag}> '{owner.name}' has no <geometry> with a shape, it is left out")
         return None
     shape = shapes[0]
     if shape.tag == "empty":
@@ -112,7 +110,5 @@ def read_colour(visual: Element, diagnostics: Diagnostics) -> Rgba:
                 red, green, blue = _SCRIPT_COLOURS[word]
             else:
                 hint = nearest(word, _SCRIPT_COLOURS, listing="colours that are known are")
-                diagnostics.warn(
-                    material.where, f"material script '{script}' is not known, grey is used; {hint}"
-                )
+                diagnostics.warn(material.where, f"material script '{script}' is not known, grey is used; {hint}")
     return red, green, blue, alpha * (1.0 - transparency)

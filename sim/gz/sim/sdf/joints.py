@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+
 from gz.sim.errors import Diagnostics, nearest
 from gz.sim.pose import Pose, matrix
 from gz.sim.sdf.description import UNLIMITED, Axis, Joint, Model
@@ -24,14 +25,10 @@ def read_joint(
     """Return the joint with scoped link names; its pose and axis are in the child link's frame."""
     kind = element.attributes.get("type", "")
     if kind in _SDF_ONLY:
-        diagnostics.warn(
-            element.where, f"joint type '{kind}' is not simulated here, '{element.name}' is held fixed"
-        )
+        diagnostics.warn(element.where, f"joint type '{kind}' is not simulated here, '{element.name}' is held fixed")
         kind = "fixed"
     elif kind not in KINDS:
-        raise element.error(
-            f"joint '{element.name}' has type '{kind}'; {nearest(kind, (*KINDS, *_SDF_ONLY))}"
-        )
+        raise element.error(f"joint '{element.name}' has type '{kind}'; {nearest(kind, (*KINDS, *_SDF_ONLY))}")
     child = _link(element, "child", scope, model)
     parent = _link(element, "parent", scope, model)
     if child == "world":
@@ -44,9 +41,7 @@ def read_joint(
     if kind in ("revolute", "continuous", "prismatic"):
         axis = element.find("axis")
         joint.axis = (
-            _axis(axis, element, scope, child_link.pose, pose, version)
-            if axis is not None
-            else Axis((0, 0, 1))
+            _axis(axis, element, scope, child_link.pose, pose, version) if axis is not None else Axis((0, 0, 1))
         )
         if kind == "continuous":
             joint.axis.lower, joint.axis.upper = -UNLIMITED, UNLIMITED
@@ -91,9 +86,7 @@ def _axis(
         effort = limit.number("effort", math.inf)
         axis.effort = effort if effort >= 0.0 else math.inf
         if axis.lower > axis.upper:
-            raise limit.error(
-                f"joint '{joint.name}' has its lower limit above its upper ({axis.lower} > {axis.upper})"
-            )
+            raise limit.error(f"joint '{joint.name}' has its lower limit above its upper ({axis.lower} > {axis.upper})")
     dynamics = element.find("dynamics")
     if dynamics is not None:
         axis.damping = max(0.0, dynamics.number("damping", 0.0))

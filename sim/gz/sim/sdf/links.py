@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+
 from gz.sim.errors import Diagnostics
 from gz.sim.pose import Pose
 from gz.sim.sdf.description import Collision, Inertial, Link, Model, Sensor, Visual
@@ -31,9 +32,7 @@ def read_link(element: Element, scope: Scope, model: Model, diagnostics: Diagnos
         if not part.name:
             raise part.error(f"<{part.tag}> needs a name attribute")
         if (part.tag, part.name) in names:
-            raise part.error(
-                f"link '{link.name}' already has a <{part.tag}> called '{part.name}'; names must differ"
-            )
+            raise part.error(f"link '{link.name}' already has a <{part.tag}> called '{part.name}'; names must differ")
         names.add((part.tag, part.name))
         if part.tag == "sensor":
             link.sensors.append(_sensor(part, link, model, scope, diagnostics))
@@ -45,9 +44,7 @@ def read_link(element: Element, scope: Scope, model: Model, diagnostics: Diagnos
         if part.tag == "collision":
             bitmask = _bitmask(part)
             density = part.number("density", 1000.0)
-            link.collisions.append(
-                Collision(part.name, pose, geometry, part, read_friction(part), bitmask, density)
-            )
+            link.collisions.append(Collision(part.name, pose, geometry, part, read_friction(part), bitmask, density))
         else:
             link.visuals.append(Visual(part.name, pose, geometry, part, read_colour(part, diagnostics)))
     return link
@@ -103,9 +100,7 @@ def _bitmask(collision: Element) -> int:
     try:
         return int(text, 0) & 0x7FFFFFFF
     except ValueError:
-        raise collision.error(
-            f"<collide_bitmask> must be a whole number such as 0x01, got '{text}'"
-        ) from None
+        raise collision.error(f"<collide_bitmask> must be a whole number such as 0x01, got '{text}'") from None
 
 
 def _sensor(element: Element, link: Link, model: Model, scope: Scope, diagnostics: Diagnostics) -> Sensor:
@@ -116,9 +111,7 @@ def _sensor(element: Element, link: Link, model: Model, scope: Scope, diagnostic
     base = child.attributes.get("relative_to", "") if child is not None else ""
     if child is not None and base and base.split("::")[0] not in (*scope.frames, scope.own):
         # gz-sensors falls back to the raw pose here; so the world still runs.
-        diagnostics.warn(
-            child.where, f"sensor pose relative_to='{base}' names no frame; the link's frame is used"
-        )
+        diagnostics.warn(child.where, f"sensor pose relative_to='{base}' names no frame; the link's frame is used")
         pose = child.pose()
     else:
         pose = _part_pose(element, link, scope)

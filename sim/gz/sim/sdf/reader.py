@@ -98,9 +98,7 @@ class _WorldReader:
             elif element.tag == "frame":
                 pose, base = _pose_and_base(element)
                 attached = element.attributes.get("attached_to", "")
-                scope.add(
-                    element.name, element, pose=pose, relative_to=base or attached, attached_to=attached
-                )
+                scope.add(element.name, element, pose=pose, relative_to=base or attached, attached_to=attached)
             elif element.tag == "light":
                 description.lights.append(_light(element))
             elif element.tag == "plugin":
@@ -127,9 +125,7 @@ class _WorldReader:
         description.step_size_ns = step_ns
         description.real_time_factor = max(0.0, physics.number("real_time_factor", 1.0))
 
-    def _open(
-        self, include: Element, depth: int, version: tuple[int, int]
-    ) -> tuple[Element, tuple[int, int]] | None:
+    def _open(self, include: Element, depth: int, version: tuple[int, int]) -> tuple[Element, tuple[int, int]] | None:
         """Return what an `<include>` brings, its overrides put in, and the SDF version of its file.
 
         Any other element is returned as it is, with the `version` of the file it stands in.
@@ -140,9 +136,7 @@ class _WorldReader:
         if not uri:
             raise include.error("<include> needs a <uri>, for example <uri>model://ground_plane</uri>")
         if depth > _MAX_INCLUDE_DEPTH:
-            raise include.error(
-                f"'{uri}' is included inside itself; more than {_MAX_INCLUDE_DEPTH} levels were opened"
-            )
+            raise include.error(f"'{uri}' is included inside itself; more than {_MAX_INCLUDE_DEPTH} levels were opened")
         base = Path(include.file).parent if include.file != "<string>" else None
         try:
             path = find_model(uri, base)
@@ -243,18 +237,14 @@ def _flatten(model: Model, inner: Model, name: str, pose: Pose) -> None:
 def _plugin(element: Element, scope: str) -> Plugin:
     name, filename = element.name, element.attributes.get("filename", "")
     if not name and not filename:
-        raise element.error(
-            "<plugin> needs filename and name, for example name='gz::sim::systems::DiffDrive'"
-        )
+        raise element.error("<plugin> needs filename and name, for example name='gz::sim::systems::DiffDrive'")
     return Plugin(name, filename, element, scope)
 
 
 def _light(element: Element) -> Light:
     kind = element.attributes.get("type", "point")
     x, y, z = element.vector("direction", (0.0, 0.0, -1.0))
-    return Light(
-        element.name, kind, _pose_and_base(element)[0], (x, y, z), _rgb(element, "diffuse", (1.0, 1.0, 1.0))
-    )
+    return Light(element.name, kind, _pose_and_base(element)[0], (x, y, z), _rgb(element, "diffuse", (1.0, 1.0, 1.0)))
 
 
 def _rgb(element: Element, tag: str, default: tuple[float, float, float]) -> tuple[float, float, float]:

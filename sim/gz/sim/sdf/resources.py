@@ -33,9 +33,7 @@ def find_world(name: str | Path) -> Path:
             for candidate in (folder / each, folder / "worlds" / each):
                 if candidate.is_file():
                     return candidate
-    known = {
-        path.name for folder in (Path(), *resource_paths(), BUILT_IN_WORLDS) for path in _worlds_in(folder)
-    }
+    known = {path.name for folder in (Path(), *resource_paths(), BUILT_IN_WORLDS) for path in _worlds_in(folder)}
     raise ResourceError(
         f"world file '{text}' was not found as a path, in GZ_SIM_RESOURCE_PATH, or among the built-in "
         "worlds; "

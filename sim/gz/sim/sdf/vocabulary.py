@@ -33,8 +33,7 @@ CHILDREN: dict[str, frozenset[str]] = {
             "frame state population spherical_coordinates"
         ),
         "model": (
-            "static self_collide allow_auto_disable frame pose link joint model include gripper plugin "
-            "enable_wind"
+            "static self_collide allow_auto_disable frame pose link joint model include gripper plugin enable_wind"
         ),
         "include": "uri name static pose placement_frame plugin merge",
         "link": (
@@ -44,12 +43,8 @@ CHILDREN: dict[str, frozenset[str]] = {
         ),
         "inertial": "mass density auto_inertia_params pose inertia frame fluid_added_mass",
         "inertia": "ixx ixy ixz iyy iyz izz",
-        "collision": (
-            "laser_retro max_contacts pose geometry surface density auto_inertia_params plugin frame"
-        ),
-        "visual": (
-            "cast_shadows laser_retro transparency visibility_flags pose material geometry plugin meta frame"
-        ),
+        "collision": ("laser_retro max_contacts pose geometry surface density auto_inertia_params plugin frame"),
+        "visual": ("cast_shadows laser_retro transparency visibility_flags pose material geometry plugin meta frame"),
         "geometry": _GEOMETRY,
         "box": "size",
         "sphere": "radius",
@@ -89,15 +84,9 @@ CHILDREN: dict[str, frozenset[str]] = {
         "camera": _CAMERA,
         "image": "width height format anti_aliasing",
         "clip": "near far",
-        "imu": (
-            "angular_velocity linear_acceleration orientation_reference_frame enable_orientation noise topic"
-        ),
-        "light": (
-            "cast_shadows diffuse specular attenuation direction spot pose intensity visualize light_on frame"
-        ),
-        "physics": (
-            "max_step_size real_time_factor real_time_update_rate max_contacts ode bullet simbody dart"
-        ),
+        "imu": ("angular_velocity linear_acceleration orientation_reference_frame enable_orientation noise topic"),
+        "light": ("cast_shadows diffuse specular attenuation direction spot pose intensity visualize light_on frame"),
+        "physics": ("max_step_size real_time_factor real_time_update_rate max_contacts ode bullet simbody dart"),
         "scene": "ambient background sky shadows fog grid origin_visual shadow_caster_material_name",
     }.items()
 }

@@ -13,12 +13,13 @@ from typing import TYPE_CHECKING, Any
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
+
 from gz.sim.physics.builder import COLLISION_GROUP, SITE_GROUP, VISUAL_GROUP
 from gz.sim.sdf.description import Sensor
 from gz.sim.sdf.element import Element
 from gz.sim.sensors.noise import Noise
 from gz.sim.sensors.registry import SensorBase, sensor_type
-from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     from gz.sim.world import World
@@ -39,13 +40,8 @@ class _Sweep:
                 raise element.error(
                     f"<samples> must be at least 1 and <resolution> positive, got {samples}, {resolution}"
                 )
-            if (
-                not (math.isfinite(self.minimum) and math.isfinite(self.maximum))
-                or self.minimum > self.maximum
-            ):
-                raise element.error(
-                    f"<min_angle> ({self.minimum}) must not be above <max_angle> ({self.maximum})"
-                )
+            if not (math.isfinite(self.minimum) and math.isfinite(self.maximum)) or self.minimum > self.maximum:
+                raise element.error(f"<min_angle> ({self.minimum}) must not be above <max_angle> ({self.maximum})")
             self.count = max(1, int(samples * resolution))
         self.step = (self.maximum - self.minimum) / (self.count - 1) if self.count > 1 else 0.0
         self.angles = self.minimum + self.step * np.arange(self.count)
@@ -61,9 +57,7 @@ class Lidar(SensorBase):
         super().__init__(world, description)
         holder = description.element.find("lidar") or description.element.find("ray")
         if holder is None:
-            raise description.element.error(
-                f"{description.kind} sensor '{description.name}' needs a <lidar> element"
-            )
+            raise description.element.error(f"{description.kind} sensor '{description.name}' needs a <lidar> element")
         scan = holder.find("scan") or Element("scan", file=holder.file, line=holder.line)
         self.horizontal = _Sweep(scan.find("horizontal"), 640)
         self.vertical = _Sweep(scan.find("vertical"), 1)
@@ -186,9 +180,7 @@ class Lidar(SensorBase):
         self._publisher.publish(message)
 
 
-def _directions(
-    horizontal: NDArray[np.floating[Any]], vertical: NDArray[np.floating[Any]]
-) -> NDArray[np.float64]:
+def _directions(horizontal: NDArray[np.floating[Any]], vertical: NDArray[np.floating[Any]]) -> NDArray[np.float64]:
     """Return unit vectors (n, 3): x ahead, y left, z up; one row of horizontal angles after the other."""
     azimuth = np.tile(horizontal, len(vertical))
     elevation = np.repeat(vertical, len(horizontal))

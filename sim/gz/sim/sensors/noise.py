@@ -8,8 +8,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from gz.sim.sdf.element import Element
 from numpy.typing import NDArray
+
+from gz.sim.sdf.element import Element
 
 
 @dataclass(frozen=True)
@@ -41,11 +42,7 @@ class Noise:
             element.number("bias_stddev", 0.0),
             element.number("precision", 0.0),
         )
-        if (
-            noise.stddev < 0.0
-            or noise.bias_stddev < 0.0
-            or not np.all(np.isfinite(list(vars(noise).values())))
-        ):
+        if noise.stddev < 0.0 or noise.bias_stddev < 0.0 or not np.all(np.isfinite(list(vars(noise).values()))):
             raise element.error("noise deviations must be finite and not negative")
         return noise
 
@@ -61,9 +58,7 @@ class Noise:
         bias = float(random.normal(self.bias_mean, self.bias_stddev))
         return -bias if random.random() < 0.5 else bias
 
-    def apply(
-        self, values: NDArray[np.float64], bias: float, random: np.random.Generator
-    ) -> NDArray[np.float64]:
+    def apply(self, values: NDArray[np.float64], bias: float, random: np.random.Generator) -> NDArray[np.float64]:
         """Return `values` with noise; always draws one number per value."""
         noisy = values + (bias + self.mean + self.stddev * random.standard_normal(values.shape))
         return np.round(noisy / self.precision) * self.precision if self.precision > 0.0 else noisy

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
+
 from gz.sim.sdf.description import Sensor
 from gz.sim.systems.topics import valid_topic
 

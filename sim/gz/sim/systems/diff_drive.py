@@ -87,9 +87,7 @@ class DiffDrive(System):
         self.odometry_topic = valid_topic(element.text_of("odom_topic"), f"/model/{name}/odometry")
         self.tf_topic = valid_topic(element.text_of("tf_topic"), f"/model/{name}/tf")
         self.frame_id = element.text_of("frame_id", f"{name}/odom")
-        self.child_frame_id = element.text_of(
-            "child_frame_id", f"{name}/{model.canonical_link.replace('::', '/')}"
-        )
+        self.child_frame_id = element.text_of("child_frame_id", f"{name}/{model.canonical_link.replace('::', '/')}")
         self._left = [world.joint_address(model, joint) for joint in _joints(model, plugin, "left_joint")]
         self._right = [world.joint_address(model, joint) for joint in _joints(model, plugin, "right_joint")]
         self._odometry = WheelOdometry(separation, radius)
@@ -162,8 +160,7 @@ class DiffDrive(System):
         left_speed = (linear - turn) / self._radius
         right_speed = (linear + turn) / self._radius
         if not (
-            -MAX_WHEEL_SPEED <= left_speed <= MAX_WHEEL_SPEED
-            and -MAX_WHEEL_SPEED <= right_speed <= MAX_WHEEL_SPEED
+            -MAX_WHEEL_SPEED <= left_speed <= MAX_WHEEL_SPEED and -MAX_WHEEL_SPEED <= right_speed <= MAX_WHEEL_SPEED
         ):
             self._world.diagnostics.warn(
                 "",

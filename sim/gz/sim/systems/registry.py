@@ -219,16 +219,12 @@ def find_system(plugin: Plugin, diagnostics: Diagnostics) -> type[System] | None
         LOG.info("%s: system %s is named but does nothing here", where, name)
     elif classic.startswith("libgazebo_"):
         instead = _CLASSIC.get(classic, "the gz-sim system of the same purpose")
-        diagnostics.warn(
-            where, f"plugin '{plugin.filename}' is of Gazebo Classic and is ignored; use {instead}"
-        )
+        diagnostics.warn(where, f"plugin '{plugin.filename}' is of Gazebo Classic and is ignored; use {instead}")
     elif name in OTHER_GAZEBO_SYSTEMS:
         diagnostics.warn(where, f"system '{name}' exists in Gazebo but not in this simulator, it is ignored")
     else:
         hint = nearest(name, {*systems(), *BUILT_IN, *QUIET}, listing="systems that run here are")
-        diagnostics.warn(
-            where, f"no system is called '{plugin.name or plugin.filename}', it is ignored; {hint}"
-        )
+        diagnostics.warn(where, f"no system is called '{plugin.name or plugin.filename}', it is ignored; {hint}")
     return None
 
 
@@ -236,6 +232,4 @@ def _check_parameters(plugin: Plugin, found: type[System], diagnostics: Diagnost
     for child in plugin.element.children:
         if found.parameters and child.tag not in found.parameters and ":" not in child.tag:
             hint = nearest(child.tag, found.parameters, listing="its parameters are")
-            diagnostics.warn(
-                child.where, f"{found.name} has no parameter <{child.tag}>, it is ignored; {hint}"
-            )
+            diagnostics.warn(child.where, f"{found.name} has no parameter <{child.tag}>, it is ignored; {hint}")

@@ -48,10 +48,7 @@ class Sensors(System):
                         text = f"sensor '{description.name}' has type '{kind}', which is not known; {hint}"
                         world.diagnostics.warn(description.element.where, text)
                     elif kind not in types:
-                        text = (
-                            f"sensor type '{kind}' is not simulated here, sensor '{description.name}' stays "
-                            "silent"
-                        )
+                        text = f"sensor type '{kind}' is not simulated here, sensor '{description.name}' stays silent"
                         world.diagnostics.warn(description.element.where, text)
         self._next_ns = 0
 

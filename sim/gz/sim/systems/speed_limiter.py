@@ -39,9 +39,7 @@ class SpeedLimiter:
         for quantity in ("velocity", "acceleration", "jerk"):
             lower, upper = getattr(limiter, f"min_{quantity}"), getattr(limiter, f"max_{quantity}")
             if lower > upper:
-                raise element.error(
-                    f"min {axis} {quantity} ({lower}) is above max {axis} {quantity} ({upper})"
-                )
+                raise element.error(f"min {axis} {quantity} ({lower}) is above max {axis} {quantity} ({upper})")
         return limiter
 
     @property

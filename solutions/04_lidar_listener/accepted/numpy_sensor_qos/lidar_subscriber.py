@@ -16,9 +16,7 @@ def main():
         ranges = np.asarray(scan.ranges)
         valid = ranges[(ranges >= scan.range_min) & (ranges <= scan.range_max)]
         if valid.size:
-            node.get_logger().info(
-                f"Scan: {valid.size} valid rays, min={valid.min():.3f}m, avg={valid.mean():.3f}m"
-            )
+            node.get_logger().info(f"Scan: {valid.size} valid rays, min={valid.min():.3f}m, avg={valid.mean():.3f}m")
             publisher.publish(Float32(data=float(valid.min())))
 
     node.create_subscription(LaserScan, "lidar/scan", on_scan, qos_profile_sensor_data)

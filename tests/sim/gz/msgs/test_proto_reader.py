@@ -1,8 +1,9 @@
 import pytest
 from google.protobuf.descriptor_pb2 import FieldDescriptorProto
-from gz.msgs.proto_reader import ProtoSyntaxError, read_proto
 from hypothesis import given
 from hypothesis import strategies as st
+
+from gz.msgs.proto_reader import ProtoSyntaxError, read_proto
 
 EXAMPLE = """
 // A comment; with { signs } in it

@@ -3,11 +3,12 @@ import pickle
 import subprocess
 import sys
 
-import gz.msgs
 import pytest
-from gz.msgs import UnknownTypeError, message_class, registry, type_names
 from hypothesis import given
 from hypothesis import strategies as st
+
+import gz.msgs
+from gz.msgs import UnknownTypeError, message_class, registry, type_names
 
 
 def test_every_file_can_be_imported_and_holds_its_types():
@@ -35,9 +36,7 @@ def test_every_type_survives_a_round_trip(name):
     assert kind.FromString(message.SerializeToString()) == message
 
 
-@pytest.mark.parametrize(
-    "name", ["gz.msgs.Twist", "gz_msgs.Twist", ".gz.msgs.Twist", "ignition.msgs.Twist", "Twist"]
-)
+@pytest.mark.parametrize("name", ["gz.msgs.Twist", "gz_msgs.Twist", ".gz.msgs.Twist", "ignition.msgs.Twist", "Twist"])
 def test_all_spellings_are_one_class(name):
     from gz.msgs.twist_pb2 import Twist
 

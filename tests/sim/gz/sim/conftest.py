@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import pytest
+
 from gz.sim.world import World
 from gz.transport import Node, NodeOptions, Scope
 

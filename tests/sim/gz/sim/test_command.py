@@ -19,6 +19,7 @@ from gz.msgs.laserscan_pb2 import LaserScan
 from gz.msgs.odometry_pb2 import Odometry
 from gz.msgs.twist_pb2 import Twist
 from gz.msgs.world_stats_pb2 import WorldStatistics
+
 from gz.transport import Node
 
 GZ = [sys.executable, "-c", "import sys; from gz.command import main; sys.exit(main())", "sim"]

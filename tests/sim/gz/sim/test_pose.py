@@ -6,9 +6,10 @@ import math
 
 import mujoco
 import numpy as np
-from gz.sim.pose import Pose, matrix, multiply, quaternion_between, quaternion_from_rpy, rotate
 from hypothesis import given
 from hypothesis import strategies as st
+
+from gz.sim.pose import Pose, matrix, multiply, quaternion_between, quaternion_from_rpy, rotate
 
 angles = st.floats(-math.pi, math.pi)
 lengths = st.floats(-100.0, 100.0)
@@ -50,8 +51,6 @@ def test_rotation_is_about_fixed_axes_roll_first() -> None:
 
 
 @given(vectors.filter(lambda v: max(map(abs, v)) > 1e-3), vectors.filter(lambda v: max(map(abs, v)) > 1e-3))
-def test_quaternion_between_turns_one_direction_into_the_other(
-    a: tuple[float, ...], b: tuple[float, ...]
-) -> None:
+def test_quaternion_between_turns_one_direction_into_the_other(a: tuple[float, ...], b: tuple[float, ...]) -> None:
     turned = rotate(quaternion_between(a, b), np.array(a) / np.linalg.norm(a))
     assert np.allclose(turned, np.array(b) / np.linalg.norm(b), atol=1e-5)

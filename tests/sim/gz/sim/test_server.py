@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 from gz.msgs.clock_pb2 import Clock
 from gz.msgs.world_stats_pb2 import WorldStatistics
+
 from gz.sim.server import Server
 from gz.sim.world import World
 from gz.transport import Node
@@ -132,9 +133,7 @@ def test_the_command_of_a_thread_reaches_a_running_server(
     from gz.msgs.twist_pb2 import Twist
 
     moving = threading.Event()
-    node.subscribe(
-        Odometry, "/model/robot/odometry", lambda m: moving.set() if m.twist.linear.x > 0.2 else None
-    )
+    node.subscribe(Odometry, "/model/robot/odometry", lambda m: moving.set() if m.twist.linear.x > 0.2 else None)
     running(server, real_time_factor=0.0)
     command = Twist()
     command.linear.x = 0.3

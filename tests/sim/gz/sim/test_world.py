@@ -11,6 +11,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from gz.msgs.twist_pb2 import Twist
+
 from gz.sim.errors import SimError
 from gz.sim.world import World
 from gz.transport import Node, NodeOptions, Scope
@@ -95,18 +96,14 @@ def test_geometry_lists_every_visual_with_full_extents(load_text: Load) -> None:
     inside = "".join(visual.format(kind, text) for kind, (text, _) in shapes.items())
     world = load_text(f"<model name='m'><static>1</static><link name='l'>{inside}</link></model>")
     listed = {shape.kind: shape for shape in world.geometry()}
-    assert {kind: shape.size for kind, shape in listed.items()} == {
-        kind: size for kind, (_, size) in shapes.items()
-    }
+    assert {kind: shape.size for kind, shape in listed.items()} == {kind: size for kind, (_, size) in shapes.items()}
     assert listed["box"].rgba == (1, 0.5, 0, 0.5)
     assert (listed["box"].model, listed["box"].link, listed["box"].name) == ("m", "l", "box")
     assert listed["plane"].pose.transform((0, 0, 1)) == pytest.approx((1, 0, 1))
 
 
 def test_a_world_without_physics_plugin_says_so(load_text: Load, world_text: Callable[..., str]) -> None:
-    text = world_text("").replace(
-        '<plugin filename="gz-sim-physics-system" name="gz::sim::systems::Physics"/>', ""
-    )
+    text = world_text("").replace('<plugin filename="gz-sim-physics-system" name="gz::sim::systems::Physics"/>', "")
     assert any("not Physics" in warning for warning in World.from_string(text).warnings)
     assert load_text("").warnings == []
 

@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 from gz.msgs.discovery_pb2 import Discovery
+
 from gz.transport import datagram
 
 DEADLINE_S = 20.0

@@ -7,6 +7,7 @@ import threading
 import warnings
 
 from gz.msgs.stringmsg_pb2 import StringMsg
+
 from gz.transport import Node, NodeOptions
 
 node = Node()
@@ -48,9 +49,7 @@ for line in sys.stdin:
     match order["do"]:
         case "advertise":
             partition = order.get("partition")
-            chosen = (
-                nodes.setdefault(partition, Node(NodeOptions(partition=partition))) if partition else node
-            )
+            chosen = nodes.setdefault(partition, Node(NodeOptions(partition=partition))) if partition else node
             publishers[order["topic"]] = chosen.advertise(order["topic"], StringMsg)
             say(answer=True)
         case "publish":

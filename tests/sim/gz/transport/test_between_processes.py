@@ -6,6 +6,7 @@ import pytest
 import zmq
 from gz.msgs.discovery_pb2 import Discovery
 from gz.msgs.stringmsg_pb2 import StringMsg
+
 from gz.transport import Node, NodeOptions, inlet
 from gz.transport.naming import fully_qualified
 
@@ -128,9 +129,7 @@ def test_the_others_are_told_at_the_end(start_peer, eavesdropper, ending, partit
     name = fully_qualified(partition, "", "/chat")
     peer = start_peer()
     peer.ask("advertise", topic="/chat")
-    process = eavesdropper.until(lambda m: m.type == Discovery.ADVERTISE and m.pub.topic == name)[
-        -1
-    ].process_uuid
+    process = eavesdropper.until(lambda m: m.type == Discovery.ADVERTISE and m.pub.topic == name)[-1].process_uuid
     if ending == "exception":
         peer.order("crash")
     code, errors = peer.finish()
@@ -272,9 +271,7 @@ def test_only_well_formed_messages_of_the_exact_topic_and_type_are_delivered(
     assert capfd.readouterr().err == ""
 
 
-def test_rubbish_on_the_discovery_port_changes_nothing(
-    node, inbox, partition, eavesdropper, foreign_publisher
-):
+def test_rubbish_on_the_discovery_port_changes_nothing(node, inbox, partition, eavesdropper, foreign_publisher):
     name = fully_qualified(partition, "", "/foo")
     endpoint = foreign_publisher.getsockopt_string(zmq.LAST_ENDPOINT)
     node.subscribe(StringMsg, "/foo", inbox)

@@ -4,11 +4,12 @@ import contextlib
 
 import pytest
 from gz.msgs.discovery_pb2 import Discovery
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
 from gz.transport import discovery
 from gz.transport.environment import NetworkSettings
 from gz.transport.topic_discovery import TopicDiscovery
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 
 OTHER = "11111111-1111-4111-8111-111111111111"
 OWN = "22222222-2222-4222-8222-222222222222"

@@ -2,10 +2,11 @@ import pwd
 import socket
 
 import pytest
-from gz.transport import environment
-from gz.transport.environment import NetworkSettings, default_partition
 from hypothesis import given
 from hypothesis import strategies as st
+
+from gz.transport import environment
+from gz.transport.environment import NetworkSettings, default_partition
 
 
 def test_the_partition_is_gz_partition_even_when_empty():
@@ -29,9 +30,7 @@ def test_a_uid_without_a_name_gets_a_partition_of_its_own_and_is_told(monkeypatc
 
 
 def test_without_settings_everything_stays_on_this_machine():
-    assert NetworkSettings.from_environment({}) == NetworkSettings(
-        "127.0.0.1", "239.255.0.7", 10317, 10318, 1000, 1000
-    )
+    assert NetworkSettings.from_environment({}) == NetworkSettings("127.0.0.1", "239.255.0.7", 10317, 10318, 1000, 1000)
 
 
 def test_every_setting_is_read(capsys):
@@ -80,9 +79,7 @@ def test_a_useless_value_is_reported_and_replaced(name, value, capsys):
 
 @given(st.text(), st.text(), st.text())
 def test_any_text_gives_usable_settings(ip, port, mark):
-    found = NetworkSettings.from_environment(
-        {"GZ_IP": ip, "GZ_DISCOVERY_MSG_PORT": port, "GZ_TRANSPORT_RCVHWM": mark}
-    )
+    found = NetworkSettings.from_environment({"GZ_IP": ip, "GZ_DISCOVERY_MSG_PORT": port, "GZ_TRANSPORT_RCVHWM": mark})
     socket.inet_aton(found.ip)
     assert 1 <= found.message_port <= 65535
     assert found.message_port != found.service_port

@@ -1,7 +1,8 @@
 import pytest
-from gz.transport import naming
 from hypothesis import given
 from hypothesis import strategies as st
+
+from gz.transport import naming
 
 names = st.text(max_size=30)
 valid = st.from_regex(r"[A-Za-z0-9_.]+(/[A-Za-z0-9_.]+){0,3}/?", fullmatch=True)

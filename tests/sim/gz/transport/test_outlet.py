@@ -4,6 +4,7 @@ import time
 
 import pytest
 import zmq
+
 from gz.transport.outlet import Outlet
 
 TOPIC = b"@/p@/chat"

@@ -4,6 +4,7 @@ import subprocess
 import sys
 
 from gz.msgs.stringmsg_pb2 import StringMsg
+
 from gz.transport import AdvertiseMessageOptions, Node, NodeOptions, Scope
 
 SCRIPT = """

@@ -5,6 +5,7 @@ import threading
 import pytest
 from gz.msgs.stringmsg_pb2 import StringMsg
 from gz.msgs.twist_pb2 import Twist
+
 from gz.transport import AdvertiseMessageOptions, Node, NodeOptions, Scope, SubscribeOptions
 from gz.transport import throttle as throttle_module
 from gz.transport.options import UNTHROTTLED

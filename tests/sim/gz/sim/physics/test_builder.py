@@ -8,12 +8,13 @@ from collections.abc import Callable
 import mujoco
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
 from gz.sim.errors import SdfError
 from gz.sim.physics import recipe
 from gz.sim.pose import Pose
 from gz.sim.world import World
-from hypothesis import given
-from hypothesis import strategies as st
 
 Load = Callable[..., World]
 
@@ -50,9 +51,7 @@ def test_a_body_without_friction_slides_on(load_text: Load) -> None:
 
 
 def test_free_fall_and_gravity_switched_off(load_text: Load) -> None:
-    still = box("still", "3 0 5 0 0 0", 1, False).replace(
-        "<link name='l'>", "<link name='l'><gravity>0</gravity>"
-    )
+    still = box("still", "3 0 5 0 0 0", 1, False).replace("<link name='l'>", "<link name='l'><gravity>0</gravity>")
     world = load_text(box("falls", "0 0 5 0 0 0", 1, False) + still)
     world.step(500)
     assert world.velocity("falls").linear[2] == pytest.approx(-9.8 * 0.5, rel=1e-6)
@@ -88,9 +87,7 @@ def test_a_pendulum_swings_with_its_period(load_text: Load) -> None:
 
 
 def test_joint_limits_hold(load_text: Load) -> None:
-    world = load_text(
-        PENDULUM.format(kind="revolute", axis="<limit><lower>-0.1</lower><upper>0.5</upper></limit>")
-    )
+    world = load_text(PENDULUM.format(kind="revolute", axis="<limit><lower>-0.1</lower><upper>0.5</upper></limit>"))
     world.step(3000)
     assert world.data.qpos[0] == pytest.approx(0.5, abs=0.02)
 
@@ -158,8 +155,7 @@ def test_links_of_one_model_do_not_collide_unless_asked(load_text: Load) -> None
 
 def test_a_second_joint_closes_a_loop(load_text: Load) -> None:
     links = (
-        "<link name='a'/><link name='b'><pose>1 0 0 0 0 0</pose></link><link name='c'><pose>2 "
-        "0 0 0 0 0</pose></link>"
+        "<link name='a'/><link name='b'><pose>1 0 0 0 0 0</pose></link><link name='c'><pose>2 0 0 0 0 0</pose></link>"
     )
     joint = (
         "<joint name='{0}{1}' type='revolute'><parent>{0}</parent><child>{1}</child><axis>"

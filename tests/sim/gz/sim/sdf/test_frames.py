@@ -7,19 +7,17 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
 from gz.sim.errors import Diagnostics, SdfError
 from gz.sim.pose import Pose
 from gz.sim.sdf.description import Model
 from gz.sim.sdf.reader import read_world
-from hypothesis import given
-from hypothesis import strategies as st
 
 
 def model(inside: str, attributes: str = "", version: str = "1.10") -> Model:
-    text = (
-        f"<sdf version='{version}'><world name='w'><model name='m' {attributes}>{inside}</model>"
-        "</world></sdf>"
-    )
+    text = f"<sdf version='{version}'><world name='w'><model name='m' {attributes}>{inside}</model></world></sdf>"
     return read_world(text, "f.sdf", Diagnostics()).models[0]
 
 
@@ -66,9 +64,7 @@ def test_joint_axis_expressed_in_another_frame_and_in_old_files() -> None:
     )
     direct = model(body.format("<xyz>1 0 0</xyz>")).joints[0].axis
     expressed = model(body.format("<xyz expressed_in='__model__'>1 0 0</xyz>")).joints[0].axis
-    spelled = model(
-        body.format("<xyz>1 0 0</xyz><use_parent_model_frame>1</use_parent_model_frame>"), version="1.6"
-    )
+    spelled = model(body.format("<xyz>1 0 0</xyz><use_parent_model_frame>1</use_parent_model_frame>"), version="1.6")
     oldest = model(body.format("<xyz>1 0 0</xyz>"), version="1.4").joints[0].axis
     assert direct and expressed and oldest and spelled.joints[0].axis
     assert np.allclose(direct.direction, (1, 0, 0), atol=1e-12)
@@ -94,9 +90,7 @@ def test_nested_models_are_flattened_with_scoped_names() -> None:
 
 
 def test_placement_frame_puts_that_frame_at_the_pose() -> None:
-    made = model(
-        "<pose>3 0 0 0 0 0</pose><link name='a'><pose>1 1 0 0 0 0</pose></link>", "placement_frame='a'"
-    )
+    made = model("<pose>3 0 0 0 0 0</pose><link name='a'><pose>1 1 0 0 0 0</pose></link>", "placement_frame='a'")
     assert (made.pose * made.links[0].pose).is_close(Pose((3, 0, 0)))
 
 

@@ -8,12 +8,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
 from gz.sim.errors import Diagnostics, ResourceError, SdfError
 from gz.sim.sdf.reader import read_world
 from gz.sim.sdf.resources import BUILT_IN_WORLDS
 from gz.sim.world import World
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 
 ROOM = (BUILT_IN_WORLDS / "lidar_room.sdf").read_text()
 
@@ -42,9 +43,7 @@ def test_an_unknown_element_is_one_warning_with_the_nearest_word_and_the_rest_ru
 
 
 def test_foreign_prefixes_plugins_and_gui_are_nobodys_business() -> None:
-    _, warnings = read(
-        "<gz:policies/><gui><anything/></gui><plugin name='gz::sim::systems::Physics'><x/></plugin>"
-    )
+    _, warnings = read("<gz:policies/><gui><anything/></gui><plugin name='gz::sim::systems::Physics'><x/></plugin>")
     assert warnings == []
 
 
@@ -96,9 +95,7 @@ def test_files_that_are_no_worlds() -> None:
 
 
 def test_a_missing_world_names_the_nearest_one() -> None:
-    with pytest.raises(
-        ResourceError, match=r"'lidar_rom\.sdf' was not found .* did you mean 'lidar_room\.sdf'"
-    ):
+    with pytest.raises(ResourceError, match=r"'lidar_rom\.sdf' was not found .* did you mean 'lidar_room\.sdf'"):
         World.load("lidar_rom.sdf")
 
 
@@ -203,9 +200,7 @@ def test_shapes_that_are_not_built_are_named(load_text: Callable[..., World]) ->
     st.integers(1, 40),
     st.sampled_from(["", "x", "-", "<", "0", " ", "nan", "1e999"]),
 )
-def test_a_damaged_world_is_read_or_refused_with_a_sentence(
-    start: int, length: int, replacement: str
-) -> None:
+def test_a_damaged_world_is_read_or_refused_with_a_sentence(start: int, length: int, replacement: str) -> None:
     text = ROOM[:start] + replacement + ROOM[start + length :]
     try:
         read_world(text, "room.sdf", Diagnostics())

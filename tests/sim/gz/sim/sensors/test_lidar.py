@@ -13,13 +13,14 @@ import numpy as np
 import pytest
 from gz.msgs.laserscan_pb2 import LaserScan
 from gz.msgs.twist_pb2 import Twist
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
 from gz.sim.errors import SdfError
 from gz.sim.sensors.lidar import Lidar
 from gz.sim.systems.sensors import Sensors
 from gz.sim.world import World
 from gz.transport import Node
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 Load = Callable[..., World]
 _numbers = itertools.count()
@@ -90,9 +91,7 @@ def test_every_beam_of_the_room_is_where_geometry_says() -> None:
     assert (lidar.topic, lidar.frame_id, lidar.horizontal.count) == ("/lidar/scan", "lidar_link", 360)
     assert lidar.horizontal.step == pytest.approx(2 * math.pi / 359)
     measured = lidar.ranges()
-    antenna = [
-        i for i, angle in enumerate(lidar.horizontal.angles) if circle(-0.0752, 0.0274, 0.002, angle) < 1
-    ]
+    antenna = [i for i, angle in enumerate(lidar.horizontal.angles) if circle(-0.0752, 0.0274, 0.002, angle) < 1]
     assert 2 <= len(antenna) <= 4
     for index, angle in enumerate(lidar.horizontal.angles):
         expected = room_at(-2.0, 0.0, 0.18, angle)
@@ -146,18 +145,13 @@ def part(kind: str, pose: str, geometry: str) -> str:
 
 def wall(kind: str, x: float) -> str:
     body = part(kind, "0 0 0 0 0 0", "<box><size>0.2 1 1</size></box>")
-    return (
-        f"<model name='{kind}{x}'><static>1</static><pose>{x} 0 1 0 0 0</pose><link "
-        f"name='l'>{body}</link></model>"
-    )
+    return f"<model name='{kind}{x}'><static>1</static><pose>{x} 0 1 0 0 0</pose><link name='l'>{body}</link></model>"
 
 
 def test_gpu_lidar_sees_visuals_and_lidar_sees_collisions(load_text: Load) -> None:
     walls = wall("visual", 3.1) + wall("collision", 2.1)
     assert lidar_of(load_text(rig() + walls)).ranges().tolist() == pytest.approx([math.inf, 3.0, math.inf])
-    assert lidar_of(load_text(rig(kind="lidar") + walls)).ranges().tolist() == pytest.approx(
-        [math.inf, 2.0, math.inf]
-    )
+    assert lidar_of(load_text(rig(kind="lidar") + walls)).ranges().tolist() == pytest.approx([math.inf, 2.0, math.inf])
 
 
 def test_near_far_and_clipped(load_text: Load) -> None:
@@ -191,9 +185,7 @@ def test_a_housing_round_the_sensor_is_looked_through_but_the_same_shape_ahead_i
 
 
 def test_rows_come_lowest_first(load_text: Load) -> None:
-    vertical = (
-        "<vertical><samples>3</samples><min_angle>-0.5</min_angle><max_angle>0.5</max_angle></vertical>"
-    )
+    vertical = "<vertical><samples>3</samples><min_angle>-0.5</min_angle><max_angle>0.5</max_angle></vertical>"
     floor = "<include><uri>model://ground_plane</uri></include>"
     ranges = lidar_of(load_text(rig(vertical=vertical, samples=5) + floor)).ranges()
     assert ranges.shape == (15,)
@@ -244,9 +236,7 @@ def test_noise_is_seeded_per_scan_and_only_on_what_was_measured(load_text: Load,
         with Node(NodeOptions(scope=Scope.PROCESS)) as own:
             world = load_text(world_text, seed=seed, node=own)
             world.step(listen_from)
-            own.subscribe(
-                LaserScan, lidar_of(world).topic, lambda message: heard.append(list(message.ranges))
-            )
+            own.subscribe(LaserScan, lidar_of(world).topic, lambda message: heard.append(list(message.ranges)))
             world.step(500 - listen_from)
         return heard
 
@@ -324,9 +314,7 @@ def test_impossible_lidars_are_refused(load_text: Load, old: str, new: str, sent
 def test_a_world_without_the_sensors_system_says_why_its_lidar_is_silent(
     world_text: Callable[..., str],
 ) -> None:
-    text = world_text(rig()).replace(
-        '<plugin filename="gz-sim-sensors-system" name="gz::sim::systems::Sensors"/>', ""
-    )
+    text = world_text(rig()).replace('<plugin filename="gz-sim-sensors-system" name="gz::sim::systems::Sensors"/>', "")
     warnings = World.from_string(text).warnings
     assert len(warnings) == 1 and "does not load the Sensors system" in warnings[0]
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+
 from gz.sim.errors import SdfError
 from gz.sim.sdf.element import parse
 from gz.sim.sensors.noise import Noise

@@ -12,6 +12,7 @@ from gz.msgs.boolean_pb2 import Boolean
 from gz.msgs.odometry_pb2 import Odometry
 from gz.msgs.pose_v_pb2 import Pose_V
 from gz.msgs.twist_pb2 import Twist
+
 from gz.sim.errors import SdfError
 from gz.sim.sdf.resources import BUILT_IN_MODELS, BUILT_IN_WORLDS
 from gz.sim.systems.diff_drive import MAX_WHEEL_SPEED, DiffDrive
@@ -66,9 +67,7 @@ def test_steady_speed_is_what_was_commanded(linear: float, angular: float) -> No
 
 
 @pytest.mark.parametrize("integrator", [True, False])
-def test_both_integrators_of_the_recipe_drive_alike(
-    integrator: bool, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_both_integrators_of_the_recipe_drive_alike(integrator: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("gz.sim.physics.recipe.DISCRETE", integrator)
     world = robot_world()
     drive_of(world).command(0.5, 0.1)
@@ -113,9 +112,7 @@ def test_odometry_on_the_wire(node: Node) -> None:
     node.advertise("/model/robot/cmd_vel", Twist).publish(twist(0.5, 0.1))
     start = world.pose("robot")
     world.step(3000)
-    stamps = [
-        message.header.stamp.sec * 1000 + message.header.stamp.nsec // 1_000_000 for message in odometry
-    ]
+    stamps = [message.header.stamp.sec * 1000 + message.header.stamp.nsec // 1_000_000 for message in odometry]
     assert stamps == list(range(20, 3001, 20))
     last = odometry[-1]
     data = {entry.key: list(entry.value) for entry in last.header.data}
@@ -124,9 +121,7 @@ def test_odometry_on_the_wire(node: Node) -> None:
     assert last.twist.angular.z == pytest.approx(0.1, rel=0.01)
     moved = start.inverse() * world.pose("robot")
     # Odometry starts at zero wherever the robot does, and over-reads by the slip of the start (30 to 35 mm).
-    assert (
-        math.hypot(last.pose.position.x - moved.position[0], last.pose.position.y - moved.position[1]) < 0.05
-    )
+    assert math.hypot(last.pose.position.x - moved.position[0], last.pose.position.y - moved.position[1]) < 0.05
     assert last.pose.position.x > moved.position[0]
     assert frames[-1].pose[0].position == last.pose.position
     assert {entry.key: list(entry.value) for entry in frames[-1].pose[0].header.data} == data

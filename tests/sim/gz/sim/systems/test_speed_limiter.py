@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
 from gz.sim.errors import SdfError
 from gz.sim.sdf.element import parse
 from gz.sim.systems.speed_limiter import SpeedLimiter
-from hypothesis import given
-from hypothesis import strategies as st
 
 
 @given(st.lists(st.floats(-10, 10), min_size=1, max_size=60))
@@ -38,6 +39,4 @@ def test_axis_limits_win_over_common_ones_and_crossed_limits_are_refused() -> No
     assert SpeedLimiter.from_sdf(element, "linear").max_velocity == 2.0
     assert SpeedLimiter.from_sdf(element, "angular").max_velocity == 1.0
     with pytest.raises(SdfError, match="is above"):
-        SpeedLimiter.from_sdf(
-            parse("<p><max_velocity>-1</max_velocity><min_velocity>0</min_velocity></p>"), "linear"
-        )
+        SpeedLimiter.from_sdf(parse("<p><max_velocity>-1</max_velocity><min_velocity>0</min_velocity></p>"), "linear")

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 
 import pytest
-from gz.sim.systems.wheel_odometry import WheelOdometry
 from hypothesis import given
 from hypothesis import strategies as st
+
+from gz.sim.systems.wheel_odometry import WheelOdometry
 
 
 @given(st.floats(-2, 2), st.floats(-3, 3), st.integers(1, 200))

@@ -1,0 +1,33 @@
+"""The facts about a run as a whole, as properties of its recording."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from importlib.metadata import version
+from typing import Any
+
+from grader.exercise import MANIFEST, Exercise
+from grader.intake import Submission
+from grader.record.recorder import Recorder
+from grader.trial import Trial
+
+PACKAGES = {"mujoco": "mujoco", "rclpy": "ros-jazzy-rclpy", "rerun": "rerun-sdk", "course": "gz-ros2-course"}
+
+
+def write_properties(
+    recorder: Recorder, exercise: Exercise, submission: Submission, trial: Trial, facts: dict[str, Any]
+) -> None:
+    """Store what was graded, under which parameters, with which versions, and what became of the node (`facts`)."""
+    recorder.properties(
+        "run",
+        exercise=exercise.name,
+        submission=submission.file.name,
+        submission_sha256=submission.sha256,
+        manifest_sha256=hashlib.sha256((exercise.folder / MANIFEST).read_bytes()).hexdigest(),
+        seed=trial.seed,
+        duration=exercise.duration,
+        robot=exercise.robot,
+        facts=json.dumps(facts, sort_keys=True),
+    )
+    recorder.properties("versions", **{name: version(package) for name, package in PACKAGES.items()})

@@ -1,0 +1,154 @@
+"""What a run consists of while it lasts: simulator, bridge, student and recorder, stepped together to the end.
+
+The simulator lives in this process on a Gazebo transport node that nobody outside can reach; the student's process
+sees it only through the ROS topics of the exercise's bridge.
+"""
+
+from __future__ import annotations
+
+import time
+from contextlib import ExitStack
+from dataclasses import asdict
+from typing import Any
+
+from gz.msgs.twist_pb2 import Twist
+
+from grader.exercise import Exercise, ScriptedCommand
+from grader.record.messages import record_message
+from grader.record.recorder import Recorder
+from grader.record.scene import Scene
+from grader.run.ears import Ears
+from grader.run.lockstep import LockStep, RealTime
+from grader.run.student import Endpoint, Student
+from grader.trial import Trial
+from gz.sim.errors import SimError
+from gz.sim.server import Server
+from gz.sim.world import World
+from gz.transport import Node, NodeOptions, Scope
+from ros_gz_bridge.bridge import BridgeEntry
+
+LEVELS = {"[WARN]": "WARN", "[ERROR]": "ERROR", "[FATAL]": "CRITICAL", "[DEBUG]": "DEBUG"}
+
+
+class Stage:
+    """Everything set up for one run of `student`; `play` runs it. `stack` closes what was opened here."""
+
+    def __init__(
+        self,
+        exercise: Exercise,
+        trial: Trial,
+        entries: list[BridgeEntry],
+        domain: int,
+        student: Student,
+        pace: str,
+        stack: ExitStack,
+    ) -> None:
+        self._exercise = exercise
+        self._student = student
+        partition = f"grader-{domain}"
+        self._gz_nodes = [Node(NodeOptions(scope=Scope.PROCESS, partition=partition)) for _ in range(2)]
+        for node in self._gz_nodes:
+            stack.callback(node.close)
+        self._world = World.load(exercise.world, seed=trial.seed, node=self._gz_nodes[0])
+        self._server = Server(self._world, self._gz_nodes[0])
+        self._ears = Ears(domain, self._gz_nodes[1], entries, exercise.observe, self._record)
+        stack.callback(self._ears.close)
+        self._pace = (LockStep if pace == "lockstep" else RealTime)(student, self._ears)
+        self._steps = round(exercise.tick * 1e9 / self._world.step_size_ns)
+        self._scans = {e.ros_topic: e.gz_topic for e in entries if e.ros_type == "sensor_msgs/msg/LaserScan"}
+        self._script = [trial.vary(command) for command in exercise.script]
+        self._script_publishers: dict[str, Any] = {}
+        self._exit_at: float | None = None
+        self._unstable: str | None = None
+        self._endpoints: dict[tuple[str, str, str, str], dict[str, Any]] = {}
+        self._seen_endpoints: tuple[Endpoint, ...] | None = None
+        self.wall_seconds = 0.0
+
+    @property
+    def pace_name(self) -> str:
+        """How simulated time went on: in lock-step, in real time, or partly fallen back to the wall clock."""
+        paced = self._pace.paced_ticks
+        return self._pace.name + (f", {paced} ticks paced to the wall clock" if paced else "")
+
+    def play(self, recorder: Recorder) -> dict[str, Any]:
+        """Run to the exercise's end, recording everything; return the facts about the run."""
+        self._recorder = recorder
+        self._scene = Scene(recorder, self._world)
+        ready = self._pace.await_ready()
+        self._collect()
+        started = time.monotonic()
+        end_ns = round(self._exercise.duration * 1e9)
+        while self._world.sim_time_ns < end_ns and self._unstable is None:
+            self._tick()
+        self.wall_seconds = time.monotonic() - started
+        self._student.stop()
+        self._scene.finish()
+        return self._facts(ready)
+
+    def _tick(self) -> None:
+        while self._script and self._script[0].at * 1e9 <= self._world.sim_time_ns:
+            self._command(self._script.pop(0))
+        try:
+            self._server.step(self._steps)
+        except SimError as error:  # a command so wild that physics has no answer: the run ends here
+            self._unstable = str(error)
+            self._recorder.text("log/grader", str(error), "ERROR")
+            return
+        now = self._world.sim_time_ns
+        self._recorder.set_time(now)
+        self._scene.tick()
+        for topic, publisher, message in self._ears.take_held():
+            if topic != "/clock":
+                self._record(topic, message)
+            self._pace.deliver(topic, publisher, message, now)
+            self._collect()
+        self._pace.close_tick(self._exercise.tick)
+        self._collect()
+
+    def _command(self, command: ScriptedCommand) -> None:
+        publisher = self._script_publishers.get(command.topic)
+        if publisher is None:
+            publisher = self._script_publishers[command.topic] = self._gz_nodes[1].advertise(command.topic, Twist)
+        twist = Twist()
+        twist.linear.x, twist.angular.z = command.linear_x, command.angular_z
+        publisher.publish(twist)
+
+    def _record(self, topic: str, message: Any) -> None:
+        record_message(self._recorder, topic, message)
+        if topic in self._scans:
+            self._scene.scan(self._scans[topic], message)
+
+    def _collect(self) -> None:
+        """Take over what the student's process said and did since the last call."""
+        for line in self._student.take_lines():
+            level = LEVELS.get(line.partition(" ")[0], "INFO")
+            self._recorder.text("log/student", line, level)
+        progress = self._student.progress
+        if progress is not None and progress.endpoints is not self._seen_endpoints:
+            self._seen_endpoints = progress.endpoints
+            for e in progress.endpoints:
+                self._endpoints.setdefault((e.kind, e.topic, e.type, e.node), asdict(e) | {"matched": None})
+        if not self._student.running and self._exit_at is None:
+            self._exit_at = self._world.sim_time_ns / 1e9
+            code = self._student.exit_code
+            self._recorder.text("log/grader", f"the node's process ended with exit code {code}")
+
+    def _facts(self, ready: bool) -> dict[str, Any]:
+        """What scoring and diagnosis need to know beside the signals; the same for equal runs."""
+        dropped = self._ears.dropped()
+        for topic, count in dropped.items():
+            text = f"{count} commands on {topic} were not finite and were dropped"
+            self._recorder.text("log/grader", text, "WARN")
+        return {
+            "sim_seconds": self._world.sim_time_ns / 1e9,
+            "ready": ready,
+            "exit_at": self._exit_at,
+            "exit_code": self._student.exit_code if self._exit_at is not None else None,
+            "endpoints": [self._endpoints[key] for key in sorted(self._endpoints)],
+            "offered": self._ears.offered,
+            "listened": self._ears.listened,
+            "dropped": dropped,
+            "lines_dropped": self._student.dropped_lines,
+            "unstable": self._unstable,
+            "out_of_step": bool(self._pace.paced_ticks),
+        }
