@@ -37,6 +37,7 @@ def record_message(recorder: Recorder, topic: str, message: Any) -> None:
     recorder.scalar(f"{base}/count", 1.0)
     for entity, value in fields(message, base):
         if isinstance(value, bool | int | float):
+            recorder.name(entity, entity.removeprefix("topics"))
             if math.isfinite(value):
                 recorder.scalar(entity, float(value))
             else:

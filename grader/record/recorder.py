@@ -47,6 +47,7 @@ class Recorder:
         self.stream = rr.RecordingStream(APPLICATION, recording_id=str(uuid.uuid4()), send_properties=False)
         self.stream.save(self.part, default_blueprint=blueprint(robot), write_footer=True)
         self.now_ns = 0
+        self._named: set[str] = set()
         self._block_end = BLOCK_NS
         self._scalars: dict[str, tuple[list[int], list[float]]] = defaultdict(lambda: ([], []))
         self._poses: dict[str, tuple[list[int], list[Any], list[Any]]] = defaultdict(lambda: ([], [], []))
@@ -94,6 +95,12 @@ class Recorder:
         times, clouds = self._points[entity]
         times.append(self.now_ns)
         clouds.append(np.asarray(positions, dtype=np.float32))
+
+    def name(self, entity: str, name: str) -> None:
+        """Give a signal the name a plot shows for it; without one it is called after the last part of its entity."""
+        if entity not in self._named:
+            self._named.add(entity)
+            self.static(entity, rr.SeriesLines(names=name))
 
     def static(self, entity: str, archetype: Any) -> None:
         """Log something that never changes, such as a shape."""

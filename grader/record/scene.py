@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from gz.sim.world import World
 
 LINK_TICKS = 5  # links (wheels turn) are drawn every so many ticks
+UNITS = {"linear_x": " [m/s]", "angular_z": " [rad/s]", "distance": " [m]", "yaw": " [rad]"}
+SCAN_COLOR = np.array([[230, 60, 200, 255]], dtype=np.uint8)
 GROUND_SIZE = 20.0  # [m] side of the square drawn for an infinite plane
 
 
@@ -79,6 +81,7 @@ class Scene:
             entity = f"/world/{at.model}/{at.link}/{at.name}"
             self._lidars[sensor.topic] = f"{entity}/scan"
             recorder.static(entity, transform(at.pose))
+            recorder.static(f"{entity}/scan", rr.Points3D.from_fields(colors=SCAN_COLOR, radii=0.02))
 
     def tick(self) -> None:
         """Log truth and poses at the recorder's present time."""
@@ -109,6 +112,7 @@ class Scene:
                 "distance": self._distance[model],
             }
             for name, value in truth.items():
+                recorder.name(f"truth/{model}/{name}", f"truth {name}{UNITS.get(name, '')}")
                 recorder.scalar(f"truth/{model}/{name}", value)
             recorder.pose(f"/world/{model}", (x, y, z), (qw, qx, qy, qz))
             self._path[model].append((x, y, z))

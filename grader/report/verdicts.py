@@ -14,6 +14,8 @@ STATES = rr.StateConfiguration(
     colors=np.array([[110, 110, 110, 255], [40, 160, 70, 255], [200, 50, 50, 255]], dtype=np.uint8),
 )
 
+TAIL = 0.5  # [s] the lanes go on after the end, so that a verdict given at the end can be seen
+
 
 def write_verdicts(recorder: Recorder, score: Score, max_score: float, end_s: float) -> None:
     """Log every check as a lane that changes at the moment of its verdict, its bands, and the result as properties."""
@@ -23,6 +25,7 @@ def write_verdicts(recorder: Recorder, score: Score, max_score: float, end_s: fl
         times, states = [round(at * 1e9)], ["pass" if check.finding.passed else "fail"]
         if times[0] > 0:
             times, states = [0, *times], ["wait", *states]
+        times, states = [*times, round((end_s + TAIL) * 1e9)], [*states, states[-1]]
         recorder.static(entity, STATES)
         recorder.states(entity, times, states)
         for number, band in enumerate(check.finding.bands):

@@ -197,7 +197,7 @@ def test_acceleration_limits_and_own_topics() -> None:
     [
         ("<left_joint>left_wheel_joint<", "<left_joint>left_weel_joint<", "did you mean 'left_wheel_joint'"),
         ("<left_joint>left_wheel_joint</left_joint>", "", "at least one <left_joint>"),
-        ("<left_joint>left_wheel_joint<", "<left_joint>caster_joint<", "is a ball joint"),
+        ("<left_joint>left_wheel_joint<", "<left_joint>rear_caster_joint<", "is a ball joint"),
         ("<wheel_radius>0.05<", "<wheel_radius>0<", "<wheel_radius> must be greater than zero"),
         (
             "<wheel_separation>0.25<",
