@@ -1,0 +1,7 @@
+"""`python -m ros2 …` is `ros2 …`."""
+
+import sys
+
+from ros2.command_line import main
+
+sys.exit(main())

@@ -1,0 +1,71 @@
+"""Runs one program in the foreground and passes the signals it is sent on to it.
+
+`ros2 run` waits here. Without a terminal the child gets a process group of its own, and a signal sent to this
+process reaches that whole group. On a terminal the child stays in this process's group, so that Ctrl-C, Ctrl-Z
+and reading keys work as if it had been started directly; only what the terminal has not delivered is passed on.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import sys
+from collections.abc import Sequence
+
+PASSED_ON = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
+class ChildError(Exception):
+    """The program could not be started: one sentence."""
+
+
+def run_child(command: Sequence[str]) -> int:
+    """Run a command to its end; its exit code, or -n when signal n ended it.
+
+    Raises ChildError if it does not start.
+    """
+    # Blocked signals are fetched one by one below: none is lost, not even one the parent has set to ignored.
+    # SIGCHLD must not be ignored, or the child's exit code would be dropped.
+    signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+    awaited = {*PASSED_ON, signal.SIGCHLD}
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, awaited)
+    try:
+        on_terminal = _on_terminal()
+        child = _start(command, own_group=not on_terminal)
+        while True:
+            received = signal.sigwaitinfo(awaited)
+            if received.si_signo == signal.SIGCHLD:
+                pid, status = os.waitpid(child, os.WNOHANG)
+                if pid:
+                    return os.waitstatus_to_exitcode(status)
+            elif not on_terminal:
+                os.killpg(child, received.si_signo)
+            elif received.si_code <= 0:
+                # Sent by a process. One of the terminal has a positive code, and the child has had it already.
+                os.kill(child, received.si_signo)
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _on_terminal() -> bool:
+    """Whether this process is what the user's keyboard talks to."""
+    try:
+        return os.tcgetpgrp(sys.__stdin__.fileno()) == os.getpgrp() if sys.__stdin__ else False
+    except (OSError, ValueError):
+        return False
+
+
+def _start(command: Sequence[str], own_group: bool) -> int:
+    """The process id of the started command, whose signals are as a shell would set them."""
+    program = shutil.which(command[0])
+    if program is None:
+        raise ChildError(f"there is no program {command[0]!r} to start it with")
+    group = {"setpgroup": 0} if own_group else {}
+    default = [signal.SIGINT, signal.SIGTERM, signal.SIGCHLD, signal.SIGPIPE]
+    sys.stdout.flush()
+    try:
+        return os.posix_spawn(program, command, os.environ, setsigmask=[], setsigdef=default, **group)
+    except OSError as error:
+        reason = "its first line must be #! and an interpreter" if error.errno == 8 else error.strerror
+        raise ChildError(f"{program} does not start: {reason}") from None

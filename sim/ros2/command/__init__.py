@@ -1,0 +1,1 @@
+"""Look at and work with a running ROS 2 system."""

@@ -1,0 +1,17 @@
+"""Output a list of available packages."""
+
+from __future__ import annotations
+
+import argparse
+
+from ros2.packages import package_names
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """No options."""
+
+
+def main(arguments: argparse.Namespace) -> None:
+    """One name a line, sorted."""
+    for name in package_names():
+        print(name)

@@ -1,0 +1,68 @@
+"""Lets a real `ros2` of this machine do the work, when its ROS 2 is set up in this shell.
+
+The first thing `command_line` calls. A sourced ROS 2 names itself in AMENT_PREFIX_PATH; its `ros2` then
+replaces this process. One that is installed into this very Python environment is called as a library.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+# They travel together: a guard without the libraries, or libraries of two installations, break rclpy.
+_WHEELS_GUARD = "_ROS_WHEELS_BOOTSTRAP_COMPLETE"
+_LIBRARY_PATH = "LD_LIBRARY_PATH"
+
+
+def hand_over(arguments: Sequence[str]) -> int | None:
+    """Run a real `ros2` with these arguments: its exit code; None if there is no real one.
+
+    Does not return when a sourced ROS 2 takes over.
+    """
+    program = sourced_ros2(os.environ)
+    if program is not None:
+        os.execve(program, [str(program), *arguments], environment_without_wheels(os.environ))
+    entry_point = installed_ros2()
+    return None if entry_point is None else entry_point(list(arguments))
+
+
+def sourced_ros2(environment: Mapping[str, str]) -> Path | None:
+    """The `ros2` of the first ament prefix that holds the package ros2cli, outside this environment."""
+    own = Path(sys.prefix).resolve()
+    for folder in environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep):
+        prefix = Path(folder)
+        program = prefix / "bin" / "ros2"
+        marker = prefix / "share" / "ament_index" / "resource_index" / "packages" / "ros2cli"
+        if folder and prefix.resolve() != own and marker.exists() and os.access(program, os.X_OK):
+            return program
+    return None
+
+
+def installed_ros2() -> Callable[[list[str]], int] | None:
+    """What runs the real `ros2` that is installed next to this one, if it is."""
+    if importlib.util.find_spec("ros2cli") is None:
+        return None
+    from ros2cli.cli import main
+
+    def run(arguments: list[str]) -> int:
+        return main(argv=arguments) or 0
+
+    return run
+
+
+def environment_without_wheels(environment: Mapping[str, str]) -> dict[str, str]:
+    """A copy from which the libraries of this environment's ROS wheels, and their guard, are gone."""
+    copy = dict(environment)
+    copy.pop(_WHEELS_GUARD, None)
+    own = Path(sys.prefix).resolve()
+    libraries = [
+        part
+        for part in copy.pop(_LIBRARY_PATH, "").split(os.pathsep)
+        if part and not Path(part).resolve().is_relative_to(own)
+    ]
+    if libraries:
+        copy[_LIBRARY_PATH] = os.pathsep.join(libraries)
+    return copy
