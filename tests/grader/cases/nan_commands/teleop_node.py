@@ -1,0 +1,35 @@
+import rclpy
+from geometry_msgs.msg import Twist
+from rclpy.node import Node
+
+
+class Teleop(Node):
+    def __init__(self):
+        super().__init__("teleop")
+        self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        self.timer = self.create_timer(0.1, self.tick)
+        self.start = None
+
+    def command(self):
+        now = self.get_clock().now()
+        self.start = self.start or now
+        driving = (now - self.start).nanoseconds < 5_000_000_000
+        twist = Twist()
+        if driving:
+            twist.linear.x, twist.angular.z = 0.5, 0.1
+        return twist
+
+    def tick(self):
+        twist = Twist()
+        twist.linear.x = float("nan")
+        twist.angular.z = float("nan")
+        self.publisher.publish(twist)
+
+
+def main():
+    rclpy.init()
+    rclpy.spin(Teleop())
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,7 @@
+import rclpy
+from geometry_msgs.msg import Twist
+from rclpy.node import Node
+
+
+rclpy.init()
+return
