@@ -1,34 +1,42 @@
 # A fresh clone needs only Python >= 3.11, pip and make: `make demo` or `make test` sets everything up.
 PYTHON ?= python3
 BIN := .venv/bin
-export PIP_DISABLE_PIP_VERSION_CHECK := 1
+PIP := $(BIN)/pip --disable-pip-version-check --quiet install --constraint constraints.txt
 
 .PHONY: setup demo test verify bench lint clean
-setup: .venv/installed
+setup: .venv/with-course
 
-.venv/installed: pyproject.toml constraints.txt
+.venv/with-course: pyproject.toml constraints.txt
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
-	    { echo "$$($(PYTHON) --version) is too old: Python 3.11 or newer is needed (set PYTHON=/path/to/python3.12)"; exit 2; }
+	    { echo "$$($(PYTHON) --version) is too old: the course needs Python 3.11 or newer; make PYTHON=python3.12"; exit 2; }
 	$(PYTHON) -m venv .venv
-	$(BIN)/pip install --quiet --constraint constraints.txt --editable '.[dev]'
-	touch $@
+	$(PIP) --editable .
+	@touch $@
+
+.venv/with-tools: .venv/with-course
+	$(PIP) --editable '.[dev]'
+	@touch $@
 
 demo: setup
-	@$(BIN)/course demo
+	@$(BIN)/course grade 03_teleop --submission solutions/03_teleop --out runs/demo
+	@$(BIN)/course grade 04_lidar_listener --submission solutions/04_lidar_listener --out runs/demo
+	@echo
+	@echo "Two recordings: runs/demo/03_teleop.rrd and runs/demo/04_lidar_listener.rrd"
+	@echo "Look at one:    $(BIN)/course show runs/demo/03_teleop.rrd"
 
-test: setup
+test: .venv/with-tools
 	$(BIN)/pytest -q
 
-verify: setup
+verify: .venv/with-tools
 	$(BIN)/course verify
 
-bench: setup
+bench: .venv/with-tools
 	$(BIN)/python -m tests.bench
 
-lint: setup
+lint: .venv/with-tools
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 
 clean:
-	rm -rf .venv runs build dist .mypy_cache .ruff_cache .pytest_cache
+	rm -rf .venv runs build dist .mypy_cache .ruff_cache .pytest_cache .hypothesis

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from difflib import get_close_matches
 
+FEW = 8  # names that can be listed in one sentence
+
 
 class CourseError(Exception):
     """Base of all errors the `course` command prints as one sentence; `exit_code` goes to the shell."""
@@ -27,9 +29,9 @@ class InfrastructureError(CourseError):
 
 
 def nearest(name: str, known: Iterable[str]) -> str:
-    """Return a closing clause for an error text: ` (did you mean X?)`, or the list of known names."""
+    """Return a closing clause for an error text: ` (did you mean X?)`, the known names if they are few, or nothing."""
     names = sorted(known)
-    close = get_close_matches(name, names, n=1, cutoff=0.4)
+    close = get_close_matches(name, names, n=1, cutoff=0.6)
     if close:
         return f" (did you mean {close[0]}?)"
-    return f" (known: {', '.join(names)})" if names else ""
+    return f" (known: {', '.join(names)})" if 0 < len(names) <= FEW else ""

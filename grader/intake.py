@@ -34,15 +34,14 @@ def take_in(exercise: Exercise, path: Path | None) -> Submission:
     """
     path = path if path is not None else exercise.starter
     if path.is_dir():
-        names = [p.name for p in path.iterdir() if p.is_file()]
+        names = _python_files(path)
         if exercise.file not in names:
             raise UsageError(
                 f"{path} holds no {exercise.file}, the file {exercise.name} asks for{nearest(exercise.file, names)}"
             )
         path = path / exercise.file
     if not path.exists():
-        siblings = [p.name for p in path.parent.iterdir()] if path.parent.is_dir() else []
-        raise UsageError(f"there is no file {path}{nearest(path.name, siblings)}")
+        raise UsageError(f"there is no file {path}{nearest(path.name, _python_files(path.parent))}")
     if not path.is_file():
         raise UsageError(f"{path} is not a regular file; give the {exercise.file} to grade or its folder")
     try:
@@ -52,6 +51,13 @@ def take_in(exercise: Exercise, path: Path | None) -> Submission:
     if len(data) > LARGEST:
         raise UsageError(f"{path} has {len(data)} bytes; at most {LARGEST} are accepted")
     return Submission(path.resolve(), hashlib.sha256(data).hexdigest(), _fault(data, path.name))
+
+
+def _python_files(folder: Path) -> list[str]:
+    try:
+        return [p.name for p in folder.iterdir() if p.suffix == ".py" and p.is_file()]
+    except OSError:
+        return []
 
 
 def _fault(data: bytes, name: str) -> str | None:

@@ -46,9 +46,9 @@ def grade_command(
         raise UsageError(f"there is no pace {pace!r}{nearest(pace, PACES)}")
     chosen = find_exercise(exercise)
     report = grade(chosen, submission, out or Path("runs") / chosen.name, seed=seed, pace=pace, started=STARTED)
+    print_report(report, Console())
     if json is not None:
         write_json(json, report)
-    print_report(report, Console())
     raise typer.Exit(0 if report.full_marks else 1)
 
 

@@ -25,7 +25,7 @@ def score_command(
     from grader.report.terminal import print_report
 
     report = grade_again(recording)
+    print_report(report, Console())
     if json is not None:
         write_json(json, report)
-    print_report(report, Console())
     raise typer.Exit(0 if report.full_marks else 1)

@@ -28,13 +28,13 @@ def print_report(report: Report, console: Console) -> None:
     console.print()
     console.print(table)
     for check in score.checks:
-        if not check.finding.passed:
+        if not check.finding.passed and report.sim_seconds:
             console.print(f"\n[bold]{escape(check.spec.title)}[/bold]")
             console.print(f"  expected: {escape(check.finding.expected)}")
             console.print(f"  measured: {escape(check.finding.measured)}")
             console.print(f"  hint:     {escape(check.spec.hint)}")
     console.print(f"\n[bold]score: {score.points:g} of {report.max_score:g}[/bold]  ({score.outcome})")
-    if host := report.host:
+    if (host := report.host) and report.sim_seconds:
         factor = f", {report.sim_seconds / host.run_wall_seconds:.1f} x real time" if host.run_wall_seconds else ""
         console.print(f"{report.sim_seconds:g} s simulated in {host.run_wall_seconds:.2f} s ({host.pace}{factor})")
     console.print(f"recording: {escape(str(report.recording))}", soft_wrap=True)

@@ -12,6 +12,7 @@ from grader.record.reading import Recording
 from grader.score.check import Finding, perform
 from grader.score.diagnosis import diagnose, outcome_of
 
+NOT_RUN = Finding(False, "a file that runs", "nothing was run")
 TRUTH = ("x", "y", "z", "qw", "qx", "qy", "qz")
 
 
@@ -45,7 +46,8 @@ class Score:
 
 def score(recording: Recording, exercise: Exercise) -> Score:
     """Apply every check of the manifest and name the most likely fault."""
-    checks = tuple(CheckResult(spec, perform(spec, recording)) for spec in exercise.checks)
+    never_ran = bool(recording.facts().get("fault"))
+    checks = tuple(CheckResult(spec, NOT_RUN if never_ran else perform(spec, recording)) for spec in exercise.checks)
     failed = [check for check in checks if not check.finding.passed]
     diagnosis = diagnose(recording)
     if failed and not diagnosis:

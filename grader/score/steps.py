@@ -12,16 +12,28 @@ from grader.record.reading import Recording
 
 @dataclass(frozen=True)
 class Condition:
-    """A signal is to lie between `low` and `high` (both included)."""
+    """A signal is to lie between `low` and `high` (both included); `name` and `unit` are what people read."""
 
     signal: str
     low: float
     high: float
+    name: str
+    unit: str
 
     @staticmethod
     def read(raw: dict[str, Any]) -> Condition:
         """Read a condition from a manifest; a missing bound is no bound."""
-        return Condition(raw["signal"], float(raw.get("low", -np.inf)), float(raw.get("high", np.inf)))
+        low, high = float(raw.get("low", -np.inf)), float(raw.get("high", np.inf))
+        unit = f" {raw['unit']}" if "unit" in raw else ""
+        return Condition(raw["signal"], low, high, raw.get("name", raw["signal"]), unit)
+
+    def __str__(self) -> str:
+        """The condition in words."""
+        if np.isinf(self.high):
+            return f"{self.name} at least {self.low:g}{self.unit}"
+        if np.isinf(self.low):
+            return f"{self.name} at most {self.high:g}{self.unit}"
+        return f"{self.name} between {self.low:g} and {self.high:g}{self.unit}"
 
 
 def fulfilled(

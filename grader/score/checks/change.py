@@ -23,7 +23,7 @@ def change(recording: Recording, parameters: dict[str, Any]) -> Finding:
     low, high = parameters["band"]
     start, end = parameters.get("window", [0.0, recording.properties("run")["duration"]])
     unit = f" {parameters['unit']}" if "unit" in parameters else ""
-    expected = f"{name} changes by {low:g} to {high:g}{unit}"
+    expected = f"{parameters.get('name', name)} changes by {low:g} to {high:g}{unit}"
     last = value_at(recording, name, end)
     if last is None:
         return Finding(False, expected, "nothing was recorded on it")

@@ -24,22 +24,23 @@ STILL = 0.5  # [s] before the end: a command this late means that they never cea
 def stays_in_band(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Pass if every condition holds at every moment of the last `last` seconds."""
     conditions = [Condition.read(c) for c in parameters["conditions"]]
-    unit = f" {parameters['unit']}" if "unit" in parameters else ""
     end = recording.properties("run")["duration"]
     start = end - parameters["last"]
     edges, holds = fulfilled(recording, conditions, start, end)
-    wanted = " and ".join(f"{c.signal} between {c.low:g} and {c.high:g}{unit}" for c in conditions)
+    wanted = " and ".join(map(str, conditions))
     expected = f"{wanted} from {start:g} s to the end at {end:g} s"
     bands = tuple(Band(c.signal, c.low, c.high, start, end) for c in conditions)
     if holds.all():
         return Finding(True, expected, "so it did", end, bands)
     at = float(edges[:-1][~holds][0])
-    values = [(c.signal, value_at(recording, c.signal, at)) for c in conditions]
-    shown = ", ".join(
-        f"{name} was {value:.2f}" if value is not None else f"{name} had no value" for name, value in values
-    )
-    measured = f"{shown}{unit} at {at:.2f} s{_last_command(recording, parameters, end)}"
+    shown = ", ".join(_value(recording, c, at) for c in conditions)
+    measured = f"{shown} at {at:.2f} s{_last_command(recording, parameters, end)}"
     return Finding(False, expected, measured, float(np.round(at, 3)), bands)
+
+
+def _value(recording: Recording, c: Condition, at: float) -> str:
+    value = value_at(recording, c.signal, at)
+    return f"{c.name} was {value:.2f}{c.unit}" if value is not None else f"{c.name} had no value"
 
 
 def _last_command(recording: Recording, parameters: dict[str, Any], end: float) -> str:

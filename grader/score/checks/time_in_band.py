@@ -25,33 +25,23 @@ def time_in_band(recording: Recording, parameters: dict[str, Any]) -> Finding:
     start, end = parameters.get("window", [0.0, recording.properties("run")["duration"]])
     least, *rest = parameters["seconds"]
     most = rest[0] if rest else np.inf
-    unit = parameters.get("unit", "")
     edges, holds = fulfilled(recording, conditions, start, end)
     total = float(np.diff(edges)[holds].sum())
-    wanted = " and ".join(f"{c.signal} {_band(c, unit)}" for c in conditions)
+    wanted = " and ".join(map(str, conditions))
     span = f"for {least:g} to {most:g} s" if rest else f"for at least {least:g} s"
     if not any(len(recording.signal(c.signal)) for c in conditions):
         return Finding(False, f"{wanted} {span}", "nothing was recorded on it", None)
     measured = f"in band for {total:.2f} s"
     if not least <= total <= most:
-        measured += "".join(f"; {c.signal} {_usual(recording, c, unit)}" for c in conditions)
+        measured += "".join(f"; {c.name} {_usual(recording, c)}" for c in conditions)
     at = float(edges[1:][holds][-1]) if holds.any() else None
     bands = tuple(Band(c.signal, c.low, c.high, start, end) for c in conditions)
     return Finding(bool(least <= total <= most), f"{wanted} {span}", measured, at, bands)
 
 
-def _band(c: Condition, unit: str) -> str:
-    unit = f" {unit}" if unit else ""
-    if np.isinf(c.high):
-        return f"at least {c.low:g}{unit}"
-    if np.isinf(c.low):
-        return f"at most {c.high:g}{unit}"
-    return f"between {c.low:g} and {c.high:g}{unit}"
-
-
-def _usual(recording: Recording, c: Condition, unit: str) -> str:
+def _usual(recording: Recording, c: Condition) -> str:
     values = recording.signal(c.signal).values
     moving = values[np.abs(values) > 0.01]
     if not len(moving):
         return "was always 0" if len(values) else "was never seen"
-    return f"was mostly {float(np.median(moving)):.2f} {unit}".rstrip()
+    return f"was mostly {float(np.median(moving)):.2f}{c.unit}"

@@ -1,0 +1,27 @@
+"""`course show RECORDING`: look at a run in the Rerun viewer."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    app.command(name="show")(show_command)
+
+
+def show_command(recording: Annotated[Path, typer.Argument(help="The .rrd file a grading wrote.")]) -> None:
+    """Open a recording in the Rerun viewer; it ends when its window is closed."""
+    import rerun_cli
+
+    from grader.record.reading import Recording
+
+    Recording(recording)
+    # The binary itself, not its Python wrapper, which would leave the viewer behind when it is killed. CI=1 is the
+    # one switch that keeps it from collecting usage data.
+    viewer = Path(rerun_cli.__file__).parent / "rerun"
+    os.execve(viewer, [str(viewer), str(recording)], os.environ | {"CI": "1"})
