@@ -12,6 +12,7 @@ import shutil
 import signal
 import sys
 from collections.abc import Sequence
+from typing import Any
 
 PASSED_ON = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
@@ -61,11 +62,11 @@ def _start(command: Sequence[str], own_group: bool) -> int:
     program = shutil.which(command[0])
     if program is None:
         raise ChildError(f"there is no program {command[0]!r} to start it with")
-    group = {"setpgroup": 0} if own_group else {}
+    group: dict[str, Any] = {"setpgroup": 0} if own_group else {}
     default = [signal.SIGINT, signal.SIGTERM, signal.SIGCHLD, signal.SIGPIPE]
     sys.stdout.flush()
     try:
-        return os.posix_spawn(program, command, os.environ, setsigmask=[], setsigdef=default, **group)
+        return os.posix_spawn(program, list(command), os.environ, setsigmask=[], setsigdef=default, **group)
     except OSError as error:
         reason = "its first line must be #! and an interpreter" if error.errno == 8 else error.strerror
         raise ChildError(f"{program} does not start: {reason}") from None

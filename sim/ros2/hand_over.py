@@ -6,6 +6,7 @@ replaces this process. One that is installed into this very Python environment i
 
 from __future__ import annotations
 
+import importlib
 import importlib.util
 import os
 import sys
@@ -45,7 +46,7 @@ def installed_ros2() -> Callable[[list[str]], int] | None:
     """What runs the real `ros2` that is installed next to this one, if it is."""
     if importlib.util.find_spec("ros2cli") is None:
         return None
-    from ros2cli.cli import main
+    main = importlib.import_module("ros2cli.cli").main
 
     def run(arguments: list[str]) -> int:
         return main(argv=arguments) or 0

@@ -1,0 +1,154 @@
+"""Output messages from a topic."""
+
+from __future__ import annotations
+
+import argparse
+import time
+from typing import Any
+
+import yaml
+from rclpy.qos import (
+    DurabilityPolicy,
+    HistoryPolicy,
+    QoSPresetProfiles,
+    QoSProfile,
+    ReliabilityPolicy,
+)
+
+from ros2.errors import CommandError, did_you_mean
+from ros2.graph import Graph, add_graph_options
+from ros2.interface import message_class
+from ros2.message_text import TextFormat, is_message, to_csv, to_yaml
+from ros2.topic import following_qos, full_name, message_filter, nearest_topic, not_published, only_type
+
+_FIRST_PUBLISHER = 1.0  # s to wait for somebody to follow the QoS of, when the type is given
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The topic, how long to listen, how to print and with which QoS."""
+    add_graph_options(parser)
+    parser.add_argument("topic_name", help="Name of the ROS topic to listen to (e.g. '/chatter')")
+    parser.add_argument("message_type", nargs="?", help="Type of the ROS message (e.g. 'std_msgs/msg/String')")
+    parser.add_argument("--once", action="store_true", help="Print the first message received and then exit")
+    parser.add_argument("--timeout", type=float, metavar="N", help="Set a timeout in seconds for waiting")
+    parser.add_argument("--field", metavar="A.B", help="Echo a selected field of a message")
+    parser.add_argument("--filter", metavar="EXPR", help="Python expression on the message m that must be true")
+    parser.add_argument("-f", "--full-length", action="store_true", help="Output all elements and characters")
+    parser.add_argument(
+        "-l", "--truncate-length", type=whole_number, default=128, metavar="N", help="Cut at N items (default: 128)"
+    )
+    parser.add_argument("--no-arr", action="store_true", help="Don't print array fields of messages")
+    parser.add_argument("--no-str", action="store_true", help="Don't print string fields of messages")
+    parser.add_argument("--flow-style", action="store_true", help="Print collections in the block style inline")
+    parser.add_argument("--csv", action="store_true", help="Output all recursive fields separated by commas")
+    parser.add_argument("--raw", action="store_true", help="Echo the raw binary representation")
+    parser.add_argument("-i", "--include-message-info", action="store_true", help="Shows the message info")
+    qos = parser.add_argument_group("quality of service", "default: what all publishers of the topic offer")
+    presets = [profile.name.lower() for profile in QoSPresetProfiles]
+    qos.add_argument("--qos-profile", choices=presets, help="Preset to start from")
+    qos.add_argument("--qos-depth", type=whole_number, metavar="N", help="Queue size")
+    qos.add_argument("--qos-history", choices=HistoryPolicy.short_keys(), help="History setting")
+    qos.add_argument("--qos-reliability", choices=ReliabilityPolicy.short_keys(), help="Reliability setting")
+    qos.add_argument("--qos-durability", choices=DurabilityPolicy.short_keys(), help="Durability setting")
+
+
+def whole_number(text: str) -> int:
+    """A number from 0 on; ValueError otherwise."""
+    value = int(text)
+    if value < 0:
+        raise ValueError
+    return value
+
+
+def main(arguments: argparse.Namespace) -> int:
+    """Print until interrupted; with --once until the first message, with --timeout at most so long."""
+    with Graph(arguments) as graph:
+        name = full_name(graph, arguments.topic_name)
+        kind = _message_class(graph, name, arguments.message_type)
+        printer = _Printer(arguments, kind)
+        qos = _qos(graph, name, arguments)
+        graph.node.create_subscription(kind, name, printer, qos, raw=arguments.raw)
+        end = None if arguments.timeout is None else time.monotonic() + arguments.timeout
+        while not (arguments.once and printer.count):
+            left = 0.1 if end is None else min(0.1, end - time.monotonic())
+            if left <= 0:
+                break
+            graph.spin_once(left)
+    return 0
+
+
+def _message_class(graph: Graph, name: str, given: str | None) -> Any:
+    if given is not None:
+        graph.wait_for_publisher(name, _FIRST_PUBLISHER)
+        return message_class(given)
+    types = graph.wait_for_topic(name)
+    if not types:
+        not_published(name)
+        raise CommandError(f"Could not determine the type for the passed topic{nearest_topic(graph, name)}")
+    return only_type(name, types, "echo")
+
+
+def _qos(graph: Graph, name: str, arguments: argparse.Namespace) -> QoSProfile:
+    if arguments.qos_profile:
+        qos = QoSPresetProfiles.get_from_short_key(arguments.qos_profile)
+    else:
+        qos = following_qos(graph, name)
+    if arguments.qos_depth is not None:
+        qos.depth = arguments.qos_depth
+    if arguments.qos_history:
+        qos.history = HistoryPolicy.get_from_short_key(arguments.qos_history)
+    if arguments.qos_reliability:
+        qos.reliability = ReliabilityPolicy.get_from_short_key(arguments.qos_reliability)
+    if arguments.qos_durability:
+        qos.durability = DurabilityPolicy.get_from_short_key(arguments.qos_durability)
+    return qos
+
+
+class _Printer:
+    """Prints each message the way the options say; `count` messages so far."""
+
+    def __init__(self, arguments: argparse.Namespace, kind: Any) -> None:
+        self.count = 0
+        self._filter = message_filter(arguments.filter)
+        self._fields = arguments.field.strip(".").split(".") if arguments.field else []
+        self._csv = arguments.csv
+        self._with_info = arguments.include_message_info
+        self._form = TextFormat(
+            limit=None if arguments.full_length else arguments.truncate_length,
+            arrays=not arguments.no_arr,
+            strings=not arguments.no_str,
+            flow_style=arguments.flow_style,
+        )
+        if not arguments.raw:
+            self._select(kind())
+
+    def __call__(self, message: Any, info: dict[str, Any]) -> None:
+        value = message if isinstance(message, bytes) else self._select(message)
+        if self._filter is not None and not self._filter(value):
+            return
+        self.count += 1
+        if self._csv and is_message(value):
+            before = "".join(f"{item}," for item in info.values()) if self._with_info else ""
+            print(before + to_csv(value, self._form))
+        elif is_message(value):
+            if self._with_info:
+                print(yaml.safe_dump(dict(info)), end="---\n")
+            print(to_yaml(value, self._form), end="---\n")
+        else:
+            if self._with_info:
+                print(f"---Got new message, message info:---\n{dict(info)}\n---Message data:---")
+            print(value, end="\n---\n")
+
+    def _select(self, message: Any) -> Any:
+        """The field the user has asked for; CommandError with the fields there are if it does not exist."""
+        value = message
+        for name in self._fields:
+            if not is_message(value) or name not in value.get_fields_and_field_types():
+                known = list(value.get_fields_and_field_types()) if is_message(value) else []
+                has = f"has the fields {', '.join(known)}" if known else "has no fields"
+                raise CommandError(
+                    f"Invalid field '{'.'.join(self._fields)}': {type(value).__name__} has no field "
+                    f"'{name}', it {has}{did_you_mean(name, known)}"
+                )
+            value = getattr(value, name)
+        return value

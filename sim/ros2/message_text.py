@@ -1,0 +1,96 @@
+"""A ROS message as text: block YAML as `ros2 topic echo` shows it, or one line of CSV.
+
+Fields come in the order of the message definition. What is longer than the limit is cut and ends in `...`.
+"""
+
+from __future__ import annotations
+
+import array
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import yaml
+
+_SEQUENCES = (list, tuple, array.array, np.ndarray)
+
+
+@dataclass(frozen=True)
+class TextFormat:
+    """How much of a message is shown: `limit` items or characters (None: all), arrays and strings at all."""
+
+    limit: int | None = 128
+    arrays: bool = True
+    strings: bool = True
+    flow_style: bool = False
+
+
+def is_message(value: Any) -> bool:
+    """Whether a value is a message and not one of its plain fields."""
+    return hasattr(value, "get_fields_and_field_types")
+
+
+def to_yaml(message: Any, form: TextFormat) -> str:
+    """The message as YAML, ending in a line break."""
+    return yaml.dump(
+        _plain(message, "", form),
+        Dumper=_Dumper,
+        sort_keys=False,
+        allow_unicode=True,
+        width=sys.maxsize,
+        default_flow_style=None if form.flow_style else False,
+    )
+
+
+def to_csv(message: Any, form: TextFormat) -> str:
+    """All values of the message in one line, separated by commas."""
+    return ",".join(_values(_plain(message, "", form)))
+
+
+class _Dumper(yaml.SafeDumper):
+    """Writes a value that occurs twice twice, and strings without regard to who shares them."""
+
+    def ignore_aliases(self, data: Any) -> bool:
+        return True
+
+
+def _plain(value: Any, kind: str, form: TextFormat) -> Any:
+    """The value in Python's own types; `kind` is the type the message definition gives it."""
+    if is_message(value):
+        fields = value.get_fields_and_field_types()
+        return {name: _plain(getattr(value, name), field, form) for name, field in fields.items()}
+    if isinstance(value, bytes):
+        value = value.decode("latin-1")
+        return value if form.limit is None or len(value) <= form.limit else value[: form.limit] + "..."
+    if isinstance(value, str):
+        if not form.strings:
+            return f"<string length: <{len(value)}>>"
+        return value if form.limit is None or len(value) <= form.limit else value[: form.limit] + "..."
+    if isinstance(value, _SEQUENCES):
+        return _sequence(value, kind, form)
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def _sequence(value: Any, kind: str, form: TextFormat) -> Any:
+    # "sequence<float>", "sequence<float, 3>" or "double[9]"
+    if not form.arrays:
+        if kind.startswith("sequence<"):
+            return f"<sequence type: {kind[9:].rstrip('>').partition(',')[0]}, length: {len(value)}>"
+        return f"<array type: {kind}>"
+    item_kind = kind[9:].rstrip(">").partition(",")[0] if kind.startswith("sequence<") else kind.partition("[")[0]
+    shown = value if form.limit is None else value[: form.limit]
+    items = [_plain(item, item_kind, form) for item in shown]
+    return items if len(shown) == len(value) else [*items, "..."]
+
+
+def _values(value: Any) -> Iterator[str]:
+    if isinstance(value, dict):
+        for item in value.values():
+            yield from _values(item)
+    elif isinstance(value, list):
+        for item in value:
+            yield from _values(item)
+    else:
+        yield str(value)
