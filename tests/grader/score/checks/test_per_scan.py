@@ -1,0 +1,106 @@
+"""`per_scan`: answers by log and by topic, right and wrong, and the rays on the limits."""
+
+import math
+
+import pytest
+
+from grader.score.checks.per_scan import per_scan
+
+RANGES = [0.25, 1.0, 2.0, 10.0, math.inf, -math.inf, 0.1]
+TIMES = [n / 10 for n in range(20)]
+TOPIC = {"scan": "lidar/scan", "statistic": "minimum", "tolerance": 0.001, "signal": "topics/nearest/data"}
+LOG = {"scan": "lidar/scan", "statistic": "mean", "tolerance": 0.0101, "log": r"avg=(\S+?)m$"}
+
+
+@pytest.fixture
+def scanned(record):
+    """A recording of twenty scans with given ranges and what else was recorded."""
+
+    def make(ranges=RANGES, signals=None, lines=(), low=0.25, high=10.0):
+        limits = {f"topics/lidar/scan/range_{n}": [(t, v) for t in TIMES] for n, v in (("min", low), ("max", high))}
+        arrays = {"topics/lidar/scan/ranges": [(t, ranges) for t in TIMES]}
+        return record(limits | (signals or {}), arrays=arrays, lines=lines)
+
+    return make
+
+
+def answers(value, times=TIMES, delay=0.01):
+    return {"topics/nearest/data": [(t + delay, value) for t in times]}
+
+
+@pytest.mark.parametrize("answer", [1.0, 0.25, 1.001, 0.999])
+def test_the_minimum_with_and_without_the_rays_on_the_limits(scanned, answer):
+    finding = per_scan(scanned(signals=answers(answer)), TOPIC)
+    assert (finding.passed, finding.measured, finding.at_s) == (True, "20 of 20 scans right", None)
+
+
+@pytest.mark.parametrize("answer", [0.1, 1.0011, 0.9989, 2.0, -1.0])
+def test_a_wrong_minimum(scanned, answer):
+    finding = per_scan(scanned(signals=answers(answer)), TOPIC)
+    assert (finding.passed, finding.at_s) == (False, 0.0)
+    assert finding.measured.startswith(f"0 of 20 scans right; at 0.00 s it said {answer:g}, the truth was 1.000")
+
+
+@pytest.mark.parametrize(("statistic", "truths"), [("valid_count", (2, 4)), ("minimum", (1, 0.25)), ("mean", (1.5,))])
+def test_the_statistics(scanned, statistic, truths):
+    for truth in truths:
+        assert per_scan(scanned(signals=answers(truth)), TOPIC | {"statistic": statistic}).passed
+
+
+@pytest.mark.parametrize(("right", "passed"), [(20, True), (19, True), (18, False)])
+def test_nineteen_of_twenty_are_enough(scanned, right, passed):
+    finding = per_scan(scanned(signals=answers(1.0, TIMES[:right])), TOPIC)
+    assert finding.passed is passed
+    if right < 20:
+        assert f"{20 - right} without an answer" in finding.measured
+        assert passed or finding.at_s == TIMES[right]
+
+
+def test_an_answer_belongs_to_the_scan_before_it(scanned):
+    assert per_scan(scanned(signals=answers(1.0, delay=0.0)), TOPIC).passed, "at the very moment of the scan"
+    assert per_scan(scanned(signals=answers(1.0, delay=0.0999)), TOPIC).passed, "just before the next"
+    late = {"topics/nearest/data": [(t + 0.1, 1.0) for t in TIMES[:-2]]}
+    assert per_scan(scanned(signals=late), TOPIC | {"at_least": 1.0}).measured.startswith("18 of 20")
+
+
+def test_only_the_first_answer_to_a_scan_counts(scanned):
+    both = {"topics/nearest/data": sorted((t + d, v) for t in TIMES for d, v in ((0.01, 5.0), (0.02, 1.0)))}
+    assert not per_scan(scanned(signals=both), TOPIC).passed
+
+
+def test_no_answers_at_all(scanned):
+    finding = per_scan(scanned(), TOPIC)
+    assert (finding.passed, finding.measured) == (False, "0 of 20 scans right, 20 without an answer")
+
+
+def test_without_scans_nothing_passes(record):
+    assert not per_scan(record(answers(1.0)), TOPIC).passed
+
+
+def test_scans_without_a_valid_ray_are_not_asked_about(scanned):
+    finding = per_scan(scanned(ranges=[math.inf, -math.inf, math.nan, 0.1, 10.1]), TOPIC)
+    assert (finding.passed, finding.measured) == (False, "0 of 0 scans right")
+
+
+def logged(text, level="INFO"):
+    return [(t + 0.01, f"[{level}] [listener]: {text}" if level else text) for t in TIMES]
+
+
+def test_answers_in_the_log(scanned):
+    assert per_scan(scanned(lines=logged("avg=1.50m")), LOG).passed
+    assert per_scan(scanned(lines=logged("avg=1.51m", "WARN")), LOG).passed, "rounded, at any level"
+    assert not per_scan(scanned(lines=logged("avg=1.52m")), LOG).passed
+    assert not per_scan(scanned(lines=logged("avg=nanm")), LOG).passed
+    assert not per_scan(scanned(lines=logged("avg=manym")), LOG).passed
+
+
+def test_printed_answers_do_not_count_and_are_told_apart(scanned):
+    finding = per_scan(scanned(lines=logged("avg=1.50m", None)), LOG)
+    assert not finding.passed
+    assert "20 such lines were printed, not logged" in finding.measured
+    assert "get_logger" in finding.measured
+
+
+def test_lines_that_do_not_match_are_no_answers(scanned):
+    lines = sorted([*logged("starting"), *logged("avg=1.50m")])
+    assert per_scan(scanned(lines=lines), LOG).passed

@@ -1,0 +1,91 @@
+"""The registry of check kinds and the gate that no kind can do without."""
+
+import pytest
+
+from grader.errors import ManifestError
+from grader.exercise import CheckSpec
+from grader.score.check import check_kind, check_kinds, perform
+
+SIGNAL = "truth/robot/x"
+
+
+def spec(kind="change", **parameters):
+    return CheckSpec(id="it", title="It", points=10, kind=kind, hint="Do it.", parameters=parameters)
+
+
+GATE = {"signal": "truth/robot/distance", "reaches": 0.5, "otherwise": "it never drove"}
+
+
+def test_an_unknown_kind_is_answered_with_the_nearest(record):
+    with pytest.raises(ManifestError, match=r"'it'.*'chnage'.*did you mean change\?"):
+        perform(spec("chnage"), record())
+
+
+def test_a_kind_cannot_be_registered_twice():
+    assert "change" in check_kinds()
+    with pytest.raises(ValueError, match="'change' is registered twice"):
+        check_kind("change")(lambda recording, parameters: None)
+
+
+@pytest.mark.parametrize(
+    ("kind", "given", "missing"),
+    [
+        ("change", {"signal": SIGNAL}, "band"),
+        ("change", {"band": [0, 1]}, "signal"),
+        ("time_in_band", {"seconds": [1]}, "conditions"),
+        ("time_in_band", {"conditions": [{"low": 1}], "seconds": [1]}, "signal"),
+        ("stays_in_band", {"conditions": [{"signal": SIGNAL}]}, "last"),
+        ("per_scan", {"scan": "lidar/scan", "tolerance": 0.1}, "statistic"),
+        ("per_scan", {"scan": "lidar/scan", "statistic": "minimum", "tolerance": 0.1}, "log"),
+    ],
+)
+def test_a_missing_parameter_is_named_with_its_check(record, kind, given, missing):
+    with pytest.raises(ManifestError, match=rf"check 'it' lacks the parameter '{missing}'"):
+        perform(spec(kind, **given), record({SIGNAL: [(0, 0.0)]}))
+
+
+@pytest.mark.parametrize(
+    ("kind", "given", "word"),
+    [
+        ("change", {"signal": SIGNAL, "band": 3}, "band"),
+        ("change", {"signal": SIGNAL, "band": [1, 2, 3]}, "band"),
+        ("time_in_band", {"conditions": [{"signal": SIGNAL, "low": "x"}], "seconds": [1]}, "low"),
+        ("stays_in_band", {"conditions": [{"signal": SIGNAL}], "last": "long"}, "last"),
+        ("per_scan", {"scan": "s", "statistic": "median", "tolerance": 0.1, "log": "(x)"}, "median"),
+        ("per_scan", {"scan": "s", "statistic": "minimum", "tolerance": 0.1, "log": "("}, "log"),
+        ("per_scan", {"scan": "s", "statistic": "minimum", "tolerance": 0.1, "log": "x"}, "log"),
+        ("change", {"signal": SIGNAL, "band": [0, 1], "unti": "m"}, "unti"),
+    ],
+)
+def test_a_wrong_parameter_is_a_manifest_error_that_names_it(record, kind, given, word):
+    recording = record(
+        {SIGNAL: [(0, 0.0), (8, 1.0)], "topics/s/range_min": [(0, 0.1)], "topics/s/range_max": [(0, 9.0)]},
+        arrays={"topics/s/ranges": [(0, [1.0, 2.0])]},
+        lines=[(0.1, "[INFO] [n]: x")],
+    )
+    with pytest.raises(ManifestError, match=rf"'it'.*{word}"):
+        perform(spec(kind, **given), recording)
+
+
+def test_the_gate_gives_points_only_for_its_evidence(record):
+    def found(distance):
+        recording = record({SIGNAL: [(0, 0.0), (8, 0.0)], "truth/robot/distance": distance})
+        return perform(spec(signal=SIGNAL, band=[-1, 1], gate=GATE), recording)
+
+    assert found([(0, 0.0), (5, 0.5)]).passed, "the bound itself is enough"
+    assert found([(0, 0.9), (5, 0.1)]).passed, "reached once is reached"
+    for too_little in ([(0, 0.0), (5, 0.499)], []):
+        finding = found(too_little)
+        assert not finding.passed
+        assert finding.measured.startswith("it never drove")
+
+
+def test_a_gate_changes_nothing_about_a_failure(record):
+    recording = record({SIGNAL: [(0, 0.0), (8, 5.0)]})
+    finding = perform(spec(signal=SIGNAL, band=[-1, 1], gate=GATE), recording)
+    assert (finding.passed, finding.measured) == (False, "changed by 5.00")
+
+
+def test_a_gate_that_lacks_a_key_is_a_manifest_error(record):
+    with pytest.raises(ManifestError, match="'it' lacks the parameter 'reaches'"):
+        perform(spec(signal=SIGNAL, band=[-1, 1], gate={"signal": SIGNAL}), record({SIGNAL: [(0, 0.0)]}))

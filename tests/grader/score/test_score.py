@@ -1,0 +1,67 @@
+"""The score is a pure function of recording and manifest; the hash is over the truth alone."""
+
+import dataclasses
+import hashlib
+import struct
+
+import pytest
+
+from grader.exercise import CheckSpec, find_exercise
+from grader.score.score import TRUTH, score, truth_sha256
+
+POSES = [(0.01, (1.0, 2.0, 0.0, 1.0, 0.0, 0.0, 0.0)), (0.02, (1.5, 2.0, 0.0, 1.0, 0.0, 0.0, 0.0))]
+
+
+def truth(poses=POSES):
+    return {f"truth/robot/{name}": [(t, pose[i]) for t, pose in poses] for i, name in enumerate(TRUTH)}
+
+
+def check(id, points, low, title="A title"):
+    return CheckSpec(id, title, points, "change", f"Hint for {id}.", {"signal": "truth/robot/x", "band": [low, 9]})
+
+
+@pytest.fixture
+def exercise(root):
+    given = find_exercise("03_teleop", root)
+    return dataclasses.replace(given, checks=(check("small", 30, 0.1), check("large", 70, 0.9, "The large one")))
+
+
+def test_points_diagnosis_and_outcome(record, exercise):
+    verdict = score(record(truth()), exercise)
+    assert [(c.spec.id, c.points) for c in verdict.checks] == [("small", 30), ("large", 0.0)]
+    assert (verdict.points, verdict.outcome) == (30, "graded")
+    assert verdict.diagnosis == "The large one: changed by 0.50. Hint for large."
+
+
+def test_full_marks_have_no_diagnosis_whatever_was_odd(record, exercise):
+    all_easy = dataclasses.replace(exercise, checks=(check("small", 100, 0.1),))
+    verdict = score(record(truth(), facts={"dropped": {"/cmd_vel": 3}}), all_easy)
+    assert (verdict.points, verdict.diagnosis) == (100, "")
+
+
+def test_a_structural_fault_comes_before_the_checks(record, exercise):
+    verdict = score(record(truth(), facts={"fault": "node.py, line 3: SyntaxError"}), exercise)
+    assert (verdict.diagnosis, verdict.outcome) == ("node.py, line 3: SyntaxError", "student_error")
+
+
+def test_the_hash_is_what_it_is_said_to_be(record):
+    digest = hashlib.sha256()
+    for index in range(len(TRUTH)):
+        digest.update(struct.pack("<2q", *(round(t * 1e9) for t, _ in POSES)))
+        digest.update(struct.pack("<2d", *(pose[index] for _, pose in POSES)))
+    assert truth_sha256(record(truth()), "robot") == digest.hexdigest()
+
+
+def test_the_hash_depends_on_the_truth_and_on_nothing_else(record):
+    first = truth_sha256(record(truth()), "robot")
+    other = record(truth() | {"topics/cmd_vel/linear/x": [(0, 1.0)]}, lines=[(0, "hello")], seed=5)
+    assert truth_sha256(other, "robot") == first
+    nudged = [POSES[0], (0.02, (1.5 + 1e-15, *POSES[1][1][1:]))]
+    assert truth_sha256(record(truth(nudged)), "robot") != first
+    assert truth_sha256(record(truth([POSES[0], (0.03, POSES[1][1])])), "robot") != first
+    assert truth_sha256(record(truth(POSES[:1])), "robot") != first
+
+
+def test_scoring_twice_is_scoring_once(record, exercise):
+    recording = record(truth())
+    assert score(recording, exercise) == score(recording, exercise)
