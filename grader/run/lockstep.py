@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Callable
 from typing import Any, Protocol
 
 from grader.run.participant import qos_can_match
@@ -105,9 +104,12 @@ class RealTime:
             self.student.answer()
         return True
 
-    def deliver(self, topic: str, publisher: Any, message: Any, now_ns: int) -> None:
+    def send(self, topic: str, publisher: Any, message: Any, now_ns: int) -> None:
         """Publish one message of the simulator at simulated time `now_ns` [ns]."""
         publisher.publish(message)
+
+    def settle(self) -> None:
+        """Wait for what the last message sent brings about; in real time nobody waits."""
 
     def close_tick(self, tick: float) -> None:
         """Listen until the wall clock has moved on by `tick` [s]."""
@@ -135,6 +137,7 @@ class LockStep(RealTime):
         super().__init__(student, ears)
         self._sent: Counter[str] = Counter()  # messages the student's process must have taken
         self._seen_endpoints: tuple[Endpoint, ...] | None = None
+        self._pending: tuple[str, Any, Any] | None = None
         self._now_ns = 0
         self._free = False  # paced at the moment
         self._failures = 0
@@ -145,12 +148,10 @@ class LockStep(RealTime):
         self._free = not ready
         return ready
 
-    def deliver(self, topic: str, publisher: Any, message: Any, now_ns: int) -> None:
-        """Publish one message and wait until it was taken and its consequences have arrived.
-
-        What nobody subscribes to is not published at all.
-        """
+    def send(self, topic: str, publisher: Any, message: Any, now_ns: int) -> None:
+        """Publish one message; what nobody subscribes to is not published at all."""
         self._now_ns = now_ns
+        self._pending = None
         if not self.student.running:
             return
         progress = self.student.progress
@@ -163,8 +164,28 @@ class LockStep(RealTime):
         publisher.publish(message)
         if topic != CLOCK:
             self._sent[topic] += readers
-        if not self._free:
-            self._settle((lambda: publisher.publish(message)) if topic == CLOCK else None)
+        self._pending = (topic, publisher, message)
+
+    def settle(self) -> None:
+        """Wait until the message just sent was taken and its consequences have arrived."""
+        if self._pending is None or self._free:
+            return
+        topic, publisher, message = self._pending
+        deadline = time.monotonic() + PATIENCE
+        resend = time.monotonic() + CLOCK_AGAIN
+        while not self._settled():
+            if not self.student.running:
+                self._take_last_words()
+                return
+            if not self.student.wait(LOOK_ROUND):
+                self.ears.pump()
+            now = time.monotonic()
+            if now > deadline:
+                self._fall_out_of_step()
+                return
+            if topic == CLOCK and now > resend:
+                publisher.publish(message)
+                resend = now + CLOCK_AGAIN
 
     def close_tick(self, tick: float) -> None:
         """Nothing to wait for in step; a node that fell out of step gets its tick of wall time."""
@@ -183,23 +204,6 @@ class LockStep(RealTime):
         if progress.clock is not None and progress.clock < self._now_ns:
             return False
         return all(progress.taken.get(topic, 0) >= count for topic, count in self._sent.items())
-
-    def _settle(self, again: Callable[[], None] | None) -> None:
-        deadline = time.monotonic() + PATIENCE
-        resend = time.monotonic() + CLOCK_AGAIN
-        while not self._settled():
-            if not self.student.running:
-                self._take_last_words()
-                return
-            if not self.student.wait(LOOK_ROUND):
-                self.ears.pump()
-            now = time.monotonic()
-            if now > deadline:
-                self._fall_out_of_step()
-                return
-            if again is not None and now > resend:
-                again()
-                resend = now + CLOCK_AGAIN
 
     def _take_last_words(self) -> None:
         """The process has ended: wait for what it published just before."""

@@ -34,6 +34,7 @@ PR_SET_PDEATHSIG = 1
 SOCKET_FD = "COURSE_PARTICIPANT_FD"
 TOPICS = "COURSE_TOPICS"
 UNMATCHED_SLICE = 0.005  # [s] how often an unmatched publisher is looked at; DDS gives no event we could wait for
+POOL_START = 0.01  # [s] for a pool to take up a callback; a pool whose threads are all busy does not
 POOL_SLICE = 0.001  # [s] how often a running pool callback is looked at, should its end not wake us
 FLUSH_PATIENCE = 1.0  # [s] for the grader to receive the last messages before a publisher goes away
 MATCH_PATIENCE = 2.0  # [s] after that a publisher nobody matches is simply unmatched
@@ -56,6 +57,7 @@ class Watch:
         self._reported_endpoints: list[dict[str, Any]] = []
         self._unmatched_since: dict[tuple[str, str], float] = {}
         self._awaited: set[int] = set()  # id(publisher) of those whose match was waited for
+        self._started: dict[int, threading.Event] = {}  # id(thread pool) -> its last callback was taken up
         self._last_report = ""
         self._flushes = 0
 
@@ -75,6 +77,7 @@ class Watch:
             executor: Any, timeout_sec: Any = None, nodes: Any = None, condition: Any = lambda: False
         ) -> Any:
             watch._waiting[id(executor)] = False
+            watch.await_start(executor)
             seconds = getattr(timeout_sec, "timeout", timeout_sec)
             deadline = None if seconds is None or seconds < 0 else time.monotonic() + seconds
             patience: float | None = 0.0
@@ -135,6 +138,31 @@ class Watch:
         Executor._take_subscription = watched_take
         Publisher.publish = watched_publish
         TimeSource.clock_callback = watched_clock
+
+    def await_start(self, executor: Any) -> None:
+        """Let a MultiThreadedExecutor's pool take up the callback it was just given.
+
+        Until then the executor finds the same callback ready again and again and keeps the pool from running.
+        """
+        pool = getattr(executor, "_executor", None)
+        if pool is None:
+            return
+        if id(pool) not in self._started:
+            submit = pool.submit
+
+            def noted_submit(callback: Any) -> Any:
+                started = self._started[id(pool)] = threading.Event()
+
+                def run() -> None:
+                    started.set()
+                    callback()
+
+                return submit(run)
+
+            pool.submit = noted_submit
+            self._started[id(pool)] = threading.Event()
+            self._started[id(pool)].set()
+        self._started[id(pool)].wait(POOL_START)
 
     def await_match(self, publisher: Any) -> None:
         """Hold the first message of a publisher until the grader listens, so that discovery loses none.
@@ -276,9 +304,6 @@ def main() -> None:
     os.set_inheritable(channel.fileno(), False)
     watch = Watch(channel, json.loads(os.environ.pop(TOPICS)))
     watch.install()
-    # A MultiThreadedExecutor offers a callback again and again until a pool thread takes it up; with Python's usual
-    # 5 ms between thread switches that would cost more than the callback.
-    sys.setswitchinterval(0.0002)
     try:
         runpy.run_path(file, run_name="__main__")
     except SystemExit:

@@ -96,11 +96,15 @@ class Stage:
             return
         now = self._world.sim_time_ns
         self._recorder.set_time(now)
-        self._scene.tick()
+        recorded = False
         for topic, publisher, message in self._ears.take_held():
+            self._pace.send(topic, publisher, message, now)
+            if not recorded:  # the student's process is at work meanwhile
+                self._scene.tick()
+                recorded = True
             if topic != "/clock":
                 self._record(topic, message)
-            self._pace.deliver(topic, publisher, message, now)
+            self._pace.settle()
             self._collect()
         self._pace.close_tick(self._exercise.tick)
         self._collect()

@@ -269,7 +269,9 @@ class World:
         mujoco.mj_objectVelocity(self.model, self.data, mujoco.mjtObj.mjOBJ_XBODY, body, both, 0)
         angular, linear = both[:3].copy(), both[3:].copy()
         offset = rotate(self.data.xquat[body], link_model.position)
-        return Velocity(linear + np.cross(angular, offset), angular)
+        lever = np.zeros(3)
+        mujoco.mju_cross(lever, angular, offset)
+        return Velocity(linear + lever, angular)
 
     def geometry(self) -> list[VisualShape]:
         """Return every visible shape of the world, fixed to its link."""
