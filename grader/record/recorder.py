@@ -1,7 +1,8 @@
 """Writes the recording of a run: numbers, poses, scans, log lines, on the one timeline `sim_time`.
 
-Rows are collected and sent in blocks at fixed simulated times, never at wall times: the same run gives the same
-chunks, and `rerun rrd compare` finds two recordings of it equal. A crash loses at most one block. The file is
+Rows are collected and sent in blocks at fixed simulated times, and what is logged one by one is flushed at once: nothing
+waits for a wall-clock tick, the same run gives the same chunks in the same order, and `rerun rrd compare` finds two
+recordings of it equal. A crash loses at most one block. The file is
 called `NAME.rrd.part` until `close()`.
 
 Entities (names are what a manifest's checks refer to, without the leading slash):
@@ -44,7 +45,12 @@ class Recorder:
         self.path = path
         self.part = path.with_suffix(path.suffix + ".part")
         path.parent.mkdir(parents=True, exist_ok=True)
-        self.stream = rr.RecordingStream(APPLICATION, recording_id=str(uuid.uuid4()), send_properties=False)
+        self.stream = rr.RecordingStream(
+            APPLICATION,
+            recording_id=str(uuid.uuid4()),
+            send_properties=False,
+            batcher_config=rr.ChunkBatcherConfig.NEVER(),  # the default batches by wall time
+        )
         self.stream.save(self.part, default_blueprint=blueprint(robot), write_footer=True)
         self.now_ns = 0
         self._named: set[str] = set()
@@ -105,10 +111,12 @@ class Recorder:
     def static(self, entity: str, archetype: Any) -> None:
         """Log something that never changes, such as a shape."""
         self.stream.log(entity, archetype, static=True)
+        self.stream.flush()
 
     def properties(self, name: str, **values: Any) -> None:
         """Store facts about the run as a whole."""
         self.stream.send_property(name, rr.AnyValues(**values))
+        self.stream.flush()
 
     def flush(self) -> None:
         """Write everything collected so far to the file."""

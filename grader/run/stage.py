@@ -7,6 +7,7 @@ sees it only through the ROS topics of the exercise's bridge.
 from __future__ import annotations
 
 import time
+from collections import Counter
 from contextlib import ExitStack
 from dataclasses import asdict
 from typing import Any
@@ -27,6 +28,7 @@ from gz.sim.world import World
 from gz.transport import Node, NodeOptions, Scope
 from ros_gz_bridge.bridge import BridgeEntry
 
+MOST_MESSAGES = 20_000  # of one topic that are recorded; the rest is counted
 LEVELS = {"[WARN]": "WARN", "[ERROR]": "ERROR", "[FATAL]": "CRITICAL", "[DEBUG]": "DEBUG"}
 
 
@@ -62,6 +64,7 @@ class Stage:
         self._unstable: str | None = None
         self._endpoints: dict[tuple[str, str, str, str], dict[str, Any]] = {}
         self._seen_endpoints: tuple[Endpoint, ...] | None = None
+        self._messages: Counter[str] = Counter()
         self.wall_seconds = 0.0
 
     @property
@@ -118,6 +121,9 @@ class Stage:
         publisher.publish(twist)
 
     def _record(self, topic: str, message: Any) -> None:
+        self._messages[topic] += 1
+        if self._messages[topic] > MOST_MESSAGES:
+            return
         record_message(self._recorder, topic, message)
         if topic in self._scans:
             self._scene.scan(self._scans[topic], message)
@@ -153,6 +159,7 @@ class Stage:
             "listened": self._ears.listened,
             "dropped": dropped,
             "lines_dropped": self._student.dropped_lines,
+            "messages_not_recorded": {t: n - MOST_MESSAGES for t, n in self._messages.items() if n > MOST_MESSAGES},
             "unstable": self._unstable,
             "out_of_step": bool(self._pace.paced_ticks),
         }

@@ -24,6 +24,8 @@ from grader.run.sandbox import Sandbox
 
 LONGEST_LINE = 2_000  # [characters] of one line that are kept
 MOST_LINES = 20_000  # kept per run; the rest is counted
+MOST_READ = 1 << 20  # [bytes] of a pipe, and
+MOST_REPORTS = 1_000  # of the socket, taken at once: who writes without end does not keep the grader from going on
 GRACE = 1.5  # [s] between SIGINT, SIGTERM and SIGKILL
 
 
@@ -161,11 +163,13 @@ class Student:
         return lines
 
     def _drain(self, fd: int) -> None:
-        while fd in self._partial:
+        left = MOST_READ
+        while fd in self._partial and left > 0:
             try:
                 data = os.read(fd, 1 << 16)
             except BlockingIOError:
                 return
+            left -= len(data)
             if not data:
                 self._selector.unregister(fd)
                 rest = self._partial.pop(fd)
@@ -183,7 +187,9 @@ class Student:
             self._lines.append(line.decode(errors="replace")[:LONGEST_LINE])
 
     def _read_progress(self) -> None:
-        while self._channel.fileno() in self._selector.get_map():
+        for _ in range(MOST_REPORTS):
+            if self._channel.fileno() not in self._selector.get_map():
+                return
             try:
                 data = self._channel.recv(1 << 20)
             except BlockingIOError:
