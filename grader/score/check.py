@@ -10,7 +10,7 @@ from __future__ import annotations
 import importlib
 import pkgutil
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
@@ -32,13 +32,17 @@ class Band:
 
 @dataclass(frozen=True)
 class Finding:
-    """What one check found: what was expected, what was measured, and at which simulated moment [s]."""
+    """What one check found: what was expected, what was measured, and at which simulated moment [s].
+
+    `gated` marks a check that failed only because its gate did: another check tells the reason.
+    """
 
     passed: bool
     expected: str
     measured: str
     at_s: float | None = None
     bands: tuple[Band, ...] = ()
+    gated: bool = False
 
 
 Kind = Callable[[Recording, dict[str, Any]], Finding]
@@ -80,9 +84,7 @@ def perform(spec: CheckSpec, recording: Recording) -> Finding:
             values = recording.signal(gate["signal"]).values
             best = float(values.max()) if len(values) else 0.0
             if best < gate["reaches"]:
-                return Finding(
-                    False, finding.expected, f"{gate['otherwise']} ({finding.measured})", None, finding.bands
-                )
+                return replace(finding, passed=False, measured=gate["otherwise"], at_s=None, gated=True)
     except KeyError as error:
         raise ManifestError(f"check {spec.id!r} lacks the parameter {error.args[0]!r}") from None
     return finding

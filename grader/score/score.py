@@ -51,7 +51,7 @@ def score(recording: Recording, exercise: Exercise) -> Score:
     failed = [check for check in checks if not check.finding.passed]
     diagnosis = diagnose(recording)
     if failed and not diagnosis:
-        worst = max(failed, key=lambda check: check.spec.points)
+        worst = max(failed, key=lambda check: (not check.finding.gated, check.spec.points))
         diagnosis = f"{worst.spec.title}: {worst.finding.measured}. {worst.spec.hint}"
     return Score(checks, outcome_of(recording), diagnosis if failed else "", truth_sha256(recording, exercise.robot))
 
