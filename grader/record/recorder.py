@@ -2,7 +2,8 @@
 
 Rows are collected and sent in blocks at fixed simulated times, and what is logged one by one is flushed at once.
 Nothing waits for a tick of the wall clock: the same run gives the same chunks in the same order, and
-`rerun rrd compare` finds two recordings of it equal. A crash loses at most one block. The file is called `NAME.rrd.part` until `close()`.
+`rerun rrd compare` finds two recordings of it equal. A crash loses at most one block. The file is called
+`NAME.rrd.part` until `close()`.
 
 Entities (names are what a manifest's checks refer to, without the leading slash):
 
