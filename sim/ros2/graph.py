@@ -1,8 +1,9 @@
 """A node that looks at the live ROS graph: what `ros2 topic`, `ros2 node` and the like stand on.
 
-Discovery takes 0.1 s to 3 s on DDS, and there is no daemon that would know the graph already. Verbs that list
-wait until the graph has stopped changing (`settle`); verbs with a target wait until it is there
-(`wait_for_topic`). Everything has a deadline.
+There is no daemon that would know the graph already, and Fast DDS answers a newcomer at once or, every third
+time, only with its next announcement: nodes repeat theirs every 3 s. Verbs that list wait until everybody has
+had a turn and nothing changes any more (`settle`, or `--spin-time` for those in a hurry); verbs with a target
+go on as soon as it is there (`wait_for_topic`). Everything has a deadline.
 """
 
 from __future__ import annotations
@@ -23,8 +24,8 @@ from rclpy.signals import SignalHandlerOptions
 
 from ros2.errors import CommandError
 
-QUIET = 0.5  # s without a change after which a graph counts as complete
-EMPTY_QUIET = 3.5  # s to wait for a first node
+FIRST_CONTACT = 3.3  # s within which every node there is has announced itself to a new one
+QUIET = 0.3  # s without a change after which a graph counts as complete
 SETTLE_DEADLINE = 6.0  # s for a graph that never stops changing
 TARGET_DEADLINE = 5.0  # s for the topic a user has named
 _POLL = 0.05  # s; the graph announces changes only to a spinning executor, and not all of them
@@ -72,6 +73,7 @@ class Graph:
         )
         self._executor: Any = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self.node)
+        self._born = time.monotonic()
 
     def __enter__(self) -> Graph:
         return self
@@ -99,13 +101,13 @@ class Graph:
             end = time.monotonic() + self._spin_time
             self._wait(lambda: time.monotonic() >= end, self._spin_time)
             return
-        self._settle(QUIET, EMPTY_QUIET, SETTLE_DEADLINE)
+        self._settle(self._born + FIRST_CONTACT, QUIET, SETTLE_DEADLINE)
 
     def wait_for_topic(self, name: str) -> list[str]:
         """The types of a topic as soon as it is there and its endpoints are known; empty if it does not come."""
         if not self._wait(lambda: bool(self._types(name)), self._spin_time or TARGET_DEADLINE):
             return []
-        self._settle(0.2, 0.2, 1.0)
+        self._settle(0.0, 0.2, 1.0)
         return self._types(name)
 
     def wait_for_publisher(self, name: str, timeout: float) -> bool:
@@ -124,7 +126,7 @@ class Graph:
             time.sleep(min(_POLL, left))
         return True
 
-    def _settle(self, quiet: float, empty_quiet: float, deadline: float) -> None:
+    def _settle(self, earliest: float, quiet: float, deadline: float) -> None:
         seen = self._snapshot()
         changed = time.monotonic()
 
@@ -136,7 +138,7 @@ class Graph:
             nodes, endpoints = seen
             # A node is known a moment before its endpoints, or they before it: both must have arrived.
             whole = nodes == {node for _, node, _ in endpoints}
-            return whole and time.monotonic() - changed >= (quiet if nodes else empty_quiet)
+            return whole and time.monotonic() >= max(earliest, changed + quiet)
 
         self._wait(complete, deadline)
 
