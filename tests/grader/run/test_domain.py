@@ -1,0 +1,76 @@
+"""A ROS domain belongs to one run at a time, over all processes of the machine, and comes back with its process."""
+
+import subprocess
+import sys
+
+import pytest
+
+from grader.errors import InfrastructureError
+from grader.run import domain as module
+from grader.run.domain import DOMAINS, Domain
+
+HOLD = "import sys; from grader.run.domain import Domain; d = Domain(); print(d.id, flush=True); sys.stdin.read()"
+
+
+@pytest.fixture
+def holders():
+    """Start processes that hold a domain each; returns their numbers."""
+    started = []
+
+    def start(count):
+        new = [
+            subprocess.Popen([sys.executable, "-c", HOLD], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+            for _ in range(count)
+        ]
+        started.extend(new)
+        return [int(process.stdout.readline()) for process in new], new
+
+    yield start
+    for process in started:
+        process.kill()
+        process.communicate()
+
+
+def test_processes_never_share_one(holders):
+    numbers, _ = holders(8)
+    assert len(set(numbers)) == 8
+    with Domain() as mine, Domain() as another:
+        assert len({mine.id, another.id, *numbers}) == 10
+
+
+def test_domain_zero_and_those_with_ephemeral_ports_are_left_alone():
+    assert min(DOMAINS) >= 1
+    # The last port of a domain: 7400 + 250 * domain + 11 + 2 * participant; Linux hands out 32768 and up.
+    assert 7400 + 250 * max(DOMAINS) + 11 + 2 * 5 < 32768
+
+
+@pytest.fixture
+def only_two(monkeypatch):
+    """As if there were but the two domains that are free at the moment."""
+    with Domain() as one, Domain() as two:
+        pair = sorted({one.id, two.id})
+    monkeypatch.setattr(module, "DOMAINS", range(pair[0], pair[1] + 1, pair[1] - pair[0]))
+
+
+def test_when_all_are_taken_it_says_so(only_two):
+    with Domain(), Domain(), pytest.raises(InfrastructureError, match="taken by other gradings"):
+        Domain()
+
+
+def test_a_released_one_can_be_had_again(only_two):
+    with Domain() as one, Domain():
+        number = one.id
+        one.release()
+        with Domain() as again:
+            assert again.id == number
+
+
+def test_a_killed_process_gives_its_domain_back(holders, monkeypatch):
+    (number,), (process,) = holders(1)
+    monkeypatch.setattr(module, "DOMAINS", range(number, number + 1))
+    with pytest.raises(InfrastructureError):
+        Domain()
+    process.kill()
+    process.wait()
+    with Domain() as mine:
+        assert mine.id == number

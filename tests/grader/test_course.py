@@ -1,0 +1,195 @@
+"""The `course` command: bad usage is one sentence and exit 2, our own faults are exit 3, and an interrupt cleans up."""
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+import threading
+import time
+
+import pytest
+
+SOLUTION = "solutions/03_teleop/teleop_node.py"
+DEADLINE = 30.0
+
+
+def refused(outcome, *words, code=2):
+    assert outcome.code == code, outcome.output
+    assert [word for word in words if word not in outcome.words] == [], outcome.output
+    assert "Traceback" not in outcome.output and "internal error" not in outcome.output
+    assert not list(outcome.folder.rglob("*.rrd"))
+
+
+def test_without_a_command_it_helps(course):
+    outcome = course()
+    assert outcome.code == 2
+    assert all(command in outcome.output for command in ("grade", "list", "score", "verify"))
+
+
+def test_help_is_no_error(course):
+    assert course("--help").code == 0
+
+
+def test_an_unknown_command(course):
+    refused(course("grad", "03"), "grad")
+
+
+def test_the_list_shows_every_exercise_with_its_points(course):
+    outcome = course("list")
+    assert outcome.code == 0
+    assert re.search(r"03_teleop +100 +teleop_node.py", outcome.stdout)
+    assert "04_lidar_listener" in outcome.stdout
+
+
+def test_an_unknown_exercise_names_the_nearest(grade, root):
+    refused(grade("03_telepo", root / SOLUTION), "'03_telepo'", "did you mean 03_teleop?")
+
+
+def test_a_missing_file(grade, root):
+    refused(grade("03", root / "solutions/03_teleop/teleop_nod.py"), "there is no file", "did you mean teleop_node.py?")
+
+
+def test_a_folder_without_the_file(grade, root):
+    refused(grade("03", root / "solutions/04_lidar_listener"), "holds no teleop_node.py")
+
+
+def test_an_unknown_pace(grade, root):
+    refused(grade("03", root / SOLUTION, "--pace", "realtme"), "realtme", "did you mean realtime?")
+
+
+def test_a_seed_that_is_no_number(grade, root):
+    refused(grade("03", root / SOLUTION, "--seed", "lucky"), "lucky")
+
+
+def test_a_report_that_cannot_be_written_is_said_before_anything_runs(course, tmp_path, root):
+    (tmp_path / "file").write_text("")
+    refused(
+        course("grade", "03", "--submission", root / SOLUTION, "--out", tmp_path / "out", "--json", tmp_path / "file/r.json"),
+        "file/r.json",
+    )  # fmt: skip
+
+
+def test_a_report_on_a_folder(course, tmp_path, root):
+    refused(course("grade", "03", "--submission", root / SOLUTION, "--out", tmp_path / "out", "--json", tmp_path), "cannot write")
+
+
+def test_a_recording_that_cannot_be_written(course, tmp_path, root):
+    (tmp_path / "file").write_text("")
+    refused(course("grade", "03", "--submission", root / SOLUTION, "--out", tmp_path / "file/out"), "file/out")
+
+
+def test_a_folder_in_place_of_the_recording(course, tmp_path, root):
+    (tmp_path / "out/03_teleop.rrd/x").mkdir(parents=True)
+    outcome = course("grade", "03", "--submission", root / SOLUTION, "--out", tmp_path / "out")
+    assert outcome.code == 2, outcome.output
+    assert "03_teleop.rrd" in outcome.words and "internal error" not in outcome.output
+
+
+def test_a_course_that_is_nowhere_is_said(course, tmp_path):
+    outcome = course("grade", "03", COURSE_ROOT=str(tmp_path / "nowhere"))
+    assert outcome.code == 2
+    assert "nowhere" in outcome.words
+
+
+@pytest.mark.parametrize("data", [b"", b"garbage", bytes(range(256)) * 100])
+def test_scoring_what_is_no_recording(course, tmp_path, data):
+    path = tmp_path / "run.rr"
+    path.write_bytes(data)
+    outcome = course("score", path)
+    assert outcome.code == 2
+    assert "run.rr is not a readable recording" in outcome.words
+
+
+def test_scoring_a_recording_of_something_else(course, tmp_path):
+    import rerun as rr
+
+    stream = rr.RecordingStream("other")
+    stream.save(tmp_path / "other.rrd")
+    stream.log("a", rr.Scalars(1.0))
+    stream.disconnect()
+    outcome = course("score", tmp_path / "other.rrd")
+    assert (outcome.code, "is not a recording of a graded run" in outcome.words) == (2, True), outcome.output
+
+
+def test_scoring_a_recording_that_lacks_a_fact(course, record, tmp_path):
+    """Somebody else's program wrote it, or an older version of this one."""
+    made = record({"truth/robot/x": [(0, 0.0)]}, exercise="03_teleop")
+    outcome = course("score", made.path)
+    assert outcome.code in (1, 2) and "internal error" not in outcome.output, outcome.output
+
+
+def test_scoring_a_recording_of_an_exercise_that_is_gone(course, record):
+    outcome = course("score", record(exercise="77_gone").path)
+    refused_words = "no exercise is called '77_gone'"
+    assert (outcome.code, refused_words in outcome.words) == (2, True), outcome.output
+
+
+def spoilt(root, folder, old, new):
+    shutil.copytree(root / "exercises", folder / "exercises")
+    manifest = folder / "exercises/03_teleop/exercise.toml"
+    text = manifest.read_text()
+    assert old in text
+    manifest.write_text(text.replace(old, new))
+    return str(folder)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('title = "Drive', 'titel = "Drive', ["exercise.toml", "title"]),
+        ('bridge = "bridge.yaml"', 'bridge = "bridge.yml"', ["bridge.yml"]),
+        ('world = "lidar_room.sdf"', 'world = "lidar_rom.sdf"', ["lidar_rom.sdf"]),
+        ('robot = "robot"', 'robot = "robbi"', ["robbi", "robot"]),
+        ("[run]", '[run]\nobserve = { "/x" = "std_msgs/msg/Flot32" }', ["std_msgs/msg/Flot32"]),
+        ('kind = "change"', 'kind = "chnage"', ["chnage", "did you mean change?"]),
+    ],
+)
+def test_an_exercise_that_is_wrong_is_our_fault_and_says_where(grade, root, tmp_path, old, new, words):
+    outcome = grade("03", root / SOLUTION, COURSE_ROOT=spoilt(root, tmp_path / "course", old, new))
+    refused(outcome, *words, code=3)
+
+
+def test_debug_shows_where_an_internal_error_is(course, root):
+    prelude = "import grader.exercise as e\ndef find_exercise(*a): raise ZeroDivisionError('planted')\ne.find_exercise = find_exercise"
+    quiet = course("grade", "03", prelude=prelude)
+    assert (quiet.code, quiet.stderr) == (3, "course: internal error: ZeroDivisionError: planted\n")
+    loud = course("--debug", "grade", "03", prelude=prelude)
+    assert "Traceback" in loud.stderr and "planted" in loud.stderr
+
+
+class Interrupted:
+    """A `course grade` that is stopped by a signal once its submission runs."""
+
+    def __init__(self, root, folder, environment, running_in):
+        (folder / "node.py").write_text(
+            f"import pathlib\npathlib.Path({str(folder / 'runs')!r}).touch()\n" + (root / SOLUTION).read_text()
+        )
+        self.process = subprocess.Popen(
+            ["course", "grade", "03", "--submission", folder / "node.py", "--out", folder / "out", "--pace", "realtime"],
+            cwd=folder,
+            env=environment(folder) | {"PATH": f"{root / '.venv/bin'}:{os.environ['PATH']}"},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+        )
+        self.folder = folder
+        pause, end = threading.Event(), time.monotonic() + DEADLINE
+        while not (folder / "runs").exists() or not list(folder.rglob("*.part")):
+            assert time.monotonic() < end and self.process.poll() is None
+            pause.wait(0.02)
+
+
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)])
+def test_an_interrupted_grading_leaves_nothing(root, tmp_path, course_environment, running_in, number, code):
+    grading = Interrupted(root, tmp_path, course_environment, running_in)
+    grading.process.send_signal(number)
+    output = grading.process.communicate(timeout=DEADLINE)[0].decode()
+    left = running_in(tmp_path)
+    for process in left:
+        process.kill()
+    assert left == []
+    assert grading.process.returncode == code, output
+    assert list((tmp_path / "tmp").iterdir()) == []
+    assert list(tmp_path.rglob("*.rrd*")) == []
+    assert "Traceback" not in output
