@@ -179,8 +179,7 @@ class Network:
             self._commands.popleft()()
         if self._discovery.fileno() in ready:
             self._discovery.receive()
-        if self._outlet.fileno() in ready:
-            self._outlet.take_notices()
+        self._outlet.take_notices()  # always: its descriptor signals a change once, and a signal may be missed
         if self._inlet.socket in ready:
             for arrival in self._inlet.arrivals():
                 self._dispatcher.put(arrival)
