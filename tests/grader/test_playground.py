@@ -1,5 +1,6 @@
 """The playground starts real processes in a fence of its own and leaves nothing behind, however it ends."""
 
+import contextlib
 import os
 import signal
 import subprocess
@@ -160,7 +161,11 @@ def test_programs_end_with_a_process_that_is_killed(tmp_path):
         # It is `sleep` only after the few milliseconds of its launcher.
         eventually(lambda: psutil.Process(pid).name() == "sleep", "sleep runs")
         owner.kill()
-    eventually(lambda: gone(pid), "the program has ended with its owner")
+    try:
+        eventually(lambda: gone(pid), "the program has ended with its owner")
+    finally:
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(pid, signal.SIGKILL)
 
 
 def test_an_unknown_command_is_named_with_the_nearest(room):
