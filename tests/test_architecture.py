@@ -53,8 +53,8 @@ def imports(name, *, only_types=True):
                 base = ".".join([*above, *([base] if base else [])])
             found.add(base)
             found.update(f"{base}.{alias.name}" for alias in node.names)
-        elif isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] in ("import_module", "__import__"):
-            if node.args and isinstance(node.args[0], ast.Constant):
+        elif isinstance(node, ast.Call) and node.args and isinstance(node.args[0], ast.Constant):
+            if ast.unparse(node.func).split(".")[-1] in ("import_module", "__import__"):
                 found.add(node.args[0].value)
         for child in ast.iter_child_nodes(node):
             if only_types or not is_type_checking(child):
@@ -73,7 +73,15 @@ def forbidden(name):
     tops = set(PRIVATE_FOLDERS)
     messages = re.compile(r"\w+_(msgs|interfaces)(\.|$)")
     if below(name, "gz"):
-        tops |= {"rclpy", "ros_gz_bridge", "ros_gz_sim", "launch", "launch_ros", "rosidl_runtime_py", "ament_index_python"}
+        tops |= {
+            "rclpy",
+            "ros_gz_bridge",
+            "ros_gz_sim",
+            "launch",
+            "launch_ros",
+            "rosidl_runtime_py",
+            "ament_index_python",
+        }
         tops |= {"grader"}
     if below(name, "ros_gz_bridge"):
         tops |= {"mujoco", "gz.sim", "grader"}

@@ -146,7 +146,9 @@ def test_what_is_python(exercise, tmp_path, data):
 
 
 PYTHON_LIKE = st.lists(
-    st.sampled_from(["def f(", "):\n", "  ", "\t", "x", "=", "1e999", "'", '"""', "\\", "\n", "\0", "#", "(", "[", "{"]),
+    st.sampled_from(
+        ["def f(", "):\n", "  ", "\t", "x", "=", "1e999", "'", '"""', "\\", "\n", "\0", "#", "(", "[", "{"]
+    ),
     max_size=30,
 ).map("".join)
 

@@ -45,7 +45,7 @@ def outcomes(request, tmp_path_factory, grading, root):
         options = {}
         if "duration" in want:
             options["COURSE_ROOT"] = str(shorter_course(root, folder / "course", want["exercise"], want["duration"]))
-        return grading(folder, want["exercise"], CASES / name / want["file"], **options)
+        return grading(folder, want["exercise"], CASES / name / want["file"], timeout=60, **options)
 
     # The longest first, so that the last one does not run alone.
     yield {name: pool.submit(one, name) for name in sorted(selected, key=lambda name: name not in SLOW)}

@@ -111,7 +111,9 @@ def test_nothing_is_lost_at_any_width(width):
     assert [word for word in words if word not in narrow] == []
 
 
-@pytest.mark.parametrize("text", ["[bold]x[/bold]", "[/]", "[red]", "a\\", "[link=file:///etc/passwd]x[/link]", "\\[x]"])
+@pytest.mark.parametrize(
+    "text", ["[bold]x[/bold]", "[/]", "[red]", "a\\", "[link=file:///etc/passwd]x[/link]", "\\[x]"]
+)
 def test_what_a_student_wrote_is_never_markup(text):
     score = dataclasses.replace(
         REPORT.score, diagnosis=f"It says {text}", checks=(result("good", True), result("bad", False, f"saw {text}"))

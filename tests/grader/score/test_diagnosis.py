@@ -64,7 +64,8 @@ TRACE = [
 def test_an_exception_with_its_place_in_the_students_file(told):
     assert told(exit_code=1, exit_at=1.25, lines=["[INFO] [t]: hi", *TRACE]) == (
         "student_error",
-        "Your node died at 1.25 s of simulated time with ZeroDivisionError: division by zero (teleop_node.py, line 24).",
+        "Your node died at 1.25 s of simulated time with ZeroDivisionError: division by zero "
+        "(teleop_node.py, line 24).",
     )
 
 
@@ -143,7 +144,10 @@ def test_the_topics_every_node_has_are_not_taken_for_the_students(told):
 
 @pytest.mark.parametrize("topic", ["/cmdvel", "/teleop/cmd_vel", "/model/robot/cmd_vel", "/something/else"])
 def test_a_publisher_on_another_topic(told, topic):
-    assert publishers(told, endpoint(topic)) == f"Nothing is published on /cmd_vel; your node publishes on {topic} instead."
+    assert (
+        publishers(told, endpoint(topic))
+        == f"Nothing is published on /cmd_vel; your node publishes on {topic} instead."
+    )
 
 
 def test_a_publisher_of_another_type(told):
