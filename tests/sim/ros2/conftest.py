@@ -1,0 +1,122 @@
+"""Running `ros2` as a process, in a DDS domain nobody else uses."""
+
+import os
+import random
+import socket
+import subprocess
+import sys
+import threading
+
+import psutil
+import pytest
+
+DEADLINE = 30.0
+
+
+@pytest.fixture(scope="session")
+def ros_domain(tmp_path_factory):
+    """The number of a DDS domain held for this session, set in the environment for children too."""
+    numbers = list(range(1, 102))
+    random.shuffle(numbers)
+    for number in numbers:
+        lock = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        try:
+            lock.bind(f"\0gz-ros2-course-domain-{number}")
+            break
+        except OSError:
+            lock.close()
+    else:
+        pytest.fail("every DDS domain from 1 to 101 is in use")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("ROS_DOMAIN_ID", str(number))
+        patch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+        patch.setenv("ROS_LOG_DIR", str(tmp_path_factory.mktemp("ros_log")))
+        yield number
+    lock.close()
+
+
+class Command:
+    """A running `ros2 …` in a session of its own whose lines are read as they come."""
+
+    def __init__(self, *arguments, command=(sys.executable, "-m", "ros2"), environment=None, **options):
+        options = {"stdin": subprocess.DEVNULL, "start_new_session": True, **options}
+        self.process = subprocess.Popen(
+            [*command, *arguments],
+            env={**os.environ, **(environment or {})},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            **options,
+        )
+        self._changed = threading.Condition()
+        self._lines = {"stdout": [], "stderr": []}
+        self._readers = [threading.Thread(target=self._read, args=(name,)) for name in self._lines]
+        for reader in self._readers:
+            reader.start()
+
+    def _read(self, name):
+        with getattr(self.process, name) as stream:
+            for line in stream:  # ends when the last process of the tree has gone
+                with self._changed:
+                    self._lines[name].append(line)
+                    self._changed.notify_all()
+
+    def wait_for(self, words, stream="stdout"):
+        lines = self._lines[stream]
+        with self._changed:
+            found = self._changed.wait_for(lambda: any(words in line for line in lines), DEADLINE)
+            assert found, f"no {words!r} in {self._lines}"
+
+    def wait(self):
+        """(exit code, stdout, stderr) at its end."""
+        code = self.process.wait(DEADLINE)
+        for reader in self._readers:
+            reader.join(DEADLINE)
+        return code, "".join(self._lines["stdout"]), "".join(self._lines["stderr"])
+
+    def end(self):
+        if self.process.poll() is None:
+            tree = psutil.Process(self.process.pid)
+            for process in [*tree.children(recursive=True), tree]:
+                process.kill()
+        self.wait()
+        if self.process.stdin:
+            self.process.stdin.close()
+
+
+@pytest.fixture
+def start():
+    running = []
+
+    def run(*arguments, **options):
+        running.append(Command(*arguments, **options))
+        return running[-1]
+
+    yield run
+    for command in running:
+        command.end()
+
+
+@pytest.fixture
+def ros2(start):
+    """Run `ros2` to its end: (exit code, stdout, stderr)."""
+    return lambda *arguments, **options: start(*arguments, **options).wait()
+
+
+@pytest.fixture
+def workspace(tmp_path):
+    """A prefix with the package my_robot; `workspace(name, text)` adds an executable to it."""
+    index = tmp_path / "install/share/ament_index/resource_index/packages"
+    index.mkdir(parents=True)
+    (index / "my_robot").touch()
+    library = tmp_path / "install/lib/my_robot"
+    library.mkdir(parents=True)
+
+    def add(name, text):
+        path = library / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(text)
+        path.chmod(0o755)
+        return {"AMENT_PREFIX_PATH": str(tmp_path / "install")}
+
+    return add

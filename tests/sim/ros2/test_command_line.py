@@ -1,0 +1,74 @@
+"""The `ros2` command: help, unknown words, and stepping aside for a real ros2."""
+
+import sys
+
+import pytest
+
+from ros2.command_line import COMMANDS, found
+from ros2.hand_over import environment_without_wheels
+
+
+@pytest.mark.parametrize("arguments", [[], ["--help"]])
+def test_without_a_command_it_lists_them_all(ros2, arguments):
+    code, text, errors = ros2(*arguments)
+    assert (code, errors) == (0, "")
+    assert all(f"\n  {name} " in text for name in found(COMMANDS))
+    assert "Various topic related sub-commands." in text
+
+
+def test_a_command_without_verb_lists_its_verbs(ros2):
+    code, text, errors = ros2("topic")
+    assert (code, errors) == (0, "")
+    assert "\n  echo  Output messages from a topic.\n" in text
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["tpic"], "ros2: error: invalid choice: 'tpic' (choose from 'pkg', 'run', 'topic'); did you mean 'topic'?"),
+        (["topic", "ecoh"], "ros2 topic: error: invalid choice: 'ecoh'"),
+        (["pkg", "list", "extra"], "ros2 pkg list: error: unrecognized arguments: extra"),
+        (["topic", "--nonsense"], "ros2 topic: error: unrecognized arguments: --nonsense"),
+    ],
+)
+def test_wrong_usage_is_exit_code_2(ros2, arguments, words):
+    code, text, errors = ros2(*arguments)
+    assert (code, text) == (2, "")
+    assert words in errors
+
+
+def test_a_verb_is_found_by_its_file_alone(tmp_path):
+    (tmp_path / "__init__.py").touch()
+    (tmp_path / "bag.py").touch()
+    (tmp_path / "action").mkdir()
+    (tmp_path / "__pycache__").mkdir()
+    assert list(found(tmp_path)) == ["action", "bag"]
+
+
+def test_a_sourced_ros_takes_over(ros2, tmp_path):
+    program = tmp_path / "bin/ros2"
+    marker = tmp_path / "share/ament_index/resource_index/packages/ros2cli"
+    for path in (program, marker):
+        path.parent.mkdir(parents=True)
+        path.touch()
+    program.write_text('#!/bin/sh\necho "real: $* guard=$_ROS_WHEELS_BOOTSTRAP_COMPLETE $LD_LIBRARY_PATH"\nexit 5\n')
+    program.chmod(0o755)
+    code, text, _ = ros2("topic", "list", environment={"AMENT_PREFIX_PATH": str(tmp_path), "LD_LIBRARY_PATH": ""})
+    assert (code, text) == (5, "real: topic list guard= \n")
+
+
+def test_a_ros2cli_of_the_same_python_takes_over(ros2, tmp_path):
+    (tmp_path / "ros2cli").mkdir()
+    (tmp_path / "ros2cli/__init__.py").touch()
+    (tmp_path / "ros2cli/cli.py").write_text("def main(*, argv):\n    print('real', argv)\n    return 6\n")
+    code, text, _ = ros2("topic", "list", environment={"PYTHONPATH": str(tmp_path)})
+    assert (code, text) == (6, "real ['topic', 'list']\n")
+
+
+def test_only_the_libraries_of_this_environment_are_left_behind():
+    environment = {
+        "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1",
+        "LD_LIBRARY_PATH": f"{sys.prefix}/lib:/opt/vendor/lib:{sys.prefix}/lib/python/ros_x.libs",
+        "HOME": "/h",
+    }
+    assert environment_without_wheels(environment) == {"LD_LIBRARY_PATH": "/opt/vendor/lib", "HOME": "/h"}
