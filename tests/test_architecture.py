@@ -53,9 +53,8 @@ def imports(name, *, only_types=True):
                 base = ".".join([*above, *([base] if base else [])])
             found.add(base)
             found.update(f"{base}.{alias.name}" for alias in node.names)
-        elif isinstance(node, ast.Call) and node.args and isinstance(node.args[0], ast.Constant):
-            if ast.unparse(node.func).split(".")[-1] in ("import_module", "__import__"):
-                found.add(node.args[0].value)
+        elif isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] in ("import_module", "__import__"):
+            found.update(a.value for a in node.args[:1] if isinstance(a, ast.Constant))
         for child in ast.iter_child_nodes(node):
             if only_types or not is_type_checking(child):
                 walk(child)

@@ -185,7 +185,7 @@ def test_a_process_that_ignores_signals_is_ended(start, ignored):
 def test_a_polite_process_may_clean_up(start, tmp_path):
     student = start(
         "import pathlib, time\ntry:\n    print('ready')\n    while True: time.sleep(1)\n"
-        "finally: pathlib.Path({str(tmp_path / 'cleaned')!r}).touch()"
+        f"finally: pathlib.Path({str(tmp_path / 'cleaned')!r}).touch()"
     )
     until(student, lambda: "ready" in student.take_lines())
     student.stop()

@@ -80,10 +80,13 @@ def test_the_gate_gives_points_only_for_its_evidence(record):
         assert finding.measured.startswith("it never drove")
 
 
-def test_a_gate_changes_nothing_about_a_failure(record):
-    recording = record({SIGNAL: [(0, 0.0), (8, 5.0)]})
-    finding = perform(spec(signal=SIGNAL, band=[-1, 1], gate=GATE), recording)
-    assert (finding.passed, finding.measured) == (False, "changed by 5.00")
+def test_a_failure_behind_a_closed_gate_is_told_as_such(record):
+    """What never drove has not turned the wrong way either; it is marked, so that it is not blamed first."""
+    shut = perform(spec(signal=SIGNAL, band=[-1, 1], gate=GATE), record({SIGNAL: [(0, 0.0), (8, 5.0)]}))
+    assert (shut.passed, shut.measured, shut.gated) == (False, "it never drove", True)
+    drove = {SIGNAL: [(0, 0.0), (8, 5.0)], "truth/robot/distance": [(0, 9.0)]}
+    finding = perform(spec(signal=SIGNAL, band=[-1, 1], gate=GATE), record(drove))
+    assert (finding.passed, finding.measured, finding.gated) == (False, "changed by 5.00", False)
 
 
 def test_a_gate_that_lacks_a_key_is_a_manifest_error(record):

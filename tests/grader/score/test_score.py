@@ -65,3 +65,10 @@ def test_the_hash_depends_on_the_truth_and_on_nothing_else(record):
 def test_scoring_twice_is_scoring_once(record, exercise):
     recording = record(truth())
     assert score(recording, exercise) == score(recording, exercise)
+
+
+def test_a_gated_check_is_not_blamed_first(record, exercise):
+    gate = {"signal": "truth/robot/x", "reaches": 99, "otherwise": "it never drove"}
+    gated = dataclasses.replace(check("huge", 70, 0.9), parameters=check("huge", 70, 0.9).parameters | {"gate": gate})
+    both = dataclasses.replace(exercise, checks=(gated, check("small", 30, 0.9, "The small one")))
+    assert score(record(truth()), both).diagnosis.startswith("The small one: ")
