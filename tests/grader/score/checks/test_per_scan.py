@@ -57,10 +57,11 @@ def test_nineteen_of_twenty_are_enough(scanned, right, passed):
 
 
 def test_an_answer_belongs_to_the_scan_before_it(scanned):
-    assert per_scan(scanned(signals=answers(1.0, delay=0.0)), TOPIC).passed, "at the very moment of the scan"
-    assert per_scan(scanned(signals=answers(1.0, delay=0.0999)), TOPIC).passed, "just before the next"
+    every = TOPIC | {"at_least": 1.0}
+    assert per_scan(scanned(signals=answers(1.0, delay=0.0)), every).passed, "at the very moment of the scan"
+    assert per_scan(scanned(signals=answers(1.0, delay=0.0999)), every).passed, "just before the next"
     late = {"topics/nearest/data": [(t + 0.1, 1.0) for t in TIMES[:-2]]}
-    assert per_scan(scanned(signals=late), TOPIC | {"at_least": 1.0}).measured.startswith("18 of 20")
+    assert per_scan(scanned(signals=late), every).measured.startswith("18 of 20")
 
 
 def test_only_the_first_answer_to_a_scan_counts(scanned):
