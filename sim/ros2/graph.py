@@ -90,7 +90,7 @@ class Graph:
         self._executor.spin_once(timeout_sec=timeout)
 
     def topics(self, hidden: bool = False) -> list[tuple[str, list[str]]]:
-        """Topics and their types, sorted by name."""
+        """Topics and their types, both sorted."""
         return sorted(
             (name, types) for name, types in self.node.get_topic_names_and_types() if hidden or not is_hidden(name)
         )
@@ -104,10 +104,11 @@ class Graph:
         self._settle(self._born + FIRST_CONTACT, QUIET, SETTLE_DEADLINE)
 
     def wait_for_topic(self, name: str) -> list[str]:
-        """The types of a topic as soon as it is there and its endpoints are known; empty if it does not come."""
-        if not self._wait(lambda: bool(self._types(name)), self._spin_time or TARGET_DEADLINE):
-            return []
-        self._settle(0.0, 0.2, 1.0)
+        """The types of a topic as soon as it is there, or after exactly --spin-time; empty if it does not come."""
+        if self._spin_time is not None:
+            self.settle()
+        elif self._wait(lambda: bool(self._types(name)), TARGET_DEADLINE):
+            self._settle(0.0, 0.2, 1.0)
         return self._types(name)
 
     def wait_for_publisher(self, name: str, timeout: float) -> bool:

@@ -120,3 +120,18 @@ def workspace(tmp_path):
         return {"AMENT_PREFIX_PATH": str(tmp_path / "install")}
 
     return add
+
+
+@pytest.fixture(scope="session")
+def run_together():
+    """Run several `ros2` commands side by side: their results in order."""
+
+    def run(*commands):
+        running = [Command(*arguments) for arguments in commands]
+        try:
+            return [command.wait() for command in running]
+        finally:
+            for command in running:
+                command.end()
+
+    return run
