@@ -98,7 +98,7 @@ class Graph:
     def settle(self) -> None:
         """Wait until the graph is complete as far as one can tell, or exactly --spin-time."""
         if self._spin_time is not None:
-            end = time.monotonic() + self._spin_time
+            end = self._born + self._spin_time
             self._wait(lambda: time.monotonic() >= end, self._spin_time)
             return
         self._settle(self._born + FIRST_CONTACT, QUIET, SETTLE_DEADLINE)
