@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
+import signal
 import sys
+from typing import NoReturn
 
 import typer
 
@@ -24,20 +26,38 @@ app = typer.Typer(
 
 
 def main() -> None:
-    """Run the `course` command."""
+    """Run the `course` command. With `--debug` before the sub-command an internal error shows where it is."""
     for module in pkgutil.iter_modules(commands.__path__):
         importlib.import_module(f"{commands.__name__}.{module.name}").register(app)
+    debug = "--debug" in sys.argv[1:2]
+    if debug:
+        del sys.argv[1]
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, _stop)
     try:
         app()
     except CourseError as error:
-        print(f"course: {error}", file=sys.stderr)
+        _say(str(error))
         sys.exit(error.exit_code)
     except KeyboardInterrupt:
-        print("course: interrupted", file=sys.stderr)
+        _say("interrupted")
         sys.exit(130)
-    except Exception as error:
-        # Ours, never the student's: one sentence, and how to see the rest.
-        if "--debug" in sys.argv:
+    except Exception as error:  # ours, never the student's
+        if debug:
             raise
-        print(f"course: internal error: {type(error).__name__}: {error}", file=sys.stderr)
+        _say(f"internal error: {type(error).__name__}: {error}")
         sys.exit(3)
+
+
+def _stop(number: int, _: object) -> NoReturn:
+    """Leave as after Ctrl-C: everything that is open is closed on the way out."""
+    sys.exit(128 + number)
+
+
+def _say(sentence: str) -> None:
+    text = f"course: {sentence}".encode(sys.stderr.encoding or "utf-8", "replace")
+    print(text.decode(sys.stderr.encoding or "utf-8"), file=sys.stderr)
+
+
+if __name__ == "__main__":
+    main()

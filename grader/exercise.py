@@ -7,12 +7,12 @@ with a manifest is an exercise, its name is the folder's.
 from __future__ import annotations
 
 import os
-import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from grader.errors import ManifestError, UsageError, nearest
+from grader.table import Table
 
 MANIFEST = "exercise.toml"
 
@@ -91,6 +91,8 @@ def find_exercise(name: str, root: Path | None = None) -> Exercise:
     """
     root = root or course_root()
     names = exercise_names(root)
+    if not names:
+        raise UsageError(f"there are no exercises in {root / 'exercises'}; COURSE_ROOT must name a course's folder")
     matches = [n for n in names if n == name] or [n for n in names if name and n.startswith(name)]
     if len(matches) != 1:
         reason = "several exercises begin with" if len(matches) > 1 else "no exercise is called"
@@ -101,41 +103,53 @@ def find_exercise(name: str, root: Path | None = None) -> Exercise:
 def load_exercise(folder: Path) -> Exercise:
     """Read and check a manifest. Raises ManifestError with the file and what is wrong."""
     path = folder / MANIFEST
-    try:
-        raw = tomllib.loads(path.read_text())
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise ManifestError(f"{path}: {error}") from None
-    try:
-        run = raw["run"]
-        exercise = Exercise(
-            name=folder.name,
-            folder=folder,
-            title=raw["title"],
-            summary=raw["summary"].strip(),
-            file=raw["file"],
-            world=run["world"],
-            robot=run["robot"],
-            duration=float(run["duration"]),
-            tick=float(run.get("tick", 0.01)),
-            bridge=folder / run["bridge"],
-            observe=dict(run.get("observe", {})),
-            script=tuple(ScriptedCommand(**command) for command in raw.get("script", [])),
-            checks=tuple(_check(path, check) for check in raw["check"]),
-        )
-    except KeyError as error:
-        raise ManifestError(f"{path}: the key {error.args[0]!r} is missing") from None
-    except (TypeError, ValueError) as error:
-        raise ManifestError(f"{path}: {error}") from None
+    manifest = Table.load(path)
+    run = manifest.table("run")
+    exercise = Exercise(
+        name=folder.name,
+        folder=folder,
+        title=manifest.text("title"),
+        summary=manifest.text("summary").strip(),
+        file=manifest.text("file"),
+        world=run.text("world"),
+        robot=run.text("robot"),
+        duration=run.number("duration", above=0),
+        tick=run.number("tick", 0.01, above=0),
+        bridge=folder / run.text("bridge"),
+        observe=_observed(run.table("observe", {})),
+        script=tuple(_command(command) for command in manifest.tables("script", [])),
+        checks=tuple(_check(path, check) for check in manifest.tables("check")),
+    )
+    if Path(exercise.file).name != exercise.file:
+        manifest.refuse("file", "the name of a file, without folders")
+    for table in (run, manifest):
+        table.end()
     ids = [check.id for check in exercise.checks]
     if twice := {i for i in ids if ids.count(i) > 1}:
         raise ManifestError(f"{path}: check id {sorted(twice)[0]!r} is used twice")
     return exercise
 
 
-def _check(path: Path, raw: dict[str, Any]) -> CheckSpec:
-    raw = dict(raw)
-    try:
-        common = {key: raw.pop(key) for key in ("id", "title", "points", "kind", "hint")}
-    except KeyError as error:
-        raise ManifestError(f"{path}: check {raw.get('id', '?')!r} lacks the key {error.args[0]!r}") from None
-    return CheckSpec(**common, parameters=raw)
+def _observed(table: Table) -> dict[str, str]:
+    return {topic: table.text(topic) for topic in table.names()}
+
+
+def _command(table: Table) -> ScriptedCommand:
+    command = ScriptedCommand(
+        table.number("at"), table.text("topic"), table.number("linear_x"), table.number("angular_z")
+    )
+    table.end()
+    return command
+
+
+def _check(path: Path, table: Table) -> CheckSpec:
+    id = table.text("id")
+    table.where = f"{path}: check {id!r}"
+    return CheckSpec(
+        id=id,
+        title=table.text("title"),
+        points=table.number("points", above=0),
+        kind=table.text("kind"),
+        hint=table.text("hint"),
+        parameters=table.rest(),
+    )

@@ -9,11 +9,13 @@ from grader.errors import UsageError
 from grader.exercise import Exercise, find_exercise
 from grader.intake import take_in
 from grader.record.reading import Recording
+from grader.report.printable import shown
 from grader.report.report import HostFacts, Report
 from grader.report.verdicts import write_verdicts
 from grader.score.score import Score, score
 from grader.trial import Trial
 
+LONGEST_PATH = 4096
 PACES = ("lockstep", "realtime")
 
 
@@ -47,7 +49,7 @@ def grade(
         verdict = score(Recording(recorder.part), exercise)
         write_verdicts(recorder, verdict, exercise.max_score, exercise.duration)
     host = HostFacts(result.sandbox, result.pace, result.run_wall_seconds, time.monotonic() - started)
-    return make_report(Recording(path), exercise, verdict, str(submission.file), host)
+    return make_report(Recording(path), exercise, verdict, shown(str(submission.file), LONGEST_PATH), host)
 
 
 def grade_again(path: Path, root: Path | None = None) -> Report:

@@ -6,14 +6,17 @@ graded, with no points, and told the line.
 
 from __future__ import annotations
 
-import ast
 import hashlib
+import io
+import stat
+import tokenize
 import warnings
 from dataclasses import dataclass
 from pathlib import Path
 
 from grader.errors import UsageError, nearest
 from grader.exercise import Exercise
+from grader.report.printable import shown
 
 LARGEST = 1 << 20  # [bytes] of a submitted file
 
@@ -33,24 +36,34 @@ def take_in(exercise: Exercise, path: Path | None) -> Submission:
     Raises UsageError if there is nothing to read.
     """
     path = path if path is not None else exercise.starter
-    if path.is_dir():
+    if _is_folder(path):
         names = _python_files(path)
         if exercise.file not in names:
             raise UsageError(
                 f"{path} holds no {exercise.file}, the file {exercise.name} asks for{nearest(exercise.file, names)}"
             )
         path = path / exercise.file
-    if not path.exists():
-        raise UsageError(f"there is no file {path}{nearest(path.name, _python_files(path.parent))}")
-    if not path.is_file():
-        raise UsageError(f"{path} is not a regular file; give the {exercise.file} to grade or its folder")
     try:
-        data = path.read_bytes()
-    except OSError as error:
-        raise UsageError(f"{path} cannot be read: {error.strerror}") from None
-    if len(data) > LARGEST:
-        raise UsageError(f"{path} has {len(data)} bytes; at most {LARGEST} are accepted")
+        status = path.stat()
+        if not stat.S_ISREG(status.st_mode):
+            raise UsageError(f"{path} is not a regular file; give the {exercise.file} to grade or its folder")
+        if status.st_size > LARGEST:
+            raise UsageError(f"{path} has {status.st_size} bytes; at most {LARGEST} are accepted")
+        with path.open("rb") as stream:
+            data = stream.read(LARGEST + 1)
+    except FileNotFoundError:
+        raise UsageError(f"there is no file {path}{nearest(path.name, _python_files(path.parent))}") from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise UsageError(f"{str(path)[:200]!r} cannot be read: {reason}") from None
     return Submission(path.resolve(), hashlib.sha256(data).hexdigest(), _fault(data, path.name))
+
+
+def _is_folder(path: Path) -> bool:
+    try:
+        return path.is_dir()
+    except (OSError, ValueError):
+        return False
 
 
 def _python_files(folder: Path) -> list[str]:
@@ -62,13 +75,19 @@ def _python_files(folder: Path) -> list[str]:
 
 def _fault(data: bytes, name: str) -> str | None:
     try:
+        # What Python itself says of a file's encoding is said by nothing that is given bytes.
+        text = data.decode(tokenize.detect_encoding(io.BytesIO(data).readline)[0])
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # an odd escape in a student's string is not our business
-            ast.parse(data, name)
+            compile(data, name, "exec", dont_inherit=True)
+        text.encode()
+    except UnicodeDecodeError as error:
+        line = data[: error.start].count(b"\n") + 1
+        return shown(f"{name}, line {line}: this is not {error.encoding}: byte 0x{data[error.start]:02x}")
     except SyntaxError as error:
-        line = f"{name}, line {error.lineno}" if error.lineno else name
-        shown = f": {error.text.strip()}" if error.text and error.text.strip() else ""
-        return f"{line}: {type(error).__name__}: {error.msg}{shown}"
-    except (ValueError, RecursionError, MemoryError) as error:
-        return f"{name} cannot be read as Python: {error}"
+        line_number = f"{name}, line {error.lineno}" if error.lineno else name
+        code = f": {error.text.strip()}" if error.text and error.text.strip() else ""
+        return shown(f"{line_number}: {type(error).__name__}: {error.msg}{code}")
+    except (ValueError, RecursionError, MemoryError, LookupError) as error:
+        return shown(f"{name} cannot be read as Python: {type(error).__name__}: {error}")
     return None

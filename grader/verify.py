@@ -8,7 +8,6 @@ nothing and is reported.
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -17,6 +16,7 @@ from grader.errors import ManifestError, nearest
 from grader.exercise import Exercise
 from grader.grade import grade
 from grader.report.report import Report
+from grader.table import Table
 
 FEWEST_ACCEPTED = 2
 FEWEST_REJECTED = 4
@@ -64,12 +64,12 @@ def twin(exercise: Exercise) -> Path:
 def variants(exercise: Exercise) -> list[Variant]:
     """Return everything `expect.toml` and the folders declare. Raises ManifestError for what does not fit together."""
     folder = twin(exercise)
-    try:
-        expected = tomllib.loads((folder / "expect.toml").read_text()).get("rejected", {})
-    except OSError:
-        raise ManifestError(f"{folder} has no expect.toml, which says what each rejected variant must lose") from None
-    except tomllib.TOMLDecodeError as error:
-        raise ManifestError(f"{folder / 'expect.toml'}: {error}") from None
+    path = folder / "expect.toml"
+    if not path.is_file():
+        raise ManifestError(f"{folder} has no expect.toml, which says what each rejected variant must lose")
+    expect = Table.load(path)
+    expected = expect.table("rejected")
+    expect.end()
     every = frozenset(check.id for check in exercise.checks)
     found = [
         Variant("starter", exercise.starter, every),
@@ -77,19 +77,30 @@ def variants(exercise: Exercise) -> list[Variant]:
     ]
     found += [Variant(f"accepted/{p.name}", p / exercise.file, frozenset()) for p in _folders(folder / "accepted")]
     rejected = {p.name: p for p in _folders(folder / "rejected")}
-    for name in sorted(expected.keys() - rejected.keys()):
-        raise ManifestError(f"{folder / 'expect.toml'}: no folder rejected/{name}{nearest(name, rejected)}")
-    for name, path in rejected.items():
-        if name not in expected:
-            raise ManifestError(f"{path} is not declared in expect.toml{nearest(name, expected)}")
-        loses = frozenset(expected[name]["fails"])
-        if unknown := loses - every:
-            raise ManifestError(
-                f"{folder / 'expect.toml'}: rejected.{name} names no check of {exercise.name}: "
-                f"{sorted(unknown)[0]}{nearest(sorted(unknown)[0], every)}"
-            )
-        found.append(Variant(f"rejected/{name}", path / exercise.file, loses, tuple(expected[name]["words"])))
+    declared = expected.names()
+    for name in declared:
+        if name not in rejected:
+            raise ManifestError(f"{path}: no folder rejected/{name}{nearest(name, rejected)}")
+    for name, variant in rejected.items():
+        if name not in declared:
+            raise ManifestError(f"{variant} is not declared in expect.toml{nearest(name, declared)}")
+        entry = expected.table(name)
+        entry.where = f"{path}: rejected.{name}"
+        loses, words = frozenset(entry.texts("fails")), tuple(entry.texts("words"))
+        entry.end()
+        for check in sorted(loses - every):
+            raise ManifestError(f"{entry.where} names no check of {exercise.name}: {check}{nearest(check, every)}")
+        found.append(Variant(f"rejected/{name}", variant / exercise.file, loses, words))
+    for each in found:
+        if not each.file.is_file():
+            names = [p.name for p in each.file.parent.iterdir()] if each.file.parent.is_dir() else []
+            raise ManifestError(f"{each.file.parent} has no {exercise.file}{nearest(exercise.file, names)}")
     return found
+
+
+def orphans(root: Path, names: list[str]) -> list[Path]:
+    """Return the folders of `solutions/` that are the twin of no exercise."""
+    return [path for path in _folders(root / "solutions") if path.name not in names]
 
 
 def _folders(path: Path) -> list[Path]:

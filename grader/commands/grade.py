@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -45,17 +46,33 @@ def grade_command(
     if pace not in PACES:
         raise UsageError(f"there is no pace {pace!r}{nearest(pace, PACES)}")
     chosen = find_exercise(exercise)
-    report = grade(chosen, submission, out or Path("runs") / chosen.name, seed=seed, pace=pace, started=STARTED)
+    out = out or Path("runs") / chosen.name
+    for target in (json, out / f"{chosen.name}.rrd"):
+        if target is not None:
+            check_writable(target)
+    report = grade(chosen, submission, out, seed=seed, pace=pace, started=STARTED)
     print_report(report, Console())
     if json is not None:
         write_json(json, report)
     raise typer.Exit(0 if report.full_marks else 1)
 
 
-def write_json(path: Path, report: Report) -> None:
-    """Write a report as JSON. Raises UsageError if the file cannot be written."""
+def check_writable(path: Path) -> None:
+    """Find out before anything runs whether a file can be written. Raises UsageError if not."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(report.as_json())
+        if path.is_dir():
+            raise IsADirectoryError(errno.EISDIR, "it is a folder")
+        existed = path.exists()
+        with path.open("ab"):
+            pass
+        if not existed:
+            path.unlink()
     except OSError as error:
         raise UsageError(f"cannot write {path}: {error.strerror}") from None
+
+
+def write_json(path: Path, report: Report) -> None:
+    """Write a report as JSON. Raises UsageError if the file cannot be written."""
+    check_writable(path)
+    path.write_text(report.as_json())

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from grader.errors import ManifestError, nearest
 from grader.exercise import course_root, exercise_names, find_exercise
 
 if TYPE_CHECKING:
@@ -28,10 +29,14 @@ def verify_command(
     """Prove that solutions earn full marks, starters nothing, and rejected variants lose what they declare."""
     from rich.console import Console
 
-    from grader.verify import verify
+    from grader.verify import orphans, verify
 
     console = Console()
-    names = [find_exercise(exercise).name] if exercise else exercise_names(course_root())
+    root = course_root()
+    known = exercise_names(root)
+    if strays := orphans(root, known):
+        raise ManifestError(f"{strays[0]} has no public half in exercises/{nearest(strays[0].name, known)}")
+    names = [find_exercise(exercise).name] if exercise else known
     proven = True
     with tempfile.TemporaryDirectory(prefix="course-verify-") as folder:
         for name in names:

@@ -32,16 +32,20 @@ def fields(message: Any, prefix: str) -> Iterator[tuple[str, Any]]:
 
 
 def record_message(recorder: Recorder, topic: str, message: Any) -> None:
-    """Log one message seen on a ROS topic; non-finite single numbers are counted, not drawn."""
+    """Log one message seen on a ROS topic.
+
+    A message with a single number that is not finite, which no bridge lets through, is counted and not drawn.
+    """
     base = f"topics/{topic.strip('/')}"
+    leaves = list(fields(message, base))
+    bad = [entity for entity, value in leaves if isinstance(value, float) and not math.isfinite(value)]
     recorder.scalar(f"{base}/count", 1.0)
-    for entity, value in fields(message, base):
+    for entity in bad:
+        recorder.scalar(f"{entity}/not_finite", 1.0)
+    for entity, value in [] if bad else leaves:
         if isinstance(value, bool | int | float):
             recorder.name(entity, entity.removeprefix("topics"))
-            if math.isfinite(value):
-                recorder.scalar(entity, float(value))
-            else:
-                recorder.scalar(f"{entity}/not_finite", 1.0)
+            recorder.scalar(entity, float(value))
         elif hasattr(value, "__len__") and not isinstance(value, str | bytes) and 0 < len(value) <= LONGEST_LIST:
             numbers = np.asarray(value)
             if numbers.dtype.kind in "fiu":

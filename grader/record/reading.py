@@ -6,6 +6,7 @@ Works on a finished `.rrd` and on one that is still being written (after `Record
 from __future__ import annotations
 
 import json
+import math
 import warnings
 from dataclasses import dataclass
 from pathlib import Path
@@ -85,7 +86,11 @@ class Recording:
 
     def signals(self) -> list[str]:
         """Names of all signals (single numbers over time)."""
-        return sorted(entity for entity, component in self._rows if component == "Scalars:scalars")
+        return sorted(
+            entity
+            for (entity, component), parts in self._rows.items()
+            if component == "Scalars:scalars" and all(len(column.flatten()) == len(times) for times, column in parts)
+        )
 
     def has(self, name: str) -> bool:
         """Whether the signal was recorded at all."""
@@ -130,6 +135,11 @@ class Recording:
         """Return what the run reported about the submission: endpoints, exit, dropped messages."""
         text = self.properties("run").get("facts")
         return json.loads(text) if text else {}
+
+    @property
+    def ended_s(self) -> float:
+        """When simulated time ended [s], which is before the exercise's end if the simulation broke off."""
+        return float(self.facts().get("sim_seconds", math.inf))
 
     @property
     def end_ns(self) -> int:

@@ -65,10 +65,12 @@ class RealTime:
     def await_ready(self) -> bool:
         """Wait until the node spins and DDS has matched its endpoints; False if it does not within `START_UP`."""
         deadline = time.monotonic() + START_UP
-        while self.student.running and self.student.progress is None:
+        while self.student.running and not (self.student.progress and self.student.progress.endpoints):
             if time.monotonic() > deadline:
                 return False
             self.student.wait(LOOK_ROUND * 10)
+            self.ears.pump()
+            self.everything_arrived()
         self.await_matches(time.monotonic() + MATCHING)
         return self.student.running
 
@@ -160,6 +162,9 @@ class LockStep(RealTime):
             self.await_matches(time.monotonic() + MATCHING)
         readers = self.ears.matched(topic, "subscription")
         if not readers:
+            # Nobody to wait for, but somebody to listen to: a node may come, go, or wait for an answer.
+            self.student.wait(0)
+            self.everything_arrived()
             return
         publisher.publish(message)
         if topic != CLOCK:
@@ -189,7 +194,7 @@ class LockStep(RealTime):
 
     def close_tick(self, tick: float) -> None:
         """Nothing to wait for in step; a node that fell out of step gets its tick of wall time."""
-        if not self._free:
+        if not self._free or not self.student.running:
             return
         self.paced_ticks += 1
         super().close_tick(tick)

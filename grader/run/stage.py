@@ -14,7 +14,8 @@ from typing import Any
 
 from gz.msgs.twist_pb2 import Twist
 
-from grader.exercise import Exercise, ScriptedCommand
+from grader.errors import ManifestError, nearest
+from grader.exercise import MANIFEST, Exercise, ScriptedCommand
 from grader.record.messages import record_message
 from grader.record.recorder import Recorder
 from grader.record.scene import Scene
@@ -29,6 +30,7 @@ from gz.transport import Node, NodeOptions, Scope
 from ros_gz_bridge.bridge import BridgeEntry
 
 MOST_MESSAGES = 20_000  # of one topic that are recorded; the rest is counted
+WALL_FACTOR, WALL_GRACE = 2.0, 20.0  # a run may take 2 x its simulated time + 20 s of wall time, then it is ended
 LEVELS = {"[WARN]": "WARN", "[ERROR]": "ERROR", "[FATAL]": "CRITICAL", "[DEBUG]": "DEBUG"}
 
 
@@ -51,7 +53,7 @@ class Stage:
         self._gz_nodes = [Node(NodeOptions(scope=Scope.PROCESS, partition=partition)) for _ in range(2)]
         for node in self._gz_nodes:
             stack.callback(node.close)
-        self._world = World.load(exercise.world, seed=trial.seed, node=self._gz_nodes[0])
+        self._world = _load(exercise, trial, self._gz_nodes[0])
         self._server = Server(self._world, self._gz_nodes[0])
         self._ears = Ears(domain, self._gz_nodes[1], entries, exercise.observe, self._record)
         stack.callback(self._ears.close)
@@ -62,6 +64,7 @@ class Stage:
         self._script_publishers: dict[str, Any] = {}
         self._exit_at: float | None = None
         self._unstable: str | None = None
+        self._out_of_time = False
         self._endpoints: dict[tuple[str, str, str, str], dict[str, Any]] = {}
         self._seen_endpoints: tuple[Endpoint, ...] | None = None
         self._messages: Counter[str] = Counter()
@@ -81,8 +84,10 @@ class Stage:
         self._collect()
         started = time.monotonic()
         end_ns = round(self._exercise.duration * 1e9)
-        while self._world.sim_time_ns < end_ns and self._unstable is None:
+        deadline = started + WALL_FACTOR * self._exercise.duration + WALL_GRACE
+        while self._world.sim_time_ns < end_ns and self._unstable is None and not self._out_of_time:
             self._tick()
+            self._out_of_time = time.monotonic() > deadline
         self.wall_seconds = time.monotonic() - started
         self._student.stop()
         self._scene.finish()
@@ -160,6 +165,22 @@ class Stage:
             "dropped": dropped,
             "lines_dropped": self._student.dropped_lines,
             "messages_not_recorded": {t: n - MOST_MESSAGES for t, n in self._messages.items() if n > MOST_MESSAGES},
+            "hid": self._student.hid,
             "unstable": self._unstable,
+            "out_of_time": self._out_of_time and self._world.sim_time_ns < round(self._exercise.duration * 1e9),
             "out_of_step": bool(self._pace.paced_ticks),
         }
+
+
+def _load(exercise: Exercise, trial: Trial, node: Node) -> World:
+    try:
+        world = World.load(exercise.world, seed=trial.seed, node=node)
+    except SimError as error:
+        raise ManifestError(f"{exercise.folder / MANIFEST}: {error}") from None
+    names = world.model_names()
+    if exercise.robot not in names:
+        raise ManifestError(
+            f"{exercise.folder / MANIFEST}: the world {exercise.world} has no moving model "
+            f"{exercise.robot!r}{nearest(exercise.robot, names)}"
+        )
+    return world

@@ -14,8 +14,9 @@ import signal
 import socket
 import subprocess
 import sys
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from pathlib import Path
+from typing import Any
 
 import psutil
 
@@ -59,11 +60,11 @@ class Progress:
             raw = json.loads(data)
             clock = raw["clock"]
             return Progress(
-                clock=None if clock is None else int(clock),
-                taken={str(k): int(v) for k, v in raw["taken"].items()},
-                published={str(k): int(v) for k, v in raw["published"].items()},
-                flushes=int(raw["flushes"]),
-                endpoints=tuple(Endpoint(**e) for e in raw["endpoints"])
+                clock=None if clock is None else _count(clock),
+                taken={str(k): _count(v) for k, v in raw["taken"].items()},
+                published={str(k): _count(v) for k, v in raw["published"].items()},
+                flushes=_count(raw["flushes"]),
+                endpoints=tuple(_endpoint(e) for e in raw["endpoints"])
                 if "endpoints" in raw
                 else before.endpoints
                 if before
@@ -71,6 +72,20 @@ class Progress:
             )
         except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
             return None
+
+
+def _count(value: Any) -> int:
+    if type(value) is not int:
+        raise TypeError(f"{value!r} is no count")
+    return value
+
+
+def _endpoint(raw: dict[str, Any]) -> Endpoint:
+    endpoint = Endpoint(**raw)
+    for each in fields(Endpoint):
+        if type(getattr(endpoint, each.name)) is not (int if each.name == "matched" else str):
+            raise TypeError(f"{each.name} of an endpoint is {getattr(endpoint, each.name)!r}")
+    return endpoint
 
 
 class Student:
@@ -121,7 +136,7 @@ class Student:
         self.progress: Progress | None = None
         self._answered = 0
         self.exit_code: int | None = None
-        self.ended_by_us = False
+        self.hid = False  # it closed its end of the socket and lived on
 
     @property
     def running(self) -> bool:
@@ -141,7 +156,7 @@ class Student:
         for pipe in self._pipes:
             self._drain(pipe.fileno())
         self._read_progress()
-        if self._channel.fileno() not in self._selector.get_map():
+        if self._channel.fileno() not in self._selector.get_map() or self._process.poll() is not None:
             self._reap()
         return bool(ready)
 
@@ -204,13 +219,15 @@ class Student:
                 self.progress = progress
 
     def _reap(self) -> None:
-        """The socket is closed: the process has exited, or shut its own ears; then it is ended."""
+        """The process has exited, or closed its end of the socket to hide; then it is ended."""
         try:
             self._process.wait(GRACE)
         except subprocess.TimeoutExpired:
+            self.hid = True
             self.stop()
         for pipe in self._pipes:
             self._drain(pipe.fileno())
+        self._read_progress()
         self.exit_code = self._process.returncode
 
     def stop(self) -> None:
@@ -218,7 +235,6 @@ class Student:
         with contextlib.suppress(OSError):
             self._channel.shutdown(socket.SHUT_WR)  # nobody is going to answer it any more
         if self._process.poll() is None:
-            self.ended_by_us = True
             for escalation in (signal.SIGINT, signal.SIGTERM):
                 with contextlib.suppress(ProcessLookupError):
                     os.killpg(self._process.pid, escalation)

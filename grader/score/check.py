@@ -1,6 +1,7 @@
 """What a check is, and the registry of kinds.
 
-A kind is a function of the recording and the parameters its manifest gives; it registers itself with `@check_kind`.
+A kind is a function of the recording and the parameters its manifest gives; it registers itself with `@check_kind`. It
+asks for every parameter it knows, and what is left over is an author's typing mistake.
 A check's `gate` is handled here for every kind: without the gate's evidence no point is given, so that doing nothing
 earns nothing:
 
@@ -14,11 +15,11 @@ import pkgutil
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import Any
 
 from grader.errors import ManifestError, nearest
 from grader.exercise import CheckSpec
 from grader.record.reading import Recording
+from grader.table import Table
 
 
 @dataclass(frozen=True)
@@ -47,7 +48,7 @@ class Finding:
     gated: bool = False
 
 
-Kind = Callable[[Recording, dict[str, Any]], Finding]
+Kind = Callable[[Recording, Table], Finding]
 _kinds: dict[str, Kind] = {}
 
 
@@ -78,15 +79,14 @@ def perform(spec: CheckSpec, recording: Recording) -> Finding:
     kinds = check_kinds()
     if spec.kind not in kinds:
         raise ManifestError(f"check {spec.id!r} is of unknown kind {spec.kind!r}{nearest(spec.kind, kinds)}")
-    parameters = dict(spec.parameters)
-    gate = parameters.pop("gate", None)
-    try:
-        finding = kinds[spec.kind](recording, parameters)
-        if gate is not None:
-            values = recording.signal(gate["signal"]).values
-            best = float(values.max()) if len(values) else 0.0
-            if best < gate["reaches"]:
-                return replace(finding, passed=False, measured=gate["otherwise"], at_s=None, gated=True)
-    except KeyError as error:
-        raise ManifestError(f"check {spec.id!r} lacks the parameter {error.args[0]!r}") from None
+    parameters = Table(spec.parameters, f"check {spec.id!r}", "parameter")
+    gate = parameters.table("gate") if parameters.has("gate") else None
+    finding = kinds[spec.kind](recording, parameters)
+    parameters.end()
+    if gate is not None:
+        signal, reaches, otherwise = gate.text("signal"), gate.number("reaches"), gate.text("otherwise")
+        gate.end()
+        values = recording.signal(signal).values
+        if not len(values) or values.max() < reaches:
+            return replace(finding, passed=False, measured=otherwise, at_s=None, gated=True)
     return finding

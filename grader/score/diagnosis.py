@@ -5,20 +5,39 @@ Works from the facts in the recording: which endpoints the node had, how its pro
 
 from __future__ import annotations
 
+import re
+import signal
 from difflib import get_close_matches
 from typing import Any
 
 from grader.record.reading import Recording
+from grader.report.printable import shown
+
+FRAME = re.compile(r'\s+File "(.*)", line (\d+)')
 
 # Every ROS 2 node has these; they say nothing about the exercise.
 OWN_TOPICS = frozenset({"/rosout", "/parameter_events", "/clock"})
 
 
 def outcome_of(recording: Recording) -> str:
-    """Return `graded`, `student_error` (it could not run, or it crashed) or `timeout` (it never spun)."""
+    """Return what kind of run it was.
+
+    `tamper`: it published what only the simulator may; `protocol`: it closed the descriptors it was given; `memory`: it
+    ran out of memory; `student_error`: it could not run, or crashed; `timeout`: it never spun, or held everything up;
+    `graded`: none of these.
+    """
     facts = recording.facts()
-    if facts.get("fault") or facts.get("exit_code") not in (None, 0):
+    if _reserved(facts):
+        return "tamper"
+    if facts.get("fault"):
         return "student_error"
+    if facts.get("hid"):
+        return "protocol"
+    if facts.get("exit_code") not in (None, 0):
+        memory = any(line.text.startswith("MemoryError") for line in recording.lines("log/student"))
+        return "memory" if memory else "student_error"
+    if facts.get("out_of_time"):
+        return "timeout"
     if not facts.get("ready", True):
         return "timeout" if facts.get("exit_at") is None else "student_error"
     return "graded"
@@ -51,23 +70,40 @@ def _died(recording: Recording, facts: dict[str, Any]) -> str:
     code = facts.get("exit_code")
     if code in (None, 0):
         return ""
+    when = f"at {facts['exit_at']:.2f} s of simulated time"
+    if facts.get("hid"):
+        return f"Your node's process closed the descriptors it was started with {when}; it was ended and not followed."
     lines = [line.text for line in recording.lines("log/student")]
-    how = f"was killed by signal {-code}" if code < 0 else f"ended with exit code {code}"
-    starts = [i for i, line in enumerate(lines) if line.startswith("Traceback (most recent call last)")]
-    if starts:
-        trace = lines[starts[-1] :]
-        place = next((line.strip() for line in reversed(trace) if line.strip().startswith("File ")), "")
-        error = next((line for line in reversed(trace) if line and not line.startswith(" ")), "")
-        return f"Your node died at {facts['exit_at']:.2f} s of simulated time with {error} ({_place(place)})."
-    return f"Your node's process {how} at {facts['exit_at']:.2f} s of simulated time, before the exercise was over."
+    starts = [i for i, line in enumerate(lines) if line.startswith(("Traceback (most recent", '  File "'))]
+    if code > 0 and starts:
+        # The last block that begins a traceback; a syntax error found at run time has no first line.
+        begin = max((i for i in starts if lines[i].startswith("Traceback")), default=starts[0])
+        error, places = _read_traceback(lines[begin:])
+        file = str(recording.properties("run").get("submission"))
+        mine = [place for place in places if place[0] == file] or places
+        place = f" ({mine[-1][0]}, line {mine[-1][1]})" if mine else ""
+        if error:
+            return shown(f"Your node died {when} with {error}{place}.")
+    how = f"was killed by {_signal_name(-code)}" if code < 0 else f"ended with exit code {code}"
+    return f"Your node's process {how} {when}, before the exercise was over."
 
 
-def _place(line: str) -> str:
-    """Shorten `File "/a/b/node.py", line 7, in main` to `node.py, line 7`."""
-    parts = line.split(", ")
-    if len(parts) < 2:
-        return "no line known"
-    return f"{parts[0].split('/')[-1].strip(chr(34))}, {parts[1]}"
+def _read_traceback(lines: list[str]) -> tuple[str, list[tuple[str, str]]]:
+    """Return the first line of the error a traceback ends in, and the (file name, line) of each frame."""
+    places = []
+    for line in lines:
+        if match := FRAME.match(line):
+            places.append((match.group(1).rpartition("/")[2], match.group(2)))
+        elif line and not line.startswith((" ", "Traceback")):
+            return line, places
+    return "", places
+
+
+def _signal_name(number: int) -> str:
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return f"signal {number}"
 
 
 def _ended_early(recording: Recording, facts: dict[str, Any]) -> str:
@@ -112,8 +148,11 @@ def _publishers(recording: Recording, facts: dict[str, Any]) -> str:
 
 def _subscriptions(recording: Recording, facts: dict[str, Any]) -> str:
     offered: dict[str, str] = facts.get("offered", {})
+    own = {e["topic"] for e in _of(facts, "publisher")}
     for e in _of(facts, "subscription"):
         kind = offered.get(e["topic"])
+        if kind is None and e["topic"] in own:
+            continue
         if kind is None:
             near = get_close_matches(e["topic"], offered, n=1, cutoff=0.3)
             near = near or [topic for topic, offer in offered.items() if offer == e["type"]]
@@ -138,8 +177,10 @@ def _silent(recording: Recording, facts: dict[str, Any]) -> str:
 
 def _dropped(recording: Recording, facts: dict[str, Any]) -> str:
     for topic, count in facts.get("dropped", {}).items():
+        what = "1 message" if count == 1 else f"{count} messages"
+        verb, pronoun = ("was", "it") if count == 1 else ("were", "they")
         return (
-            f"{count} messages on {topic} were dropped because they held NaN or infinite numbers; "
+            f"{what} on {topic} {verb} dropped because {pronoun} held NaN or infinite numbers; "
             "the robot never saw them."
         )
     return ""
@@ -147,3 +188,43 @@ def _dropped(recording: Recording, facts: dict[str, Any]) -> str:
 
 def _unstable(recording: Recording, facts: dict[str, Any]) -> str:
     return f"The simulation ended early: {facts['unstable']}" if facts.get("unstable") else ""
+
+
+def _reserved(facts: dict[str, Any]) -> list[str]:
+    """Topics that carry the simulator's own messages and that the node published on as well."""
+    offered = facts.get("offered", {})
+    return sorted({e["topic"] for e in facts.get("endpoints", []) if e["kind"] == "publisher"} & set(offered))
+
+
+def _tampered(recording: Recording, facts: dict[str, Any]) -> str:
+    topics = _reserved(facts)
+    if not topics:
+        return ""
+    return (
+        f"Your node publishes on {topics[0]}, which belongs to the simulator: nobody but the bridge may publish there."
+    )
+
+
+def _out_of_time(recording: Recording, facts: dict[str, Any]) -> str:
+    if not facts.get("out_of_time"):
+        return ""
+    return (
+        f"Your node held the simulation up so long that the run was ended at {facts['sim_seconds']:.2f} s of simulated "
+        "time: its callbacks take far longer than the time between them."
+    )
+
+
+# In the order in which one would look.
+LOOKS = (
+    _tampered,
+    _cannot_run,
+    _died,
+    _ended_early,
+    _never_spun,
+    _out_of_time,
+    _publishers,
+    _subscriptions,
+    _silent,
+    _dropped,
+    _unstable,
+)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from grader.record.reading import Recording
+from grader.table import Table
 
 
 @dataclass(frozen=True)
@@ -21,11 +21,22 @@ class Condition:
     unit: str
 
     @staticmethod
-    def read(raw: dict[str, Any]) -> Condition:
-        """Read a condition from a manifest; a missing bound is no bound."""
-        low, high = float(raw.get("low", -np.inf)), float(raw.get("high", np.inf))
-        unit = f" {raw['unit']}" if "unit" in raw else ""
-        return Condition(raw["signal"], low, high, raw.get("name", raw["signal"]), unit)
+    def read_all(parameters: Table) -> list[Condition]:
+        """Read the `conditions` of a check; a missing bound is no bound."""
+        return [Condition._read(table) for table in parameters.tables("conditions")]
+
+    @staticmethod
+    def _read(table: Table) -> Condition:
+        signal = table.text("signal")
+        condition = Condition(
+            signal,
+            table.number("low", -np.inf, infinite=True),
+            table.number("high", np.inf, infinite=True),
+            table.text("name", signal),
+            f" {table.text('unit')}" if table.has("unit") else "",
+        )
+        table.end()
+        return condition
 
     def __str__(self) -> str:
         """The condition in words."""
@@ -42,13 +53,14 @@ def fulfilled(
     """When do all conditions hold at once between `start` and `end` [s]?
 
     Returns the edges [s], shape (n + 1,), of n intervals and whether the conditions hold in each, shape (n,). Before
-    its first sample a signal fulfils nothing.
+    its first sample and after the end of the simulation a signal fulfils nothing.
     """
     signals = [recording.signal(c.signal) for c in conditions]
     times = np.concatenate([s.times / 1e9 for s in signals]) if signals else np.empty(0)
+    times = np.append(times, recording.ended_s)
     inner = np.unique(times[(times > start) & (times < end)])
     edges = np.concatenate([[start], inner, [end]])
-    holds = np.ones(len(edges) - 1, dtype=bool)
+    holds = edges[:-1] < recording.ended_s
     for condition, signal in zip(conditions, signals, strict=True):
         index = np.searchsorted(signal.times / 1e9, edges[:-1], side="right") - 1
         values = (
@@ -66,3 +78,8 @@ def value_at(recording: Recording, name: str, time: float) -> float | None:
     signal = recording.signal(name)
     index = int(np.searchsorted(signal.times, round(time * 1e9), side="right")) - 1
     return float(signal.values[index]) if index >= 0 else None
+
+
+def told(value: float) -> str:
+    """Return a number as people read it: two decimals, fewer digits if it is huge."""
+    return f"{round(value, 2) + 0.0:.2f}" if abs(value) < 1e4 else f"{value:.3g}"  # + 0.0: no "-0.00"

@@ -9,25 +9,26 @@ unit = "rad"
 
 from __future__ import annotations
 
-from typing import Any
-
 from grader.record.reading import Recording
 from grader.score.check import Band, Finding, check_kind
-from grader.score.steps import value_at
+from grader.score.steps import told, value_at
+from grader.table import Table
 
 
 @check_kind("change")
-def change(recording: Recording, parameters: dict[str, Any]) -> Finding:
+def change(recording: Recording, parameters: Table) -> Finding:
     """Pass if value at the end minus value at the start lies within `band`."""
-    name = parameters["signal"]
-    low, high = parameters["band"]
-    start, end = parameters.get("window", [0.0, recording.properties("run")["duration"]])
-    unit = f" {parameters['unit']}" if "unit" in parameters else ""
-    expected = f"{parameters.get('name', name)} changes by {low:g} to {high:g}{unit}"
+    name = parameters.text("signal")
+    low, high = parameters.numbers("band", [2])
+    start, end = parameters.numbers("window", [2], [0.0, recording.properties("run")["duration"]])
+    unit = f" {parameters.text('unit')}" if parameters.has("unit") else ""
+    expected = f"{parameters.text('name', name)} changes by {low:g} to {high:g}{unit}"
     last = value_at(recording, name, end)
     if last is None:
         return Finding(False, expected, "nothing was recorded on it")
+    if end > recording.ended_s:
+        return Finding(False, expected, f"the simulation ended at {recording.ended_s:.2f} s")
     first = value_at(recording, name, start)
     moved = last - (first if first is not None else float(recording.signal(name).values[0]))
     bands = (Band(name, last - moved + low, last - moved + high, end, end),)
-    return Finding(bool(low <= moved <= high), expected, f"changed by {moved:.2f}{unit}", end, bands)
+    return Finding(bool(low <= moved <= high), expected, f"changed by {told(moved)}{unit}", end, bands)

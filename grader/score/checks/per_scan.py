@@ -17,12 +17,12 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from grader.record.reading import Recording
 from grader.score.check import Finding, check_kind
+from grader.table import Table
 
 # What the console format of the sandbox puts before a logger's message; a printed line lacks it.
 LOGGED = re.compile(r"^\[[A-Z]+\] \[[^\]]*\]: ")
@@ -60,13 +60,18 @@ def scans(recording: Recording, topic: str, statistic: str) -> list[Scan]:
 
 
 @check_kind("per_scan")
-def per_scan(recording: Recording, parameters: dict[str, Any]) -> Finding:
+def per_scan(recording: Recording, parameters: Table) -> Finding:
     """Pass if at least the fraction `at_least` of all scans got the right answer."""
-    what = parameters["statistic"]
-    tolerance, share = parameters["tolerance"], parameters.get("at_least", 0.95)
-    asked = scans(recording, parameters["scan"], what)
-    given, printed = _answers(recording, parameters)
-    where = f"on {parameters['signal']}" if "signal" in parameters else "in the node's log"
+    what = parameters.choice("statistic", STATISTICS)
+    tolerance, share = parameters.number("tolerance"), parameters.number("at_least", 0.95)
+    asked = scans(recording, parameters.text("scan"), what)
+    if parameters.has("signal"):
+        signal = parameters.text("signal")
+        given, printed = _messages(recording, signal), 0
+        where = f"on {signal}"
+    else:
+        given, printed = _log_answers(recording, parameters.pattern("log"))
+        where = "in the node's log"
     expected = f"{what.replace('_', ' ')} of every scan {where}, within {tolerance:g}"
     right, unanswered, wrong = 0, 0, ""
     at: float | None = None
@@ -87,12 +92,14 @@ def per_scan(recording: Recording, parameters: dict[str, Any]) -> Finding:
     return Finding(passed, expected, measured + wrong, None if passed else at)
 
 
-def _answers(recording: Recording, parameters: dict[str, Any]) -> tuple[list[tuple[float, float]], int]:
-    """All answers as (time [s], value), in order; and how many were printed instead of logged."""
-    if "signal" in parameters:
-        signal = recording.signal(parameters["signal"])
-        return list(zip((signal.times / 1e9).tolist(), signal.values.tolist(), strict=True)), 0
-    pattern = re.compile(parameters["log"])
+def _messages(recording: Recording, name: str) -> list[tuple[float, float]]:
+    """All answers given as messages: (time [s], value), in order."""
+    signal = recording.signal(name)
+    return list(zip((signal.times / 1e9).tolist(), signal.values.tolist(), strict=True))
+
+
+def _log_answers(recording: Recording, pattern: re.Pattern[str]) -> tuple[list[tuple[float, float]], int]:
+    """All answers given in the log, and how many were printed instead of logged."""
     answers, printed = [], 0
     for line in recording.lines("log/student"):
         text, logged = LOGGED.subn("", line.text)

@@ -9,23 +9,24 @@ command = "topics/cmd_vel/linear/x"    # optional: what to look at when it does 
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from grader.record.reading import Recording
 from grader.score.check import Band, Finding, check_kind
-from grader.score.steps import Condition, fulfilled, value_at
+from grader.score.steps import Condition, fulfilled, told, value_at
+from grader.table import Table
 
 STILL = 0.5  # [s] before the end: a command this late means that they never ceased
 
 
 @check_kind("stays_in_band")
-def stays_in_band(recording: Recording, parameters: dict[str, Any]) -> Finding:
+def stays_in_band(recording: Recording, parameters: Table) -> Finding:
     """Pass if every condition holds at every moment of the last `last` seconds."""
-    conditions = [Condition.read(c) for c in parameters["conditions"]]
+    conditions = Condition.read_all(parameters)
+    last = parameters.number("last", above=0)
+    command = parameters.text("command") if parameters.has("command") else None
     end = recording.properties("run")["duration"]
-    start = end - parameters["last"]
+    start = end - last
     edges, holds = fulfilled(recording, conditions, start, end)
     wanted = " and ".join(map(str, conditions))
     expected = f"{wanted} from {start:g} s to the end at {end:g} s"
@@ -34,23 +35,23 @@ def stays_in_band(recording: Recording, parameters: dict[str, Any]) -> Finding:
         return Finding(True, expected, "so it did", end, bands)
     at = float(edges[:-1][~holds][0])
     shown = ", ".join(_value(recording, c, at) for c in conditions)
-    measured = f"{shown} at {at:.2f} s{_last_command(recording, parameters, end)}"
+    measured = f"{shown} at {at:.2f} s{_last_command(recording, command, end)}"
     return Finding(False, expected, measured, float(np.round(at, 3)), bands)
 
 
 def _value(recording: Recording, c: Condition, at: float) -> str:
+    if at >= recording.ended_s:
+        return f"the simulation ended at {recording.ended_s:.2f} s"
     value = value_at(recording, c.signal, at)
-    return f"{c.name} was {value:.2f}{c.unit}" if value is not None else f"{c.name} had no value"
+    return f"{c.name} was {told(value)}{c.unit}" if value is not None else f"{c.name} had no value"
 
 
-def _last_command(recording: Recording, parameters: dict[str, Any], end: float) -> str:
+def _last_command(recording: Recording, command: str | None, end: float) -> str:
     """What the signal behind it said last: nothing any more, or still the same?"""
-    if "command" not in parameters:
-        return ""
-    signal = recording.signal(parameters["command"])
-    if not len(signal):
+    signal = recording.signal(command) if command else None
+    if not signal:
         return ""
     time, value = signal.times[-1] / 1e9, signal.values[-1]
     if time > end - STILL and value:
-        return f"; commands of {value:.2f} were still coming at {time:.2f} s"
-    return f"; the last command came at {time:.2f} s and was {value:.2f}"
+        return f"; commands of {told(value)} were still coming at {time:.2f} s"
+    return f"; the last command came at {time:.2f} s and was {told(value)}"

@@ -9,21 +9,20 @@ unit = "m/s"              # for the report
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from grader.record.reading import Recording
 from grader.score.check import Band, Finding, check_kind
-from grader.score.steps import Condition, fulfilled
+from grader.score.steps import Condition, fulfilled, told
+from grader.table import Table
 
 
 @check_kind("time_in_band")
-def time_in_band(recording: Recording, parameters: dict[str, Any]) -> Finding:
+def time_in_band(recording: Recording, parameters: Table) -> Finding:
     """Pass if the total time in band lies within `seconds`."""
-    conditions = [Condition.read(c) for c in parameters["conditions"]]
-    start, end = parameters.get("window", [0.0, recording.properties("run")["duration"]])
-    least, *rest = parameters["seconds"]
+    conditions = Condition.read_all(parameters)
+    start, end = parameters.numbers("window", [2], [0.0, recording.properties("run")["duration"]])
+    least, *rest = parameters.numbers("seconds", [1, 2])
     most = rest[0] if rest else np.inf
     edges, holds = fulfilled(recording, conditions, start, end)
     total = float(np.diff(edges)[holds].sum())
@@ -44,4 +43,4 @@ def _usual(recording: Recording, c: Condition) -> str:
     moving = values[np.abs(values) > 0.01]
     if not len(moving):
         return "was always 0" if len(values) else "was never seen"
-    return f"was mostly {float(np.median(moving)):.2f}{c.unit}"
+    return f"was mostly {told(float(np.median(moving)))}{c.unit}"

@@ -32,9 +32,10 @@ def endpoint(topic="/cmd_vel", type=TWIST, kind="publisher", reliability="RELIAB
 def told(record):
     """Outcome and diagnosis for facts that differ from a good run's in what is given."""
 
-    def call(*endpoints, signals=COUNT, lines=(), publisher=True, **facts):
+    def call(*endpoints, signals=COUNT, lines=(), publisher=True, submission="node.py", **facts):
         ends = [endpoint(), *endpoints] if publisher else list(endpoints)
-        recording = record(signals, facts=BASE | {"endpoints": ends} | facts, lines=[(0.5, line) for line in lines])
+        told_lines = [(0.5, line) for line in lines]
+        recording = record(signals, facts=BASE | {"endpoints": ends} | facts, lines=told_lines, submission=submission)
         return outcome_of(recording), diagnose(recording)
 
     return call

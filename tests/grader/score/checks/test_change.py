@@ -2,7 +2,13 @@
 
 import pytest
 
-from grader.score.checks.change import change
+from grader.score.checks.change import change as kind
+from grader.table import Table
+
+
+def change(recording, parameters):
+    return kind(recording, Table(parameters, "check 'it'", "parameter"))
+
 
 YAW = "truth/robot/yaw"
 PARAMETERS = {"signal": YAW, "band": [0.1, 1.8], "unit": "rad", "name": "heading"}

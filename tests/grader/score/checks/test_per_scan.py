@@ -4,7 +4,13 @@ import math
 
 import pytest
 
-from grader.score.checks.per_scan import per_scan
+from grader.score.checks.per_scan import per_scan as kind
+from grader.table import Table
+
+
+def per_scan(recording, parameters):
+    return kind(recording, Table(parameters, "check 'it'", "parameter"))
+
 
 RANGES = [0.25, 1.0, 2.0, 10.0, math.inf, -math.inf, 0.1]
 TIMES = [n / 10 for n in range(20)]
