@@ -52,6 +52,8 @@ class Graph:
     def __init__(self, arguments: argparse.Namespace) -> None:
         self._spin_time: float | None = arguments.spin_time
         self._context = rclpy.Context()
+        # Shared memory outlives a process that is killed and can block the next one; every node speaks UDP too.
+        os.environ.setdefault("FASTDDS_BUILTIN_TRANSPORTS", "UDPv4")
         try:
             # No log file is written, so that no writable home is needed; signals stay Python's.
             rclpy.init(

@@ -6,6 +6,7 @@ import socket
 import subprocess
 import sys
 import threading
+from concurrent.futures import ThreadPoolExecutor
 
 import psutil
 import pytest
@@ -124,14 +125,17 @@ def workspace(tmp_path):
 
 @pytest.fixture(scope="session")
 def run_together():
-    """Run several `ros2` commands side by side: their results in order."""
+    """Run several `ros2` commands, a few at a time: their results in order.
 
-    def run(*commands):
-        running = [Command(*arguments) for arguments in commands]
+    Many new participants at the same moment drown each other's announcements.
+    """
+
+    def run(arguments):
+        command = Command(*arguments)
         try:
-            return [command.wait() for command in running]
+            return command.wait()
         finally:
-            for command in running:
-                command.end()
+            command.end()
 
-    return run
+    with ThreadPoolExecutor(4) as pool:
+        yield lambda *commands: list(pool.map(run, commands))

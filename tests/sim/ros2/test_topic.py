@@ -62,7 +62,7 @@ def nodes(ros_domain):
 
 LISTINGS = {
     "list": ["list"],
-    "types": ["list", "-t"],
+    "types": ["list", "--show-types"],
     "verbose": ["list", "-v", "--include-hidden-topics"],
     "count": ["list", "-c"],
     "info": ["info", "/chatter"],

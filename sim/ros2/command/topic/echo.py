@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import time
+from collections.abc import Callable
 from typing import Any
 
 import yaml
@@ -62,10 +63,12 @@ def whole_number(text: str) -> int:
 
 def main(arguments: argparse.Namespace) -> int:
     """Print until interrupted; with --once until the first message, with --timeout at most so long."""
+    given = None if arguments.message_type is None else message_class(arguments.message_type)
+    passes = message_filter(arguments.filter)
     with Graph(arguments) as graph:
         name = full_name(graph, arguments.topic_name)
-        kind = _message_class(graph, name, arguments.message_type)
-        printer = _Printer(arguments, kind)
+        kind = _message_class(graph, name, given)
+        printer = _Printer(arguments, kind, passes)
         qos = _qos(graph, name, arguments)
         graph.node.create_subscription(kind, name, printer, qos, raw=arguments.raw)
         end = None if arguments.timeout is None else time.monotonic() + arguments.timeout
@@ -77,10 +80,10 @@ def main(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _message_class(graph: Graph, name: str, given: str | None) -> Any:
+def _message_class(graph: Graph, name: str, given: Any) -> Any:
     if given is not None:
         graph.wait_for_publisher(name, _FIRST_PUBLISHER)
-        return message_class(given)
+        return given
     types = graph.wait_for_topic(name)
     if not types:
         not_published(name)
@@ -107,9 +110,9 @@ def _qos(graph: Graph, name: str, arguments: argparse.Namespace) -> QoSProfile:
 class _Printer:
     """Prints each message the way the options say; `count` messages so far."""
 
-    def __init__(self, arguments: argparse.Namespace, kind: Any) -> None:
+    def __init__(self, arguments: argparse.Namespace, kind: Any, passes: Callable[[Any], bool] | None) -> None:
         self.count = 0
-        self._filter = message_filter(arguments.filter)
+        self._filter = passes
         self._fields = arguments.field.strip(".").split(".") if arguments.field else []
         self._csv = arguments.csv
         self._with_info = arguments.include_message_info
