@@ -36,6 +36,8 @@ def take_in(exercise: Exercise, path: Path | None) -> Submission:
     Raises UsageError if there is nothing to read.
     """
     path = path if path is not None else exercise.starter
+    if not _is_utf8(path):
+        raise UsageError(f"{shown(str(path))!r}: a file name must be UTF-8, or ROS cannot start the file; rename it")
     if _is_folder(path):
         names = _python_files(path)
         if exercise.file not in names:
@@ -57,6 +59,14 @@ def take_in(exercise: Exercise, path: Path | None) -> Submission:
         reason = getattr(error, "strerror", None) or str(error)
         raise UsageError(f"{str(path)[:200]!r} cannot be read: {reason}") from None
     return Submission(path.resolve(), hashlib.sha256(data).hexdigest(), _fault(data, path.name))
+
+
+def _is_utf8(path: Path) -> bool:
+    try:
+        str(path).encode()
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def _is_folder(path: Path) -> bool:

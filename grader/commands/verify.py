@@ -35,7 +35,8 @@ def verify_command(
     root = course_root()
     known = exercise_names(root)
     if strays := orphans(root, known):
-        raise ManifestError(f"{strays[0]} has no public half in exercises/{nearest(strays[0].name, known)}")
+        named = ", ".join(f"solutions/{path.name}{nearest(path.name, known)}" for path in strays)
+        raise ManifestError(f"no public half in exercises/: {named}")
     names = [find_exercise(exercise).name] if exercise else known
     proven = True
     with tempfile.TemporaryDirectory(prefix="course-verify-") as folder:

@@ -51,7 +51,8 @@ class Ears:
         heard: Callable[[str, Any], None],
     ) -> None:
         self._context = Context()
-        rclpy.init(context=self._context, domain_id=domain, signal_handler_options=SignalHandlerOptions.NO)
+        # No arguments: ours are not meant for ROS.
+        rclpy.init(args=[], context=self._context, domain_id=domain, signal_handler_options=SignalHandlerOptions.NO)
         set_logger_level(NODE, LoggingSeverity.ERROR)  # what it would say is told in the report
         self._node = rclpy.create_node(NODE, context=self._context, start_parameter_services=False)
         self._executor = SingleThreadedExecutor(context=self._context)

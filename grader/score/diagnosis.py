@@ -46,17 +46,7 @@ def outcome_of(recording: Recording) -> str:
 def diagnose(recording: Recording) -> str:
     """Return one sentence on the first fault found, or an empty string if nothing structural is wrong."""
     facts = recording.facts()
-    for look in (
-        _cannot_run,
-        _died,
-        _ended_early,
-        _never_spun,
-        _publishers,
-        _subscriptions,
-        _silent,
-        _dropped,
-        _unstable,
-    ):
+    for look in LOOKS:
         if sentence := look(recording, facts):
             return sentence
     return ""

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from grader.score.check import Finding, perform
 from grader.score.diagnosis import diagnose, outcome_of
 
 NOT_RUN = Finding(False, "a file that runs", "nothing was run")
+SPOILT: dict[str, Any] = {"passed": False, "measured": "not counted: the run was tampered with", "at_s": None}
 TRUTH = ("x", "y", "z", "qw", "qx", "qy", "qz")
 
 
@@ -48,12 +50,15 @@ def score(recording: Recording, exercise: Exercise) -> Score:
     """Apply every check of the manifest and name the most likely fault."""
     never_ran = bool(recording.facts().get("fault"))
     checks = tuple(CheckResult(spec, NOT_RUN if never_ran else perform(spec, recording)) for spec in exercise.checks)
+    outcome = outcome_of(recording)
+    if outcome == "tamper":
+        checks = tuple(CheckResult(check.spec, replace(check.finding, **SPOILT)) for check in checks)
     failed = [check for check in checks if not check.finding.passed]
     diagnosis = diagnose(recording)
     if failed and not diagnosis:
         worst = max(failed, key=lambda check: (not check.finding.gated, check.spec.points))
         diagnosis = f"{worst.spec.title}: {worst.finding.measured}. {worst.spec.hint}"
-    return Score(checks, outcome_of(recording), diagnosis if failed else "", truth_sha256(recording, exercise.robot))
+    return Score(checks, outcome, diagnosis if failed else "", truth_sha256(recording, exercise.robot))
 
 
 def truth_sha256(recording: Recording, robot: str) -> str:

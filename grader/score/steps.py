@@ -82,4 +82,4 @@ def value_at(recording: Recording, name: str, time: float) -> float | None:
 
 def told(value: float) -> str:
     """Return a number as people read it: two decimals, fewer digits if it is huge."""
-    return f"{round(value, 2) + 0.0:.2f}" if abs(value) < 1e4 else f"{value:.3g}"  # + 0.0: no "-0.00"
+    return f"{round(value, 2) + 0.0:.2f}" if abs(value) < 1e9 else f"{value:.3g}"  # + 0.0: no "-0.00"
