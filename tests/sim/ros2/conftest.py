@@ -137,5 +137,5 @@ def run_together():
         finally:
             command.end()
 
-    with ThreadPoolExecutor(4) as pool:
+    with ThreadPoolExecutor(5) as pool:
         yield lambda *commands: list(pool.map(run, commands))
