@@ -37,7 +37,7 @@ UNMATCHED_SLICE = 0.005  # [s] how often an unmatched publisher is looked at; DD
 POOL_START = 0.01  # [s] for a pool to take up a callback; a pool whose threads are all busy does not
 POOL_SLICE = 0.001  # [s] how often a running pool callback is looked at, should its end not wake us
 FLUSH_PATIENCE = 1.0  # [s] for the grader to receive the last messages before a publisher goes away
-MATCH_PATIENCE = 2.0  # [s] after that a publisher nobody matches is simply unmatched
+MATCH_PATIENCE = 5.0  # [s] after that a publisher nobody matches is simply unmatched
 
 
 class Watch:
