@@ -30,7 +30,7 @@ from gz.transport import Node, NodeOptions, Scope
 from ros_gz_bridge.bridge import BridgeEntry
 
 MOST_MESSAGES = 20_000  # of one topic that are recorded; the rest is counted
-WALL_FACTOR, WALL_GRACE = 2.0, 20.0  # a run may take 2 x its simulated time + 20 s of wall time, then it is ended
+WALL_FACTOR, WALL_GRACE = 2.0, 10.0  # a run may take 2 x its simulated time + 10 s of wall time, then it is ended
 LEVELS = {"[WARN]": "WARN", "[ERROR]": "ERROR", "[FATAL]": "CRITICAL", "[DEBUG]": "DEBUG"}
 
 
