@@ -16,12 +16,13 @@ who = "parent" if child else "child"
 def heard(number, frame):
     if child:
         os.waitpid(child, 0)
-    print(who, "heard", signal.Signals(number).name, flush=True)
+    # print() cannot be used: the signal may have interrupted one.
+    os.write(1, f"{{who}} heard {{signal.Signals(number).name}}\\n".encode())
     os._exit(number)
 signal.signal(signal.SIGINT, heard)
 signal.signal(signal.SIGTERM, heard)
 if not child:
-    print("up", flush=True)
+    os.write(1, b"up\\n")
 while True:
     signal.pause()
 """
