@@ -77,6 +77,19 @@ def type_names() -> list[str]:
 
 
 @functools.lru_cache(maxsize=1024)
+def canonical_name(name: str) -> str:
+    """The one spelling of a type name, `gz.msgs.X`; other names than those of Gazebo stay as they are.
+
+    `ignition.msgs.Twist`, as Fortress calls it, `ign_msgs.Twist` and `gz_msgs.Twist` are `gz.msgs.Twist`.
+    """
+    bare = name.removeprefix(".")
+    for prefix in _PREFIXES:
+        if bare.startswith(prefix):
+            return _PACKAGE + bare.removeprefix(prefix)
+    return bare
+
+
+@functools.lru_cache(maxsize=1024)
 def message_class(name: str) -> type[Message]:
     """The class of a message type.
 

@@ -1,7 +1,7 @@
 """What is known about a message besides its contents, and about a publisher or subscriber besides its name.
 
 MessageInfo accompanies the bytes into callbacks of subscribe_raw(); MessagePublisher is what topic_info()
-lists.
+lists, ServicePublisher what service_info() lists.
 """
 
 from __future__ import annotations
@@ -35,6 +35,26 @@ class MessagePublisher:
     """Address of the process, e.g. `tcp://127.0.0.1:37011`; empty when nobody outside can reach it."""
     msg_type_name: str
     """Type name; `google.protobuf.Message` for a subscriber that takes any type."""
+    p_uuid: str
+    """Identity of the process."""
+    n_uuid: str
+    """Identity of the node."""
+    scope: Scope = Scope.ALL
+    """How far it reaches."""
+
+
+@dataclass(frozen=True, slots=True)
+class ServicePublisher:
+    """One provider of a service."""
+
+    topic: str
+    """Name of the service without the partition."""
+    addr: str
+    """Address of the process, e.g. `tcp://127.0.0.1:37011`; empty when nobody outside can reach it."""
+    req_type_name: str
+    """Type name of requests."""
+    rep_type_name: str
+    """Type name of responses; `gz.msgs.Empty` when there are none."""
     p_uuid: str
     """Identity of the process."""
     n_uuid: str

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import atexit
 import contextlib
+import math
 import os
 import socket
 import threading
@@ -21,6 +22,7 @@ import zmq
 from gz.msgs.discovery_pb2 import Discovery
 
 from gz.transport import naming
+from gz.transport.courier import RETRY_S
 from gz.transport.discovery import HEARTBEAT_S
 from gz.transport.dispatcher import Dispatcher
 from gz.transport.environment import DEFAULT_IP, NetworkSettings, complain
@@ -29,6 +31,7 @@ from gz.transport.message_info import MessagePublisher
 from gz.transport.options import Scope
 from gz.transport.outlet import Outlet
 from gz.transport.publisher import Publisher
+from gz.transport.service_network import ServiceNetwork
 from gz.transport.subscription import Subscription
 from gz.transport.switchboard import SWITCHBOARD
 from gz.transport.topic_discovery import TopicDiscovery
@@ -44,6 +47,9 @@ class Network:
         """Opens the sockets and starts the threads. Raises OSError when the network cannot be used."""
         self.process_uuid = str(uuid.uuid4())
         self._open = True
+        self._settings = settings
+        self._services: ServiceNetwork | None = None
+        self._services_lock = threading.Lock()
         self._commands: deque[Callable[[], None]] = deque()
         self._told: dict[tuple[str, str, str, str], float] = {}
         self._context: zmq.Context[zmq.Socket[bytes]] = zmq.Context()
@@ -78,8 +84,11 @@ class Network:
                 self.advertise(publisher)
         for subscription in _networked_subscriptions():
             self.subscribe(subscription)
+        offered = [each for each in SWITCHBOARD.all_services() if each.scope != Scope.PROCESS]
         self._dispatcher.start()
         self._thread.start()
+        for service in offered:
+            self.services().advertise(service)
 
     # ---- called from any thread
 
@@ -108,6 +117,14 @@ class Network:
         announced = self._discovery.subscriber_processes(name, type_name)
         return min(announced, self._outlet.listeners(name.encode())) if announced else 0
 
+    def services(self) -> ServiceNetwork:
+        """The half of the network that serves services; opened by the first call. OSError when it cannot be."""
+        with self._services_lock:
+            if self._services is None:
+                self._services = ServiceNetwork(self._context, self._settings, self.process_uuid, self._wake)
+                self._wake()
+            return self._services
+
     def known_elsewhere(
         self,
     ) -> tuple[list[tuple[str, MessagePublisher]], list[tuple[str, MessagePublisher]]]:
@@ -126,6 +143,9 @@ class Network:
         if not self._open:
             return
         self._discovery.say_farewell()
+        if self._services:
+            self._services.discovery.say_farewell()
+            self._services.stop_threads()
         self._open = False
         self._wake()
         if self._thread is not threading.current_thread():
@@ -135,6 +155,8 @@ class Network:
         self._outlet.close()
         if not self._thread.is_alive():
             self._inlet.close()
+            if self._services:
+                self._services.close()
             self._context.destroy(linger=_LINGER_MS)
         self._wake_sender.close()
         self._wake_receiver.close()
@@ -143,6 +165,8 @@ class Network:
         """In a forked child: lets go of what belongs to the parent, without a word to anybody."""
         self._open = False
         self._discovery.close()
+        if self._services:
+            self._services.discovery.close()
         self._wake_sender.close()
         self._wake_receiver.close()
 
@@ -172,7 +196,12 @@ class Network:
         wait_s = self._discovery.tick()
         self._inlet.leave_due()
         poller.register(self._inlet.socket, 0 if self._dispatcher.full() else zmq.POLLIN)
-        ready = dict(poller.poll(int(wait_s * 1000) + 1))
+        services = self._services
+        if services:
+            wait_s = min(wait_s, services.discovery.tick(), RETRY_S if services.retry() else wait_s)
+            for source, events in services.sources():
+                poller.register(source, events)
+        ready = dict(poller.poll(math.ceil(wait_s * 1000)))
         if self._wake_receiver.fileno() in ready:
             self._wake_receiver.recv(4096)
         while self._commands:
@@ -180,6 +209,8 @@ class Network:
         if self._discovery.fileno() in ready:
             self._discovery.receive()
         self._outlet.take_notices()  # always: its descriptor signals a change once, and a signal may be missed
+        if services:
+            services.take(ready)
         if self._inlet.socket in ready:
             for arrival in self._inlet.arrivals():
                 self._dispatcher.put(arrival)

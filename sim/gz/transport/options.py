@@ -50,6 +50,15 @@ class AdvertiseMessageOptions:
         return self._msgs_per_sec != UNTHROTTLED
 
 
+class AdvertiseServiceOptions:
+    """Options of a service: its scope, and, our addition, whether Fortress is to understand it."""
+
+    def __init__(self, scope: Scope = Scope.ALL, fortress: bool = False) -> None:
+        """With `fortress` the types are announced as `ignition.msgs.X`, as Fortress calls them."""
+        self.scope = Scope(scope)
+        self.fortress = fortress
+
+
 class SubscribeOptions:
     """Options of a subscription: the most messages per second it takes, and whether it hears its own node."""
 

@@ -75,14 +75,14 @@ class Subscription:
         try:
             self._callback(*arguments)
         except Exception as error:
-            _report(error, info.topic)
+            complain(f"The callback of topic [{info.topic}] {one_line(error)}")
 
 
-def _report(error: Exception, topic: str) -> None:
-    """One line: topic, exception, and the place in the user's file where it was raised."""
+def one_line(error: Exception) -> str:
+    """What a callback raised, and the place in the user's file where: `raised KeyError: 'x' (robot.py:12)`."""
     frames = traceback.extract_tb(sys.exc_info()[2])
     own = Path(__file__).parent
     places = [frame for frame in frames if Path(frame.filename).parent != own] or list(frames)
     place = f"{places[-1].filename}:{places[-1].lineno}"
     text = " ".join(str(error).split())
-    complain(f"The callback of topic [{topic}] raised {type(error).__name__}{': ' if text else ''}{text} ({place})")
+    return f"raised {type(error).__name__}{': ' if text else ''}{text} ({place})"

@@ -16,15 +16,17 @@ from gz.transport.subscription import Subscription
 
 if TYPE_CHECKING:
     from gz.transport.publisher import Publisher
+    from gz.transport.service import Service
 
 
 class Switchboard:
-    """The publishers and subscriptions of this process, by fully qualified topic name."""
+    """The publishers, subscriptions and services of this process, by fully qualified name."""
 
     def __init__(self) -> None:
         self._changed = threading.Condition(threading.Lock())
         self._subscriptions: dict[str, tuple[Subscription, ...]] = {}
         self._publishers: dict[str, tuple[Publisher, ...]] = {}
+        self._services: dict[str, tuple[Service, ...]] = {}
 
     def subscriptions(self, name: str) -> tuple[Subscription, ...]:
         """The subscriptions of a topic, oldest first."""
@@ -91,6 +93,35 @@ class Switchboard:
                 self._publishers[publisher.name] = rest
             else:
                 self._publishers.pop(publisher.name, None)
+
+    def services(self, name: str) -> tuple[Service, ...]:
+        """The services of a name, oldest first."""
+        return self._services.get(name, ())
+
+    def all_services(self) -> list[Service]:
+        """Every service of the process."""
+        with self._changed:
+            return [each for group in self._services.values() for each in group]
+
+    def add_service(self, service: Service) -> None:
+        """Makes a service known; ValueError when its node already offers one of this name."""
+        with self._changed:
+            group = self._services.get(service.name, ())
+            if any(each.node_uuid == service.node_uuid for each in group):
+                raise ValueError(
+                    f"The service {service.topic!r} is already offered by this node: "
+                    "one node may offer a service once; use unadvertise_service() first."
+                )
+            self._services[service.name] = (*group, service)
+
+    def remove_service(self, service: Service) -> None:
+        """Forgets a service."""
+        with self._changed:
+            rest = tuple(each for each in self._services.get(service.name, ()) if each is not service)
+            if rest:
+                self._services[service.name] = rest
+            else:
+                self._services.pop(service.name, None)
 
     def notify(self) -> None:
         """Wakes everybody in wait_for(): something outside this table changed."""
