@@ -60,7 +60,9 @@ def _field(field: Any, depth: int) -> str:
         kind = _kind(field)
         if field.is_repeated:
             label = "repeated "
-    return f"{'  ' * depth}{label}{kind} {field.name} = {field.number};"
+    options = field.GetOptions()
+    packed = f" [packed = {str(options.packed).lower()}]" if options.HasField("packed") else ""
+    return f"{'  ' * depth}{label}{kind} {field.name} = {field.number}{packed};"
 
 
 def _kind(field: Any) -> str:
