@@ -10,6 +10,7 @@ from gz.transport.node import Node
 from gz.transport.options import (
     UNTHROTTLED,
     AdvertiseMessageOptions,
+    AdvertiseOptions,
     AdvertiseServiceOptions,
     NodeOptions,
     Scope,
@@ -21,6 +22,7 @@ from gz.transport.service import CallResult
 __all__ = [
     "UNTHROTTLED",
     "AdvertiseMessageOptions",
+    "AdvertiseOptions",
     "AdvertiseServiceOptions",
     "CallResult",
     "MessageInfo",

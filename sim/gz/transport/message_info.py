@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from gz.transport.options import Scope
+from gz.transport.options import UNTHROTTLED, AdvertiseMessageOptions, AdvertiseServiceOptions, Scope
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +41,15 @@ class MessagePublisher:
     """Identity of the node."""
     scope: Scope = Scope.ALL
     """How far it reaches."""
+    msgs_per_sec: int = UNTHROTTLED
+    """The most messages per second it sends."""
+    ctrl: str = ""
+    """Unused in this version of the protocol."""
+
+    @property
+    def options(self) -> AdvertiseMessageOptions:
+        """What it was advertised with, as far as others are told."""
+        return AdvertiseMessageOptions(self.scope, self.msgs_per_sec)
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,3 +70,10 @@ class ServicePublisher:
     """Identity of the node."""
     scope: Scope = Scope.ALL
     """How far it reaches."""
+    socket_id: str = ""
+    """Identity of the socket at `addr`."""
+
+    @property
+    def options(self) -> AdvertiseServiceOptions:
+        """What it was advertised with, as far as others are told."""
+        return AdvertiseServiceOptions(self.scope)

@@ -28,7 +28,7 @@ from gz.transport.dispatcher import Dispatcher
 from gz.transport.environment import DEFAULT_IP, NetworkSettings, complain
 from gz.transport.inlet import Inlet
 from gz.transport.message_info import MessagePublisher
-from gz.transport.options import Scope
+from gz.transport.options import UNTHROTTLED, Scope
 from gz.transport.outlet import Outlet
 from gz.transport.publisher import Publisher
 from gz.transport.service_network import ServiceNetwork
@@ -294,6 +294,8 @@ def _listed(records: list[Discovery.Publisher]) -> list[tuple[str, MessagePublis
             record.process_uuid,
             record.node_uuid,
             Scope(record.scope) if record.scope in (1, 2) else Scope.ALL,
+            record.msg_pub.msgs_per_sec or UNTHROTTLED,
+            record.msg_pub.ctrl,
         )
         found.append((record.topic, info))
     return found

@@ -21,7 +21,7 @@ from gz.transport.publisher import Publisher
 from gz.transport.service_calls import ServiceCalls
 from gz.transport.subscription import GENERIC_TYPE, Subscription
 from gz.transport.switchboard import SWITCHBOARD
-from gz.transport.type_name import type_name
+from gz.transport.type_name import for_fortress, type_name
 
 
 class Node(ServiceCalls):
@@ -51,7 +51,7 @@ class Node(ServiceCalls):
         options = options or AdvertiseMessageOptions()
         publisher = Publisher(
             self._qualified(topic),
-            type_name(message_type),
+            for_fortress(type_name(message_type)) if options.fortress else type_name(message_type),
             self._uuid,
             min(self._options.scope, options.scope),
             options,

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from google.protobuf.message import Message
 
+from gz.msgs.fortress import converted, same_type
 from gz.transport import naming
 from gz.transport.environment import complain
 from gz.transport.message_info import MessageInfo
@@ -56,6 +57,8 @@ class Publisher:
         if not self._open:
             return False
         if type_name != self.type_name:
+            if same_type(type_name, self.type_name):  # one of them is Fortress's name
+                return self.publish_raw(converted(data, type_name, self.type_name), self.type_name)
             complain(
                 f"The topic [{self.topic}] was advertised with type {self.type_name}, "
                 f"so a message of type {type_name} was not published on it."

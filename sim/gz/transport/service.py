@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 from google.protobuf.message import DecodeError, Message
 
 from gz.msgs import canonical_name
+from gz.msgs.fortress import same_type
 from gz.transport import naming
 from gz.transport.environment import complain
 from gz.transport.options import Scope
@@ -112,6 +113,4 @@ def is_one_way(response_type: str) -> bool:
 
 def same_types(request: str, response: str, other_request: str, other_response: str) -> bool:
     """Whether two pairs of type names mean the same, `ignition.msgs.X` being `gz.msgs.X`."""
-    return canonical_name(request) == canonical_name(other_request) and canonical_name(response) == canonical_name(
-        other_response
-    )
+    return same_type(request, other_request) and same_type(response, other_response)

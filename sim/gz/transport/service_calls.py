@@ -177,7 +177,7 @@ class ServiceCalls:
         return [info for name, info in found if name.startswith(own)]
 
     def _qualified(self, topic: str, what: str = "topic") -> str:
-        topic = self._options.topic_remap(topic)
+        topic = self._options.renamed(topic)
         return naming.fully_qualified(self._options.partition, self._options.namespace, topic, what)
 
     def _check_open(self) -> None:

@@ -263,4 +263,5 @@ def _listed(record: Discovery.Publisher) -> ServicePublisher:
         record.process_uuid,
         record.node_uuid,
         Scope(record.scope) if record.scope in (1, 2) else Scope.ALL,
+        record.srv_pub.socket_id,
     )

@@ -7,6 +7,7 @@ copy.
 
 from __future__ import annotations
 
+import dataclasses
 import sys
 import traceback
 from collections.abc import Callable
@@ -15,6 +16,7 @@ from typing import Any
 
 from google.protobuf.message import DecodeError, Message
 
+from gz.msgs.fortress import converted, same_type
 from gz.transport.environment import complain
 from gz.transport.message_info import MessageInfo
 from gz.transport.options import Scope, SubscribeOptions
@@ -50,7 +52,7 @@ class Subscription:
 
     def accepts(self, type_name: str) -> bool:
         """Whether messages of this type are for this subscription."""
-        return self.type_name == type_name or self.type_name == GENERIC_TYPE
+        return self.type_name in (type_name, GENERIC_TYPE) or same_type(self.type_name, type_name)
 
     def deliver(self, data: bytes, info: MessageInfo, from_node: str | None = None) -> None:
         """Calls the callback with a fresh copy, unless type, options or broken bytes forbid it.
@@ -63,13 +65,13 @@ class Subscription:
         if self._ignore_own_node and from_node == self.node_uuid:
             return
         arguments: tuple[Any, ...]
-        if self._message_type is None:
-            arguments = (bytes(data), info)
-        else:
-            try:
-                arguments = (self._message_type.FromString(data),)
-            except DecodeError:
-                return
+        try:
+            if self.type_name not in (info.type, GENERIC_TYPE):
+                data = converted(data, info.type, self.type_name)
+                info = dataclasses.replace(info, type=self.type_name)
+            arguments = (bytes(data), info) if self._message_type is None else (self._message_type.FromString(data),)
+        except DecodeError:
+            return
         if not self._throttle.passes():
             return
         try:
