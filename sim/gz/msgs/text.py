@@ -13,9 +13,9 @@ import json
 import math
 import re
 import struct
-from typing import TypeVar
+from typing import Any, TypeVar
 
-from google.protobuf.descriptor import EnumDescriptor, FieldDescriptor
+from google.protobuf.descriptor import FieldDescriptor
 from google.protobuf.message import Message
 
 AnyMessage = TypeVar("AnyMessage", bound=Message)
@@ -23,6 +23,12 @@ AnyMessage = TypeVar("AnyMessage", bound=Message)
 _NOT_ASCII = re.compile(r"[^\x00-\x7f]+")
 _POSITION = re.compile(r"^(\d+):(\d+) : (.*)$", re.DOTALL)
 _NO_FIELD = re.compile(r'Message type "([\w.]+)" has no field named "([^"]*)"')
+_ANGLE_BRACKETS = {ord("<"): "\\u003c", ord(">"): "\\u003e"}
+_INVISIBLE = re.compile(
+    "[\x7f-\x9f\xad\u0600-\u0603\u06dd\u070f\u17b4\u17b5\u200b-\u200f\u2028-\u202e\u2060-\u2064\u206a-\u206f"
+    "\ufeff\ufff9-\ufffb\U0001d173-\U0001d17a\U000e0001\U000e0020-\U000e007f]"
+)
+"""What the C++ JSON writer escapes although JSON does not ask for it: control and formatting characters."""
 _LONG_INTEGERS = (
     FieldDescriptor.CPPTYPE_INT64,
     FieldDescriptor.CPPTYPE_UINT64,
@@ -94,13 +100,13 @@ def to_json_line(message: Message) -> str:
     )
 
 
-def _json_of(field: FieldDescriptor, value: object) -> str:
+def _json_of(field: FieldDescriptor, value: Any) -> str:
     if field.message_type is not None and field.message_type.GetOptions().map_entry:
         entries = field.message_type.fields_by_name
-        pairs = sorted(value.items())  # type: ignore[attr-defined]
+        pairs = sorted(value.items())
         return "{" + ",".join(f"{_json_key(k)}:{_json_value(entries['value'], v)}" for k, v in pairs) + "}"
     if field.is_repeated:
-        return "[" + ",".join(_json_value(field, each) for each in value) + "]"  # type: ignore[attr-defined]
+        return "[" + ",".join(_json_value(field, each) for each in value) + "]"
     return _json_value(field, value)
 
 
@@ -108,7 +114,7 @@ def _json_key(key: object) -> str:
     return _json_string(str(key).lower() if isinstance(key, bool) else str(key))
 
 
-def _json_value(field: FieldDescriptor, value: object) -> str:
+def _json_value(field: FieldDescriptor, value: Any) -> str:
     if isinstance(value, Message):
         return to_json_line(value)
     if isinstance(value, bool):
@@ -119,15 +125,16 @@ def _json_value(field: FieldDescriptor, value: object) -> str:
         return _json_string(value)
     if isinstance(value, float):
         return _json_number(value, field.cpp_type == FieldDescriptor.CPPTYPE_FLOAT)
-    if isinstance(field.enum_type, EnumDescriptor) or field.enum_type is not None:
-        known = field.enum_type.values_by_number.get(value)  # type: ignore[arg-type]
+    if field.enum_type is not None:
+        known = field.enum_type.values_by_number.get(value)
         return f'"{known.name}"' if known is not None else str(value)
     return f'"{value}"' if field.cpp_type in _LONG_INTEGERS else str(value)
 
 
 def _json_string(text: str) -> str:
-    quoted = json.dumps(text, ensure_ascii=False)
-    return quoted.replace("<", "\\u003c").replace(">", "\\u003e").replace("\x7f", "\\u007f")
+    return _INVISIBLE.sub(
+        lambda found: json.dumps(found.group())[1:-1], json.dumps(text, ensure_ascii=False)
+    ).translate(_ANGLE_BRACKETS)
 
 
 def _json_number(value: float, single: bool) -> str:
