@@ -74,7 +74,7 @@ class Network:
             self._context.destroy(linger=0)
             raise
         self._inlet = Inlet(self._context, settings.receive_high_water_mark)
-        self._dispatcher = Dispatcher(SWITCHBOARD, settings.receive_high_water_mark, self._wake)
+        self._dispatcher = Dispatcher(SWITCHBOARD, self._inlet)
         self._wake_sender, self._wake_receiver = socket.socketpair()
         self._wake_sender.setblocking(False)
         self._wake_receiver.setblocking(False)
@@ -150,10 +150,11 @@ class Network:
         self._wake()
         if self._thread is not threading.current_thread():
             self._thread.join(_STOP_WITHIN_S)
-        self._dispatcher.stop(_STOP_WITHIN_S)
+        ended = self._dispatcher.stop(_STOP_WITHIN_S)
         self._discovery.close()
         self._outlet.close()
-        if not self._thread.is_alive():
+        if ended and not self._thread.is_alive():
+            self._dispatcher.close()
             self._inlet.close()
             if self._services:
                 self._services.close()
@@ -195,7 +196,6 @@ class Network:
     def _one_round(self, poller: zmq.Poller) -> None:
         wait_s = self._discovery.tick()
         self._inlet.leave_due()
-        poller.register(self._inlet.socket, 0 if self._dispatcher.full() else zmq.POLLIN)
         services = self._services
         if services:
             wait_s = min(wait_s, services.discovery.tick(), RETRY_S if services.retry() else wait_s)
@@ -211,9 +211,8 @@ class Network:
         self._outlet.take_notices()  # always: its descriptor signals a change once, and a signal may be missed
         if services:
             services.take(ready)
-        if self._inlet.socket in ready:
-            for arrival in self._inlet.arrivals():
-                self._dispatcher.put(arrival)
+        if self._inlet.was_used():
+            self._dispatcher.wake()
 
     def _connect_known(self, subscription: Subscription) -> None:
         if not subscription.active:

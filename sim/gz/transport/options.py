@@ -65,7 +65,7 @@ class AdvertiseOptions(_Options):
         """
         other = scope if isinstance(scope, AdvertiseOptions) else None
         self.scope = Scope(scope) if other is None else other.scope  # type: ignore[arg-type]
-        self.fortress = fortress if other is None else other.fortress
+        self.fortress: bool = fortress if other is None else other.fortress
 
     @property
     def scope(self) -> Scope:
