@@ -49,9 +49,7 @@ for line in sys.stdin:
             options = AdvertiseServiceOptions(fortress=True)
             say(answer=node.advertise_service(name, types[0], types[1], serve, options))
         case "serve one-way":
-            node.advertise_service(
-                name, types[0], types[1], lambda request, name=name: say(heard=[name, "", request.data])
-            )
+            node.advertise_service(name, types[0], types[1], lambda request: say(heard=["", "", request.data]))
             say(answer=True)
         case "topics":
             say(answer=node.topic_list())

@@ -13,6 +13,7 @@ import json
 import math
 import re
 import struct
+from collections.abc import Iterator
 from typing import Any, TypeVar
 
 from google.protobuf.descriptor import FieldDescriptor
@@ -20,7 +21,11 @@ from google.protobuf.message import Message
 
 AnyMessage = TypeVar("AnyMessage", bound=Message)
 
-_NOT_ASCII = re.compile(r"[^\x00-\x7f]+")
+_OCTAL = {code: f"\\{code:03o}" for code in (*range(0x20), *range(0x7F, 0x100))} | {
+    ord(character): "\\" + letter for character, letter in zip("\n\r\t\"'\\", "nrt\"'\\", strict=True)
+}
+_SMALLEST_NORMAL_SINGLE = 2.0**-126
+_JSON_NAMES = {"nan": "NaN", "inf": "Infinity", "-inf": "-Infinity"}
 _POSITION = re.compile(r"^(\d+):(\d+) : (.*)$", re.DOTALL)
 _NO_FIELD = re.compile(r'Message type "([\w.]+)" has no field named "([^"]*)"')
 _ANGLE_BRACKETS = {ord("<"): "\\u003c", ord(">"): "\\u003e"}
@@ -41,7 +46,72 @@ class MessageTextError(ValueError):
 
 def to_text(message: Message) -> str:
     """The message in protobuf's text format, two spaces an indentation, ending with a newline unless empty."""
-    return _NOT_ASCII.sub(lambda run: "".join(f"\\{byte:03o}" for byte in run.group().encode()), str(message))
+    return "".join(_lines(message, ""))
+
+
+def _lines(message: Message, indent: str) -> Iterator[str]:
+    for field, value in message.ListFields():
+        entry = field.message_type
+        if entry is not None and entry.GetOptions().map_entry:
+            inside = indent + "  "
+            for key in sorted(value):
+                yield f"{indent}{field.name} {{\n"
+                yield from _field_lines(entry.fields_by_name["key"], key, inside)
+                yield from _field_lines(entry.fields_by_name["value"], value[key], inside)
+                yield f"{indent}}}\n"
+        elif field.is_repeated:
+            for each in value:
+                yield from _field_lines(field, each, indent)
+        else:
+            yield from _field_lines(field, value, indent)
+
+
+def _field_lines(field: FieldDescriptor, value: Any, indent: str) -> Iterator[str]:
+    if isinstance(value, Message):
+        yield f"{indent}{field.name} {{\n"
+        yield from _lines(value, indent + "  ")
+        yield f"{indent}}}\n"
+    else:
+        yield f"{indent}{field.name}: {_scalar(field, value)}\n"
+
+
+def _scalar(field: FieldDescriptor, value: Any) -> str:
+    if isinstance(value, float):
+        return _number(value, field.cpp_type == FieldDescriptor.CPPTYPE_FLOAT)
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        value = value.encode()
+    if isinstance(value, bytes):
+        return f'"{value.decode("latin-1").translate(_OCTAL)}"'
+    if field.enum_type is not None:
+        return _enum_name(field, value)
+    return str(value)
+
+
+def _enum_name(field: FieldDescriptor, value: int) -> str:
+    known = field.enum_type.values_by_number.get(value) if field.enum_type is not None else None
+    return str(known.name if known is not None else value)
+
+
+def _number(value: float, single: bool) -> str:
+    """The shorter of two precisions that reads back as the same number, as C++ protobuf writes it."""
+    if not math.isfinite(value):
+        return "nan" if math.isnan(value) else "inf" if value > 0 else "-inf"
+    short, long = ("%.6g", "%.9g") if single else ("%.15g", "%.17g")
+    text = short % value
+    if single:  # the C library reports too small singles as an error, which makes the C++ writer take the long form
+        same = _as_single(float(text)) == value and (value == 0.0 or abs(value) >= _SMALLEST_NORMAL_SINGLE)
+    else:
+        same = float(text) == value
+    return text if same else long % value
+
+
+def _as_single(value: float) -> float:
+    try:
+        return struct.unpack("f", struct.pack("f", value))[0]
+    except OverflowError:  # rounds to more than a single can hold
+        return math.inf
 
 
 def from_text(text: str, message_class: type[AnyMessage]) -> AnyMessage:
@@ -126,8 +196,8 @@ def _json_value(field: FieldDescriptor, value: Any) -> str:
     if isinstance(value, float):
         return _json_number(value, field.cpp_type == FieldDescriptor.CPPTYPE_FLOAT)
     if field.enum_type is not None:
-        known = field.enum_type.values_by_number.get(value)
-        return f'"{known.name}"' if known is not None else str(value)
+        name = _enum_name(field, value)
+        return f'"{name}"' if not name.lstrip("-").isdigit() else name
     return f'"{value}"' if field.cpp_type in _LONG_INTEGERS else str(value)
 
 
@@ -138,17 +208,5 @@ def _json_string(text: str) -> str:
 
 
 def _json_number(value: float, single: bool) -> str:
-    """The shorter of two precisions that reads back as the same number, as C++ protobuf writes it."""
-    if not math.isfinite(value):
-        return '"NaN"' if math.isnan(value) else '"Infinity"' if value > 0 else '"-Infinity"'
-    short, long = ("%.6g", "%.9g") if single else ("%.15g", "%.17g")
-    text = short % value
-    same = _as_single(float(text)) == value if single else float(text) == value
-    return text if same else long % value
-
-
-def _as_single(value: float) -> float:
-    try:
-        return struct.unpack("f", struct.pack("f", value))[0]
-    except OverflowError:  # rounds to more than a single can hold
-        return math.inf
+    text = _number(value, single)
+    return f'"{_JSON_NAMES[text]}"' if text in _JSON_NAMES else text
