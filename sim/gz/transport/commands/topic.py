@@ -13,9 +13,11 @@ import sys
 import time
 from collections.abc import Sequence
 
+from google.protobuf.message import DecodeError, Message
+
 from gz.command_line import Parser, nearest, positive_seconds, whole_number
 from gz.msgs import canonical_name, message_class
-from gz.transport.echo_queue import EchoQueue
+from gz.transport.echo_queue import Arrival, EchoQueue
 from gz.transport.message_info import MessagePublisher
 from gz.transport.node import Node
 
@@ -88,7 +90,9 @@ def _echo(node: Node, values: argparse.Namespace) -> int:
             while not values.num or printed < values.num:
                 arrival = arrivals.next(min(end, look_at))
                 if arrival is not None:
-                    message = message_class(arrival.type_name).FromString(arrival.data)
+                    message = _decoded(arrival, values.topic)
+                    if message is None:
+                        continue
                     sys.stdout.write(f"{to_json_line(message) if values.json_output else to_text(message)}\n")
                     printed += 1
                 elif arrivals.reader_gone() or time.monotonic() >= end:
@@ -99,6 +103,14 @@ def _echo(node: Node, values: argparse.Namespace) -> int:
     except KeyboardInterrupt:
         return 0
     return 1 if not printed and values.duration is not None and not _published(node, values.topic) else 0
+
+
+def _decoded(arrival: Arrival, topic: str) -> Message | None:
+    try:
+        return message_class(arrival.type_name).FromString(arrival.data)
+    except DecodeError:
+        _say(f"a message on [{topic}] is no {arrival.type_name}; it is left out.")
+        return None
 
 
 def _frequency(node: Node, topic: str) -> int:
