@@ -17,6 +17,8 @@ from gz.transport.inlet import Arrival, Inlet
 from gz.transport.message_info import MessageInfo
 from gz.transport.switchboard import Switchboard
 
+_MOST_DESCRIBED = 1000
+
 
 class Dispatcher:
     """The thread that takes messages out of the inlet."""
@@ -24,6 +26,7 @@ class Dispatcher:
     def __init__(self, switchboard: Switchboard, inlet: Inlet) -> None:
         self._switchboard = switchboard
         self._inlet = inlet
+        self._described: dict[tuple[bytes, bytes], tuple[str, MessageInfo]] = {}
         self._open = True
         self._wake_sender, self._wake_receiver = socket.socketpair()
         self._wake_sender.setblocking(False)
@@ -70,13 +73,26 @@ class Dispatcher:
             try:
                 self._deliver(arrival)
             except BaseException as error:  # SystemExit in a callback must not end the delivery of messages
-                complain(f"Delivering a message of {arrival.name} ended with {type(error).__name__}: {error}")
+                complain(f"Delivering a message of {arrival.name!r} ended with {type(error).__name__}: {error}")
 
     def _deliver(self, arrival: Arrival) -> None:
-        group = self._switchboard.networked_subscriptions(arrival.name)
-        if not group:
-            return
-        partition, topic = naming.split(arrival.name)
-        info = MessageInfo(topic, arrival.type_name, partition, False)
-        for subscription in group:
+        found = self._described.get((arrival.name, arrival.type_name))
+        if found is None:
+            found = self._describe(arrival)
+            if found is None:
+                return
+        name, info = found
+        for subscription in self._switchboard.networked_subscriptions(name):
             subscription.deliver(arrival.data, info)
+
+    def _describe(self, arrival: Arrival) -> tuple[str, MessageInfo] | None:
+        try:
+            name, type_name = arrival.name.decode(), arrival.type_name.decode()
+            partition, topic = naming.split(name)
+        except ValueError:  # not a name, or not even text
+            return None
+        if len(self._described) >= _MOST_DESCRIBED:
+            self._described.clear()
+        found = name, MessageInfo(topic, type_name, partition, False)
+        self._described[arrival.name, arrival.type_name] = found
+        return found

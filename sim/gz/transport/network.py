@@ -92,7 +92,7 @@ class Network:
 
     # ---- called from any thread
 
-    def send(self, name: bytes, data: bytes, type_name: str) -> None:
+    def send(self, name: bytes, data: bytes, type_name: bytes) -> None:
         """Sends a message to the processes that have subscribed to the fully qualified topic."""
         self._outlet.send(name, data, type_name)
 

@@ -49,19 +49,24 @@ class Node(ServiceCalls):
         """
         self._check_open()
         options = options or AdvertiseMessageOptions()
+        scope = min(self._options.scope, options.scope)
+        joined = None
+        if scope != Scope.PROCESS:
+            from gz.transport import network
+
+            joined = network.joined
         publisher = Publisher(
             self._qualified(topic),
             for_fortress(type_name(message_type)) if options.fortress else type_name(message_type),
             self._uuid,
-            min(self._options.scope, options.scope),
+            scope,
             options,
+            joined,
         )
         SWITCHBOARD.add_publisher(publisher)
         self._publishers = [*(each for each in self._publishers if each.valid()), publisher]
-        if publisher.scope != Scope.PROCESS:
-            from gz.transport import network
-
-            network.joined().advertise(publisher)
+        if joined is not None:
+            joined().advertise(publisher)
         return publisher
 
     def subscribe(

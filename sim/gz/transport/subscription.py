@@ -46,6 +46,7 @@ class Subscription:
         self.scope = scope
         self.active = True
         self._ignore_own_node = options.ignore_local_messages
+        self._throttled = options.throttled
         self._throttle = Throttle(options.msgs_per_sec)
         self._callback = callback
         self._message_type = message_type
@@ -60,7 +61,7 @@ class Subscription:
         An exception of the callback becomes one line on stderr. `from_node` is the publishing node, if it is
         one of this process.
         """
-        if not self.active or not self.accepts(info.type):
+        if not self.active or (info.type != self.type_name and not self.accepts(info.type)):
             return
         if self._ignore_own_node and from_node == self.node_uuid:
             return
@@ -72,7 +73,7 @@ class Subscription:
             arguments = (bytes(data), info) if self._message_type is None else (self._message_type.FromString(data),)
         except DecodeError:
             return
-        if not self._throttle.passes():
+        if self._throttled and not self._throttle.passes():
             return
         try:
             self._callback(*arguments)

@@ -25,6 +25,7 @@ class Switchboard:
     def __init__(self) -> None:
         self._changed = threading.Condition(threading.Lock())
         self._subscriptions: dict[str, tuple[Subscription, ...]] = {}
+        self._networked: dict[str, tuple[Subscription, ...]] = {}
         self._publishers: dict[str, tuple[Publisher, ...]] = {}
         self._services: dict[str, tuple[Service, ...]] = {}
 
@@ -48,7 +49,7 @@ class Switchboard:
 
     def networked_subscriptions(self, name: str) -> tuple[Subscription, ...]:
         """The subscriptions of a topic that may hear other processes."""
-        return tuple(each for each in self.subscriptions(name) if each.scope != Scope.PROCESS)
+        return self._networked.get(name, ())
 
     def networked_publishers(self, name: str) -> tuple[Publisher, ...]:
         """The publishers of a topic that other processes may know of."""
@@ -57,21 +58,24 @@ class Switchboard:
     def add_subscription(self, subscription: Subscription) -> None:
         """From now on messages of its topic reach it."""
         with self._changed:
-            group = self._subscriptions.get(subscription.name, ())
-            self._subscriptions[subscription.name] = (*group, subscription)
+            self._set_subscriptions(subscription.name, (*self.subscriptions(subscription.name), subscription))
             self._changed.notify_all()
 
     def remove_subscription(self, subscription: Subscription) -> None:
         """No message reaches it any more, not even one that is under way."""
         subscription.active = False
         with self._changed:
-            group = self._subscriptions.get(subscription.name, ())
-            rest = tuple(each for each in group if each is not subscription)
-            if rest:
-                self._subscriptions[subscription.name] = rest
-            else:
-                self._subscriptions.pop(subscription.name, None)
+            group = self.subscriptions(subscription.name)
+            self._set_subscriptions(subscription.name, tuple(each for each in group if each is not subscription))
             self._changed.notify_all()
+
+    def _set_subscriptions(self, name: str, group: tuple[Subscription, ...]) -> None:
+        networked = tuple(each for each in group if each.scope != Scope.PROCESS)
+        for table, part in ((self._subscriptions, group), (self._networked, networked)):
+            if part:
+                table[name] = part
+            else:
+                table.pop(name, None)
 
     def add_publisher(self, publisher: Publisher) -> None:
         """Makes a publisher known; ValueError when its node already has one on this topic."""
