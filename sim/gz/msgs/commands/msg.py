@@ -8,14 +8,19 @@ from __future__ import annotations
 
 import argparse
 import sys
+from typing import TYPE_CHECKING
 
 from gz.msgs import message_class, type_names
 
+if TYPE_CHECKING:
+    from gz.command_line import Parser
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+
+def add_arguments(parser: Parser) -> None:
     """Adds the options of `gz msg`."""
     parser.add_argument("-l", "--list", action="store_true", help="the names of all message types")
     parser.add_argument("-i", "--info", nargs="+", metavar="TYPE", help="name, file and definition of types")
+    parser.commands("--list", "--info")
 
 
 def run(values: argparse.Namespace) -> int:
