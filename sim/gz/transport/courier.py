@@ -101,8 +101,6 @@ class Courier:
             del self._connected[address]
         else:
             try:
-                if not address.startswith("tcp://"):
-                    return False
                 self._socket.connect(address)
             except zmq.ZMQError:
                 return False

@@ -17,6 +17,7 @@ import zmq
 from gz.msgs.discovery_pb2 import Discovery
 
 from gz.transport import naming
+from gz.transport.address import is_usable
 from gz.transport.courier import Courier, Letter, Target
 from gz.transport.discovery import DiscoveryChannel
 from gz.transport.environment import NetworkSettings
@@ -60,6 +61,7 @@ class ServiceNetwork:
     ) -> None:
         """Opens the sockets. Raises OSError when the network cannot be used."""
         self._process_uuid = process_uuid
+        self._ip = settings.ip
         self._pending: dict[bytes, _Pending] = {}
         self._replier_id, self._receiver_id = str(uuid.uuid4()), str(uuid.uuid4())
         self.discovery = DiscoveryChannel(
@@ -176,6 +178,8 @@ class ServiceNetwork:
         except UnicodeDecodeError:
             return
         receiver_id, node_uuid, key, data = frames[3:7]
+        if not is_one_way(response_type) and not is_usable(address, self._ip):
+            return
         for service in SWITCHBOARD.services(name):
             if service.scope != Scope.PROCESS and service.matches(request_type, response_type):
                 work = functools.partial(self._serve, service, data, address, receiver_id, node_uuid, key)
