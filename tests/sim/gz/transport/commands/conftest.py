@@ -17,8 +17,14 @@ class Command:
     """`gz` as a child process: its lines as they come, its end."""
 
     def __init__(self, *arguments):
+        environment = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
         self.process = subprocess.Popen(
-            [str(GZ), *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+            [str(GZ), *arguments],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            env=environment,
+            start_new_session=True,
         )
         self._lines = {"out": queue.Queue(), "error": queue.Queue()}
         streams = (("out", self.process.stdout), ("error", self.process.stderr))
