@@ -36,9 +36,6 @@ class Pair:
     """The other process, and this one's ways to receive from it."""
 
     def __init__(self):
-        environment = {"GZ_PARTITION": f"bench-{uuid.uuid4()}", "GZ_IP": "127.0.0.1"}
-        environment |= {"GZ_TRANSPORT_SNDHWM": "0", "GZ_TRANSPORT_RCVHWM": "0"}
-        os.environ.update(environment)
         self.process = subprocess.Popen(
             [sys.executable, str(Path(__file__).with_name("transport_pair.py"))],
             stdin=subprocess.PIPE,
@@ -101,6 +98,8 @@ def _figures(times):
 
 def rows() -> Iterator[Row]:
     before = dict(os.environ)
+    os.environ.update({"GZ_PARTITION": f"bench-{uuid.uuid4()}", "GZ_IP": "127.0.0.1"})
+    os.environ.update({"GZ_TRANSPORT_SNDHWM": "0", "GZ_TRANSPORT_RCVHWM": "0"})
     try:
         with contextlib.closing(Pair()) as pair:
             for kind in KINDS:
@@ -156,13 +155,15 @@ def _first_message(pair):
         pair.node.subscribe(
             StringMsg, topic, lambda m, arrived=arrived: arrived.put(time.monotonic_ns() - m.header.stamp.sec)
         )
-        pair.order(do="advertise", topic=topic)
-        took.append(arrived.get(timeout=30) * 1e-6)
+        with contextlib.closing(Pair()) as newcomer:  # a process that nobody knows yet
+            newcomer.order(do="advertise", topic=topic)
+            took.append(arrived.get(timeout=30) * 1e-6)
+        pair.node.unsubscribe(topic)
     return Row(
-        "advertise to first message delivered, median",
+        "advertise in a new process to first message delivered, median",
         f"{statistics.median(took):.1f} ms",
         f"slowest of {CONNECTIONS}: {max(took):.1f} ms",
-        "",
+        "-",
         "at most 20 ms",
     )
 
