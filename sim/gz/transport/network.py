@@ -17,12 +17,12 @@ import time
 import uuid
 from collections import deque
 from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING
 
 import zmq
 from gz.msgs.discovery_pb2 import Discovery
 
 from gz.transport import naming
-from gz.transport.courier import RETRY_S
 from gz.transport.discovery import HEARTBEAT_S
 from gz.transport.dispatcher import Dispatcher
 from gz.transport.environment import DEFAULT_IP, NetworkSettings, complain
@@ -31,10 +31,12 @@ from gz.transport.message_info import MessagePublisher
 from gz.transport.options import UNTHROTTLED, Scope
 from gz.transport.outlet import Outlet
 from gz.transport.publisher import Publisher
-from gz.transport.service_network import ServiceNetwork
 from gz.transport.subscription import Subscription
 from gz.transport.switchboard import SWITCHBOARD
 from gz.transport.topic_discovery import TopicDiscovery
+
+if TYPE_CHECKING:
+    from gz.transport.service_network import ServiceNetwork
 
 _STOP_WITHIN_S = 1.0
 _LINGER_MS = 200
@@ -121,6 +123,8 @@ class Network:
         """The half of the network that serves services; opened by the first call. OSError when it cannot be."""
         with self._services_lock:
             if self._services is None:
+                from gz.transport.service_network import ServiceNetwork  # many processes never need it
+
                 self._services = ServiceNetwork(self._context, self._settings, self.process_uuid, self._wake)
                 self._wake()
             return self._services
@@ -198,7 +202,7 @@ class Network:
         self._inlet.leave_due()
         services = self._services
         if services:
-            wait_s = min(wait_s, services.discovery.tick(), RETRY_S if services.retry() else wait_s)
+            wait_s = min(wait_s, services.tick())
             for source, events in services.sources():
                 poller.register(source, events)
         ready = dict(poller.poll(math.ceil(wait_s * 1000)))

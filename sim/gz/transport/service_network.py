@@ -18,7 +18,7 @@ from gz.msgs.discovery_pb2 import Discovery
 
 from gz.transport import naming
 from gz.transport.address import is_usable
-from gz.transport.courier import Courier, Letter, Target
+from gz.transport.courier import RETRY_S, Courier, Letter, Target
 from gz.transport.discovery import DiscoveryChannel
 from gz.transport.environment import NetworkSettings
 from gz.transport.message_info import ServicePublisher
@@ -161,9 +161,10 @@ class ServiceNetwork:
             for frames in _waiting(self.replier, _REQUEST_FRAMES):
                 self._take_request(frames)
 
-    def retry(self) -> bool:
-        """Tries to send what could not be sent before; whether it must be called again in a millisecond."""
-        return self._courier.retry()
+    def tick(self) -> float:
+        """Does what is due, tries again to send what could not be sent; seconds until it wants to be called."""
+        wait_s = self.discovery.tick()
+        return min(wait_s, RETRY_S) if self._courier.retry() else wait_s
 
     def _take_response(self, frames: list[bytes]) -> None:
         _, name, node_uuid, key, data, result = frames
