@@ -1,7 +1,9 @@
 """The `gz` command: finds the sub-command and hands over to it.
 
-`gz sim world.sdf` calls main(["world.sdf"]) of gz/sim/command.py. A sub-command `x` is a file
-`gz/x/command.py` and nothing else: found by looking into the folders, imported only when it is called.
+A sub-command `x` is a file and nothing else, found by looking into the folders and imported only when it is
+called: `gz/x/command.py`, which reads its arguments itself (`gz sim world.sdf` calls main(["world.sdf"]) of
+gz/sim/command.py), or `gz/*/commands/x.py`, for which `gz.command_line` reads them (`gz topic -l` is
+gz/transport/commands/topic.py).
 """
 
 from __future__ import annotations
@@ -11,7 +13,6 @@ import difflib
 import importlib
 import sys
 from collections.abc import Iterable, Sequence
-from importlib import metadata
 from pathlib import Path
 
 _DISTRIBUTION = "gz-ros2-course"
@@ -19,7 +20,7 @@ _ENGINES = ("mujoco", "pyzmq", "protobuf")
 
 
 def find_commands(folders: Iterable[str | Path] | None = None) -> dict[str, Path]:
-    """Sub-command name -> its command.py, sorted by name; by default from all folders of the `gz` package."""
+    """Sub-command name -> its file, sorted by name; by default from all folders of the `gz` package."""
     if folders is None:
         import gz
 
@@ -28,6 +29,9 @@ def find_commands(folders: Iterable[str | Path] | None = None) -> dict[str, Path
     for folder in folders:
         for path in Path(folder).glob("*/command.py"):
             found.setdefault(path.parent.name, path)
+        for path in Path(folder).glob("*/commands/*.py"):
+            if not path.stem.startswith("_"):
+                found.setdefault(path.stem, path)
     return dict(sorted(found.items()))
 
 
@@ -62,6 +66,8 @@ def _help(commands: dict[str, Path]) -> str:
 
 
 def _versions() -> str:
+    from importlib import metadata  # slow to load, and needed only here
+
     lines = []
     for name in (_DISTRIBUTION, *_ENGINES):
         try:
@@ -88,7 +94,21 @@ def main(argv: Sequence[str] | None = None) -> int:
     if first not in commands:
         print(_unknown(first, commands), file=sys.stderr)
         return 2
-    return importlib.import_module(f"gz.{first}.command").main(arguments[1:]) or 0
+    code = _run(first, commands[first], arguments[1:])
+    if argv is None:
+        from gz.command_line import leave_signals
+
+        leave_signals()
+    return code
+
+
+def _run(name: str, path: Path, arguments: list[str]) -> int:
+    if path.parent.name != "commands":
+        return importlib.import_module(f"gz.{name}.command").main(arguments) or 0
+    from gz import command_line
+
+    module = f"gz.{path.parents[1].name}.commands.{name}"
+    return command_line.run(module, f"gz {name}", arguments, _summary(path))
 
 
 def _unknown(name: str, commands: dict[str, Path]) -> str:

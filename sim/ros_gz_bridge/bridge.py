@@ -156,7 +156,7 @@ class Bridge:
     def _gz_name(self, topic: str) -> str:
         """The Gazebo topic as others see it: namespace and remapping of the node applied."""
         options = self._gz_node.options
-        return naming.split(naming.fully_qualified("", options.namespace, options.topic_remap(topic)))[1]
+        return naming.split(naming.fully_qualified("", options.namespace, options.renamed(topic)))[1]
 
     def _gz_publisher(self, topic: str, pair: TypePair) -> Any:
         """One Gazebo publisher a topic, however many entries feed it."""

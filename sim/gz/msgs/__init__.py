@@ -6,6 +6,6 @@ file for each file of gz-msgs. Nothing else of this project is imported from her
 """
 
 from gz.msgs.pb2_modules import PROTO_MODULES
-from gz.msgs.registry import UnknownTypeError, message_class, type_names
+from gz.msgs.registry import UnknownTypeError, canonical_name, message_class, type_names
 
-__all__ = ["PROTO_MODULES", "UnknownTypeError", "message_class", "type_names"]
+__all__ = ["PROTO_MODULES", "UnknownTypeError", "canonical_name", "message_class", "type_names"]

@@ -201,7 +201,11 @@ class _Reader:
         field.name = self._name("a field name")
         self._expect("=")
         field.number = self._integer(f"the number of field {field.name!r}")
+        first = self._next
         self._skip_options()
+        options = [token for token, _ in self._tokens[first : self._next]]
+        if "packed" in options:  # the only option that shows, in `gz msg --info`
+            field.options.packed = options[options.index("packed") + 1 :][:2] == ["=", "true"]
         self._expect(";")
 
     def _map_type(self, message: DescriptorProto, field: FieldDescriptorProto) -> None:

@@ -23,6 +23,7 @@ from gz.msgs.proto_reader import read_proto
 PROTO_FOLDER = Path(__file__).with_name("proto")
 _IMPORT_PREFIX = "gz/msgs/"
 _PACKAGE = "gz.msgs."
+_FORTRESS_PACKAGE = "ignition.msgs."
 _PREFIXES = ("gz.msgs.", "gz_msgs.", "ignition.msgs.", "ign_msgs.")
 _TOP_LEVEL = re.compile(r"^(message|enum)\s+(\w+)", re.MULTILINE)
 
@@ -71,9 +72,37 @@ def _home_of_each_type() -> dict[str, tuple[str, str]]:
     return homes
 
 
+@functools.cache
+def _fortress_homes() -> dict[str, str]:
+    """Name -> file stem of the messages that are different in Fortress."""
+    homes: dict[str, str] = {}
+    for path in sorted((PROTO_FOLDER / "fortress").glob("*.proto")):
+        found = _TOP_LEVEL.findall(path.read_text(encoding="utf-8"))
+        homes.update({name: f"fortress/{path.stem}" for kind, name in found if kind == "message"})
+    return homes
+
+
+def differs_in_fortress(name: str) -> bool:
+    """Whether a type, in any spelling, has other bytes in Fortress (`ignition.msgs.X`) than in `gz.msgs.X`."""
+    return canonical_name(name).removeprefix(_PACKAGE) in _fortress_homes()
+
+
 def type_names() -> list[str]:
     """The full names of all top-level message types, sorted: `["gz.msgs.Actuators", ...]`."""
     return sorted(_PACKAGE + name for name, (kind, _) in _home_of_each_type().items() if kind == "message")
+
+
+@functools.lru_cache(maxsize=1024)
+def canonical_name(name: str) -> str:
+    """The one spelling of a type name, `gz.msgs.X`; other names than those of Gazebo stay as they are.
+
+    `ignition.msgs.Twist`, as Fortress calls it, `ign_msgs.Twist` and `gz_msgs.Twist` are `gz.msgs.Twist`.
+    """
+    bare = name.removeprefix(".")
+    for prefix in _PREFIXES:
+        if bare.startswith(prefix):
+            return _PACKAGE + bare.removeprefix(prefix)
+    return bare
 
 
 @functools.lru_cache(maxsize=1024)
@@ -81,13 +110,13 @@ def message_class(name: str) -> type[Message]:
     """The class of a message type.
 
     Accepts `gz.msgs.Twist`, `gz_msgs.Twist`, `.gz.msgs.Twist`, `ignition.msgs.Twist`, bare `Twist`, and
-    nested types (`gz.msgs.Header.Map`). Raises UnknownTypeError with the nearest names for anything else.
+    nested types (`gz.msgs.Header.Map`). `ignition.msgs.IMU` is a class of its own, because its bytes are
+    different. Raises UnknownTypeError with the nearest names for anything else.
     """
-    bare = name.removeprefix(".")
-    for prefix in _PREFIXES:
-        if bare.startswith(prefix):
-            bare = bare.removeprefix(prefix)
-            break
+    bare = canonical_name(name).removeprefix(_PACKAGE)
+    if name.removeprefix(".") == _FORTRESS_PACKAGE + bare and bare in _fortress_homes():
+        load_file(_fortress_homes()[bare])
+        return message_factory.GetMessageClass(_pool.FindMessageTypeByName(_FORTRESS_PACKAGE + bare))
     kind, stem = _home_of_each_type().get(bare.partition(".")[0], ("", ""))
     if kind == "message":
         load_file(stem)

@@ -1,29 +1,36 @@
-"""Topics of Gazebo (gz.transport): publish and subscribe, in one process or between many.
+"""Topics and services of Gazebo (gz.transport), in one process or between many.
 
-The names and signatures are those of the official Python binding, so code moves to a full Gazebo by changing
-the import; what is ours alone (`Scope` for a whole node, `wait_for_subscribers`, `close`) is said where it is
-defined.
+The names and signatures are those of the official Python binding, so code moves to a full Gazebo by changing the
+import; what is ours alone (`Scope` for a whole node, `wait_for_subscribers`, `advertise_service`, `close`) is said
+where it is defined.
 """
 
-from gz.transport.message_info import MessageInfo, MessagePublisher
+from gz.transport.message_info import MessageInfo, MessagePublisher, ServicePublisher
 from gz.transport.node import Node
 from gz.transport.options import (
     UNTHROTTLED,
     AdvertiseMessageOptions,
+    AdvertiseOptions,
+    AdvertiseServiceOptions,
     NodeOptions,
     Scope,
     SubscribeOptions,
 )
 from gz.transport.publisher import Publisher
+from gz.transport.service import CallResult
 
 __all__ = [
     "UNTHROTTLED",
     "AdvertiseMessageOptions",
+    "AdvertiseOptions",
+    "AdvertiseServiceOptions",
+    "CallResult",
     "MessageInfo",
     "MessagePublisher",
     "Node",
     "NodeOptions",
     "Publisher",
     "Scope",
+    "ServicePublisher",
     "SubscribeOptions",
 ]

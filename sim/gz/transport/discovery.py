@@ -8,6 +8,7 @@ special to topics is in topic_discovery.py. Protocol and times: gz-transport's d
 from __future__ import annotations
 
 import contextlib
+import errno
 import socket
 import threading
 import time
@@ -16,6 +17,7 @@ from collections.abc import Callable, Iterable
 from gz.msgs.discovery_pb2 import Discovery
 
 from gz.transport import datagram, naming
+from gz.transport.address import is_loopback, is_of_this_machine, is_usable, within_reach
 from gz.transport.environment import NetworkSettings, complain
 from gz.transport.options import Scope
 
@@ -25,6 +27,9 @@ COMPLETE_AFTER_S = HEARTBEAT_S + 0.1
 """After so long every other process has sent a heartbeat, so the list of what there is, is complete."""
 _RECEIVE_BUFFER_BYTES = 1 << 20
 _MOST_AT_ONCE = 1000
+_MOST_PROCESSES, _MOST_TOPICS, _MOST_OF_ONE_TOPIC = 2000, 20_000, 1000
+"""More than any real network has; a flood of invented ones must not eat up the memory."""
+_CHECK_EVERY_S = 0.1
 
 RecordKey = tuple[str, str, str]
 """(process, node, address)"""
@@ -57,7 +62,7 @@ class DiscoveryChannel:
         self._records: dict[str, dict[RecordKey, Discovery.Publisher]] = {}
         self._last_heard: dict[str, float] = {}
         self._started = time.monotonic()
-        self._next_heartbeat = self._started
+        self._next_heartbeat = self._next_check = self._started
         self._open = True
         self._send_failed = False
         self._socket = self._open_socket()
@@ -76,13 +81,21 @@ class DiscoveryChannel:
             udp.setblocking(False)
         except OSError as error:
             udp.close()
-            raise OSError(
-                error.errno,
-                f"gz.transport cannot use multicast group {self._settings.group}, port {self._target[1]}, "
-                f"on address {self._settings.ip} ({error.strerror}): "
-                "is GZ_IP an address of this machine, and its network up?",
-            ) from error
+            raise OSError(error.errno, self._refusal(error)) from error
         return udp
+
+    def _refusal(self, error: OSError) -> str:
+        group, port = self._target
+        seen = f"gz.transport cannot use multicast group {group}, port {port}, on address {self._settings.ip}"
+        if error.errno == errno.EADDRINUSE:
+            variable = "GZ_DISCOVERY_MSG_PORT" if port == self._settings.message_port else "GZ_DISCOVERY_SRV_PORT"
+            return (
+                f"{seen}, because another program keeps the UDP port {port} to itself: end that program "
+                f"(`ss -ulpn` shows it), or set {variable} to another port for all processes."
+            )
+        if error.errno in (errno.ENODEV, errno.EADDRNOTAVAIL) and is_loopback(self._settings.ip):
+            return f"{seen}, because the loopback interface is down: `ip link set lo up` starts it."
+        return f"{seen} ({error.strerror}): is GZ_IP an address of this machine, and its network up?"
 
     def fileno(self) -> int:
         """The descriptor that becomes readable when datagrams wait."""
@@ -159,6 +172,10 @@ class DiscoveryChannel:
             message = datagram.decode(data)
             if message is None or message.process_uuid == self.process_uuid or message.flags.relay:
                 continue
+            if not within_reach(source[0], self._settings.ip):
+                continue
+            if message.process_uuid not in self._last_heard and len(self._last_heard) >= _MOST_PROCESSES:
+                continue
             self._last_heard[message.process_uuid] = time.monotonic()
             self.handle(message, source[0])
 
@@ -185,7 +202,9 @@ class DiscoveryChannel:
         record = message.pub
         if record.scope == Scope.PROCESS or record.process_uuid != message.process_uuid:
             return False
-        if record.scope == Scope.HOST and source_ip != self._settings.ip and not source_ip.startswith("127."):
+        if record.scope == Scope.HOST and not is_of_this_machine(source_ip):
+            return False
+        if message.type == Discovery.ADVERTISE and not is_usable(record.address, self._settings.ip):
             return False
         try:
             naming.split(record.topic)
@@ -196,8 +215,12 @@ class DiscoveryChannel:
     def _remember(self, record: Discovery.Publisher) -> None:
         key = (record.process_uuid, record.node_uuid, record.address)
         with self._lock:
+            if record.topic not in self._records and len(self._records) >= _MOST_TOPICS:
+                return
             group = self._records.setdefault(record.topic, {})
             is_new = key not in group
+            if is_new and len(group) >= _MOST_OF_ONE_TOPIC:
+                return
             group[key] = record
         self._on_advertise(record, is_new)
 
@@ -235,13 +258,15 @@ class DiscoveryChannel:
             self._send_about_process(Discovery.HEARTBEAT)
             for record in self._own(None):
                 self.advertise(record)
-        wanted = self._next_heartbeat
-        for process_uuid, heard in list(self._last_heard.items()):
-            if now - heard > SILENCE_LIMIT_S:
-                self._forget_process(process_uuid)
-            else:
-                wanted = min(wanted, heard + SILENCE_LIMIT_S)
-        return max(0.001, wanted - now + 0.001)
+        if now >= self._next_check:
+            self._next_check = now + HEARTBEAT_S
+            for process_uuid, heard in list(self._last_heard.items()):
+                if now - heard > SILENCE_LIMIT_S:
+                    self._forget_process(process_uuid)
+                else:
+                    self._next_check = min(self._next_check, heard + SILENCE_LIMIT_S)
+            self._next_check = max(self._next_check, now + _CHECK_EVERY_S)
+        return max(0.001, min(self._next_heartbeat, self._next_check) - now + 0.001)
 
     # ---- the end
 

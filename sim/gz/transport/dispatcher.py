@@ -1,76 +1,98 @@
-"""Calls the callbacks for messages of other processes, in one thread, in the order of arrival.
+"""Receives the messages of other processes and calls the callbacks, in one thread, in the order of arrival.
 
-Between the I/O thread and the subscriptions. It is a thread of its own so that a callback may take its time,
-and may itself advertise, subscribe or wait, without stopping discovery. When callbacks are too slow the queue
-fills up and the I/O thread stops reading until there is room; ZeroMQ then drops, as it does in gz-transport.
+Between the receiving socket and the subscriptions. It is a thread of its own so that a callback may take its
+time, and may itself advertise, subscribe or wait, without stopping discovery; and it reads the socket itself, so
+that a message has no other thread to pass. When callbacks are too slow, ZeroMQ's queue fills up and drops.
 """
 
 from __future__ import annotations
 
-import queue
+import select
+import socket
 import threading
-from collections.abc import Callable
 
 from gz.transport import naming
 from gz.transport.environment import complain
-from gz.transport.inlet import Arrival
+from gz.transport.inlet import Arrival, Inlet
 from gz.transport.message_info import MessageInfo
 from gz.transport.switchboard import Switchboard
 
+_MOST_DESCRIBED = 1000
+
 
 class Dispatcher:
-    """A queue of messages and the thread that empties it."""
+    """The thread that takes messages out of the inlet."""
 
-    def __init__(self, switchboard: Switchboard, limit: int, on_room: Callable[[], None]) -> None:
-        """`limit` messages may wait (0: any number); `on_room()` is called when full() is over."""
+    def __init__(self, switchboard: Switchboard, inlet: Inlet) -> None:
         self._switchboard = switchboard
-        self._limit = limit
-        self._on_room = on_room
-        self._queue: queue.SimpleQueue[Arrival | None] = queue.SimpleQueue()
-        self._was_full = False
+        self._inlet = inlet
+        self._described: dict[tuple[bytes, bytes], tuple[str, MessageInfo]] = {}
+        self._open = True
+        self._wake_sender, self._wake_receiver = socket.socketpair()
+        self._wake_sender.setblocking(False)
+        self._wake_receiver.setblocking(False)
         self._thread = threading.Thread(target=self._run, name="gz-transport-callbacks", daemon=True)
 
     def start(self) -> None:
         """Starts the thread."""
         self._thread.start()
 
-    def put(self, arrival: Arrival) -> None:
-        """Queues a message."""
-        self._queue.put(arrival)
+    def wake(self) -> None:
+        """Makes the thread look at the socket: whoever else used it may have taken its signal."""
+        try:
+            self._wake_sender.send(b"!")
+        except OSError:  # full: it will wake up anyway; closed: it has stopped
+            return
 
-    def full(self) -> bool:
-        """Whether no more should be put in."""
-        if self._limit and self._queue.qsize() >= self._limit:
-            self._was_full = True
-            # The queue may have been emptied between the two lines above; then nobody would call on_room().
-            return self._queue.qsize() >= self._limit
-        return False
-
-    def stop(self, timeout: float) -> None:
-        """Ends the thread after the callback it is in; waits at most `timeout` seconds for that."""
-        self._limit = 0
-        self._queue.put(None)
+    def stop(self, timeout: float) -> bool:
+        """Ends the thread after the callback it is in; waits at most `timeout` seconds; whether it has ended."""
+        self._open = False
+        self.wake()
         if self._thread is not threading.current_thread():
             self._thread.join(timeout)
+        return not self._thread.is_alive()
+
+    def close(self) -> None:
+        """Lets go of the descriptors."""
+        self._wake_sender.close()
+        self._wake_receiver.close()
 
     def _run(self) -> None:
-        while True:
-            arrival = self._queue.get()
+        wake, message = self._wake_receiver.fileno(), self._inlet.fileno()
+        poller = select.poll()
+        poller.register(wake, select.POLLIN)
+        poller.register(message, select.POLLIN)
+        receive = self._inlet.receive
+        while self._open:
+            arrival = receive()
             if arrival is None:
-                return
+                for descriptor, _ in poller.poll():
+                    if descriptor == wake:
+                        self._wake_receiver.recv(4096)
+                continue
             try:
                 self._deliver(arrival)
             except BaseException as error:  # SystemExit in a callback must not end the delivery of messages
-                complain(f"Delivering a message of {arrival.name} ended with {type(error).__name__}: {error}")
-            if self._was_full and self._queue.qsize() <= self._limit // 2:
-                self._was_full = False
-                self._on_room()
+                complain(f"Delivering a message of {arrival.name!r} ended with {type(error).__name__}: {error}")
 
     def _deliver(self, arrival: Arrival) -> None:
-        group = self._switchboard.networked_subscriptions(arrival.name)
-        if not group:
-            return
-        partition, topic = naming.split(arrival.name)
-        info = MessageInfo(topic, arrival.type_name, partition, False)
-        for subscription in group:
+        found = self._described.get((arrival.name, arrival.type_name))
+        if found is None:
+            found = self._describe(arrival)
+            if found is None:
+                return
+        name, info = found
+        for subscription in self._switchboard.networked_subscriptions(name):
             subscription.deliver(arrival.data, info)
+
+    def _describe(self, arrival: Arrival) -> tuple[str, MessageInfo] | None:
+        try:
+            name, type_name = arrival.name.decode(), arrival.type_name.decode()
+            partition, topic = naming.split(name)
+        except ValueError:  # not a name, or not even text
+            return None
+        if len(self._described) >= _MOST_DESCRIBED:
+            self._described.clear()
+        found = name, MessageInfo(topic, type_name, partition, False)
+        self._described[arrival.name, arrival.type_name] = found
+        return found

@@ -1,11 +1,14 @@
-"""The socket through which this process receives messages of others. Used by the I/O thread only.
+"""The socket through which this process receives messages of others.
 
-It connects to the publishers that discovery has found, and sets a filter for each topic. The filter of ZeroMQ
-lets through everything that begins like the topic, so the exact name is compared again on delivery.
+It connects to the publishers that discovery has found, and sets a filter for each topic: that is the I/O thread's
+part; the dispatcher thread receives. The filter of ZeroMQ lets through everything that begins like the topic, so
+the exact name is compared again on delivery.
 """
 
 from __future__ import annotations
 
+import contextlib
+import threading
 import time
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -16,41 +19,64 @@ from gz.transport.environment import complain
 
 LEAVE_AFTER_S = 5.0
 """So long the connection to a publisher that is gone stays open: what it sent last is still to be read."""
-_MOST_AT_ONCE = 256
+_LARGEST_FRAME = 1 << 30
+_FRAMES = 4
+_MORE, _NO_WAIT = int(zmq.RCVMORE), int(zmq.NOBLOCK)  # the plain numbers are faster
+_MOST_UNUSABLE = 1000
 _RECONNECT_MS, _RECONNECT_MOST_MS = 100, 2000
 
 
 class Arrival(NamedTuple):
-    """A message of another process."""
+    """A message of another process: fully qualified topic, serialized message, type name."""
 
-    name: str
+    name: bytes
     data: bytes
-    type_name: str
+    type_name: bytes
 
 
 class Inlet:
     """The receiving half of the data path between processes."""
 
     def __init__(self, context: zmq.Context[zmq.Socket[bytes]], high_water_mark: int) -> None:
+        self._lock = threading.Lock()
         self.socket = context.socket(zmq.SUB)
         self.socket.setsockopt(zmq.LINGER, 0)
         self.socket.setsockopt(zmq.RCVHWM, high_water_mark)
         self.socket.setsockopt(zmq.RECONNECT_IVL, _RECONNECT_MS)
         self.socket.setsockopt(zmq.RECONNECT_IVL_MAX, _RECONNECT_MOST_MS)
+        self.socket.setsockopt(zmq.MAXMSGSIZE, _LARGEST_FRAME)
+        self._descriptor = int(self.socket.getsockopt(zmq.FD))
+        self._was_used = False
         self._connected: set[str] = set()
         self._unusable: set[str] = set()
         self._leaving: dict[str, float] = {}
         self._filters: set[str] = set()
 
+    @contextlib.contextmanager
+    def _using(self) -> Iterator[None]:
+        with self._lock:
+            self._was_used = True
+            yield
+
+    def was_used(self) -> bool:
+        """Whether the socket was used since the last call, other than by receive(), which must then look again."""
+        used, self._was_used = self._was_used, False
+        return used
+
+    def fileno(self) -> int:
+        """Becomes readable when receive() may have something."""
+        return self._descriptor
+
     def listen(self, name: str, address: str) -> bool:
         """Receives a topic from the process at `address`; False when the address cannot be used."""
         self._leaving.pop(address, None)
         if name not in self._filters:
-            self.socket.setsockopt(zmq.SUBSCRIBE, name.encode())
+            with self._using():
+                self.socket.setsockopt(zmq.SUBSCRIBE, name.encode())
             self._filters.add(name)
         if address not in self._connected:
             if not self._connect(address):
-                if address not in self._unusable:
+                if address not in self._unusable and len(self._unusable) < _MOST_UNUSABLE:
                     self._unusable.add(address)
                     complain(f"The publisher of {name} has an address that cannot be used: {address[:100]!r}.")
                 return False
@@ -61,7 +87,8 @@ class Inlet:
         if not address.startswith("tcp://"):
             return False
         try:
-            self.socket.connect(address)
+            with self._using():
+                self.socket.connect(address)
         except zmq.ZMQError:
             return False
         return True
@@ -70,7 +97,8 @@ class Inlet:
         """No longer receives a topic."""
         if name in self._filters:
             self._filters.remove(name)
-            self.socket.setsockopt(zmq.UNSUBSCRIBE, name.encode())
+            with self._using():
+                self.socket.setsockopt(zmq.UNSUBSCRIBE, name.encode())
 
     def leave_soon(self, address: str) -> None:
         """The process at `address` is gone: disconnect, but not before its last messages are read."""
@@ -82,24 +110,26 @@ class Inlet:
         if not self._leaving:
             return
         now = time.monotonic()
-        for address in [address for address, due in self._leaving.items() if now >= due]:
+        leaving = [address for address, due in self._leaving.items() if now >= due]
+        for address in leaving:
             del self._leaving[address]
             self._connected.discard(address)
-            self.socket.disconnect(address)
+            with self._using():
+                self.socket.disconnect(address)
 
-    def arrivals(self) -> Iterator[Arrival]:
-        """The messages that wait, up to a limit, so that one busy topic does not starve discovery."""
-        for _ in range(_MOST_AT_ONCE):
-            try:
-                frames: list[bytes] = self.socket.recv_multipart(zmq.NOBLOCK)
-            except zmq.Again:
-                return
-            if len(frames) < 4:
-                continue
-            try:
-                yield Arrival(frames[0].decode(), frames[2], frames[3].decode())
-            except UnicodeDecodeError:
-                continue
+    def receive(self) -> Arrival | None:
+        """The next message, None when there is none. Does not wait."""
+        receive, more = self.socket.recv, self.socket.getsockopt
+        while True:
+            with self._lock:
+                try:
+                    frames: list[bytes] = [receive(_NO_WAIT)]
+                except zmq.Again:
+                    return None
+                while more(_MORE):
+                    frames.append(receive())
+            if len(frames) >= _FRAMES:
+                return Arrival(frames[0], frames[2], frames[3])
 
     def close(self) -> None:
         """Closes the socket."""

@@ -1,14 +1,14 @@
 """What is known about a message besides its contents, and about a publisher or subscriber besides its name.
 
 MessageInfo accompanies the bytes into callbacks of subscribe_raw(); MessagePublisher is what topic_info()
-lists.
+lists, ServicePublisher what service_info() lists.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from gz.transport.options import Scope
+from gz.transport.options import UNTHROTTLED, AdvertiseMessageOptions, AdvertiseServiceOptions, Scope
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,3 +41,39 @@ class MessagePublisher:
     """Identity of the node."""
     scope: Scope = Scope.ALL
     """How far it reaches."""
+    msgs_per_sec: int = UNTHROTTLED
+    """The most messages per second it sends."""
+    ctrl: str = ""
+    """Unused in this version of the protocol."""
+
+    @property
+    def options(self) -> AdvertiseMessageOptions:
+        """What it was advertised with, as far as others are told."""
+        return AdvertiseMessageOptions(self.scope, self.msgs_per_sec)
+
+
+@dataclass(frozen=True, slots=True)
+class ServicePublisher:
+    """One provider of a service."""
+
+    topic: str
+    """Name of the service without the partition."""
+    addr: str
+    """Address of the process, e.g. `tcp://127.0.0.1:37011`; empty when nobody outside can reach it."""
+    req_type_name: str
+    """Type name of requests."""
+    rep_type_name: str
+    """Type name of responses; `gz.msgs.Empty` when there are none."""
+    p_uuid: str
+    """Identity of the process."""
+    n_uuid: str
+    """Identity of the node."""
+    scope: Scope = Scope.ALL
+    """How far it reaches."""
+    socket_id: str = ""
+    """Identity of the socket at `addr`."""
+
+    @property
+    def options(self) -> AdvertiseServiceOptions:
+        """What it was advertised with, as far as others are told."""
+        return AdvertiseServiceOptions(self.scope)

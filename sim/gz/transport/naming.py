@@ -65,15 +65,15 @@ def as_valid_topic(name: str) -> str:
     return name if is_valid_topic(name) else ""
 
 
-def fully_qualified(partition: str, namespace: str, topic: str) -> str:
+def fully_qualified(partition: str, namespace: str, topic: str, what: str = "topic") -> str:
     """The name on the wire: `@/partition@/namespace/topic`.
 
-    A topic that starts with `/` is absolute and ignores the namespace. Raises ValueError when a part breaks a
-    rule or the whole is longer than 65535 bytes.
+    A topic that starts with `/` is absolute and ignores the namespace; `what` is what errors call the topic. Raises
+    ValueError when a part breaks a rule or the whole is longer than 65535 bytes.
     """
     check(partition, "partition", may_be_empty=True)
     check(namespace, "namespace", may_be_empty=True)
-    check(topic, "topic")
+    check(topic, what)
     if partition and not partition.startswith("/"):
         partition = "/" + partition
     partition = partition.removesuffix("/")

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import atexit
 import contextlib
+import math
 import os
 import socket
 import threading
@@ -16,6 +17,7 @@ import time
 import uuid
 from collections import deque
 from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING
 
 import zmq
 from gz.msgs.discovery_pb2 import Discovery
@@ -26,12 +28,15 @@ from gz.transport.dispatcher import Dispatcher
 from gz.transport.environment import DEFAULT_IP, NetworkSettings, complain
 from gz.transport.inlet import Inlet
 from gz.transport.message_info import MessagePublisher
-from gz.transport.options import Scope
+from gz.transport.options import UNTHROTTLED, Scope
 from gz.transport.outlet import Outlet
 from gz.transport.publisher import Publisher
 from gz.transport.subscription import Subscription
 from gz.transport.switchboard import SWITCHBOARD
 from gz.transport.topic_discovery import TopicDiscovery
+
+if TYPE_CHECKING:
+    from gz.transport.service_network import ServiceNetwork
 
 _STOP_WITHIN_S = 1.0
 _LINGER_MS = 200
@@ -44,6 +49,9 @@ class Network:
         """Opens the sockets and starts the threads. Raises OSError when the network cannot be used."""
         self.process_uuid = str(uuid.uuid4())
         self._open = True
+        self._settings = settings
+        self._services: ServiceNetwork | None = None
+        self._services_lock = threading.Lock()
         self._commands: deque[Callable[[], None]] = deque()
         self._told: dict[tuple[str, str, str, str], float] = {}
         self._context: zmq.Context[zmq.Socket[bytes]] = zmq.Context()
@@ -68,7 +76,7 @@ class Network:
             self._context.destroy(linger=0)
             raise
         self._inlet = Inlet(self._context, settings.receive_high_water_mark)
-        self._dispatcher = Dispatcher(SWITCHBOARD, settings.receive_high_water_mark, self._wake)
+        self._dispatcher = Dispatcher(SWITCHBOARD, self._inlet)
         self._wake_sender, self._wake_receiver = socket.socketpair()
         self._wake_sender.setblocking(False)
         self._wake_receiver.setblocking(False)
@@ -78,12 +86,15 @@ class Network:
                 self.advertise(publisher)
         for subscription in _networked_subscriptions():
             self.subscribe(subscription)
+        offered = [each for each in SWITCHBOARD.all_services() if each.scope != Scope.PROCESS]
         self._dispatcher.start()
         self._thread.start()
+        for service in offered:
+            self.services().advertise(service)
 
     # ---- called from any thread
 
-    def send(self, name: bytes, data: bytes, type_name: str) -> None:
+    def send(self, name: bytes, data: bytes, type_name: bytes) -> None:
         """Sends a message to the processes that have subscribed to the fully qualified topic."""
         self._outlet.send(name, data, type_name)
 
@@ -108,6 +119,16 @@ class Network:
         announced = self._discovery.subscriber_processes(name, type_name)
         return min(announced, self._outlet.listeners(name.encode())) if announced else 0
 
+    def services(self) -> ServiceNetwork:
+        """The half of the network that serves services; opened by the first call. OSError when it cannot be."""
+        with self._services_lock:
+            if self._services is None:
+                from gz.transport.service_network import ServiceNetwork  # many processes never need it
+
+                self._services = ServiceNetwork(self._context, self._settings, self.process_uuid, self._wake)
+                self._wake()
+            return self._services
+
     def known_elsewhere(
         self,
     ) -> tuple[list[tuple[str, MessagePublisher]], list[tuple[str, MessagePublisher]]]:
@@ -126,15 +147,21 @@ class Network:
         if not self._open:
             return
         self._discovery.say_farewell()
+        if self._services:
+            self._services.discovery.say_farewell()
+            self._services.stop_threads()
         self._open = False
         self._wake()
         if self._thread is not threading.current_thread():
             self._thread.join(_STOP_WITHIN_S)
-        self._dispatcher.stop(_STOP_WITHIN_S)
+        ended = self._dispatcher.stop(_STOP_WITHIN_S)
         self._discovery.close()
         self._outlet.close()
-        if not self._thread.is_alive():
+        if ended and not self._thread.is_alive():
+            self._dispatcher.close()
             self._inlet.close()
+            if self._services:
+                self._services.close()
             self._context.destroy(linger=_LINGER_MS)
         self._wake_sender.close()
         self._wake_receiver.close()
@@ -143,6 +170,8 @@ class Network:
         """In a forked child: lets go of what belongs to the parent, without a word to anybody."""
         self._open = False
         self._discovery.close()
+        if self._services:
+            self._services.discovery.close()
         self._wake_sender.close()
         self._wake_receiver.close()
 
@@ -171,8 +200,12 @@ class Network:
     def _one_round(self, poller: zmq.Poller) -> None:
         wait_s = self._discovery.tick()
         self._inlet.leave_due()
-        poller.register(self._inlet.socket, 0 if self._dispatcher.full() else zmq.POLLIN)
-        ready = dict(poller.poll(int(wait_s * 1000) + 1))
+        services = self._services
+        if services:
+            wait_s = min(wait_s, services.tick())
+            for source, events in services.sources():
+                poller.register(source, events)
+        ready = dict(poller.poll(math.ceil(wait_s * 1000)))
         if self._wake_receiver.fileno() in ready:
             self._wake_receiver.recv(4096)
         while self._commands:
@@ -180,9 +213,10 @@ class Network:
         if self._discovery.fileno() in ready:
             self._discovery.receive()
         self._outlet.take_notices()  # always: its descriptor signals a change once, and a signal may be missed
-        if self._inlet.socket in ready:
-            for arrival in self._inlet.arrivals():
-                self._dispatcher.put(arrival)
+        if services:
+            services.take(ready)
+        if self._inlet.was_used():
+            self._dispatcher.wake()
 
     def _connect_known(self, subscription: Subscription) -> None:
         if not subscription.active:
@@ -263,6 +297,8 @@ def _listed(records: list[Discovery.Publisher]) -> list[tuple[str, MessagePublis
             record.process_uuid,
             record.node_uuid,
             Scope(record.scope) if record.scope in (1, 2) else Scope.ALL,
+            record.msg_pub.msgs_per_sec or UNTHROTTLED,
+            record.msg_pub.ctrl,
         )
         found.append((record.topic, info))
     return found

@@ -1,4 +1,4 @@
-"""The door to all topics: a node advertises, subscribes, and lists what there is.
+"""The door to all topics and services: a node advertises, subscribes, and lists what there is.
 
 A node turns names into fully qualified ones, keeps its publishers and subscriptions, and registers them in
 the switchboard of the process and, unless its scope is PROCESS, with the network.
@@ -18,12 +18,14 @@ from gz.transport import naming
 from gz.transport.message_info import MessageInfo, MessagePublisher
 from gz.transport.options import AdvertiseMessageOptions, NodeOptions, Scope, SubscribeOptions
 from gz.transport.publisher import Publisher
+from gz.transport.service_calls import ServiceCalls
 from gz.transport.subscription import GENERIC_TYPE, Subscription
 from gz.transport.switchboard import SWITCHBOARD
+from gz.transport.type_name import for_fortress, type_name
 
 
-class Node:
-    """A participant in the topics of its partition. Use it in a `with` statement, or close() it."""
+class Node(ServiceCalls):
+    """A participant in the topics and services of its partition. Use it in a `with` statement, or close() it."""
 
     def __init__(self, options: NodeOptions | None = None) -> None:
         """Nothing happens on the network before the first advertise, subscribe or list."""
@@ -47,19 +49,24 @@ class Node:
         """
         self._check_open()
         options = options or AdvertiseMessageOptions()
+        scope = min(self._options.scope, options.scope)
+        joined = None
+        if scope != Scope.PROCESS:
+            from gz.transport import network
+
+            joined = network.joined
         publisher = Publisher(
             self._qualified(topic),
-            _type_name(message_type),
+            for_fortress(type_name(message_type)) if options.fortress else type_name(message_type),
             self._uuid,
-            min(self._options.scope, options.scope),
+            scope,
             options,
+            joined,
         )
         SWITCHBOARD.add_publisher(publisher)
         self._publishers = [*(each for each in self._publishers if each.valid()), publisher]
-        if publisher.scope != Scope.PROCESS:
-            from gz.transport import network
-
-            network.joined().advertise(publisher)
+        if joined is not None:
+            joined().advertise(publisher)
         return publisher
 
     def subscribe(
@@ -80,7 +87,7 @@ class Node:
                 f"subscribe() takes the message class first and the topic second: expected a class such as "
                 f"gz.msgs.twist_pb2.Twist, but was given {message_type!r}."
             )
-        return self._subscribe(topic, _type_name(message_type), callback, options, message_type)
+        return self._subscribe(topic, type_name(message_type), callback, options, message_type)
 
     def subscribe_raw(
         self,
@@ -90,12 +97,12 @@ class Node:
         options: SubscribeOptions | None = None,
     ) -> bool:
         """Calls `callback(data, info)` with the serialized message; without a type name, for every type."""
-        return self._subscribe(topic, _type_name(message_type), callback, options, None)
+        return self._subscribe(topic, type_name(message_type), callback, options, None)
 
     def _subscribe(
         self,
         topic: str,
-        type_name: str,
+        kind: str,
         callback: Callable[..., Any],
         options: SubscribeOptions | None,
         message_type: type[Message] | None,
@@ -105,7 +112,7 @@ class Node:
             raise TypeError(f"The callback for topic {topic!r} cannot be called: it is {callback!r}.")
         subscription = Subscription(
             self._qualified(topic),
-            type_name,
+            kind,
             self._uuid,
             self._options.scope,
             options or SubscribeOptions(),
@@ -203,13 +210,14 @@ class Node:
         )
 
     def close(self) -> None:
-        """Closes all publishers and ends all subscriptions of this node. Closing twice does nothing."""
+        """Closes all publishers and ends all subscriptions and services of this node. Closing twice does nothing."""
         self._open = False
         for publisher in self._publishers:
             publisher.close()
         self._publishers.clear()
         for subscription in list(self._subscriptions):
             self._end(subscription)
+        self._end_services()
 
     def __enter__(self) -> Node:
         return self
@@ -222,21 +230,6 @@ class Node:
     ) -> None:
         self.close()
 
-    def _qualified(self, topic: str) -> str:
-        topic = self._options.topic_remap(topic)
-        return naming.fully_qualified(self._options.partition, self._options.namespace, topic)
-
     def _check_open(self) -> None:
         if not self._open:
             raise RuntimeError("This node is closed: create a new Node() to advertise or subscribe again.")
-
-
-def _type_name(message_type: type[Message] | str) -> str:
-    if isinstance(message_type, str):
-        return message_type
-    if isinstance(message_type, type) and issubclass(message_type, Message):
-        return str(message_type.DESCRIPTOR.full_name)
-    raise TypeError(
-        f"Expected a message class such as gz.msgs.twist_pb2.Twist or a type name such as 'gz.msgs.Twist', "
-        f"but was given {message_type!r}."
-    )

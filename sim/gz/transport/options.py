@@ -6,7 +6,9 @@ described here and done in node.py, publisher.py and subscription.py.
 
 from __future__ import annotations
 
+import copy
 import enum
+from typing import TypeVar
 
 from gz.transport import environment, naming
 
@@ -28,12 +30,68 @@ def _checked_rate(rate: int) -> int:
     return rate
 
 
-class AdvertiseMessageOptions:
-    """Options of a publisher: its scope, and the most messages per second it sends."""
+Options = TypeVar("Options", bound="_Options")
 
-    def __init__(self, scope: Scope = Scope.ALL, msgs_per_sec: int = UNTHROTTLED) -> None:
-        self.scope = Scope(scope)
-        self.msgs_per_sec = msgs_per_sec
+
+class _Options:
+    """What all options have in common: they can be copied, and compared by what they hold."""
+
+    def __copy__(self: Options) -> Options:
+        other = type(self).__new__(type(self))
+        vars(other).update({name: copy.copy(value) for name, value in vars(self).items()})
+        return other
+
+    def __deepcopy__(self: Options, memo: dict[int, object]) -> Options:
+        return self.__copy__()
+
+    def __eq__(self, other: object) -> bool:
+        return type(self) is type(other) and vars(self) == vars(other)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{name.removeprefix('_')}={value!r}" for name, value in vars(self).items())
+        return f"{type(self).__name__}({values})"
+
+
+class AdvertiseOptions(_Options):
+    """What publishers and services have in common: a scope and, our addition, whether Fortress understands them."""
+
+    def __init__(self, scope: Scope | AdvertiseOptions = Scope.ALL, fortress: bool = False) -> None:
+        """Takes the values, or other options to copy.
+
+        With `fortress` the types are announced as `ignition.msgs.X`, which is what Fortress calls them; its tools
+        and bridges then understand them, and newer ones do not.
+        """
+        other = scope if isinstance(scope, AdvertiseOptions) else None
+        self.scope = Scope(scope) if other is None else other.scope  # type: ignore[arg-type]
+        self.fortress: bool = fortress if other is None else other.fortress
+
+    @property
+    def scope(self) -> Scope:
+        """How far it reaches: this process, this machine, or all."""
+        return self._scope
+
+    @scope.setter
+    def scope(self, scope: Scope) -> None:
+        self._scope = Scope(scope)
+
+
+class AdvertiseServiceOptions(AdvertiseOptions):
+    """Options of a service."""
+
+
+class AdvertiseMessageOptions(AdvertiseOptions):
+    """Options of a publisher: besides its scope, the most messages per second it sends."""
+
+    def __init__(
+        self,
+        scope: Scope | AdvertiseMessageOptions = Scope.ALL,
+        msgs_per_sec: int = UNTHROTTLED,
+        fortress: bool = False,
+    ) -> None:
+        super().__init__(scope, fortress)
+        self.msgs_per_sec = scope.msgs_per_sec if isinstance(scope, AdvertiseMessageOptions) else msgs_per_sec
 
     @property
     def msgs_per_sec(self) -> int:
@@ -50,10 +108,14 @@ class AdvertiseMessageOptions:
         return self._msgs_per_sec != UNTHROTTLED
 
 
-class SubscribeOptions:
+class SubscribeOptions(_Options):
     """Options of a subscription: the most messages per second it takes, and whether it hears its own node."""
 
-    def __init__(self, msgs_per_sec: int = UNTHROTTLED, ignore_local_messages: bool = False) -> None:
+    def __init__(self, msgs_per_sec: int | SubscribeOptions = UNTHROTTLED, ignore_local_messages: bool = False) -> None:
+        """Takes the values, or other options to copy."""
+        if isinstance(msgs_per_sec, SubscribeOptions):
+            vars(self).update(vars(msgs_per_sec))
+            return
         self.msgs_per_sec = msgs_per_sec
         self.ignore_local_messages = ignore_local_messages
 
@@ -72,7 +134,7 @@ class SubscribeOptions:
         return self._msgs_per_sec != UNTHROTTLED
 
 
-class NodeOptions:
+class NodeOptions(_Options):
     """Options of a node: partition, namespace, topic remappings and, our addition, a scope.
 
     With `scope=Scope.PROCESS` the node uses no socket and no thread: it talks with the nodes of its own
@@ -80,7 +142,13 @@ class NodeOptions:
     names.
     """
 
-    def __init__(self, partition: str | None = None, namespace: str = "", scope: Scope = Scope.ALL) -> None:
+    def __init__(
+        self, partition: str | NodeOptions | None = None, namespace: str = "", scope: Scope = Scope.ALL
+    ) -> None:
+        """Takes the values, or other options to copy."""
+        if isinstance(partition, NodeOptions):
+            vars(self).update(vars(partition.__copy__()))
+            return
         self.partition = environment.default_partition() if partition is None else partition
         self.namespace = namespace
         self.scope = Scope(scope)
@@ -113,12 +181,14 @@ class NodeOptions:
         self._remappings[from_topic] = to_topic
         return True
 
-    def topic_remap(self, topic: str) -> str:
-        """The topic that `topic` means in this node."""
+    def topic_remap(self, from_topic: str) -> tuple[bool, str]:
+        """(True, what `from_topic` means in this node), or (False, "") when it was not remapped."""
+        return from_topic in self._remappings, self._remappings.get(from_topic, "")
+
+    def renamed(self, topic: str) -> str:
+        """The topic that `topic` means in this node: another one when remapped, otherwise itself."""
         return self._remappings.get(topic, topic)
 
     def copy(self) -> NodeOptions:
         """An independent copy, so a node does not change when its options object is used again."""
-        other = NodeOptions(self.partition, self.namespace, self.scope)
-        other._remappings = dict(self._remappings)
-        return other
+        return self.__copy__()

@@ -13,6 +13,7 @@ from collections.abc import Callable
 import zmq
 
 _NO_COPY_FROM_BYTES = 65536
+_MORE, _EVENTS, _READABLE = int(zmq.SNDMORE), int(zmq.EVENTS), int(zmq.POLLIN)  # the plain numbers are faster
 
 
 class Outlet:
@@ -33,6 +34,7 @@ class Outlet:
         self._socket.setsockopt(zmq.LINGER, 200)
         self._socket.setsockopt(zmq.SNDHWM, high_water_mark)
         self._socket.setsockopt(zmq.XPUB_VERBOSER, 1)
+        self._send, self._events = self._socket.send, self._socket.getsockopt
         self._socket.bind(f"tcp://{ip}:*")
         self.address: str = self._socket.getsockopt_string(zmq.LAST_ENDPOINT)
         self._address_on_wire = self.address.encode()
@@ -46,17 +48,20 @@ class Outlet:
         """How many processes have subscribed to this fully qualified topic."""
         return self._listeners.get(name, 0)
 
-    def send(self, name: bytes, data: bytes, type_name: str) -> None:
+    def send(self, name: bytes, data: bytes, type_name: bytes) -> None:
         """Sends to the processes that have subscribed; never waits: who is too slow misses some."""
         if not self._listeners.get(name):
             return
         with self._lock:
             if self._socket.closed:
                 return
-            self._socket.send_multipart(
-                (name, self._address_on_wire, data, type_name.encode()), copy=len(data) < _NO_COPY_FROM_BYTES
-            )
-            changed = self._drain()  # sending may have used up the descriptor's signal
+            send = self._send  # frame by frame: send_multipart() takes three times as long
+            send(name, _MORE)
+            send(self._address_on_wire, _MORE)
+            send(data, _MORE, len(data) < _NO_COPY_FROM_BYTES)
+            send(type_name)
+            # sending may have used up the descriptor's signal, so what it signalled has to be looked for here
+            changed = self._drain()
         if changed:
             self._on_change()
 
@@ -69,7 +74,7 @@ class Outlet:
 
     def _drain(self) -> bool:
         changed = False
-        while int(self._socket.getsockopt(zmq.EVENTS)) & zmq.POLLIN:
+        while int(self._events(_EVENTS)) & _READABLE:
             notice: bytes = self._socket.recv(zmq.NOBLOCK)
             kind, name = notice[:1], notice[1:]
             if kind in (b"\x00", b"\x01"):

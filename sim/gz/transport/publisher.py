@@ -6,8 +6,12 @@ listens) and to every subscription of this process, in the caller's thread, befo
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
 from google.protobuf.message import Message
 
+from gz.msgs.fortress import converted, same_type
 from gz.transport import naming
 from gz.transport.environment import complain
 from gz.transport.message_info import MessageInfo
@@ -15,21 +19,35 @@ from gz.transport.options import AdvertiseMessageOptions, Scope
 from gz.transport.switchboard import SWITCHBOARD
 from gz.transport.throttle import Throttle
 
+if TYPE_CHECKING:
+    from gz.transport.network import Network
+
 
 class Publisher:
     """What Node.advertise() returns. Closed with close() or together with its node."""
 
     def __init__(
-        self, name: str, type_name: str, node_uuid: str, scope: Scope, options: AdvertiseMessageOptions
+        self,
+        name: str,
+        type_name: str,
+        node_uuid: str,
+        scope: Scope,
+        options: AdvertiseMessageOptions,
+        joined: Callable[[], Network] | None,
     ) -> None:
-        """`name` is fully qualified. Use Node.advertise() instead of calling this."""
+        """`name` is fully qualified; `joined` gives the network, None for a publisher of this process only.
+
+        Use Node.advertise() instead of calling this.
+        """
+        self._joined = joined
         self.name = name
         self.type_name = type_name
         self.node_uuid = node_uuid
         self.scope = scope
         self.msgs_per_sec = options.msgs_per_sec
         self.throttled = options.throttled
-        self._name_on_wire = name.encode()
+        self._name_on_wire, self._type_on_wire = name.encode(), type_name.encode()
+        self._message_class: type[Message] | None = None  # that of the first message, to know others faster
         self._partition, self.topic = naming.split(name)
         self._throttle = Throttle(options.msgs_per_sec)
         self._open = True
@@ -44,11 +62,15 @@ class Publisher:
         True also when nobody listens or the message was dropped by a rate limit. False, with a line on
         stderr, when the message has another type than advertised, and when the publisher is closed.
         """
+        if type(message) is self._message_class:
+            return self._send(message.SerializeToString())
         if not isinstance(message, Message):
             raise TypeError(
                 f"publish() on topic [{self.topic}] was given a {type(message).__name__}, "
                 f"but a {self.type_name} message was expected."
             )
+        if message.DESCRIPTOR.full_name == self.type_name:
+            self._message_class = type(message)
         return self.publish_raw(message.SerializeToString(), message.DESCRIPTOR.full_name)
 
     def publish_raw(self, data: bytes, type_name: str) -> bool:
@@ -56,20 +78,25 @@ class Publisher:
         if not self._open:
             return False
         if type_name != self.type_name:
+            if same_type(type_name, self.type_name):  # one of them is Fortress's name
+                return self.publish_raw(converted(data, type_name, self.type_name), self.type_name)
             complain(
                 f"The topic [{self.topic}] was advertised with type {self.type_name}, "
                 f"so a message of type {type_name} was not published on it."
             )
             return False
-        if not self._throttle.passes():
-            return True
-        if self.scope != Scope.PROCESS:
-            from gz.transport import network
+        return self._send(data)
 
-            network.joined().send(self._name_on_wire, data, type_name)
+    def _send(self, data: bytes) -> bool:
+        if not self._open:
+            return False
+        if self.throttled and not self._throttle.passes():
+            return True
+        if self._joined is not None:
+            self._joined().send(self._name_on_wire, data, self._type_on_wire)
         group = SWITCHBOARD.subscriptions(self.name)
         if group:
-            info = MessageInfo(self.topic, type_name, self._partition, True)
+            info = MessageInfo(self.topic, self.type_name, self._partition, True)
             for subscription in group:
                 subscription.deliver(data, info, self.node_uuid)
         return True
@@ -97,20 +124,16 @@ class Publisher:
             return
         self._open = False
         SWITCHBOARD.remove_publisher(self)
-        if self.scope != Scope.PROCESS:
-            from gz.transport import network
-
-            network.joined().unadvertise(self)
+        if self._joined is not None:
+            self._joined().unadvertise(self)
 
     def _connections(self) -> int:
         if not self._open:
             return 0
         here = sum(each.accepts(self.type_name) for each in SWITCHBOARD.subscriptions(self.name))
-        if self.scope == Scope.PROCESS:
+        if self._joined is None:
             return here
-        from gz.transport import network
-
-        return here + network.joined().listening_processes(self.name, self.type_name)
+        return here + self._joined().listening_processes(self.name, self.type_name)
 
     def __repr__(self) -> str:
         state = "" if self._open else ", closed"

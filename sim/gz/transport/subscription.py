@@ -7,6 +7,7 @@ copy.
 
 from __future__ import annotations
 
+import dataclasses
 import sys
 import traceback
 from collections.abc import Callable
@@ -15,6 +16,7 @@ from typing import Any
 
 from google.protobuf.message import DecodeError, Message
 
+from gz.msgs.fortress import converted, same_type
 from gz.transport.environment import complain
 from gz.transport.message_info import MessageInfo
 from gz.transport.options import Scope, SubscribeOptions
@@ -44,13 +46,14 @@ class Subscription:
         self.scope = scope
         self.active = True
         self._ignore_own_node = options.ignore_local_messages
+        self._throttled = options.throttled
         self._throttle = Throttle(options.msgs_per_sec)
         self._callback = callback
         self._message_type = message_type
 
     def accepts(self, type_name: str) -> bool:
         """Whether messages of this type are for this subscription."""
-        return self.type_name == type_name or self.type_name == GENERIC_TYPE
+        return self.type_name in (type_name, GENERIC_TYPE) or same_type(self.type_name, type_name)
 
     def deliver(self, data: bytes, info: MessageInfo, from_node: str | None = None) -> None:
         """Calls the callback with a fresh copy, unless type, options or broken bytes forbid it.
@@ -58,31 +61,31 @@ class Subscription:
         An exception of the callback becomes one line on stderr. `from_node` is the publishing node, if it is
         one of this process.
         """
-        if not self.active or not self.accepts(info.type):
+        if not self.active or (info.type != self.type_name and not self.accepts(info.type)):
             return
         if self._ignore_own_node and from_node == self.node_uuid:
             return
         arguments: tuple[Any, ...]
-        if self._message_type is None:
-            arguments = (bytes(data), info)
-        else:
-            try:
-                arguments = (self._message_type.FromString(data),)
-            except DecodeError:
-                return
-        if not self._throttle.passes():
+        try:
+            if self.type_name not in (info.type, GENERIC_TYPE):
+                data = converted(data, info.type, self.type_name)
+                info = dataclasses.replace(info, type=self.type_name)
+            arguments = (bytes(data), info) if self._message_type is None else (self._message_type.FromString(data),)
+        except DecodeError:
+            return
+        if self._throttled and not self._throttle.passes():
             return
         try:
             self._callback(*arguments)
         except Exception as error:
-            _report(error, info.topic)
+            complain(f"The callback of topic [{info.topic}] {one_line(error)}")
 
 
-def _report(error: Exception, topic: str) -> None:
-    """One line: topic, exception, and the place in the user's file where it was raised."""
+def one_line(error: Exception) -> str:
+    """What a callback raised, and the place in the user's file where: `raised KeyError: 'x' (robot.py:12)`."""
     frames = traceback.extract_tb(sys.exc_info()[2])
     own = Path(__file__).parent
     places = [frame for frame in frames if Path(frame.filename).parent != own] or list(frames)
     place = f"{places[-1].filename}:{places[-1].lineno}"
     text = " ".join(str(error).split())
-    complain(f"The callback of topic [{topic}] raised {type(error).__name__}{': ' if text else ''}{text} ({place})")
+    return f"raised {type(error).__name__}{': ' if text else ''}{text} ({place})"

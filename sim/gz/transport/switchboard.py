@@ -16,15 +16,18 @@ from gz.transport.subscription import Subscription
 
 if TYPE_CHECKING:
     from gz.transport.publisher import Publisher
+    from gz.transport.service import Service
 
 
 class Switchboard:
-    """The publishers and subscriptions of this process, by fully qualified topic name."""
+    """The publishers, subscriptions and services of this process, by fully qualified name."""
 
     def __init__(self) -> None:
         self._changed = threading.Condition(threading.Lock())
         self._subscriptions: dict[str, tuple[Subscription, ...]] = {}
+        self._networked: dict[str, tuple[Subscription, ...]] = {}
         self._publishers: dict[str, tuple[Publisher, ...]] = {}
+        self._services: dict[str, tuple[Service, ...]] = {}
 
     def subscriptions(self, name: str) -> tuple[Subscription, ...]:
         """The subscriptions of a topic, oldest first."""
@@ -46,7 +49,7 @@ class Switchboard:
 
     def networked_subscriptions(self, name: str) -> tuple[Subscription, ...]:
         """The subscriptions of a topic that may hear other processes."""
-        return tuple(each for each in self.subscriptions(name) if each.scope != Scope.PROCESS)
+        return self._networked.get(name, ())
 
     def networked_publishers(self, name: str) -> tuple[Publisher, ...]:
         """The publishers of a topic that other processes may know of."""
@@ -55,21 +58,24 @@ class Switchboard:
     def add_subscription(self, subscription: Subscription) -> None:
         """From now on messages of its topic reach it."""
         with self._changed:
-            group = self._subscriptions.get(subscription.name, ())
-            self._subscriptions[subscription.name] = (*group, subscription)
+            self._set_subscriptions(subscription.name, (*self.subscriptions(subscription.name), subscription))
             self._changed.notify_all()
 
     def remove_subscription(self, subscription: Subscription) -> None:
         """No message reaches it any more, not even one that is under way."""
         subscription.active = False
         with self._changed:
-            group = self._subscriptions.get(subscription.name, ())
-            rest = tuple(each for each in group if each is not subscription)
-            if rest:
-                self._subscriptions[subscription.name] = rest
-            else:
-                self._subscriptions.pop(subscription.name, None)
+            group = self.subscriptions(subscription.name)
+            self._set_subscriptions(subscription.name, tuple(each for each in group if each is not subscription))
             self._changed.notify_all()
+
+    def _set_subscriptions(self, name: str, group: tuple[Subscription, ...]) -> None:
+        networked = tuple(each for each in group if each.scope != Scope.PROCESS)
+        for table, part in ((self._subscriptions, group), (self._networked, networked)):
+            if part:
+                table[name] = part
+            else:
+                table.pop(name, None)
 
     def add_publisher(self, publisher: Publisher) -> None:
         """Makes a publisher known; ValueError when its node already has one on this topic."""
@@ -91,6 +97,35 @@ class Switchboard:
                 self._publishers[publisher.name] = rest
             else:
                 self._publishers.pop(publisher.name, None)
+
+    def services(self, name: str) -> tuple[Service, ...]:
+        """The services of a name, oldest first."""
+        return self._services.get(name, ())
+
+    def all_services(self) -> list[Service]:
+        """Every service of the process."""
+        with self._changed:
+            return [each for group in self._services.values() for each in group]
+
+    def add_service(self, service: Service) -> None:
+        """Makes a service known; ValueError when its node already offers one of this name."""
+        with self._changed:
+            group = self._services.get(service.name, ())
+            if any(each.node_uuid == service.node_uuid for each in group):
+                raise ValueError(
+                    f"The service {service.topic!r} is already offered by this node: "
+                    "one node may offer a service once; use unadvertise_service() first."
+                )
+            self._services[service.name] = (*group, service)
+
+    def remove_service(self, service: Service) -> None:
+        """Forgets a service."""
+        with self._changed:
+            rest = tuple(each for each in self._services.get(service.name, ()) if each is not service)
+            if rest:
+                self._services[service.name] = rest
+            else:
+                self._services.pop(service.name, None)
 
     def notify(self) -> None:
         """Wakes everybody in wait_for(): something outside this table changed."""

@@ -13,6 +13,7 @@ from typing import Any
 
 from gz.msgs.discovery_pb2 import Discovery
 
+from gz.msgs.fortress import same_type
 from gz.transport.discovery import DiscoveryChannel
 from gz.transport.environment import NetworkSettings
 from gz.transport.subscription import GENERIC_TYPE, Subscription
@@ -51,7 +52,9 @@ class TopicDiscovery(DiscoveryChannel):
         """How many other processes have said that they listen to our publisher of this topic and type."""
         with self._table_lock:
             group = self._connected.get(topic, {})
-            return len({process for (process, _), kind in group.items() if kind in (type_name, GENERIC_TYPE)})
+            return len(
+                {process for (process, _), kind in group.items() if kind == GENERIC_TYPE or same_type(kind, type_name)}
+            )
 
     def ask_for_subscribers(self) -> None:
         """Starts collecting who subscribes to what; the answers show up in subscribers()."""

@@ -1,3 +1,4 @@
+import signal
 import subprocess
 import sys
 
@@ -23,6 +24,72 @@ def hello(tmp_path, monkeypatch):
 def test_a_sub_command_is_found_and_called(hello, capsys):
     assert command.main(["hello", "big", "world"]) == 2
     assert capsys.readouterr().out == "imported\nhello big world\n"
+
+
+@pytest.fixture
+def count(tmp_path, monkeypatch):
+    """A sub-command `count` among the commands of another package, whose options are read for it."""
+    folder = tmp_path / "gz" / "numbers" / "commands"
+    folder.mkdir(parents=True)
+    (folder / "__init__.py").write_text("")
+    (folder / "count.py").write_text(
+        '"""Counts."""\n'
+        "def add_arguments(parser):\n"
+        "    parser.add_argument('--to', type=int)\n"
+        "    parser.add_argument('--from', dest='start', type=int)\n"
+        "    parser.commands('--to')\n"
+        "    parser.needs('--to', '--from')\n"
+        "def run(values):\n"
+        "    if values.to < values.start:\n"
+        "        raise ValueError('downwards')\n"
+        "    if values.to == values.start:\n"
+        "        raise KeyboardInterrupt\n"
+        "    print(*range(values.start, values.to))\n"
+        "    return 3\n"
+    )
+    monkeypatch.setattr(gz, "__path__", [*gz.__path__, str(tmp_path / "gz")])
+    for name in ("gz.numbers", "gz.numbers.commands", "gz.numbers.commands.count"):
+        monkeypatch.delitem(sys.modules, name, raising=False)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "output", "error"),
+    [
+        (["--from", "1", "--to", "4"], 3, "1 2 3\n", ""),
+        (["--from", "4", "--to", "1"], 1, "", "gz count: downwards\n"),
+        (["--from", "4", "--to", "4"], 130, "", ""),
+    ],
+)
+def test_a_sub_command_among_commands_is_run_with_its_options(count, capsys, arguments, code, output, error):
+    before = [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)]
+    assert command.main(["count", *arguments]) == code
+    assert capsys.readouterr() == (output, error)
+    assert [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)] == before
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "words"),
+    [
+        (["--to", "1"], 107, "--to requires --from"),
+        (["--form", "1"], 109, "did you mean --from?"),
+        (["--to"], 114, "--to"),
+        (["--to", "x"], 104, "'x'"),
+    ],
+)
+def test_wrong_options_are_one_line_and_the_code_of_gazebo(count, capsys, arguments, code, words):
+    with pytest.raises(SystemExit) as end:
+        command.main(["count", *arguments])
+    out, error = capsys.readouterr()
+    assert (end.value.code, out, error.count("\n")) == (code, "", 1)
+    assert error.startswith("gz count: ")
+    assert words in error
+
+
+def test_a_sub_command_without_anything_to_do_prints_its_help(count, capsys):
+    with pytest.raises(SystemExit) as end:
+        command.main(["count", "--from", "1"])
+    assert not end.value.code
+    assert "Counts." in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("arguments", [[], ["--help"], ["-h"]])

@@ -2,10 +2,12 @@
 
 import json
 import os
+import signal
 import sys
 import threading
 import warnings
 
+from gz.msgs.empty_pb2 import Empty
 from gz.msgs.stringmsg_pb2 import StringMsg
 
 from gz.transport import Node, NodeOptions
@@ -19,6 +21,29 @@ writing = threading.Lock()
 def say(**answer):
     with writing:
         os.write(1, (json.dumps(answer) + "\n").encode())
+
+
+def ask_back(request):
+    """Asks the process that asks, by a service of its own, before it answers."""
+    return node.request("/back", request, StringMsg, StringMsg, 10_000)
+
+
+def die(request):
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+ANSWERS = {
+    "upper": lambda request: StringMsg(data=request.data.upper()),
+    "pid": lambda request: StringMsg(data=str(os.getpid())),
+    "false": lambda request: (False, StringMsg(data="ignored")),
+    "raise": lambda request: 1 / 0,
+    "exit": lambda request: sys.exit(3),
+    "nothing": lambda request: None,
+    "wrong type": lambda request: Empty(),
+    "die": die,
+    "ask back": ask_back,
+    "one way": lambda request: say(heard=["one way", request.data]),
+}
 
 
 def publish_from_threads(publisher, threads, count):
@@ -70,5 +95,15 @@ for line in sys.stdin:
             say(answer=True)
         case "fork":
             say(answer=publish_from_forked_child(publishers[order["topic"]], order["text"]))
+        case "serve":
+            answer = ANSWERS[order["answer"]]
+            response = Empty if order["answer"] == "one way" else StringMsg
+            say(answer=node.advertise_service(order["service"], StringMsg, response, answer))
+        case "unserve":
+            say(answer=node.unadvertise_service(order["service"]))
+        case "request":
+            request = StringMsg(data=order["text"])
+            done, response = node.request(order["service"], request, StringMsg, StringMsg, order["timeout_ms"])
+            say(answer=[done, response.data])
         case "crash":
             raise RuntimeError("as ordered")

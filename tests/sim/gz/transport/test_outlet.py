@@ -78,7 +78,7 @@ def test_listeners_are_counted_as_they_come_and_go(outlet, subscribe, changes):
 def test_the_four_frames_of_a_message(outlet, subscribe):
     with subscribe() as socket:
         until(lambda: outlet.listeners(TOPIC) == 1, outlet)
-        outlet.send(TOPIC, b"data", "gz.msgs.StringMsg")
+        outlet.send(TOPIC, b"data", b"gz.msgs.StringMsg")
         assert socket.recv_multipart() == [TOPIC, outlet.address.encode(), b"data", b"gz.msgs.StringMsg"]
 
 
@@ -91,9 +91,9 @@ def test_a_busy_publisher_notices_new_listeners_by_itself(outlet, subscribe, cha
             deadline = time.monotonic() + 20
             while outlet.listeners(TOPIC) < 2:
                 assert time.monotonic() < deadline
-                outlet.send(TOPIC, b"data", "gz.msgs.StringMsg")
+                outlet.send(TOPIC, b"data", b"gz.msgs.StringMsg")
             assert changes.count == before + 1
-            outlet.send(TOPIC, b"last", "gz.msgs.StringMsg")
+            outlet.send(TOPIC, b"last", b"gz.msgs.StringMsg")
             assert second.recv_multipart()[2] in (b"data", b"last")
             assert first.recv_multipart()[2] == b"data"
 
@@ -102,5 +102,5 @@ def test_after_closing_nothing_is_sent(outlet, subscribe):
     with subscribe():
         until(lambda: outlet.listeners(TOPIC) == 1, outlet)
         outlet.close()
-        outlet.send(TOPIC, b"data", "gz.msgs.StringMsg")
+        outlet.send(TOPIC, b"data", b"gz.msgs.StringMsg")
         outlet.take_notices()

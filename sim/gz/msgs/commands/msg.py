@@ -1,0 +1,36 @@
+"""Look at message types: `gz msg --list`, `gz msg --info gz.msgs.Twist`.
+
+Run by `gz.command`; the names come from gz.msgs' registry, the definitions from its descriptors. Exit codes: 0,
+1 for a type that there is not.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from typing import TYPE_CHECKING
+
+from gz.msgs import message_class, type_names
+
+if TYPE_CHECKING:
+    from gz.command_line import Parser
+
+
+def add_arguments(parser: Parser) -> None:
+    """Adds the options of `gz msg`."""
+    parser.add_argument("-l", "--list", action="store_true", help="the names of all message types")
+    parser.add_argument("-i", "--info", nargs="+", metavar="TYPE", help="name, file and definition of types")
+    parser.commands("--list", "--info")
+
+
+def run(values: argparse.Namespace) -> int:
+    """Runs `gz msg`; the exit code. Raises UnknownTypeError, with the nearest names."""
+    if values.list:
+        for name in type_names():
+            print(name)
+    if values.info:
+        from gz.msgs.descriptor_text import describe
+
+        for each in [message_class(name) for name in values.info]:
+            sys.stdout.write(describe(each))
+    return 0

@@ -1,0 +1,74 @@
+"""The messages of a topic as a queue, for a program that prints them.
+
+Between a subscription (whose callbacks run in the thread of the transport) and the main thread, which can be
+interrupted. When the reader is too slow the queue fills up, and messages are lost where they always are, in the
+sockets, instead of filling the memory.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import queue
+import select
+import sys
+import threading
+import time
+from types import TracebackType
+from typing import NamedTuple
+
+from gz.transport.message_info import MessageInfo
+from gz.transport.node import Node
+
+_WAITING = 1000
+_LOOK_AT_READER_S = 0.25
+
+
+class Arrival(NamedTuple):
+    """One message."""
+
+    data: bytes
+    type_name: str
+    time_ns: int
+    """When it arrived, on the monotonic clock [ns]."""
+
+
+class EchoQueue:
+    """Subscribes to a topic, to messages of every type, for as long as it is entered."""
+
+    def __init__(self, node: Node, topic: str) -> None:
+        """Subscribes. Raises ValueError when the topic name breaks a rule."""
+        self._node, self._topic = node, topic
+        self._queue: queue.Queue[Arrival] = queue.Queue(_WAITING)
+        self._ended = threading.Event()
+        self._stdout = select.poll()
+        with contextlib.suppress(OSError, ValueError):  # no file behind it
+            self._stdout.register(sys.stdout.fileno(), 0)
+        node.subscribe_raw(topic, self._keep)
+
+    def _keep(self, data: bytes, info: MessageInfo) -> None:
+        if not self._ended.is_set():
+            self._queue.put(Arrival(data, info.type, time.monotonic_ns()))
+
+    def next(self, deadline: float) -> Arrival | None:
+        """The next message; None at the deadline (time.monotonic() seconds), or earlier to look at reader_gone()."""
+        wait = min(deadline - time.monotonic(), _LOOK_AT_READER_S)
+        try:
+            return self._queue.get(timeout=wait) if wait > 0 else self._queue.get_nowait()
+        except queue.Empty:
+            return None
+
+    def reader_gone(self) -> bool:
+        """Whether standard output is a pipe that nobody reads any more."""
+        return bool(self._stdout.poll(0))
+
+    def __enter__(self) -> EchoQueue:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._ended.set()
+        self._node.unsubscribe(self._topic)
+        with contextlib.suppress(queue.Empty):
+            while True:
+                self._queue.get_nowait()

@@ -1,0 +1,116 @@
+"""One service of this process: its types, and how its callback is called.
+
+End of the path of a request. It comes from a requester of the same process (in the requester's thread) or from
+the service threads (from other processes). Whatever the callback does, there is an outcome: an exception or a
+wrong return value is one line on stderr and a failed call for the requester.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from google.protobuf.message import DecodeError, Message
+
+from gz.msgs import canonical_name
+from gz.msgs.fortress import same_type
+from gz.transport import naming
+from gz.transport.environment import complain
+from gz.transport.options import Scope
+from gz.transport.subscription import one_line
+
+EMPTY_TYPE = "gz.msgs.Empty"
+"""As the type of a response it means that there is none: the call is one-way."""
+
+
+class CallResult(NamedTuple):
+    """What became of a request."""
+
+    executed: bool
+    """False when no response came in time, for whatever reason."""
+    result: bool
+    """What the provider says: False when it could not do what was asked."""
+    response: bytes
+    """The serialized response; empty unless `result`."""
+
+
+TIMED_OUT = CallResult(False, False, b"")
+FAILED = CallResult(True, False, b"")
+
+
+class Service:
+    """A callback with the name of its service and its types."""
+
+    def __init__(
+        self,
+        name: str,
+        request_class: type[Message],
+        response_class: type[Message],
+        request_type: str,
+        response_type: str,
+        node_uuid: str,
+        scope: Scope,
+        callback: Callable[[Any], Any],
+    ) -> None:
+        """`name` is fully qualified; the types are the names told to others. Use Node.advertise_service()."""
+        self.name = name
+        self.topic = naming.split(name)[1]
+        self.request_type = request_type
+        self.response_type = response_type
+        self.node_uuid = node_uuid
+        self.scope = scope
+        self._request_class = request_class
+        self._response_class = response_class
+        self._callback = callback
+
+    @property
+    def one_way(self) -> bool:
+        """Whether requesters get no response."""
+        return is_one_way(self.response_type)
+
+    def matches(self, request_type: str, response_type: str) -> bool:
+        """Whether a request with these types is for this service."""
+        return same_types(self.request_type, self.response_type, request_type, response_type)
+
+    def answer(self, data: bytes) -> CallResult:
+        """Calls the callback with the request; never raises an Exception."""
+        try:
+            request = self._request_class.FromString(data)
+        except DecodeError:
+            return FAILED
+        try:
+            returned = self._callback(request)
+        except Exception as error:
+            complain(f"The callback of service [{self.topic}] {one_line(error)}")
+            return FAILED
+        if self.one_way:
+            return CallResult(True, True, b"")
+        return self._outcome(returned)
+
+    def _outcome(self, returned: Any) -> CallResult:
+        result, response = True, returned
+        if isinstance(returned, tuple) and len(returned) == 2:
+            result, response = bool(returned[0]), returned[1]
+            if not result:
+                return FAILED
+        if not isinstance(response, self._response_class):
+            complain(
+                f"The callback of service [{self.topic}] returned {type(response).__name__}, but a "
+                f"{self.response_type} or (bool, {self.response_type}) was expected; the request has failed."
+            )
+            return FAILED
+        try:
+            return CallResult(True, True, response.SerializeToString())
+        except Exception as error:
+            complain(f"The response of service [{self.topic}] cannot be serialized: {error}")
+            return FAILED
+
+
+def is_one_way(response_type: str) -> bool:
+    """Whether this type of response means that there is no response."""
+    return canonical_name(response_type) == EMPTY_TYPE
+
+
+def same_types(request: str, response: str, other_request: str, other_response: str) -> bool:
+    """Whether two pairs of type names mean the same, `ignition.msgs.X` being `gz.msgs.X`."""
+    return same_type(request, other_request) and same_type(response, other_response)

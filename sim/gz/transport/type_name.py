@@ -1,0 +1,24 @@
+"""Names of message types: what a user may give, and how Fortress, the older Gazebo, spells them."""
+
+from __future__ import annotations
+
+from google.protobuf.message import Message
+
+_PACKAGE, _FORTRESS_PACKAGE = "gz.msgs.", "ignition.msgs."
+
+
+def type_name(message_type: type[Message] | str) -> str:
+    """The name of a message class; a name is returned as it is. Raises TypeError for anything else."""
+    if isinstance(message_type, str):
+        return message_type
+    if isinstance(message_type, type) and issubclass(message_type, Message):
+        return str(message_type.DESCRIPTOR.full_name)
+    raise TypeError(
+        f"Expected a message class such as gz.msgs.twist_pb2.Twist or a type name such as 'gz.msgs.Twist', "
+        f"but was given {message_type!r}."
+    )
+
+
+def for_fortress(name: str) -> str:
+    """The name of the type in Fortress: `ignition.msgs.Twist`."""
+    return _FORTRESS_PACKAGE + name.removeprefix(_PACKAGE) if name.startswith(_PACKAGE) else name

@@ -1,0 +1,65 @@
+"""Code written for the official packages of Harmonic runs unchanged; where they are installed, they are used."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+SAME = """
+import gz.msgs10.twist_pb2
+from gz.msgs10.twist_pb2 import Twist
+from gz.transport13 import AdvertiseMessageOptions, Node, NodeOptions, SubscribeOptions
+import gz.msgs, gz.msgs.twist_pb2, gz.transport
+assert Twist is gz.msgs.twist_pb2.Twist is gz.msgs.message_class("gz.msgs.Twist")
+assert gz.msgs10.twist_pb2 is gz.msgs.twist_pb2
+assert gz.msgs.twist_pb2.__name__ == "gz.msgs.twist_pb2"
+assert Node is gz.transport.Node and NodeOptions is gz.transport.NodeOptions
+import gz.transport13, gz.msgs10
+assert set(gz.transport13.__all__) == set(gz.transport.__all__)
+try:
+    import gz.msgs10.twost_pb2
+except ModuleNotFoundError:
+    print("fine")
+"""
+REAL = """
+import gz.transport13, gz.msgs10.twist_pb2
+print(gz.transport13.WHOSE, gz.msgs10.twist_pb2.WHOSE, gz.transport13.part())
+"""
+
+
+def run(code, *path):
+    environment = {**os.environ, "PYTHONPATH": ""}
+    program = f"import sys; sys.path += {list(map(str, path))!r}\n{code}"
+    return subprocess.run(
+        [sys.executable, "-W", "error", "-c", program], capture_output=True, text=True, timeout=60, env=environment
+    )
+
+
+def test_the_names_of_harmonic_are_the_same_objects():
+    done = run(SAME)
+    assert (done.stdout, done.stderr) == ("fine\n", "")
+
+
+@pytest.fixture
+def installation(tmp_path):
+    for name in ("transport13", "msgs10"):
+        folder = tmp_path / "gz" / name
+        folder.mkdir(parents=True)
+        (folder / "__init__.py").write_text("WHOSE = 'theirs'\n")
+    (tmp_path / "gz/transport13/__init__.py").write_text("WHOSE = 'theirs'\nfrom ._part import part\n")
+    (tmp_path / "gz/transport13/_part.py").write_text("def part():\n    return 'part'\n")
+    (tmp_path / "gz/msgs10/twist_pb2.py").write_text("WHOSE = 'theirs'\n")
+    return tmp_path
+
+
+def test_a_real_installation_wins_even_when_it_comes_last(installation):
+    done = run(REAL, installation)
+    assert (done.stdout, done.stderr) == ("theirs theirs part\n", "")
+
+
+def test_an_installation_that_cannot_be_imported_is_as_good_as_none(installation):
+    (installation / "gz/transport13/__init__.py").write_text("import no_such_library\n")
+    (installation / "gz/msgs10/__init__.py").write_text("import no_such_library\n")
+    done = run(SAME.replace("import gz.msgs10.twost_pb2", "raise ModuleNotFoundError"), installation)
+    assert done.stderr == ""
