@@ -69,6 +69,16 @@ def publish_from_forked_child(publisher, text):
     return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
 
 
+def request_from_forked_child(service, text):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)  # newer Pythons warn of forking beside threads
+        child = os.fork()
+    if child == 0:
+        done, response = node.request(service, StringMsg(data=text), StringMsg, StringMsg, 20_000)
+        sys.exit(0 if done and response.data == text.upper() else 1)
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+
+
 for line in sys.stdin:
     order = json.loads(line)
     match order["do"]:
@@ -105,5 +115,7 @@ for line in sys.stdin:
             request = StringMsg(data=order["text"])
             done, response = node.request(order["service"], request, StringMsg, StringMsg, order["timeout_ms"])
             say(answer=[done, response.data])
+        case "request from fork":
+            say(answer=request_from_forked_child(order["service"], order["text"]))
         case "crash":
             raise RuntimeError("as ordered")

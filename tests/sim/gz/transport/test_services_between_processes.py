@@ -179,3 +179,14 @@ def test_partitions_and_process_scope_are_separate(node, start_peer):
         peer.ask("serve", service="/there", answer="upper")
         assert ask(node, "/there")[0]
         assert ask(hidden, "/there", timeout_ms=50) == (False, StringMsg())
+
+
+def test_a_forked_child_calls_and_its_parent_goes_on(node, start_peer):
+    node.advertise_service("/shout", StringMsg, StringMsg, lambda request: StringMsg(data=request.data.upper()))
+    peer = start_peer()
+    call = {"service": "/shout", "timeout_ms": PATIENCE_MS}
+    assert peer.ask("request", text="before", **call) == [True, "BEFORE"]
+    assert peer.ask("request from fork", service="/shout", text="child") == 0
+    assert peer.ask("request", text="after", **call) == [True, "AFTER"]
+    code, errors = peer.finish()
+    assert (code, errors) == (0, "")
