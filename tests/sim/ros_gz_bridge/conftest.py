@@ -72,6 +72,9 @@ def ros_domain(tmp_path_factory):
         patch.setenv("ROS_DOMAIN_ID", str(number))
         patch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
         patch.setenv("ROS_LOG_DIR", str(tmp_path_factory.mktemp("ros_log")))
+        patch.setenv(
+            "FASTDDS_BUILTIN_TRANSPORTS", "UDPv4"
+        )  # shared memory leaves files behind when a process is killed
         patch.setenv("GZ_PARTITION", f"test-{uuid.uuid4().hex}")
         patch.setenv("GZ_IP", "127.0.0.1")
         yield number
