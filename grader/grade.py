@@ -8,8 +8,8 @@ from pathlib import Path
 from grader.errors import UsageError
 from grader.exercise import Exercise, find_exercise
 from grader.intake import take_in
+from grader.printable import shown
 from grader.record.reading import Recording
-from grader.report.printable import shown
 from grader.report.report import HostFacts, Report
 from grader.report.verdicts import write_verdicts
 from grader.score.score import Score, score
@@ -46,10 +46,11 @@ def grade(
         result = record_unrunnable(exercise, submission, trial, path)
     with result.recorder as recorder:
         recorder.flush()
-        verdict = score(Recording(recorder.part), exercise)
+        recording = Recording(recorder.part)
+        verdict = score(recording, exercise)
         write_verdicts(recorder, verdict, exercise.max_score, exercise.duration)
     host = HostFacts(result.sandbox, result.pace, result.run_wall_seconds, time.monotonic() - started)
-    return make_report(Recording(path), exercise, verdict, shown(str(submission.file), LONGEST_PATH), host)
+    return make_report(recording, path, exercise, verdict, shown(str(submission.file), LONGEST_PATH), host)
 
 
 def grade_again(path: Path, root: Path | None = None) -> Report:
@@ -59,19 +60,19 @@ def grade_again(path: Path, root: Path | None = None) -> Report:
     if "exercise" not in run:
         raise UsageError(f"{path} is not a recording of a graded run")
     exercise = find_exercise(run["exercise"], root)
-    return make_report(recording, exercise, score(recording, exercise), run["submission"])
+    return make_report(recording, path, exercise, score(recording, exercise), run["submission"])
 
 
 def make_report(
-    recording: Recording, exercise: Exercise, verdict: Score, submission: str, host: HostFacts | None = None
+    recording: Recording, path: Path, exercise: Exercise, verdict: Score, submission: str, host: HostFacts | None = None
 ) -> Report:
-    """Put a score and what the recording says about its run together."""
+    """Put a score and what the recording, which people find at `path`, says about its run together."""
     run = recording.properties("run")
     return Report(
         exercise=exercise.name,
         title=exercise.title,
         submission=submission,
-        recording=recording.path,
+        recording=path,
         score=verdict,
         max_score=exercise.max_score,
         sim_seconds=recording.facts().get("sim_seconds", 0.0),

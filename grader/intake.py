@@ -16,7 +16,7 @@ from pathlib import Path
 
 from grader.errors import UsageError, nearest
 from grader.exercise import Exercise
-from grader.report.printable import shown
+from grader.printable import shown
 
 LARGEST = 1 << 20  # [bytes] of a submitted file
 
@@ -85,12 +85,11 @@ def _python_files(folder: Path) -> list[str]:
 
 def _fault(data: bytes, name: str) -> str | None:
     try:
-        # What Python itself says of a file's encoding is said by nothing that is given bytes.
-        text = data.decode(tokenize.detect_encoding(io.BytesIO(data).readline)[0])
+        # compile() passes bytes in a comment that are not UTF-8; Python, which is given the file, does not.
+        data.decode(tokenize.detect_encoding(io.BytesIO(data).readline)[0])
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # an odd escape in a student's string is not our business
             compile(data, name, "exec", dont_inherit=True)
-        text.encode()
     except UnicodeDecodeError as error:
         line = data[: error.start].count(b"\n") + 1
         return shown(f"{name}, line {line}: this is not {error.encoding}: byte 0x{data[error.start]:02x}")

@@ -24,7 +24,7 @@ FEWEST_REJECTED = 4
 
 @dataclass(frozen=True)
 class Variant:
-    """One file to grade and what must come of it. `fails` is None for the starter: everything."""
+    """One file to grade, the checks it must fail (the starter: all), and words its first line of feedback must hold."""
 
     name: str
     file: Path

@@ -54,6 +54,7 @@ def verify_command(
 
 def print_matrix(result: Verification, console: Console) -> None:
     """Print which variant fails which check, and everything that is wrong."""
+    from rich.markup import escape
     from rich.table import Table
 
     checks = result.exercise.checks
@@ -69,7 +70,7 @@ def print_matrix(result: Verification, console: Console) -> None:
     for number, check in enumerate(checks, 1):
         console.print(f"  {number}  {check.id} ({check.points:g} points)", highlight=False)
     for fault in result.faults:
-        console.print(f"[red]WRONG[/red]  {result.exercise.name}: {fault}", highlight=False)
+        console.print(f"[red]WRONG[/red]  {result.exercise.name}: {escape(fault)}", highlight=False)
     for proof in result.proofs:
         for fault in proof.faults:
-            console.print(f"[red]WRONG[/red]  {proof.variant.name}: {fault}", highlight=False, markup=True)
+            console.print(f"[red]WRONG[/red]  {proof.variant.name}: {escape(fault)}", highlight=False)

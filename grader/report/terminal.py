@@ -6,7 +6,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from grader.report.printable import shown
+from grader.printable import shown
 from grader.report.report import Report
 
 NO_LIMIT = 1 << 20

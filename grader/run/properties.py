@@ -9,8 +9,8 @@ from typing import Any
 
 from grader.exercise import MANIFEST, Exercise
 from grader.intake import Submission
+from grader.printable import shown
 from grader.record.recorder import Recorder
-from grader.report.printable import shown
 from grader.trial import Trial
 
 PACKAGES = {"mujoco": "mujoco", "rclpy": "ros-jazzy-rclpy", "rerun": "rerun-sdk", "course": "gz-ros2-course"}

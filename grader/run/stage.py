@@ -144,6 +144,7 @@ class Stage:
             self._seen_endpoints = progress.endpoints
             for e in progress.endpoints:
                 self._tampered |= e.kind == "publisher" and e.topic in self._ears.offered
+                # Whether it had matched yet when it was first seen differs between equal runs.
                 self._endpoints.setdefault((e.kind, e.topic, e.type, e.node), asdict(e) | {"matched": None})
         if not self._student.running and self._exit_at is None:
             self._exit_at = self._world.sim_time_ns / 1e9

@@ -10,8 +10,8 @@ import signal
 from difflib import get_close_matches
 from typing import Any
 
+from grader.printable import shown
 from grader.record.reading import Recording
-from grader.report.printable import shown
 
 FRAME = re.compile(r'\s+File "(.*)", line (\d+)')
 
