@@ -54,6 +54,7 @@ class Stage:
         for node in self._gz_nodes:
             stack.callback(node.close)
         self._world = _load(exercise, trial, self._gz_nodes[0])
+        stack.callback(self._world.close)
         self._server = Server(self._world, self._gz_nodes[0])
         self._ears = Ears(domain, self._gz_nodes[1], entries, exercise.observe, self._record)
         stack.callback(self._ears.close)

@@ -127,7 +127,10 @@ def _simulate(arguments: argparse.Namespace, stop: threading.Event) -> int:
         if server.paused:
             LOG.warning("world '%s' is paused; start it with -r to let time run", world.name)
         factor = None if arguments.rate is None else arguments.rate * world.step_size_ns * 1e-9
-        server.run(real_time_factor=factor, iterations=arguments.iterations, stop=stop)
+        try:
+            server.run(real_time_factor=factor, iterations=arguments.iterations, stop=stop)
+        finally:
+            world.close()
     return 0
 
 

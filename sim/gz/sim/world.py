@@ -16,15 +16,16 @@ from typing import TYPE_CHECKING
 import mujoco
 import numpy as np
 
+from gz.sim.entities import Entities
 from gz.sim.errors import LOG, Diagnostics, SimError, nearest
 from gz.sim.physics.builder import build_spec, scoped
-from gz.sim.physics.recipe import JointServo
+from gz.sim.physics.servos import JointServo
 from gz.sim.pose import Pose, Velocity, rotate
-from gz.sim.sdf.description import Link, Model, Plugin, WorldDescription
+from gz.sim.sdf.description import Link, Model, Plugin, Sensor, WorldDescription
 from gz.sim.sdf.reader import read_world, read_world_file
 from gz.sim.sdf.resources import find_world
-from gz.sim.sensors.registry import sensor_types
-from gz.sim.systems.registry import System, UpdateInfo, find_system, system_name
+from gz.sim.sensors.registry import KNOWN_TYPES, sensor_types
+from gz.sim.systems.registry import System, UpdateInfo, find_system, system_name, systems
 from gz.sim.visuals import VisualShape, visual_shapes
 
 if TYPE_CHECKING:
@@ -73,10 +74,13 @@ class World:
         self.iterations = 0
         self.dropped_commands: dict[str, int] = {}
         """How many commands were refused because they were not finite, by topic."""
+        self.entities = Entities(description)
+        """The numbers of all entities."""
         self._info = UpdateInfo(description.step_size_ns * 1e-9)
         self._models = {model.name: model for model in description.models}
         self._build()
         self.systems: list[System] = []
+        self._nodes: list[Node] = []
         self._start_systems()
         self._pre_updates = self._hooks("pre_update")
         self._post_updates = self._hooks("post_update")
@@ -161,6 +165,8 @@ class World:
         for found, model, plugin in self._chosen:
             made = found()
             made.configure(self, model, plugin)
+            made.bind()
+            made.start()
             self.systems.append(made)
         names = {made.name for made in self.systems}
         wanted = {system_name(plugin) for plugin in self.description.plugins}
@@ -171,31 +177,53 @@ class World:
                 "physics runs "
                 "here, add <plugin filename='gz-sim-physics-system' name='gz::sim::systems::Physics'/>",
             )
-        if "Sensors" not in names:
-            types = sensor_types()
-            for model in self.description.models:
-                for sensor in (sensor for link in model.links for sensor in link.sensors):
-                    if sensor.kind in types and types[sensor.kind].rendering:
-                        self.diagnostics.warn(
-                            sensor.element.where,
-                            f"sensor '{sensor.name}' stays silent because the world does not load the "
-                            "Sensors system; add "
-                            "<plugin filename='gz-sim-sensors-system' "
-                            "name='gz::sim::systems::Sensors'/> to <world>",
-                        )
+        for model in self.description.models:
+            for sensor in (sensor for link in model.links for sensor in link.sensors):
+                self._check_sensor(sensor, names)
+
+    def _check_sensor(self, sensor: Sensor, running: set[str]) -> None:
+        """Say so when nothing will run a sensor."""
+        types, kind = sensor_types(), sensor.kind
+        if kind in types:
+            system = types[kind].runs_in
+            if system in running:
+                return
+            text = (
+                f"sensor '{sensor.name}' stays silent because the world does not load the {system} system; add "
+                f"<plugin filename='{systems()[system].filename}' name='gz::sim::systems::{system}'/> to <world>"
+            )
+        elif kind in KNOWN_TYPES:
+            text = f"sensor type '{kind}' is not simulated here, sensor '{sensor.name}' stays silent"
+        else:
+            hint = nearest(kind, types, listing="types that run here are")
+            text = f"sensor '{sensor.name}' has type '{kind}', which is not known; {hint}"
+        self.diagnostics.warn(sensor.element.where, text)
 
     def _hooks(self, hook: str) -> list[Callable[[UpdateInfo], None]]:
         return [getattr(each, hook) for each in self.systems if getattr(type(each), hook) is not getattr(System, hook)]
 
     def attach(self, node: Node | None) -> None:
-        """Let every system subscribe and advertise on `node`; a world is attached to one node at most."""
+        """Let every system subscribe and advertise on a node of its own that has the options of `node`.
+
+        A world is attached once at most; `close` ends what it opened.
+        """
         if node is None or node is self.node:
             return
         if self.node is not None:
             raise SimError(f"world '{self.name}' is already attached to a node; load it again for another one")
         self.node = node
         for each in self.systems:
-            each.connect(node)
+            own = type(node)(node.options)
+            self._nodes.append(own)
+            each.connect(own)
+
+    def close(self) -> None:
+        """End everything the systems advertised and subscribed to."""
+        for each in self.systems:
+            each.close()
+        for node in self._nodes:
+            node.close()
+        self._nodes.clear()
 
     def step(self, n: int = 1) -> None:
         """Run `n` physics steps with all systems; raise `SimError` when the physics came out not finite."""

@@ -9,13 +9,13 @@ cheaper to cast rays at.
 from __future__ import annotations
 
 import itertools
-import math
 
 import mujoco
 import numpy as np
 
 from gz.sim.errors import Diagnostics
 from gz.sim.physics import recipe
+from gz.sim.physics.servos import WHEEL, JointServo, add_servo
 from gz.sim.pose import Pose, Vector, matrix, multiply, quaternion_between
 from gz.sim.sdf.description import (
     UNLIMITED,
@@ -50,9 +50,7 @@ _JOINT_TYPES = {
 }
 
 
-def build_spec(
-    world: WorldDescription, servos: dict[str, list[recipe.JointServo]], diagnostics: Diagnostics
-) -> mujoco.MjSpec:
+def build_spec(world: WorldDescription, servos: dict[str, list[JointServo]], diagnostics: Diagnostics) -> mujoco.MjSpec:
     """Return the MuJoCo spec of a world; `servos` lists, per model name, the joints that systems drive."""
     return _Builder(world, servos, diagnostics).build()
 
@@ -63,9 +61,7 @@ def scoped(model: Model, name: str) -> str:
 
 
 class _Builder:
-    def __init__(
-        self, world: WorldDescription, servos: dict[str, list[recipe.JointServo]], diagnostics: Diagnostics
-    ) -> None:
+    def __init__(self, world: WorldDescription, servos: dict[str, list[JointServo]], diagnostics: Diagnostics) -> None:
         self._world = world
         self._servos = servos
         self._diagnostics = diagnostics
@@ -103,7 +99,7 @@ class _Builder:
                 loops.append(joint)
             else:
                 carried[joint.child] = joint
-        wheels = {servo.joint for servo in self._servos.get(model.name, []) if servo.kind == recipe.WHEEL}
+        wheels = {servo.joint for servo in self._servos.get(model.name, []) if servo.kind == WHEEL}
         bodies: dict[str, mujoco.MjsBody] = {}
         waiting = list(model.links)
         while waiting:
@@ -118,7 +114,7 @@ class _Builder:
         for joint in loops:
             self._add_loop(model, joint)
         for servo in self._servos.get(model.name, []):
-            self._add_servo(model, servo)
+            add_servo(self._spec, model, servo, scoped(model, servo.joint))
         touching = [link for link in model.links if link.collisions]
         for one, other in itertools.combinations(touching, 2):
             if not (one.self_collide and other.self_collide):
@@ -191,25 +187,8 @@ class _Builder:
             made.limited = mujoco.mjtLimited.mjLIMITED_TRUE
             made.range = _limit_range(axis)
         for servo in self._servos.get(model.name, []):
-            if servo.joint == joint.name and servo.kind == recipe.WHEEL:
+            if servo.joint == joint.name and servo.kind == WHEEL:
                 made.armature = recipe.wheel_armature(model.mass(), servo.sharing, servo.radius)
-
-    def _add_servo(self, model: Model, servo: recipe.JointServo) -> None:
-        joint = model.joint(servo.joint)
-        assert joint is not None
-        if servo.kind == recipe.WHEEL:
-            gain = recipe.wheel_gain(model.mass(), servo.sharing, servo.radius)
-        else:
-            child = model.link(joint.child)
-            assert child is not None
-            gain = 100.0 * child.inertial.mass
-        actuator = self._spec.add_actuator(name=scoped(model, servo.joint), target=scoped(model, servo.joint))
-        actuator.trntype = mujoco.mjtTrn.mjTRN_JOINT
-        actuator.set_to_velocity(kv=gain)
-        effort = min(servo.effort, joint.axis.effort if joint.axis is not None else math.inf)
-        if 0.0 < effort < UNLIMITED:
-            actuator.forcelimited = mujoco.mjtLimited.mjLIMITED_TRUE
-            actuator.forcerange = (-effort, effort)
 
     def _add_loop(self, model: Model, joint: Joint) -> None:
         """A second joint onto a link closes a loop: it becomes a constraint between two bodies."""

@@ -6,9 +6,7 @@ Used by `builder`. Measured with four robots from 1 to 140 kg: steady speed with
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 import mujoco
 
@@ -24,22 +22,6 @@ DISCRETE = True
 """Use MuJoCo's `discrete` integrator. With False, `implicitfast` and a rotor inertia on the wheels give the
 same numbers.
 """
-
-WHEEL = "wheel"
-JOINT = "joint"
-
-
-@dataclass(frozen=True)
-class JointServo:
-    """A system's wish to drive a joint by velocity: `joint` (scoped name), `kind`, wheel `radius` (m),
-    `sharing` wheels.
-    """
-
-    joint: str
-    kind: str = JOINT
-    radius: float = 0.0
-    sharing: int = 1
-    effort: float = math.inf
 
 
 def apply_options(spec: mujoco.MjSpec, step: float, gravity: tuple[float, float, float]) -> None:

@@ -134,6 +134,18 @@ class Plugin:
 
 
 @dataclass(eq=False)
+class NestedModel:
+    """A model inside a model, after its parts were put into the top model: scoped name (`arm`, `arm::hand`), pose in
+    the top model's frame, scoped name of its canonical link.
+    """
+
+    name: str
+    pose: Pose
+    element: Element
+    canonical_link: str = ""
+
+
+@dataclass(eq=False)
 class Model:
     """A top-level model: pose in the world, flattened links and joints, plugins, and whether it can move."""
 
@@ -146,6 +158,7 @@ class Model:
     links: list[Link] = field(default_factory=list)
     joints: list[Joint] = field(default_factory=list)
     plugins: list[Plugin] = field(default_factory=list)
+    nested: list[NestedModel] = field(default_factory=list)
 
     def link(self, name: str) -> Link | None:
         """Return the link of that scoped name."""

@@ -13,7 +13,7 @@ from pathlib import Path
 from gz.sim.errors import Diagnostics, ResourceError, SdfError
 from gz.sim.pose import Pose
 from gz.sim.sdf import vocabulary
-from gz.sim.sdf.description import Light, Model, Plugin, WorldDescription
+from gz.sim.sdf.description import Light, Model, NestedModel, Plugin, WorldDescription
 from gz.sim.sdf.element import Element, parse
 from gz.sim.sdf.frames import Scope
 from gz.sim.sdf.joints import read_joint
@@ -224,6 +224,10 @@ def _flatten(model: Model, inner: Model, name: str, pose: Pose) -> None:
             sensor.link = link.name
             sensor.model = model.name
         model.links.append(link)
+    model.nested.append(NestedModel(name, pose, inner.element, f"{name}::{inner.canonical_link}"))
+    for nested in inner.nested:
+        canonical = f"{name}::{nested.canonical_link}"
+        model.nested.append(NestedModel(f"{name}::{nested.name}", pose * nested.pose, nested.element, canonical))
     for joint in inner.joints:
         joint.name = f"{name}::{joint.name}"
         joint.child = f"{name}::{joint.child}"

@@ -82,8 +82,12 @@ class Lidar(SensorBase):
         largest = np.max(np.abs(self._directions), axis=1)
         self._clip_distances = self._clip / largest
         self._publisher: Any = None
-        self._site = world.model.site(self.scoped_name).id
-        self._enclosing = self._find_enclosing(group)
+        self._group = group
+
+    def bind(self) -> None:
+        """Find the site and the sensor's own housing."""
+        self._site = self.world.model.site(self.scoped_name).id
+        self._enclosing = self._find_enclosing(self._group)
 
     def topic_suffix(self) -> str:
         """Gazebo's last part of a lidar topic."""

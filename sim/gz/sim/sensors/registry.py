@@ -61,7 +61,8 @@ KNOWN_TYPES = frozenset(
 class SensorBase:
     """Base of all sensors: parameters common to every type and the schedule of its updates."""
 
-    rendering = True
+    runs_in = "Sensors"
+    """Name of the system that runs sensors of this type."""
 
     def __init__(self, world: World, description: Sensor) -> None:
         """Read topic, frame and rate; `world` gives time, poses and the seed."""
@@ -81,6 +82,13 @@ class SensorBase:
         rate = element.number("update_rate", 0.0)
         # Gazebo keeps the period in whole milliseconds: 30 Hz means every 33 ms.
         self.period_ns = int(1000.0 / rate) * 1_000_000 if 0.0 < rate < 1e9 else 0
+        self.start()
+
+    def bind(self) -> None:
+        """Look up ids in MuJoCo's model: it was just built, or built anew because a model came or went."""
+
+    def start(self) -> None:
+        """Take the state of time zero; called first and after every reset."""
         self.next_update_ns = 0
         self.updates = 0
 
@@ -89,7 +97,7 @@ class SensorBase:
         raise NotImplementedError
 
     def connect(self, node: Node) -> None:
-        """Advertise the sensor's topics."""
+        """Advertise the sensor's topics on `node`, which is this sensor's own."""
         raise NotImplementedError
 
     def has_connections(self) -> bool:

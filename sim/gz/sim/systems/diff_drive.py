@@ -11,7 +11,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from gz.sim.errors import nearest
-from gz.sim.physics.recipe import WHEEL, JointServo
+from gz.sim.physics.servos import WHEEL, JointServo
 from gz.sim.sdf.description import Model, Plugin
 from gz.sim.sdf.element import Element
 from gz.sim.systems.registry import System, UpdateInfo, system
@@ -88,9 +88,20 @@ class DiffDrive(System):
         self.tf_topic = valid_topic(element.text_of("tf_topic"), f"/model/{name}/tf")
         self.frame_id = element.text_of("frame_id", f"{name}/odom")
         self.child_frame_id = element.text_of("child_frame_id", f"{name}/{model.canonical_link.replace('::', '/')}")
-        self._left = [world.joint_address(model, joint) for joint in _joints(model, plugin, "left_joint")]
-        self._right = [world.joint_address(model, joint) for joint in _joints(model, plugin, "right_joint")]
+        self._model = model
+        self._sides = [_joints(model, plugin, side) for side in ("left_joint", "right_joint")]
         self._odometry = WheelOdometry(separation, radius)
+        self._publisher: Any = None
+        self._tf_publisher: Any = None
+
+    def bind(self) -> None:
+        """Find the wheels."""
+        self._left, self._right = (
+            [self._world.joint_address(self._model, joint) for joint in side] for side in self._sides
+        )
+
+    def start(self) -> None:
+        """Stand still, enabled, at the origin of the odometry."""
         self._started = False
         self._last_published_ns = 0
         self._target = (0.0, 0.0)
@@ -99,8 +110,6 @@ class DiffDrive(System):
         self._left_speed = self._right_speed = 0.0
         self._written: tuple[float, float] | None = None
         self._enabled = True
-        self._publisher: Any = None
-        self._tf_publisher: Any = None
 
     def connect(self, node: Node) -> None:
         """Subscribe to commands, advertise odometry."""

@@ -2,8 +2,9 @@
 
 A system is a file in this folder with a class under the `@system` decorator; nothing else has to be edited.
 `World` asks `find_system` for every plugin and calls the hooks of the returned class: `servos` before the
-model is built, `configure` once, `connect` when a transport node is attached, then `pre_update` and
-`post_update` around every physics step.
+model is built, `configure` once, `bind` each time the physics model was built, `start` at time zero (again
+after a reset), `connect` when a transport node is attached, then `pre_update` and `post_update` around every
+physics step.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
 from gz.sim.errors import Diagnostics, nearest
-from gz.sim.physics.recipe import JointServo
+from gz.sim.physics.servos import JointServo
 from gz.sim.sdf.description import Model, Plugin
 
 if TYPE_CHECKING:
@@ -56,10 +57,21 @@ class System:
         return []
 
     def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
-        """Take parameters and addresses; `model` is None for a plugin of the world itself."""
+        """Read the parameters, once; `model` is None for a plugin of the world itself."""
+
+    def bind(self) -> None:
+        """Look up ids and addresses in MuJoCo's model: it was just built, or built anew because a model came or
+        went.
+        """
+
+    def start(self) -> None:
+        """Take the state of time zero; called after the first `bind` and after every reset."""
 
     def connect(self, node: Node) -> None:
-        """Advertise and subscribe on `node`."""
+        """Advertise and subscribe on `node`, which is this system's own; the world closes it."""
+
+    def close(self) -> None:
+        """End what this system opened beside its node; called when its model or the world goes."""
 
     def pre_update(self, info: UpdateInfo) -> None:
         """Act before the physics step, for example set controls."""

@@ -1,0 +1,88 @@
+"""The numbers of a world's entities, as Gazebo's messages carry them (`Pose.id`, `Entity.id`, `Model.id`).
+
+The world is 1; every model, link, visual, collision, sensor, joint and light gets the next number when it comes, in
+the order of the file, and keeps it. A number is never given twice, also not after its entity was removed.
+`World` keeps the one instance of a world; UserCommands, SceneBroadcaster and PosePublisher ask it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from gz.sim.sdf.description import Light, Model, WorldDescription
+
+
+@dataclass(frozen=True, slots=True)
+class Entity:
+    """One entity: its number, its `kind` (world, model, link, visual, collision, sensor, joint, light), and the `path`
+    of names that leads to it below the world, outermost first. Nested models' names are scoped: `arm::hand`.
+    """
+
+    number: int
+    kind: str
+    path: tuple[str, ...]
+
+    @property
+    def name(self) -> str:
+        """Its own name: the last part of the path."""
+        return self.path[-1].rsplit("::", 1)[-1]
+
+
+class Entities:
+    """All entities of one world, by number and by name."""
+
+    def __init__(self, world: WorldDescription) -> None:
+        self._by_number: dict[int, Entity] = {}
+        self._numbers: dict[tuple[str, tuple[str, ...]], int] = {}
+        self._last = 0
+        self._add("world", (world.name,))
+        for model in world.models:
+            self.add_model(model)
+        for light in world.lights:
+            self.add_light(light)
+
+    def add_model(self, model: Model) -> int:
+        """Number a model that came, with everything in it; return the model's number."""
+        number = self._add("model", (model.name,))
+        for nested in model.nested:
+            self._add("model", (model.name, nested.name))
+        for link in model.links:
+            self._add("link", (model.name, link.name))
+            for kind, parts in (("visual", link.visuals), ("collision", link.collisions), ("sensor", link.sensors)):
+                for part in parts:
+                    self._add(kind, (model.name, link.name, part.name))
+        for joint in model.joints:
+            self._add("joint", (model.name, joint.name))
+        return number
+
+    def add_light(self, light: Light) -> int:
+        """Number a light of the world that came."""
+        return self._add("light", (light.name,))
+
+    def remove(self, kind: str, name: str) -> list[int]:
+        """Forget a model (with everything in it) or a light of the world; return the numbers that went."""
+        gone = [each for each in self._by_number.values() if each.path[0] == name and each.kind != "world"]
+        gone = [each for each in gone if (each.kind == "light") == (kind == "light")]
+        for each in gone:
+            del self._by_number[each.number]
+            del self._numbers[(each.kind, each.path)]
+        return [each.number for each in gone]
+
+    def number(self, kind: str, *path: str) -> int:
+        """Return the number of an entity, 0 (Gazebo's "no entity") when there is none of that name."""
+        return self._numbers.get((kind, path), 0)
+
+    def find(self, number: int) -> Entity | None:
+        """Return the entity with that number."""
+        return self._by_number.get(number)
+
+    def __iter__(self) -> Iterator[Entity]:
+        """Yield all entities by number."""
+        return iter(self._by_number.values())
+
+    def _add(self, kind: str, path: tuple[str, ...]) -> int:
+        self._last += 1
+        self._by_number[self._last] = Entity(self._last, kind, path)
+        self._numbers[(kind, path)] = self._last
+        return self._last

@@ -1,0 +1,92 @@
+"""What all systems that run sensors share: which sensors are theirs, when each is due, who listens.
+
+`Sensors`, `Imu` and their like are plugins of the world and say only which sensor types they run. After each
+physics step the due sensors are updated, and only those somebody listens to: a due sensor without listeners
+costs one look.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from gz.sim.sdf.description import Model, Plugin
+from gz.sim.sensors.registry import SensorBase, sensor_types
+from gz.sim.systems.registry import System, UpdateInfo
+
+if TYPE_CHECKING:
+    from gz.sim.world import World
+    from gz.transport import Node
+
+_NEVER = 1 << 62
+
+
+class SensorSystem(System):
+    """Creates and schedules every sensor of the world whose class says `runs_in` = this system's name."""
+
+    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
+        """Start without sensors; `bind` makes them."""
+        self._world = world
+        self.sensors: list[SensorBase] = []
+        self._nodes: dict[int, Node] = {}
+        self._node: Node | None = None
+        self._next_ns = 0
+
+    def bind(self) -> None:
+        """Make the sensors of models that came, drop those of models that went, and let all find their places."""
+        types = sensor_types()
+        made = {id(sensor.description): sensor for sensor in self.sensors}
+        wanted: list[SensorBase] = []
+        for model in self._world.description.models:
+            for description in (sensor for link in model.links for sensor in link.sensors):
+                found = types.get(description.kind)
+                if found is None or found.runs_in != self.name:
+                    continue
+                sensor = made.pop(id(description), None)
+                if sensor is None:
+                    sensor = found(self._world, description)
+                    self._open(sensor)
+                wanted.append(sensor)
+        for gone in made.values():
+            node = self._nodes.pop(id(gone), None)
+            if node is not None:
+                node.close()
+        self.sensors = wanted
+        for sensor in wanted:
+            sensor.bind()
+        self._next_ns = 0
+
+    def start(self) -> None:
+        """Begin every schedule anew."""
+        self._next_ns = 0
+        for sensor in self.sensors:
+            sensor.start()
+
+    def connect(self, node: Node) -> None:
+        """Let every sensor advertise on a node of its own."""
+        self._node = node
+        for sensor in self.sensors:
+            self._open(sensor)
+
+    def close(self) -> None:
+        """End what the sensors advertised."""
+        for node in self._nodes.values():
+            node.close()
+        self._nodes.clear()
+
+    def _open(self, sensor: SensorBase) -> None:
+        if self._node is not None and id(sensor) not in self._nodes:
+            own = self._nodes[id(sensor)] = type(self._node)(self._node.options)
+            sensor.connect(own)
+
+    def post_update(self, info: UpdateInfo) -> None:
+        """Update the sensors that are due."""
+        now = info.sim_time_ns
+        if now < self._next_ns:
+            return
+        for sensor in self.sensors:
+            if now >= sensor.next_update_ns:
+                if sensor.has_connections():
+                    sensor.update(now)
+                sensor.updates += 1
+                sensor.next_update_ns += sensor.period_ns
+        self._next_ns = min((sensor.next_update_ns for sensor in self.sensors), default=_NEVER)
