@@ -12,6 +12,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 LOG = logging.getLogger("gz.sim")
+_MOST_NAMES = 5000  # comparing one name with more takes seconds
+_MOST_WARNINGS = 1000
 
 
 class SimError(Exception):
@@ -33,7 +35,7 @@ def nearest(name: str, known: Iterable[str], *, listing: str = "known names are"
     """Return the tail of a sentence that points to the closest of `known`, or lists them when none is
     close.
     """
-    names = sorted(set(known))
+    names = sorted(set(known))[:_MOST_NAMES]
     lowered: dict[str, str] = {}
     for each in names:
         lowered.setdefault(each.lower(), each)
@@ -48,13 +50,38 @@ def nearest(name: str, known: Iterable[str], *, listing: str = "known names are"
 
 @dataclass
 class Diagnostics:
-    """Collects the warnings of one world; each distinct sentence is logged once and kept in `warnings`."""
+    """Collects the warnings of one world; each distinct sentence is logged once and kept in `warnings`.
+
+    With `strict` nothing is logged while the world is being read and built: `refuse`, called when that is done, raises
+    one error with all of them. After that call warnings are logged as they come.
+    """
 
     warnings: list[str] = field(default_factory=list)
+    strict: bool = False
+    _known: set[str] = field(default_factory=set, repr=False)
 
     def warn(self, where: str, sentence: str) -> None:
         """Report `sentence` about the place `where` (`file:line`, or empty for the whole world)."""
         text = f"{where}: {sentence}" if where else sentence
-        if text not in self.warnings:
-            self.warnings.append(text)
+        if text in self._known or len(self._known) > _MOST_WARNINGS:
+            return
+        self._known.add(text)
+        if len(self._known) > _MOST_WARNINGS:
+            text = f"there are more than {_MOST_WARNINGS} warnings, the others are not shown"
+        self.warnings.append(text)
+        if not self.strict:
             LOG.warning("%s", text)
+
+    def warn_once(self, subject: str, where: str, sentence: str) -> None:
+        """Report `sentence` about the first place where `subject` comes up, and be silent about the others."""
+        if subject not in self._known and len(self._known) <= _MOST_WARNINGS:
+            self._known.add(subject)
+            self.warn(where, sentence)
+
+    def refuse(self) -> None:
+        """End strict loading: raise `SdfError` with every sentence, a line each, when there is one."""
+        strict, self.strict = self.strict, False
+        if strict and self.warnings:
+            count = len(self.warnings)
+            first = f"strict loading refuses what would be {count} warning{'s' if count > 1 else ''}:"
+            raise SdfError("\n  ".join((first, *self.warnings)))
