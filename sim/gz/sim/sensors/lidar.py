@@ -1,9 +1,9 @@
-"""Lidar: casts rays into the world and publishes a `LaserScan`.
+"""Lidar, 2-D and 3-D: casts rays into the world and publishes a `LaserScan` and a cloud of points.
 
 `gpu_lidar` sees what is visible (visuals), as in Gazebo; `lidar` and `ray` see the collision shapes. After a
 physics step, when due and listened to: rays -> ranges -> out of range as -inf / +inf (REP 117) -> noise on
-finite ranges -> message. The robot's own parts are seen too, except those that enclose the sensor and what
-lies in the near clip cube.
+finite ranges -> messages. The robot's own parts are seen too, except those that enclose the sensor and what
+lies in the near clip cube. Intensities are the `<laser_retro>` of what was met.
 """
 
 from __future__ import annotations
@@ -11,19 +11,23 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
-from gz.sim.physics.builder import COLLISION_GROUP, SITE_GROUP, VISUAL_GROUP
+from gz.sim.physics.builder import COLLISION_GROUP, VISUAL_GROUP
 from gz.sim.sdf.description import Sensor
 from gz.sim.sdf.element import Element
+from gz.sim.sensors.geom_parts import geom_parts
 from gz.sim.sensors.noise import Noise
+from gz.sim.sensors.point_cloud import LIDAR, fill_cloud
+from gz.sim.sensors.ray_caster import ALL_BITS, Floats, RayCaster, directions
 from gz.sim.sensors.registry import SensorBase, sensor_type
 
 if TYPE_CHECKING:
     from gz.sim.world import World
     from gz.transport import Node
+
+MOST_RAYS = 2_000_000
+"""More beams than this would take minutes a scan."""
 
 
 class _Sweep:
@@ -44,7 +48,7 @@ class _Sweep:
                 raise element.error(f"<min_angle> ({self.minimum}) must not be above <max_angle> ({self.maximum})")
             self.count = max(1, int(samples * resolution))
         self.step = (self.maximum - self.minimum) / (self.count - 1) if self.count > 1 else 0.0
-        self.angles = self.minimum + self.step * np.arange(self.count)
+        self.angles: Floats = self.minimum + self.step * np.arange(self.count, dtype=np.float64)
 
 
 @sensor_type("gpu_lidar", "gpu_ray", "lidar", "ray")
@@ -61,6 +65,9 @@ class Lidar(SensorBase):
         scan = holder.find("scan") or Element("scan", file=holder.file, line=holder.line)
         self.horizontal = _Sweep(scan.find("horizontal"), 640)
         self.vertical = _Sweep(scan.find("vertical"), 1)
+        count = self.horizontal.count * self.vertical.count
+        if count > MOST_RAYS:
+            raise scan.error(f"a lidar may have {MOST_RAYS} beams at most, this one has {count}")
         reach = holder.find("range")
         self.range_min = reach.number("min", 0.0) if reach is not None else 0.0
         self.range_max = reach.number("max", 0.0) if reach is not None else 0.0
@@ -70,91 +77,53 @@ class Lidar(SensorBase):
             )
         self.noise = Noise.from_sdf(holder.find("noise"))
         self._bias = self.noise.draw_bias(self.constant_random("bias"))
-        self._directions = _directions(self.horizontal.angles, self.vertical.angles)
-        count = len(self._directions)
-        self._ids = np.zeros(count, dtype=np.int32)
-        self._distances = np.zeros(count)
-        group = VISUAL_GROUP if description.kind.startswith("gpu") else COLLISION_GROUP
-        self._groups = np.zeros(6, dtype=np.uint8)
-        self._groups[group] = 1
+        self._directions = directions(self.horizontal.angles, self.vertical.angles)
+        self._group = VISUAL_GROUP if description.kind.startswith("gpu") else COLLISION_GROUP
         # Gazebo's rendering leaves out what lies in this cube round the sensor.
-        self._clip = self.range_min / math.sqrt(3.0)
-        largest = np.max(np.abs(self._directions), axis=1)
-        self._clip_distances = self._clip / largest
-        self._publisher: Any = None
-        self._group = group
+        near = self.range_min / math.sqrt(3.0) / np.max(np.abs(self._directions), axis=1)
+        mask = holder.integer("visibility_mask", ALL_BITS)
+        self.caster = RayCaster(world, description, self._directions, self._group, near, self.range_max, mask)
+        self._scan: Any = None
+        self._points: Any = None
 
     def bind(self) -> None:
-        """Find the site and the sensor's own housing."""
-        self._site = self.world.model.site(self.scoped_name).id
-        self._enclosing = self._find_enclosing(self._group)
+        """Find the site, what is invisible to this sensor, and how strongly each surface reflects."""
+        self.caster.bind()
+        # One more entry, for rays that met nothing (geom -1).
+        self._retro = np.zeros(self.world.model.ngeom + 1)
+        for geom, _, _, part in geom_parts(self.world, self._group):
+            self._retro[geom] = part.element.number("laser_retro", 0.0)
 
     def topic_suffix(self) -> str:
         """Gazebo's last part of a lidar topic."""
         return "scan"
 
     def connect(self, node: Node) -> None:
-        """Advertise the scan."""
+        """Advertise the scan and, below it, the points."""
         from gz.msgs.laserscan_pb2 import LaserScan
+        from gz.msgs.pointcloud_packed_pb2 import PointCloudPacked
 
-        self._type = LaserScan
-        self._publisher = node.advertise(self.topic, LaserScan)
+        self._scan_type, self._points_type = LaserScan, PointCloudPacked
+        self._scan = node.advertise(self.topic, LaserScan)
+        self._points = node.advertise(f"{self.topic}/points", PointCloudPacked)
 
     def has_connections(self) -> bool:
-        """Tell whether anybody listens to the scan."""
-        return self._publisher is not None and self._publisher.has_connections()
+        """Tell whether anybody listens to the scan or the points."""
+        return self._scan is not None and (self._scan.has_connections() or self._points.has_connections())
 
-    def _find_enclosing(self, group: int) -> list[int]:
-        """Return the geoms of the sensor's own model that contain its origin (a housing): its rays start
-        inside them.
-        """
-        model, data = self.world.model, self.world.data
-        self.world.refresh()
-        origin = data.site_xpos[self._site]
-        prefix = self.description.model + "::"
-        found = []
-        for geom in range(model.ngeom):
-            if model.geom_group[geom] == group and model.geom(geom).name.startswith(prefix):
-                local = data.geom_xmat[geom].reshape(3, 3).T @ (origin - data.geom_xpos[geom])
-                if _contains(int(model.geom_type[geom]), model.geom_size[geom], local):
-                    found.append(geom)
-        return found
-
-    def ranges(self) -> NDArray[np.float64]:
+    def ranges(self) -> Floats:
         """Return the exact distances (m) along all rays now: +inf beyond `range_max`, -inf below `range_min`,
         no noise.
         """
-        world = self.world
-        world.refresh()
-        model, data = world.model, world.data
-        origin = data.site_xpos[self._site].copy()
-        turn = data.site_xmat[self._site].reshape(3, 3)
-        rays = self._directions @ turn.T
-        groups = model.geom_group[self._enclosing].copy() if self._enclosing else None
-        if groups is not None:
-            model.geom_group[self._enclosing] = SITE_GROUP
-        try:
-            mujoco.mj_multiRay(
-                model, data, origin, rays.ravel(), self._groups, True, -1,
-                self._ids, self._distances, None, len(rays), self.range_max,
-            )  # fmt: skip
-            distances = self._distances.copy()
-            near = np.flatnonzero((distances >= 0.0) & (distances < self._clip_distances))
-            for ray in near:
-                skip = self._clip_distances[ray]
-                beyond = mujoco.mj_ray(
-                    model, data, origin + skip * rays[ray], rays[ray], self._groups, True, -1, self._ids[:1]
-                )
-                distances[ray] = skip + beyond if beyond >= 0.0 else -1.0
-        finally:
-            if groups is not None:
-                model.geom_group[self._enclosing] = groups
-        missed = (distances < 0.0) | (distances > self.range_max)
+        hits = self.caster.cast()
+        distances = hits.distance.copy()
+        missed = distances < 0.0
         distances[distances < self.range_min] = -np.inf
         distances[missed] = np.inf
+        self._intensities = self._retro[hits.geom]
         return distances
 
-    def measure(self) -> NDArray[np.float64]:
+    def measure(self) -> Floats:
         """Return the ranges (m) with the noise of the current update."""
         distances = self.ranges()
         if not self.noise.silent:
@@ -164,47 +133,37 @@ class Lidar(SensorBase):
         return distances
 
     def update(self, now_ns: int) -> None:
-        """Publish one scan."""
-        message = self._type()
+        """Publish one scan and its points, each if somebody listens."""
+        distances = self.measure()
+        if self._scan.has_connections():
+            self._publish_scan(distances, now_ns)
+        if self._points.has_connections():
+            self._publish_points(distances, now_ns)
+
+    def _publish_scan(self, distances: Floats, now_ns: int) -> None:
+        message = self._scan_type()
         self.fill_header(message.header, now_ns)
         message.frame = self.frame_id
+        message.ranges.extend(distances.tolist())
+        message.intensities.extend(self._intensities.tolist())
         pose = message.world_pose
-        position = self.world.data.site_xpos[self._site]
-        message.ranges.extend(self.measure().tolist())
+        position, turn = self.caster.pose()
         pose.position.x, pose.position.y, pose.position.z = position.tolist()
-        turn = np.zeros(4)
-        mujoco.mju_mat2Quat(turn, self.world.data.site_xmat[self._site])
         pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z = turn.tolist()
         message.angle_min, message.angle_max = self.horizontal.minimum, self.horizontal.maximum
         message.angle_step, message.count = self.horizontal.step, self.horizontal.count
         message.vertical_angle_min, message.vertical_angle_max = self.vertical.minimum, self.vertical.maximum
         message.vertical_angle_step, message.vertical_count = self.vertical.step, self.vertical.count
         message.range_min, message.range_max = self.range_min, self.range_max
-        message.intensities.extend([0.0] * len(message.ranges))
-        self._publisher.publish(message)
+        self._scan.publish(message)
 
-
-def _directions(horizontal: NDArray[np.floating[Any]], vertical: NDArray[np.floating[Any]]) -> NDArray[np.float64]:
-    """Return unit vectors (n, 3): x ahead, y left, z up; one row of horizontal angles after the other."""
-    azimuth = np.tile(horizontal, len(vertical))
-    elevation = np.repeat(vertical, len(horizontal))
-    across = np.cos(elevation)
-    return np.stack((across * np.cos(azimuth), across * np.sin(azimuth), np.sin(elevation)), axis=1)
-
-
-def _contains(kind: int, size: NDArray[np.float64], point: NDArray[np.float64]) -> bool:
-    """Tell whether a primitive geom with half sizes `size` contains a point given in its own frame."""
-    geom = mujoco.mjtGeom
-    x, y, z = (float(value) for value in point)
-    if kind == geom.mjGEOM_SPHERE:
-        return x * x + y * y + z * z < size[0] ** 2
-    if kind == geom.mjGEOM_BOX:
-        return bool(np.all(np.abs(point) < size))
-    if kind == geom.mjGEOM_CYLINDER:
-        return x * x + y * y < size[0] ** 2 and abs(z) < size[1]
-    if kind == geom.mjGEOM_CAPSULE:
-        cap = max(0.0, abs(z) - float(size[1]))
-        return x * x + y * y + cap * cap < size[0] ** 2
-    if kind == geom.mjGEOM_ELLIPSOID:
-        return float(np.sum((point / size) ** 2)) < 1.0
-    return False
+    def _publish_points(self, distances: Floats, now_ns: int) -> None:
+        message = self._points_type()
+        self.fill_header(message.header, now_ns)
+        points = np.zeros(len(distances), dtype=LIDAR)
+        with np.errstate(invalid="ignore"):  # infinitely far along an axis that is not looked along
+            points["x"], points["y"], points["z"] = (self._directions * distances[:, None]).T
+        points["intensity"] = self._intensities
+        points["ring"] = np.repeat(np.arange(self.vertical.count), self.horizontal.count)
+        fill_cloud(message, points, self.vertical.count, self.horizontal.count)
+        self._points.publish(message)
