@@ -1,9 +1,9 @@
-"""A node that looks at the live ROS graph: what `ros2 topic`, `ros2 node` and the like stand on.
+"""A node that looks at the live ROS graph: what every verb that needs the graph stands on.
 
-There is no daemon that would know the graph already, and Fast DDS answers a newcomer at once or, every third
-time, only with its next announcement: nodes repeat theirs every 3 s. Verbs that list wait until everybody has
-had a turn and nothing changes any more (`settle`, or `--spin-time` for those in a hurry); verbs with a target
-go on as soon as it is there (`wait_for_topic`). Everything has a deadline.
+There is no daemon that would know the graph already. Verbs that list wait until every DDS participant of this machine
+has been met (`discovery`), has told all its nodes and endpoints, and nothing changes any more (`settle`, or
+`--spin-time` for those who know better); verbs with a target go on as soon as it is there (`wait_for`), or say that it
+is not once everybody has been met. Everything has a deadline.
 """
 
 from __future__ import annotations
@@ -11,9 +11,9 @@ from __future__ import annotations
 import argparse
 import os
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from types import TracebackType
-from typing import Any
+from typing import Any, TypeVar
 
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
@@ -22,23 +22,37 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
 
+from ros2.discovery import Participants
 from ros2.errors import CommandError
 
 FIRST_CONTACT = 3.3  # s within which every node there is has announced itself to a new one
-QUIET = 0.3  # s without a change after which a graph counts as complete
+OTHER_MACHINES = 0.5  # s for answers that come over a network
+QUIET = 0.2  # s without a change after which a graph counts as complete
 SETTLE_DEADLINE = 6.0  # s for a graph that never stops changing
-TARGET_DEADLINE = 5.0  # s for the topic a user has named
-_POLL = 0.05  # s; the graph announces changes only to a spinning executor, and not all of them
+TARGET_DEADLINE = 5.0  # s for what a user has named
+GIVE_UP = 2.0  # s after which it does not exist, if everybody has been met; its node may just be starting
+_POLL = 0.02  # s; the graph announces changes only to a spinning executor, and not all of them
 _UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"  # an endpoint whose node has not been announced yet
+
+Found = TypeVar("Found")
+NamesAndTypes = list[tuple[str, list[str]]]
 
 
 def add_graph_options(parser: argparse.ArgumentParser) -> None:
     """The options of every verb that looks at the graph."""
     parser.add_argument(
-        "--spin-time", type=float, metavar="SECONDS", help="Time to wait for discovery (default: as needed)"
+        "--spin-time", type=seconds, metavar="SECONDS", help="Time to wait for discovery (default: as needed)"
     )
     parser.add_argument("-s", "--use-sim-time", action="store_true", help="Enable ROS simulation time")
     parser.add_argument("--no-daemon", action="store_true", help="Accepted and ignored: there is no daemon")
+
+
+def seconds(text: str) -> float:
+    """A number of seconds from 0 on, and finite; ValueError otherwise."""
+    value = float(text)
+    if not 0.0 <= value < float("inf"):
+        raise ValueError
+    return value
 
 
 def is_hidden(name: str) -> bool:
@@ -47,9 +61,9 @@ def is_hidden(name: str) -> bool:
 
 
 class Graph:
-    """The graph as seen by a node of its own, hidden one (`_ros2cli_<pid>`); a context manager."""
+    """The graph as seen by a node of its own, a hidden one (`_ros2cli_<pid>`); a context manager."""
 
-    def __init__(self, arguments: argparse.Namespace) -> None:
+    def __init__(self, arguments: argparse.Namespace, node_name: str | None = None) -> None:
         self._spin_time: float | None = arguments.spin_time
         self._context = rclpy.Context()
         # Shared memory outlives a process that is killed and can block the next one; every node speaks UDP too.
@@ -61,21 +75,24 @@ class Graph:
                 context=self._context,
                 signal_handler_options=SignalHandlerOptions.NO,
             )
-        except rclpy_implementation.RCLError as error:
-            raise CommandError(f"ROS did not start: {error}") from None
-        self.node: Any = Node(
-            f"_ros2cli_{os.getpid()}",
-            context=self._context,
-            use_global_arguments=False,
-            start_parameter_services=False,
-            parameter_overrides=[
-                Parameter("start_type_description_service", value=False),
-                Parameter("use_sim_time", value=arguments.use_sim_time),
-            ],
-        )
+            self.node: Any = Node(
+                node_name or f"_ros2cli_{os.getpid()}",
+                context=self._context,
+                use_global_arguments=False,
+                start_parameter_services=False,
+                parameter_overrides=[
+                    Parameter("start_type_description_service", value=False),
+                    Parameter("use_sim_time", value=arguments.use_sim_time),
+                ],
+            )
+        except (rclpy_implementation.RCLError, ValueError) as error:
+            raise CommandError(f"ROS did not start: {str(error).splitlines()[0]}") from None
         self._executor: Any = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self.node)
+        self._participants = Participants(self.node, self._context.get_domain_id())
         self._born = time.monotonic()
+        self._seen: Any = None
+        self._changed = self._born
 
     def __enter__(self) -> Graph:
         return self
@@ -91,26 +108,56 @@ class Graph:
         """Run what has arrived, waiting up to `timeout` seconds for it."""
         self._executor.spin_once(timeout_sec=timeout)
 
-    def topics(self, hidden: bool = False) -> list[tuple[str, list[str]]]:
+    def spin_until(self, condition: Callable[[], bool], timeout: float | None = None) -> bool:
+        """Run what arrives until the condition is true; False if it is not within `timeout` seconds (None: ever)."""
+        end = None if timeout is None else time.monotonic() + timeout
+        while not condition():
+            left = 0.1 if end is None else min(0.1, end - time.monotonic())
+            if left <= 0:
+                return False
+            self.spin_once(left)
+        return True
+
+    def topics(self, hidden: bool = False) -> NamesAndTypes:
         """Topics and their types, both sorted."""
-        return sorted(
-            (name, types) for name, types in self.node.get_topic_names_and_types() if hidden or not is_hidden(name)
-        )
+        return _shown(self.node.get_topic_names_and_types(), hidden)
+
+    def services(self, hidden: bool = False) -> NamesAndTypes:
+        """Services and their types, both sorted; those of this command itself are none."""
+        return _shown(self.node.get_service_names_and_types(), hidden)
+
+    def nodes(self, hidden: bool = False) -> list[str]:
+        """Full names of the nodes, sorted; a name as often as there are nodes of that name."""
+        names = (_join(namespace, name) for name, namespace in self.node.get_node_names_and_namespaces())
+        own = self.node.get_fully_qualified_name()
+        return sorted(name for name in names if name != own and (hidden or not is_hidden(name)))
 
     def settle(self) -> None:
         """Wait until the graph is complete as far as one can tell, or exactly --spin-time."""
         if self._spin_time is not None:
             end = self._born + self._spin_time
             self._wait(lambda: time.monotonic() >= end, self._spin_time)
-            return
-        self._settle(self._born + FIRST_CONTACT, QUIET, SETTLE_DEADLINE)
+        else:
+            self._wait(lambda: self._complete(QUIET), SETTLE_DEADLINE)
 
-    def wait_for_topic(self, name: str) -> list[str]:
-        """The types of a topic as soon as it is there, or after exactly --spin-time; empty if it does not come."""
+    def wait_for(self, find: Callable[[], Found]) -> Found:
+        """What `find` returns as soon as that is true, or what it returns at the end (exactly --spin-time, if given)."""
         if self._spin_time is not None:
             self.settle()
-        elif self._wait(lambda: bool(self._types(name)), TARGET_DEADLINE):
-            self._settle(0.0, 0.2, 1.0)
+        else:
+            given_up = self._born + GIVE_UP
+
+            def decided() -> bool:
+                complete = self._complete(QUIET)  # asked each time, because it calls those who are missing
+                return bool(find()) or (complete and time.monotonic() >= given_up)
+
+            self._wait(decided, TARGET_DEADLINE)
+        return find()
+
+    def wait_for_topic(self, name: str) -> list[str]:
+        """The types of a topic as soon as all that is known of it is known; empty if it does not come."""
+        if self.wait_for(lambda: self._types(name)) and self._spin_time is None:
+            self._wait(lambda: self._complete(QUIET / 2), 1.0)
         return self._types(name)
 
     def wait_for_publisher(self, name: str, timeout: float) -> bool:
@@ -129,31 +176,45 @@ class Graph:
             time.sleep(min(_POLL, left))
         return True
 
-    def _settle(self, earliest: float, quiet: float, deadline: float) -> None:
-        seen = self._snapshot()
-        changed = time.monotonic()
+    def _complete(self, quiet: float) -> bool:
+        """Whether everybody has been met, has told everything, and `quiet` seconds have passed without a change."""
+        now, seen = time.monotonic(), self._snapshot()
+        if seen != self._seen:
+            self._seen, self._changed = seen, now
+        all_known = self._participants.all_known()
+        earliest = self._born + (OTHER_MACHINES if _listens_to_other_machines() else 0.0)
+        if all_known is not True:
+            # Nobody can tell, or somebody does not answer: a program that is no ROS node, or one that hangs.
+            earliest = self._born + FIRST_CONTACT
+        nodes, endpoints, _ = seen
+        # A node is known a moment before its endpoints, or they before it: both must have arrived.
+        whole = nodes == {node for _, node, _ in endpoints}
+        return whole and now >= max(earliest, self._changed + quiet)
 
-        def complete() -> bool:
-            nonlocal seen, changed
-            now = self._snapshot()
-            if now != seen:
-                seen, changed = now, time.monotonic()
-            nodes, endpoints = seen
-            # A node is known a moment before its endpoints, or they before it: both must have arrived.
-            whole = nodes == {node for _, node, _ in endpoints}
-            return whole and time.monotonic() >= max(earliest, changed + quiet)
-
-        self._wait(complete, deadline)
-
-    def _snapshot(self) -> tuple[set[str], set[tuple[str, str, str]]]:
-        """The other nodes, and (topic, node, endpoint's identifier) of their endpoints."""
+    def _snapshot(self) -> tuple[set[str], set[tuple[str, str, str]], set[str]]:
+        """The other nodes, (topic, node, endpoint's identifier) of their endpoints, and all services."""
         own = self.node.get_fully_qualified_name()
-        nodes = {f"{namespace.rstrip('/')}/{name}" for name, namespace in self.node.get_node_names_and_namespaces()}
         endpoints = set()
         for topic, _ in self.node.get_topic_names_and_types():
             for ends in (self.node.get_publishers_info_by_topic, self.node.get_subscriptions_info_by_topic):
                 for end in ends(topic):
-                    name = f"{end.node_namespace.rstrip('/')}/{end.node_name}"
                     known = _UNKNOWN_NODE not in (end.node_name, end.node_namespace)
-                    endpoints.add((topic, name if known else "", bytes(end.endpoint_gid).hex()))
-        return nodes - {own}, {end for end in endpoints if end[1] != own}
+                    name = _join(end.node_namespace, end.node_name) if known else ""
+                    endpoints.add((topic, name, bytes(end.endpoint_gid).hex()))
+        services = {name for name, _ in self.node.get_service_names_and_types()}
+        return set(self.nodes(hidden=True)), {end for end in endpoints if end[1] != own}, services
+
+
+def _join(namespace: str, name: str) -> str:
+    return f"{namespace.rstrip('/')}/{name}"
+
+
+def _shown(found: Iterable[tuple[str, list[str]]], hidden: bool) -> NamesAndTypes:
+    return sorted((name, sorted(types)) for name, types in found if hidden or not is_hidden(name))
+
+
+def _listens_to_other_machines() -> bool:
+    reach = os.environ.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "").upper()
+    if os.environ.get("ROS_LOCALHOST_ONLY") == "1":
+        return False
+    return reach not in ("LOCALHOST", "OFF") or bool(os.environ.get("ROS_STATIC_PEERS"))
