@@ -9,6 +9,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+import numpy as np
+from numpy.typing import NDArray
+
 from gz.sim.pose import IDENTITY, Pose
 from gz.sim.sdf.element import Element
 
@@ -17,12 +20,32 @@ UNLIMITED = 1e16
 
 
 @dataclass(eq=False)
+class TriangleMesh:
+    """A surface of triangles: `vertices` (n, 3) in metres in the shape's frame, `triangles` (m, 3) indices into them.
+
+    `pieces` are the convex bodies that touch, each the points (k, 3) it is the hull of; empty for what is only seen or
+    touches otherwise (heightmaps). Shapes with the same file and scale share one instance.
+    """
+
+    vertices: NDArray[np.float32]
+    triangles: NDArray[np.int32]
+    pieces: tuple[NDArray[np.float64], ...] = ()
+
+
+@dataclass(eq=False)
 class Geometry:
-    """One shape. `size` holds the full extents (m) as documented at `gz.sim.visuals.VisualShape.size`."""
+    """One shape: `kind` is SDF's word for it.
+
+    `size` holds the full extents (m) as documented at `gz.sim.visuals.VisualShape.size`. `mesh` is the surface of a
+    mesh, cone, polyline or heightmap. `heights` (rows, columns) are a heightmap's heights (m): the first row lies at
+    -y, the first column at -x.
+    """
 
     kind: str
     size: tuple[float, float, float]
     normal: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    mesh: TriangleMesh | None = None
+    heights: NDArray[np.float64] | None = None
 
 
 @dataclass(eq=False)
@@ -76,8 +99,38 @@ class Sensor:
 
 
 @dataclass(eq=False)
+class Light:
+    """A light: `kind` is directional, point or spot; `direction` (unit) in the light's own frame.
+
+    `pose` is in the world for a light of the world, in the link's frame for a light of a link. Colours are 0..1;
+    `range` (m) and the three factors are SDF's attenuation; the angles of a spot are full cone angles (rad).
+    """
+
+    name: str
+    kind: str
+    pose: Pose
+    direction: tuple[float, float, float]
+    diffuse: tuple[float, float, float]
+    specular: tuple[float, float, float] = (0.1, 0.1, 0.1)
+    intensity: float = 1.0
+    cast_shadows: bool = False
+    on: bool = True
+    visualize: bool = True
+    range: float = 10.0
+    constant: float = 1.0
+    linear: float = 1.0
+    quadratic: float = 0.0
+    inner_angle: float = 0.0
+    outer_angle: float = 0.0
+    falloff: float = 0.0
+    element: Element = field(default_factory=lambda: Element("light"))
+
+
+@dataclass(eq=False)
 class Link:
-    """A rigid body: scoped name, pose in the top model's frame, and what is fixed to it."""
+    """A rigid body: scoped name, pose in the top model's frame, and what is fixed to it. A link of a static model
+    nested in a moving one is `static`: it is held by the world.
+    """
 
     name: str
     pose: Pose
@@ -86,30 +139,53 @@ class Link:
     collisions: list[Collision] = field(default_factory=list)
     visuals: list[Visual] = field(default_factory=list)
     sensors: list[Sensor] = field(default_factory=list)
+    lights: list[Light] = field(default_factory=list)
     gravity: bool = True
     self_collide: bool = False
+    static: bool = False
+
+
+@dataclass(eq=False)
+class Mimic:
+    """`<mimic>`: the axis follows that of `joint` (scoped name; its second axis when `axis` is axis2):
+    position = multiplier * (leader - reference) + offset.
+    """
+
+    joint: str
+    axis: str = "axis"
+    multiplier: float = 1.0
+    offset: float = 0.0
+    reference: float = 0.0
 
 
 @dataclass(eq=False)
 class Axis:
-    """One axis of a joint: `direction` (unit) in the child link's frame, limits (rad or m), losses and
-    spring.
+    """One axis of a joint: `direction` (unit) in the child link's frame, limits (rad or m; N m or N; rad/s or m/s),
+    losses and spring, and the position the joint starts at.
     """
 
     direction: tuple[float, float, float]
     lower: float = -UNLIMITED
     upper: float = UNLIMITED
     effort: float = float("inf")
+    velocity: float = float("inf")
     damping: float = 0.0
     friction: float = 0.0
     spring_stiffness: float = 0.0
     spring_reference: float = 0.0
+    initial_position: float = 0.0
+    mimic: Mimic | None = None
 
 
 @dataclass(eq=False)
 class Joint:
     """Connects `parent` to `child` (scoped link names, parent may be `world`); `pose` is in the child link's
     frame.
+
+    `axis2` is the second axis of a universal or revolute2 joint and of a gearbox. `thread_pitch` is a screw's advance
+    (m per turn, positive for a right-handed thread). A gearbox turns `child` by -`gearbox_ratio` times the angle of
+    `parent`, both seen from the link `gearbox_reference`. For a joint of the world the links carry their model's
+    name: `model::link`.
     """
 
     name: str
@@ -119,6 +195,10 @@ class Joint:
     pose: Pose
     element: Element
     axis: Axis | None = None
+    axis2: Axis | None = None
+    thread_pitch: float = 1.0
+    gearbox_ratio: float = 1.0
+    gearbox_reference: str = ""
 
 
 @dataclass(eq=False)
@@ -174,20 +254,9 @@ class Model:
 
 
 @dataclass(eq=False)
-class Light:
-    """A light: `kind` is directional, point or spot; `direction` in the light's frame."""
-
-    name: str
-    kind: str
-    pose: Pose
-    direction: tuple[float, float, float]
-    diffuse: tuple[float, float, float]
-
-
-@dataclass(eq=False)
 class WorldDescription:
     """A whole world. `step_size_ns` in nanoseconds, `gravity` in m/s^2, `real_time_factor` 0 = as fast as
-    possible.
+    possible; `joints` are those between its models.
     """
 
     name: str
@@ -197,6 +266,7 @@ class WorldDescription:
     real_time_factor: float = 1.0
     models: list[Model] = field(default_factory=list)
     lights: list[Light] = field(default_factory=list)
+    joints: list[Joint] = field(default_factory=list)
     plugins: list[Plugin] = field(default_factory=list)
     ambient: tuple[float, float, float] = (0.4, 0.4, 0.4)
     background: tuple[float, float, float] = (0.7, 0.7, 0.7)
