@@ -1,0 +1,74 @@
+"""Camera: a colour image of what is visible, and its CameraInfo.
+
+Base and topics: `camera_sensor`; colours: `renderer`. Formats R8G8B8, L8, L16 and the Bayer patterns.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gz.sim.sdf.description import Sensor
+from gz.sim.sensors.camera_sensor import CameraSensor
+from gz.sim.sensors.registry import sensor_type
+from gz.sim.sensors.renderer import renderer_for
+
+if TYPE_CHECKING:
+    from gz.sim.world import World
+
+_LUMINANCE = np.array((0.299, 0.587, 0.114))
+_BAYER = {"BAYER_RGGB8": "RGGB", "BAYER_BGGR8": "BGGR", "BAYER_GBRG8": "GBRG", "BAYER_GRBG8": "GRBG"}
+
+
+def to_bytes(colours: NDArray[np.float64]) -> NDArray[np.uint8]:
+    """Return colours 0..1 as 0..255, rounded."""
+    return (np.clip(colours, 0.0, 1.0) * 255.0 + 0.5).astype(np.uint8)
+
+
+def encode(colours: NDArray[np.float64], height: int, width: int, pixel_format: str) -> NDArray[Any]:
+    """Return colours (height * width, 3), each 0..1, as the numbers of an image of that format."""
+    if pixel_format == "L_INT8":
+        return to_bytes(colours @ _LUMINANCE).reshape(height, width)
+    if pixel_format == "L_INT16":
+        return (np.clip(colours @ _LUMINANCE, 0.0, 1.0) * 65535.0 + 0.5).astype("<u2").reshape(height, width)
+    rgb = to_bytes(colours).reshape(height, width, 3)
+    if pixel_format not in _BAYER:
+        return rgb
+    mosaic = np.zeros((height, width), dtype=np.uint8)
+    for place, colour in enumerate(_BAYER[pixel_format]):
+        row, column = divmod(place, 2)
+        mosaic[row::2, column::2] = rgb[row::2, column::2, "RGB".index(colour)]
+    return mosaic
+
+
+@sensor_type("camera")
+class Camera(CameraSensor):
+    """A colour camera."""
+
+    wanted: ClassVar = {"": "Image"}
+
+    def __init__(self, world: World, description: Sensor) -> None:
+        super().__init__(world, description)
+        self._renderer = renderer_for(self)
+
+    def topic_suffix(self) -> str:
+        """Gazebo's last part of a camera topic."""
+        return "image"
+
+    def bind(self) -> None:
+        """Take over what is visible."""
+        super().bind()
+        self._renderer.bind()
+
+    def image(self) -> NDArray[Any]:
+        """Return the image of now, with the noise of the current update, as numbers of the camera's format."""
+        colours = self._renderer.image()
+        if not self.noise.silent:
+            colours = self.noise.apply(colours, 0.0, self.random())
+        return encode(colours, self.pinhole.height, self.pinhole.width, self.pinhole.format)
+
+    def look(self, now_ns: int) -> None:
+        """Publish the image."""
+        self.publish_image("", self.image(), self.pinhole.format, now_ns)

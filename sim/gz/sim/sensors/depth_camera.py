@@ -1,0 +1,90 @@
+"""Depth camera: the distance of every pixel along the optical axis, and the coloured points.
+
+Depths are float32 metres: -inf nearer than the near clip plane, +inf beyond the far one and where there is nothing.
+The near plane does not hide: what is too near is reported as too near, not looked through.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gz.sim.physics.builder import VISUAL_GROUP
+from gz.sim.sdf.description import Sensor
+from gz.sim.sensors.camera import to_bytes
+from gz.sim.sensors.camera_sensor import CameraSensor
+from gz.sim.sensors.point_cloud import COLOURED, pack_rgb
+from gz.sim.sensors.ray_caster import ALL_BITS, Floats, Hits, RayCaster
+from gz.sim.sensors.registry import sensor_type
+from gz.sim.sensors.shading import Shader
+
+if TYPE_CHECKING:
+    from gz.sim.world import World
+
+
+class DepthSensing(CameraSensor):
+    """What depth cameras and RGBD cameras share."""
+
+    def __init__(self, world: World, description: Sensor) -> None:
+        super().__init__(world, description)
+        mask = self.camera.integer("visibility_mask", ALL_BITS)
+        directions = self.pinhole.directions()
+        nothing_hides = np.zeros(len(directions))
+        self.caster = RayCaster(
+            world,
+            description,
+            directions,
+            VISUAL_GROUP,
+            nothing_hides,
+            self.pinhole.far / float(directions[:, 0].min()),
+            mask,
+        )
+        self.shader = Shader(world)
+        left, up = self.pinhole.slopes()
+        self._slopes = np.stack((np.ones_like(left), left, up))
+
+    def bind(self) -> None:
+        """Take over what is visible."""
+        super().bind()
+        self.shader.bind()
+
+    def depths(self, hits: Hits) -> NDArray[np.float32]:
+        """Return the depth image (height, width) of now, with the noise of the current update."""
+        depth = self.depth(hits)
+        if not self.noise.silent:
+            finite = np.isfinite(depth)
+            depth[finite] = self.noise.apply(depth, 0.0, self.random("depth"))[finite]
+        depth[depth < self.pinhole.near] = -np.inf
+        depth[depth > self.pinhole.far] = np.inf
+        return depth.astype("<f4").reshape(self.pinhole.height, self.pinhole.width)
+
+    def points(self, depth: NDArray[np.float32], colours: Floats) -> NDArray[Any]:
+        """Return a coloured point for every pixel, in the sensor's frame (x ahead, y left, z up)."""
+        points = np.zeros(depth.size, dtype=COLOURED)
+        with np.errstate(invalid="ignore"):  # infinitely far along an axis that is not looked along
+            points["x"], points["y"], points["z"] = self._slopes * depth.ravel()
+        points["rgb"] = pack_rgb(to_bytes(colours))
+        return points
+
+
+@sensor_type("depth_camera", "depth")
+class DepthCamera(DepthSensing):
+    """A camera that measures depth."""
+
+    wanted: ClassVar = {"": "Image", "/points": "PointCloudPacked"}
+
+    def topic_suffix(self) -> str:
+        """Gazebo's last part of a depth camera's topic."""
+        return "depth_image"
+
+    def look(self, now_ns: int) -> None:
+        """Publish depth image and points."""
+        coloured = self.listened("/points")
+        hits = self.cast(normals=coloured)
+        depth = self.depths(hits)
+        if self.listened(""):
+            self.publish_image("", depth, "R_FLOAT32", now_ns)
+        if coloured:
+            self.publish_cloud("/points", self.points(depth, self.shader.colours(hits)), now_ns)

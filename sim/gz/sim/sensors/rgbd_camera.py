@@ -1,0 +1,38 @@
+"""RGBD camera: colour image, depth image and coloured points from one cast of rays."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from gz.sim.sensors.camera import encode
+from gz.sim.sensors.depth_camera import DepthSensing
+from gz.sim.sensors.registry import sensor_type
+
+
+@sensor_type("rgbd_camera", "rgbd")
+class RgbdCamera(DepthSensing):
+    """A camera for colour and depth; all its topics stand below `<topic>`."""
+
+    info_beside = False
+    wanted: ClassVar = {"/image": "Image", "/depth_image": "Image", "/points": "PointCloudPacked"}
+
+    def topic_suffix(self) -> str:
+        """Nothing: the default topic ends with the sensor's name."""
+        return ""
+
+    def look(self, now_ns: int) -> None:
+        """Publish what somebody listens to."""
+        coloured = self.listened("/image") or self.listened("/points")
+        hits = self.cast(normals=coloured)
+        depth = self.depths(hits)
+        if self.listened("/depth_image"):
+            self.publish_image("/depth_image", depth, "R_FLOAT32", now_ns)
+        if not coloured:
+            return
+        colours = self.shader.colours(hits)
+        if self.listened("/image"):
+            noisy = colours if self.noise.silent else self.noise.apply(colours, 0.0, self.random())
+            image = encode(noisy, self.pinhole.height, self.pinhole.width, "RGB_INT8")
+            self.publish_image("/image", image, "RGB_INT8", now_ns)
+        if self.listened("/points"):
+            self.publish_cloud("/points", self.points(depth, colours), now_ns)

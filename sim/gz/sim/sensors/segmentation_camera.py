@@ -1,0 +1,88 @@
+"""Segmentation camera: which labelled thing each pixel shows, as numbers and as colours.
+
+Labels come from the Label plugin of visuals and models. A semantic map repeats the label in all three channels. A
+panoptic (instance) map holds the low and the high byte of the instance's count among its label in channels 0 and 1
+and the label in channel 2; all links of one model are one instance, counted in file order from 1. What has no label,
+and where nothing is, is 0 and black. The colour of a label is always the same.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gz.sim.errors import nearest
+from gz.sim.physics.builder import VISUAL_GROUP
+from gz.sim.sdf.description import Sensor
+from gz.sim.sensors.camera_sensor import CameraSensor
+from gz.sim.sensors.geom_parts import geom_parts
+from gz.sim.sensors.registry import sensor_type
+from gz.sim.systems.label import label_of
+
+if TYPE_CHECKING:
+    from gz.sim.world import World
+
+_PANOPTIC = {"semantic": False, "instance": True, "panoptic": True}
+
+
+def label_colour(number: int) -> tuple[int, int, int]:
+    """Return the colour that stands for a label or instance; 0 is black."""
+    if number == 0:
+        return 0, 0, 0
+    digest = hashlib.sha256(f"label {number}".encode()).digest()
+    return digest[0], digest[1], digest[2]
+
+
+@sensor_type("segmentation_camera", "segmentation")
+class SegmentationCamera(CameraSensor):
+    """A camera that sees labels instead of colours."""
+
+    info_beside = False
+    wanted: ClassVar = {"/colored_map": "Image", "/labels_map": "Image"}
+
+    def __init__(self, world: World, description: Sensor) -> None:
+        super().__init__(world, description)
+        kind = self.camera.text_of("segmentation_type", "semantic").lower()
+        if kind not in _PANOPTIC:
+            raise self.camera.error(f"<segmentation_type> '{kind}' is not known; {nearest(kind, _PANOPTIC)}")
+        self.panoptic = _PANOPTIC[kind]
+
+    def topic_suffix(self) -> str:
+        """Gazebo's last part of a segmentation camera's topic."""
+        return "segmentation"
+
+    def bind(self) -> None:
+        """Look up the label, instance and colour of every visible geom."""
+        super().bind()
+        count = self.world.model.ngeom + 1  # one more for rays that met nothing (geom -1)
+        self._labels = np.zeros((count, 3), dtype=np.uint8)
+        self._colours = np.zeros((count, 3), dtype=np.uint8)
+        instances: dict[int, dict[str, int]] = {}
+        for geom, model, link, part in geom_parts(self.world, VISUAL_GROUP):
+            label = label_of(model, link, part)
+            if label == 0:
+                continue
+            of_label = instances.setdefault(label, {})
+            instance = of_label.setdefault(model.name, len(of_label) + 1)
+            if self.panoptic:
+                self._labels[geom] = instance % 256, instance // 256 % 256, label
+                self._colours[geom] = label_colour(label * 65536 + instance)
+            else:
+                self._labels[geom] = label
+                self._colours[geom] = label_colour(label)
+
+    def maps(self) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
+        """Return the map of labels and the map of colours, both (height, width, 3)."""
+        geoms = self.cast().geom
+        shape = (self.pinhole.height, self.pinhole.width, 3)
+        return self._labels[geoms].reshape(shape), self._colours[geoms].reshape(shape)
+
+    def look(self, now_ns: int) -> None:
+        """Publish both maps, each if somebody listens."""
+        labels, colours = self.maps()
+        for suffix, image in (("/labels_map", labels), ("/colored_map", colours)):
+            if self.listened(suffix):
+                self.publish_image(suffix, image, "RGB_INT8", now_ns)

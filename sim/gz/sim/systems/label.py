@@ -1,0 +1,49 @@
+"""Label: names the class of a model or a visual, 0 to 255, for segmentation cameras.
+
+`<plugin filename="gz-sim-label-system" name="gz::sim::systems::Label"><label>10</label></plugin>` inside a `<visual>`
+or a `<model>`; a visual's own label wins over its model's, an inner model's over the outer one's.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from gz.sim.sdf.description import Collision, Link, Model, Plugin, Visual
+from gz.sim.sdf.element import Element
+from gz.sim.systems.registry import System, system, system_name
+
+if TYPE_CHECKING:
+    from gz.sim.world import World
+
+
+@system("Label", "gz-sim-label-system")
+class Label(System):
+    """Does nothing while the world runs: whoever wants labels asks `label_of`."""
+
+    parameters = frozenset(("label",))
+
+    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
+        """Read the label, so that a wrong one is told when the world is loaded."""
+        if model is None:
+            raise plugin.element.error("Label belongs inside a <visual> or a <model>, not directly in the <world>")
+        _read(plugin.element)
+
+
+def label_of(model: Model, link: Link, part: Visual | Collision) -> int:
+    """Return the label of a visual, 0 when it has none."""
+    for element in part.element.all("plugin"):
+        if system_name(Plugin(element.name, element.attributes.get("filename", ""), element)) == "Label":
+            return _read(element)
+    found = (-1, 0)
+    for plugin in model.plugins:
+        scope = plugin.scope
+        if system_name(plugin) == "Label" and (not scope or link.name.startswith(f"{scope}::")):
+            found = max(found, (len(scope), _read(plugin.element)))
+    return found[1]
+
+
+def _read(element: Element) -> int:
+    label = element.integer("label", -1)
+    if not 0 <= label <= 255:
+        raise element.error(f"Label needs <label> with a whole number from 0 to 255, got '{element.text_of('label')}'")
+    return label
