@@ -54,6 +54,8 @@ class Entities:
                     self._add(kind, (model.name, link.name, part.name))
         for joint in model.joints:
             self._add("joint", (model.name, joint.name))
+            for sensor in joint.sensors:
+                self._add("sensor", (model.name, joint.name, sensor.name))
         return number
 
     def add_light(self, light: Light) -> int:

@@ -178,7 +178,7 @@ class World:
                 "here, add <plugin filename='gz-sim-physics-system' name='gz::sim::systems::Physics'/>",
             )
         for model in self.description.models:
-            for sensor in (sensor for link in model.links for sensor in link.sensors):
+            for sensor in model.sensors():
                 self._check_sensor(sensor, names)
 
     def _check_sensor(self, sensor: Sensor, running: set[str]) -> None:

@@ -222,6 +222,11 @@ class _Builder:
             pose = base * sensor.pose
             site = body.add_site(name=f"{name}::{sensor.name}", pos=pose.position, quat=pose.quaternion)
             site.group = SITE_GROUP
+        for joint in (joint for joint in model.joints if joint.child == link.name):
+            for sensor in joint.sensors:
+                pose = base * joint.pose * sensor.pose
+                place = scoped(model, f"{joint.name}::{sensor.name}")
+                body.add_site(name=place, pos=pose.position, quat=pose.quaternion).group = SITE_GROUP
 
     def _add_collision(
         self,

@@ -88,7 +88,11 @@ class Inertial:
 
 @dataclass(eq=False)
 class Sensor:
-    """A sensor of a link; `element` keeps the parameters that only its own type understands."""
+    """A sensor of a link, or of a joint; `element` keeps the parameters that only its own type understands.
+
+    `pose` is in the frame of the link. For a sensor of a joint, `joint` is that joint's scoped name, `pose` is in the
+    joint's frame, and `link` is the child link.
+    """
 
     name: str
     kind: str
@@ -96,6 +100,7 @@ class Sensor:
     element: Element
     link: str
     model: str
+    joint: str = ""
 
 
 @dataclass(eq=False)
@@ -199,6 +204,7 @@ class Joint:
     thread_pitch: float = 1.0
     gearbox_ratio: float = 1.0
     gearbox_reference: str = ""
+    sensors: list[Sensor] = field(default_factory=list)
 
 
 @dataclass(eq=False)
@@ -247,6 +253,11 @@ class Model:
     def joint(self, name: str) -> Joint | None:
         """Return the joint of that scoped name."""
         return next((joint for joint in self.joints if joint.name == name), None)
+
+    def sensors(self) -> list[Sensor]:
+        """Return the sensors of all links, then those of all joints, in file order."""
+        holders: list[Link | Joint] = [*self.links, *self.joints]
+        return [sensor for holder in holders for sensor in holder.sensors]
 
     def mass(self) -> float:
         """Return the sum of the links' masses (kg)."""

@@ -14,6 +14,7 @@ from gz.sim.pose import Pose, matrix
 from gz.sim.sdf.description import UNLIMITED, Axis, Joint, Model
 from gz.sim.sdf.element import Element
 from gz.sim.sdf.frames import Scope
+from gz.sim.sdf.sensors import read_joint_sensors
 
 KINDS = ("fixed", "revolute", "continuous", "prismatic", "ball")
 _SDF_ONLY = ("universal", "revolute2", "screw", "gearbox")
@@ -38,6 +39,7 @@ def read_joint(
     child_link = next(link for link in model.links if link.name == child)
     pose = child_link.pose.inverse() * scope.pose_of(element.name, element)
     joint = Joint(element.name, kind, parent, child, pose, element)
+    joint.sensors = read_joint_sensors(joint, scope, model, diagnostics)
     if kind in ("revolute", "continuous", "prismatic"):
         axis = element.find("axis")
         joint.axis = (

@@ -232,6 +232,8 @@ def _flatten(model: Model, inner: Model, name: str, pose: Pose) -> None:
         joint.name = f"{name}::{joint.name}"
         joint.child = f"{name}::{joint.child}"
         joint.parent = joint.parent if joint.parent == "world" else f"{name}::{joint.parent}"
+        for sensor in joint.sensors:
+            sensor.joint, sensor.link, sensor.model = joint.name, joint.child, model.name
         model.joints.append(joint)
     for plugin in inner.plugins:
         plugin.scope = f"{name}::{plugin.scope}" if plugin.scope else name
