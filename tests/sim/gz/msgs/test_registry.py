@@ -19,9 +19,8 @@ def test_every_file_can_be_imported_and_holds_its_types():
         found |= {f"gz.msgs.{name}" for name in module.DESCRIPTOR.message_types_by_name}
         for name in module.DESCRIPTOR.message_types_by_name:
             assert getattr(module, name) is message_class(f"gz.msgs.{name}")
-    assert len(registry.file_stems()) == 76
     assert sorted(found) == type_names()
-    assert len(found) == 78
+    assert {"gz.msgs.Scene", "gz.msgs.SerializedStepMap", "gz.msgs.PID", "gz.msgs.Marker_V"} <= found
 
 
 @pytest.mark.parametrize("name", type_names())
@@ -76,7 +75,7 @@ def test_the_bytes_are_those_of_gazebo():
 def test_fields_that_are_not_described_are_kept():
     from gz.msgs.model_pb2 import Model
 
-    data = bytes.fromhex("1203626f78") + bytes.fromhex("4a020801")  # name "box", and field 9
+    data = bytes.fromhex("1203626f78") + bytes.fromhex("a206020801")  # name "box", and field 100
     assert Model.FromString(data).SerializeToString() == data
 
 
