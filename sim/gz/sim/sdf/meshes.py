@@ -1,0 +1,265 @@
+"""Mesh files: STL (binary and ASCII), OBJ and, with the extra `collada`, COLLADA become vertices and triangles.
+
+Called for the `<mesh>` of a geometry, with the path that `gz.sim.sdf.resources` found; the vertices go to the MuJoCo
+builder and to viewers. `<scale>` is not applied here, so that one file is read once for all sizes it is used in.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gz.sim.errors import ResourceError, nearest
+
+Vertices = NDArray[np.float64]
+Triangles = NDArray[np.int32]
+
+READABLE = (".stl", ".obj", ".dae")
+_UNREAD = (".glb", ".gltf", ".ply", ".fbx", ".3ds", ".blend", ".msh", ".off", ".x3d", ".wrl")
+_MOST_BYTES = 256 * 1024 * 1024
+_LARGEST = 1e9  # a coordinate beyond this is damage, and its square would not fit a float32
+_STL_HEADER = 84
+_STL_FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Mesh:
+    """A surface of triangles: `vertices` (n, 3) float64 in metres as the file has them (unscaled), `triangles` (m, 3)
+    int32, each row three indices of vertices, counter-clockwise seen from outside. Both are read-only.
+    """
+
+    vertices: Vertices
+    triangles: Triangles
+
+
+@dataclass(eq=False)
+class _Part:
+    """A run of triangles that goes by these names: an OBJ group or object, a solid, a COLLADA node."""
+
+    names: tuple[str, ...]
+    triangles: list[tuple[int, int, int]]
+
+
+def read_mesh(path: Path, submesh: str = "", center: bool = False) -> Mesh:
+    """Read a mesh file; the ending of its name says what it is.
+
+    `submesh` picks the part of that name (OBJ: object or group; COLLADA: node or geometry; ASCII STL: solid). `center`
+    moves what was picked so that the middle of its bounding box is the origin. Raises `ResourceError` with file and,
+    for text formats, line when the file is missing, damaged, too large, empty or of a kind that is not read.
+    """
+    kind = path.suffix.lower()
+    if kind not in READABLE:
+        can = "use .obj or .stl (Blender and MeshLab write both)"
+        if kind in _UNREAD:
+            raise ResourceError(f"{path}: meshes of kind {kind} are not read here; {can}")
+        raise ResourceError(f"{path}: the file's ending '{kind}' is not that of a mesh; {can}")
+    data = _bytes_of(path)
+    if kind == ".dae":
+        vertices, parts = _collada(path, data)
+    elif kind == ".obj":
+        vertices, parts = _obj(path, data)
+    else:
+        vertices, parts = _stl(path, data)
+    if submesh:
+        chosen = [part for part in parts if submesh in part.names]
+        if not chosen:
+            known = [name for part in parts for name in part.names if name]
+            raise ResourceError(
+                f"{path}: the mesh has no submesh '{submesh}'; {nearest(submesh, known, listing='its submeshes are')}"
+            )
+        parts = chosen
+    return _finished(path, vertices, [part.triangles for part in parts], center)
+
+
+def _bytes_of(path: Path) -> bytes:
+    try:
+        if not path.is_file():
+            siblings = [each.name for each in _listed(path.parent) if each.suffix.lower() in READABLE]
+            hint = nearest(path.name, siblings, listing="meshes in that folder are")
+            raise ResourceError(f"{path}: there is no such mesh file; {hint}")
+        size = path.stat().st_size
+        if size > _MOST_BYTES:
+            raise ResourceError(f"{path}: the mesh has {size // 2**20} MiB, at most {_MOST_BYTES // 2**20} are read")
+        return path.read_bytes()
+    except OSError as error:
+        if isinstance(error, ResourceError):
+            raise
+        raise ResourceError(f"{path}: the mesh file cannot be read ({error.strerror or error})") from None
+
+
+def _listed(folder: Path) -> list[Path]:
+    try:
+        with os.scandir(folder) as entries:
+            return [Path(entry.path) for entry in entries]
+    except OSError:
+        return []
+
+
+def _finished(
+    path: Path, vertices: Vertices, runs: Sequence[Sequence[tuple[int, int, int]] | Triangles], center: bool
+) -> Mesh:
+    """Make the mesh of some runs of triangles: equal vertices become one, unused ones and flat triangles go."""
+    arrays = [np.asarray(run, dtype=np.int32).reshape(-1, 3) for run in runs]
+    triangles = np.concatenate(arrays) if arrays else np.zeros((0, 3), np.int32)
+    used, flat = np.unique(triangles, return_inverse=True)
+    corners = vertices[used]
+    if not np.all(np.isfinite(corners)) or np.any(np.abs(corners) > _LARGEST):
+        raise ResourceError(f"{path}: the mesh has a vertex that is not finite or is farther than {_LARGEST:g} away")
+    corners, merged = np.unique(corners + 0.0, axis=0, return_inverse=True)  # + 0.0: minus zero is zero
+    triangles = merged.reshape(-1)[flat.reshape(-1)].reshape(-1, 3).astype(np.int32)
+    a, b, c = triangles.T
+    triangles = triangles[(a != b) & (b != c) & (c != a)]
+    if not len(triangles):
+        raise ResourceError(f"{path}: the mesh has no triangle")
+    if center:
+        corners = corners - (corners.min(axis=0) + corners.max(axis=0)) / 2.0
+    corners.flags.writeable = triangles.flags.writeable = False
+    return Mesh(corners, triangles)
+
+
+def _stl(path: Path, data: bytes) -> tuple[Vertices, list[_Part]]:
+    """Read either kind of STL. Binary files may start with the word "solid" too, so their size decides first."""
+    count = int.from_bytes(data[80:_STL_HEADER], "little") if len(data) >= _STL_HEADER else -1
+    expected = _STL_HEADER + count * _STL_FACET.itemsize
+    if count >= 0 and expected <= len(data) and (expected == len(data) or not _looks_ascii(data)):
+        facets = np.frombuffer(data, _STL_FACET, count, _STL_HEADER)
+        corners = facets["corners"].astype(np.float64).reshape(-1, 3)
+        indices = np.arange(3 * count, dtype=np.int32).reshape(-1, 3)
+        return corners, [_Part((), indices)]  # type: ignore[arg-type]
+    if _looks_ascii(data):
+        return _ascii_stl(path, data)
+    if count < 0:
+        raise ResourceError(f"{path}: this is no STL file: {len(data)} bytes are too few for a header")
+    whole = max(0, len(data) - _STL_HEADER) // _STL_FACET.itemsize
+    raise ResourceError(f"{path}: the STL file is cut off: it announces {count} triangles and holds {whole}")
+
+
+def _looks_ascii(data: bytes) -> bool:
+    head = data[:1024].lstrip().lower()
+    return head.startswith(b"solid") and b"\0" not in data[:1024]
+
+
+def _ascii_stl(path: Path, data: bytes) -> tuple[Vertices, list[_Part]]:
+    vertices: list[tuple[float, ...]] = []
+    parts: list[_Part] = []
+    loop: list[int] | None = None
+    ended = False
+    for number, line in enumerate(data.decode("utf-8", "replace").splitlines(), 1):
+        words = line.split()
+        if not words:
+            continue
+        word = words[0].lower()
+        if word == "solid":
+            parts.append(_Part((" ".join(words[1:]),), []))
+            ended = False
+        elif word == "outer":
+            loop = []
+        elif word == "vertex":
+            if loop is None or not parts:
+                raise ResourceError(f"{path}:{number}: 'vertex' stands outside of a loop")
+            loop.append(len(vertices))
+            vertices.append(_numbers(path, number, words[1:4]))
+        elif word == "endloop":
+            if loop is None or len(loop) < 3:
+                raise ResourceError(f"{path}:{number}: a loop needs three vertices, got {len(loop or ())}")
+            parts[-1].triangles.extend(_fan(loop))
+            loop = None
+        elif word == "endsolid":
+            ended = True
+        elif word not in ("facet", "endfacet"):
+            raise ResourceError(f"{path}:{number}: '{words[0][:20]}' is no word of an STL file")
+    if not ended:
+        raise ResourceError(f"{path}: the STL file is cut off: its last line is not 'endsolid'")
+    return _rows(vertices), parts
+
+
+def _obj(path: Path, data: bytes) -> tuple[Vertices, list[_Part]]:
+    """Read Wavefront OBJ: `v`, `f` (any number of corners, negative indices), `o`, `g`; the rest is for looks only."""
+    vertices: list[tuple[float, ...]] = []
+    parts: list[_Part] = [_Part((), [])]
+    thing = ""
+    groups: tuple[str, ...] = ()
+    number = first = 0
+    held = ""
+    for number, raw in enumerate(data.decode("utf-8", "replace").split("\n"), 1):
+        first = first or number
+        if raw.rstrip("\r").endswith("\\"):
+            held += raw.rstrip("\r")[:-1] + " "
+            continue
+        words = (held + raw).split("#", 1)[0].split()
+        held, line, first = "", first, 0
+        if not words:
+            continue
+        word = words[0]
+        if word == "v":
+            vertices.append(_numbers(path, line, words[1:4]))
+        elif word == "f":
+            parts[-1].triangles.extend(_fan(_corners(path, line, words[1:], len(vertices))))
+        elif word in ("o", "g"):
+            if word == "o":
+                thing = " ".join(words[1:])
+            else:
+                groups = tuple(words[1:])
+            parts.append(_Part(tuple(dict.fromkeys((thing, *groups, " ".join(groups)))), []))
+    if held:
+        raise ResourceError(f"{path}:{number}: the OBJ file is cut off: its last line asks for another one")
+    return _rows(vertices), parts
+
+
+def _corners(path: Path, line: int, words: list[str], count: int) -> list[int]:
+    """Return the vertex indices of one OBJ face; `a`, `a/b`, `a//c` and `a/b/c` are how a corner is written."""
+    if len(words) < 3:
+        raise ResourceError(f"{path}:{line}: a face needs at least three corners, got {len(words)}")
+    corners: list[int] = []
+    for word in words:
+        try:
+            index = int(word.split("/", 1)[0])
+        except ValueError:
+            raise ResourceError(f"{path}:{line}: '{word[:20]}' is no corner of a face, expected an index") from None
+        index = index - 1 if index > 0 else count + index if index < 0 else -1
+        if not 0 <= index < count:
+            raise ResourceError(f"{path}:{line}: a face names vertex {word[:20]}, but {count} vertices came before it")
+        corners.append(index)
+    return corners
+
+
+def _fan(corners: Sequence[int]) -> Iterable[tuple[int, int, int]]:
+    return [(corners[0], corners[i], corners[i + 1]) for i in range(1, len(corners) - 1)]
+
+
+def _numbers(path: Path, line: int, words: list[str]) -> tuple[float, ...]:
+    try:
+        values = tuple(map(float, words))
+    except ValueError:
+        values = ()
+    if len(values) != 3 or not all(map(math.isfinite, values)):
+        raise ResourceError(f"{path}:{line}: a vertex needs 3 finite numbers, got '{' '.join(words)[:60]}'")
+    return values
+
+
+def _rows(vertices: list[tuple[float, ...]]) -> Vertices:
+    return np.array(vertices, dtype=np.float64).reshape(-1, 3)
+
+
+def _collada(path: Path, data: bytes) -> tuple[Vertices, list[_Part]]:
+    try:
+        from gz.sim.sdf import collada_mesh
+    except ImportError:
+        raise ResourceError(
+            f"{path}: COLLADA meshes need one more package; install it with: pip install 'gz-ros2-course[collada]'"
+        ) from None
+    vertices: list[Vertices] = []
+    parts: list[_Part] = []
+    start = 0
+    for names, corners in collada_mesh.triangles_of(path, data):
+        vertices.append(corners)
+        indices = np.arange(start, start + len(corners), dtype=np.int32).reshape(-1, 3)
+        parts.append(_Part(names, indices))  # type: ignore[arg-type]
+        start += len(corners)
+    return np.concatenate(vertices) if vertices else np.zeros((0, 3)), parts
