@@ -13,13 +13,20 @@ import re
 import xml.parsers.expat
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy as np
 
 from gz.sim.errors import SdfError
 from gz.sim.pose import Pose
 
-_BLANKED = re.compile(r"<!--.*?-->|<\?xml.*?\?>|<!DOCTYPE[^>]*>", re.DOTALL)
+DEEPEST = 200
+"""Elements deeper than this are refused; real worlds stay below 30."""
+MOST_ELEMENTS = 500_000
+"""A file with more elements is refused; a world of 3000 models has 100,000."""
+
+_OPENING = re.compile(r"<!--|<!\[CDATA\[|<\?xml")
+_CLOSING = {"<!-": "-->", "<?x": "?>", "<![": "]]>"}
 _TRUE = {"true", "1"}
 _FALSE = {"false", "0"}
 
@@ -46,6 +53,11 @@ class Element:
     def name(self) -> str:
         """The `name` attribute, or an empty text."""
         return self.attributes.get("name", "")
+
+    @property
+    def folder(self) -> Path | None:
+        """The folder of its file, where relative addresses start; None for a text that came from no file."""
+        return None if self.file.startswith("<") else Path(self.file).parent
 
     def error(self, sentence: str) -> SdfError:
         """Make (not raise) the error that says `sentence` about this element."""
@@ -145,24 +157,39 @@ def parse(text: str, file: str = "<string>") -> Element:
     parser.buffer_text = True
     stack: list[Element] = []
     roots: list[Element] = []
+    texts: list[list[str]] = []
+    count = 0
 
     def start(tag: str, attributes: dict[str, str]) -> None:
+        nonlocal count
         element = Element(tag, attributes, file=file, line=parser.CurrentLineNumber)
+        if len(stack) >= DEEPEST:
+            raise element.error(f"elements stand more than {DEEPEST} deep inside each other; this is no SDF")
+        count += 1
+        if count > MOST_ELEMENTS:
+            raise element.error(
+                f"the file has more than {MOST_ELEMENTS} elements; split the world into included models"
+            )
         (stack[-1].children if stack else roots).append(element)
         stack.append(element)
+        texts.append([])
 
     def end(_tag: str) -> None:
-        element = stack.pop()
-        element.text = element.text.strip()
+        stack.pop().text = "".join(texts.pop()).strip()
 
     def characters(data: str) -> None:
-        if stack:
-            stack[-1].text += data
+        if texts:
+            texts[-1].append(data)
+
+    def entity(name: str, *_rest: object) -> None:
+        # Entities of one's own can grow a small text beyond any memory.
+        raise SdfError(f"{file}:{parser.CurrentLineNumber}: the entity '{name}' is declared; write its text instead")
 
     parser.StartElementHandler = start
     parser.EndElementHandler = end
     parser.CharacterDataHandler = characters
-    blanked = _BLANKED.sub(lambda found: "\n" * found.group().count("\n"), text.removeprefix("\ufeff"))
+    parser.EntityDeclHandler = entity
+    blanked = _blanked(text.removeprefix("\ufeff"))
     # Leading white space goes (expat wants the root first) but its lines still count.
     body = blanked.lstrip()
     skipped = blanked[: len(blanked) - len(body)].count("\n")
@@ -176,3 +203,26 @@ def parse(text: str, file: str = "<string>") -> Element:
             f"{file}:{error.lineno}: this is not well-formed XML ({what}); check that every tag is closed and quoted"
         ) from None
     return roots[0]
+
+
+def _blanked(text: str) -> str:
+    """Replace comments and XML declarations by their line breaks."""
+    kept: list[str] = []
+    done = 0
+    for opening in _OPENING.finditer(text):
+        if opening.start() < done:
+            continue
+        closing = _CLOSING[opening.group()[:3]]
+        end = text.find(closing, opening.end())
+        if end < 0:
+            break  # whatever follows stays as it is: the parser will complain at the right line
+        end += len(closing)
+        if opening.group().startswith("<!["):
+            kept.append(text[done:end])
+            done = end
+            continue
+        kept.append(text[done : opening.start()])
+        kept.append("\n" * text.count("\n", opening.start(), end))
+        done = end
+    kept.append(text[done:])
+    return "".join(kept)

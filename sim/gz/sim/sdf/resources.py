@@ -108,6 +108,30 @@ def _model_file(path: Path, uri: str) -> Path:
     return path / best[1]
 
 
+def find_file(uri: str, relative_to: Path | None) -> Path:
+    """Return the mesh or image that a `<uri>` means; raise `ResourceError` when there is no such file.
+
+    `model://NAME/meshes/x.stl`, `package://NAME/...`, `file://PATH` and paths (absolute, or relative to the folder
+    `relative_to` of the file that names it) are understood; folders are those of GZ_SIM_RESOURCE_PATH.
+    """
+    scheme, separator, rest = uri.partition("://")
+    text = unquote(rest) if separator else uri
+    if separator and scheme not in ("file", "model", "package"):
+        raise ResourceError(f"'{uri}' would have to be downloaded, which is not done here; save it beside the world")
+    if scheme in ("model", "package") and separator:
+        text = text.lstrip("/")
+        folders = [*resource_paths(), *(folder / "models" for folder in resource_paths()), BUILT_IN_MODELS]
+    else:
+        folders = [*([relative_to] if relative_to else [Path()]), *resource_paths()]
+    for folder in folders:
+        if (folder / text).is_file():
+            return folder / text
+    beside = [(folder / text).parent for folder in folders]
+    known = {path.name for folder in beside if folder.is_dir() for path in folder.iterdir() if path.is_file()}
+    hint = nearest(Path(text).name, known, listing="files there are") if known else "set GZ_SIM_RESOURCE_PATH"
+    raise ResourceError(f"'{uri}' was not found; {hint}")
+
+
 def read_text(path: Path) -> str:
     """Return the text of an SDF file, whatever its encoding; raise `SdfError` when it cannot be read."""
     try:

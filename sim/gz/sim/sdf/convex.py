@@ -1,0 +1,126 @@
+"""Which convex bodies a surface of triangles collides as: MuJoCo touches nothing but convex meshes.
+
+Called for `<mesh>` collisions, whose pieces go to `gz.sim.physics.geoms`. A surface falls into its connected parts;
+each is one convex body when it is convex. A concave part that moves becomes its convex hull; one that never moves (the
+walls of a house) becomes one thin wedge a triangle, which keeps it hollow.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Points = NDArray[np.float64]
+Triangles = NDArray[np.int32]
+
+MOST_MOVING_PIECES = 32
+MOST_STATIC_PIECES = 4000
+WEDGE = 0.01
+"""Thickness (m) of the wedge behind a triangle of a hollow surface."""
+SHEET = 0.001
+"""Thickness (m) given to a part that is flat."""
+_CONCAVE = 0.02  # a bump of this part of the size makes a part concave
+_SAMPLES = 1000  # so many triangles, and points, are looked at for bumps
+
+
+def convex_pieces(vertices: Points, triangles: Triangles, *, moving: bool) -> tuple[tuple[Points, ...], bool]:
+    """Return the points of each convex piece, and whether they are a good deal fuller than the surface.
+
+    `vertices` (n, 3) in metres, `triangles` (m, 3). A surface without any extent has no pieces.
+    """
+    vertices, triangles = _welded(vertices, triangles)
+    if not len(triangles):
+        return (), False
+    parts = _components(len(vertices), triangles)
+    concave = [_is_concave(vertices, part, moving=moving) for part in parts]
+    if moving:
+        if len(parts) > MOST_MOVING_PIECES:
+            return _solids([vertices[np.unique(triangles)]]), True
+        return _solids([vertices[np.unique(part)] for part in parts]), any(concave)
+    wedges = sum(len(part) if hollow else 1 for part, hollow in zip(parts, concave, strict=True))
+    if wedges > MOST_STATIC_PIECES:
+        if len(parts) > MOST_STATIC_PIECES:
+            return _solids([vertices[np.unique(triangles)]]), True
+        return _solids([vertices[np.unique(part)] for part in parts]), any(concave)
+    pieces: list[Points] = []
+    for part, hollow in zip(parts, concave, strict=True):
+        pieces.extend(_wedges(vertices, part) if hollow else [vertices[np.unique(part)]])
+    return _solids(pieces), False
+
+
+def _welded(vertices: Points, triangles: Triangles) -> tuple[Points, Triangles]:
+    """Join vertices that are in the same place; drop triangles without area."""
+    extent = float(np.max(np.ptp(vertices, axis=0))) if len(vertices) else 0.0
+    if extent <= 0.0:
+        return vertices, triangles[:0]
+    cells = np.round((vertices - vertices.min(axis=0)) / (extent * 1e-7)).astype(np.int64)
+    _, first, place = np.unique(cells, axis=0, return_index=True, return_inverse=True)
+    welded, joined = vertices[first], place.reshape(-1)[triangles]
+    a, b, c = (welded[joined[:, k]] for k in range(3))
+    area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    return welded, joined[area > (extent * 1e-7) ** 2].astype(np.int32)
+
+
+def _components(count: int, triangles: Triangles) -> list[Triangles]:
+    """Return the triangles of each connected part, in the order of their first vertices."""
+    label = np.arange(count)
+    while True:
+        lowest = label[triangles].min(axis=1)
+        spread = label.copy()
+        for corner in range(3):
+            np.minimum.at(spread, triangles[:, corner], lowest)
+        spread = spread[spread]
+        if np.array_equal(spread, label):
+            break
+        label = spread
+    own = label[triangles[:, 0]]
+    order = np.argsort(own, kind="stable")
+    cuts = np.flatnonzero(np.diff(own[order])) + 1
+    return np.split(triangles[order], cuts)
+
+
+def _is_concave(vertices: Points, triangles: Triangles, *, moving: bool) -> bool:
+    """Tell whether points of the part rise clearly above the plane of one of its triangles.
+
+    What moves is a body whichever way its normals point; what stays and has them pointing inwards is a room.
+    """
+    corners = np.unique(triangles)
+    points = vertices[corners[:: 1 + len(corners) // _SAMPLES]]
+    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    inside_out = moving and _volume(a, b, c) < 0.0
+    step = 1 + len(triangles) // _SAMPLES
+    a, b, c = a[::step], b[::step], c[::step]
+    normals = np.cross(b - a, c - a)
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True) * (-1.0 if inside_out else 1.0)
+    heights = normals @ points.T - np.einsum("ij,ij->i", normals, a)[:, None]
+    return bool(np.max(heights) > _CONCAVE * np.max(np.ptp(vertices[corners], axis=0)))
+
+
+def _volume(a: Points, b: Points, c: Points) -> float:
+    """Return the volume inside triangles whose normals point outwards (negative: inwards)."""
+    middle = a.mean(axis=0)
+    return float(np.einsum("ij,ij->", a - middle, np.cross(b - middle, c - middle))) / 6.0
+
+
+def _wedges(vertices: Points, triangles: Triangles) -> list[Points]:
+    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    normals = np.cross(b - a, c - a)
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    behind = WEDGE * normals
+    return list(np.stack((a, b, c, a - behind, b - behind, c - behind), axis=1))
+
+
+def _solids(pieces: list[Points]) -> tuple[Points, ...]:
+    """Give flat pieces a thickness; leave out those without an area."""
+    made: list[Points] = []
+    for points in pieces:
+        centred = points - points.mean(axis=0)
+        _, axes = np.linalg.eigh(centred.T @ centred)
+        extents = np.ptp(centred @ axes, axis=0)
+        if extents[1] <= 1e-6 * extents[2] or extents[2] <= 0.0:
+            continue
+        if extents[0] <= 1e-5 * extents[2]:
+            shift = 0.5 * max(SHEET, 1e-4 * float(extents[2])) * axes[:, 0]
+            points = np.concatenate((points - shift, points + shift))
+        made.append(points)
+    return tuple(made)

@@ -1,0 +1,83 @@
+"""`<heightmap>` of a `<geometry>`: a grey image becomes heights over a rectangle.
+
+Part of the reader: `gz.sim.sdf.geometry` calls it, `gz.sim.physics.geoms` makes MuJoCo's height field of it. The
+brightest pixel is as high as `<size>` says, black is at zero, the first row of the image lies at +y; negative z turns
+the heights upside down (rules of gz-common's ImageHeightmap). The image is decoded by MuJoCo.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from pathlib import Path
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from gz.sim.errors import Diagnostics, ResourceError
+from gz.sim.sdf.description import Geometry, TriangleMesh
+from gz.sim.sdf.element import Element
+from gz.sim.sdf.resources import find_file
+
+_MOST_PIXELS = 4_200_000
+
+
+def read_heightmap(shape: Element, owner: Element, moving: bool, diagnostics: Diagnostics) -> Geometry | None:
+    """Return the terrain, its `<pos>` already in the mesh (the heights begin at zero), or None after a warning."""
+    left_out = f"so <{owner.tag}> '{owner.name}' is left out"
+    uri = shape.text_of("uri")
+    if moving:
+        diagnostics.warn(shape.where, f"a heightmap cannot move, {left_out}; make its model static")
+        return None
+    size = shape.vector("size", (1.0, 1.0, 1.0))
+    if not (0.0 < size[0] < 1e6 and 0.0 < size[1] < 1e6 and 0.0 < abs(size[2]) < 1e6):
+        raise shape.error(f"the <size> of <heightmap> must be greater than zero, got '{shape.text_of('size')}'")
+    if not uri:
+        diagnostics.warn(shape.where, f"<heightmap> has no <uri>, {left_out}")
+        return None
+    try:
+        path = find_file(uri, shape.folder)
+        stat = path.stat()
+        pixels = _grey(path, stat.st_mtime_ns)
+    except (ResourceError, OSError) as error:
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else error
+        diagnostics.warn((shape.find("uri") or shape).where, f"{reason}, {left_out}")
+        return None
+    brightest = float(pixels.max())
+    heights = pixels[::-1] / brightest if brightest > 0.0 else pixels
+    if size[2] < 0.0:
+        heights = 1.0 - heights
+    heights = heights * abs(size[2])
+    return Geometry("heightmap", (size[0], size[1], abs(size[2])), mesh=_surface(heights, size), heights=heights)
+
+
+@lru_cache(maxsize=8)
+def _grey(path: Path, _stamp: int) -> NDArray[np.float64]:
+    """Return the first channel of an image as (rows, columns) of 0..255."""
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise ResourceError(f"the image {path} cannot be read ({error.strerror})") from None
+    if not data.startswith(b"\x89PNG\r\n\x1a\n") or len(data) < 33:
+        raise ResourceError(f"the image {path} is not a PNG file; convert it to one")
+    width, height = (int.from_bytes(data[at : at + 4], "big") for at in (16, 20))
+    if width < 2 or height < 2 or width * height > _MOST_PIXELS:
+        raise ResourceError(f"the image {path} has {width} x {height} pixels; 2 x 2 to 2049 x 2049 are possible")
+    spec = mujoco.MjSpec()
+    spec.assets = {"image.png": data}
+    spec.add_texture(name="image", type=mujoco.mjtTexture.mjTEXTURE_2D, file="image.png", nchannel=1)
+    try:
+        model = spec.compile()
+    except (ValueError, mujoco.FatalError) as error:
+        raise ResourceError(f"the image {path} cannot be decoded ({' '.join(str(error).split())})") from None
+    return np.array(model.tex_data[: width * height], dtype=np.float64).reshape(height, width)
+
+
+def _surface(heights: NDArray[np.float64], size: tuple[float, ...]) -> TriangleMesh:
+    rows, columns = heights.shape
+    x, y = np.meshgrid(np.linspace(-0.5, 0.5, columns) * size[0], np.linspace(-0.5, 0.5, rows) * size[1])
+    vertices = np.stack((x, y, heights), axis=-1).reshape(-1, 3).astype(np.float32)
+    corner = np.arange(rows * columns, dtype=np.int32).reshape(rows, columns)
+    a, b, c, d = corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:], corner[1:, :-1]
+    triangles = np.stack((a, b, c, a, c, d), axis=-1).reshape(-1, 3)
+    return TriangleMesh(vertices, triangles)
