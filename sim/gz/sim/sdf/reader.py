@@ -41,6 +41,31 @@ def read_world(text: str, file: str, diagnostics: Diagnostics) -> WorldDescripti
     return _WorldReader(_version(root), diagnostics).read(world)
 
 
+def read_model(text: str, file: str, diagnostics: Diagnostics, name: str = "") -> Model | Light:
+    """Read the one model (or light) of an SDF text that comes into a running world; `name` replaces its own.
+
+    It is read as if it stood in a world of its own, so its pose is in the world frame.
+    """
+    root = _read_root(text, file, diagnostics)
+    found = [child for child in root.children if child.tag in ("model", "light", "include")]
+    if not found:
+        inside = ", ".join(f"<{child.tag}>" for child in root.children[:3]) or "nothing"
+        raise root.error(f"there is no <model> or <light> directly in <sdf>, only {inside}")
+    if len(found) > 1:
+        diagnostics.warn(found[1].where, f"only the first of {len(found)} models and lights is created")
+    entity = found[0]
+    if name and entity.tag == "include":
+        entity.children = [child for child in entity.children if child.tag != "name"]
+        entity.children.append(Element("name", text=name, file=entity.file, line=entity.line))
+    elif name:
+        entity.attributes["name"] = name
+    around = Element("world", {"name": "spawned"}, children=[entity], file=root.file, line=root.line)
+    world = _WorldReader(_version(root), diagnostics).read(around)
+    if not world.models and not world.lights:
+        raise entity.error("what this <include> names was not found, so nothing is created")
+    return (*world.models, *world.lights)[0]
+
+
 def _read_root(text: str, file: str, diagnostics: Diagnostics) -> Element:
     root = parse(text, file)
     if root.tag != "sdf":
