@@ -1,13 +1,14 @@
 """How a `<sensor type=...>` finds its Python class, and what all sensors share: topic, frame, rate.
 
-A sensor type is a file in this folder with a class under `@sensor_type`. The Sensors system creates the
-rendering ones and calls `update` when they are due and somebody listens.
+A sensor type is a file in this folder with a class under `@sensor_type`. The system named by `runs_in` creates
+them and calls `run` when they are due; `update` is called when somebody listens, too.
 """
 
 from __future__ import annotations
 
 import hashlib
 import importlib
+import math
 import pkgutil
 from collections.abc import Callable
 from pathlib import Path
@@ -69,28 +70,33 @@ class SensorBase:
         self.world = world
         self.description = description
         element = description.element
-        link = description.link
-        self.scoped_name = f"{description.model}::{link}::{description.name}"
-        nested = "".join(f"/model/{part}" for part in link.split("::")[:-1])
+        kind, holder = ("joint", description.joint) if description.joint else ("link", description.link)
+        self.scoped_name = f"{description.model}::{holder}::{description.name}"
+        *scope, own = holder.split("::")
+        nested = "".join(f"/model/{part}" for part in scope)
         self.default_topic = (
-            f"/world/{world.name}/model/{description.model}{nested}/link/{link.split('::')[-1]}"
+            f"/world/{world.name}/model/{description.model}{nested}/{kind}/{own}"
             f"/sensor/{description.name}/{self.topic_suffix()}"
         )
         self.topic = valid_topic(element.text_of("topic"), self.default_topic)
         stated = (element.text_of(tag) for tag in ("frame_id", "gz_frame_id", "ignition_frame_id"))
         self.frame_id = next((text for text in stated if text), self.scoped_name)
         rate = element.number("update_rate", 0.0)
-        # Gazebo keeps the period in whole milliseconds: 30 Hz means every 33 ms.
-        self.period_ns = int(1000.0 / rate) * 1_000_000 if 0.0 < rate < 1e9 else 0
-        self.start()
+        self.highest_rate = rate if 0.0 < rate < math.inf else 0.0
+        """`<update_rate>` (Hz), 0 for every step: what `set_rate` may not exceed."""
+        self.period_ns = _period_ns(self.highest_rate)
+        self.next_update_ns = 0
+        self.updates = 0
+        self._last_ns: int | None = None
 
     def bind(self) -> None:
         """Look up ids in MuJoCo's model: it was just built, or built anew because a model came or went."""
 
     def start(self) -> None:
-        """Take the state of time zero; called first and after every reset."""
+        """Take the state of time zero; called after the first `bind` and after every reset."""
         self.next_update_ns = 0
         self.updates = 0
+        self._last_ns = None
 
     def topic_suffix(self) -> str:
         """Return the last part of the default topic."""
@@ -104,9 +110,58 @@ class SensorBase:
         """Tell whether anybody listens, so that the sensor is worth computing."""
         raise NotImplementedError
 
+    def advance(self, dt: float) -> None:
+        """Let what wanders by itself go on for `dt` seconds, the time since the last update; called at every
+        update that is due, heard or not.
+        """
+
     def update(self, now_ns: int) -> None:
         """Measure and publish, stamped `now_ns` (simulated nanoseconds)."""
         raise NotImplementedError
+
+    def run(self, now_ns: int) -> None:
+        """Do the update that is due at `now_ns` and find the time of the next one."""
+        self.advance((now_ns - self._last_ns) * 1e-9 if self._last_ns is not None else 0.0)
+        self._last_ns = now_ns
+        if self.has_connections():
+            self.update(now_ns)
+        self.updates += 1
+        period = self.period_ns
+        self.next_update_ns += period
+        if period and self.next_update_ns <= now_ns:
+            self.next_update_ns += ((now_ns - self.next_update_ns) // period + 1) * period
+
+    def offer_set_rate(self, node: Node) -> None:
+        """Offer the one-way service `<topic>/set_rate` (gz.msgs.Double, Hz) on `node`."""
+        from gz.msgs.double_pb2 import Double
+        from gz.msgs.empty_pb2 import Empty
+
+        def serve(request: Double) -> Empty:
+            self.set_rate(request.data)
+            return Empty()
+
+        node.advertise_service(f"{self.topic}/set_rate", Double, Empty, serve)
+
+    def set_rate(self, rate: float) -> None:
+        """Make the updates rarer: `rate` in Hz, at most `<update_rate>`; any rate, also 0 for every step, when
+        that is 0. Another request is refused with a warning.
+        """
+        if math.isnan(rate):
+            self.world.drop_command(f"{self.topic}/set_rate", "rate")
+            return
+        rate = max(0.0, rate)
+        highest = self.highest_rate
+        if highest and (rate == 0.0 or rate > highest * (1.0 + 1e-6)):
+            text = f"sensor '{self.scoped_name}' keeps its rate: {rate:g} Hz was asked for, 0 is not possible and "
+            self.world.diagnostics.warn("", text + f"<update_rate> allows {highest:g} Hz at most")
+            return
+        self.period_ns = _period_ns(rate)
+        if self.period_ns == 0:
+            self.next_update_ns = 0
+        self.rescheduled()
+
+    def rescheduled(self) -> None:
+        """Called when an update may be due earlier than was planned; the system that runs the sensor listens."""
 
     def random(self, purpose: str = "noise") -> np.random.Generator:
         """Return the generator of this sensor's current update.
@@ -132,6 +187,11 @@ class SensorBase:
             entry = header.data.add()
             entry.key = key
             entry.value.append(value)
+
+
+def _period_ns(rate: float) -> int:
+    # Gazebo keeps the period in whole milliseconds: 30 Hz means every 33 ms.
+    return int(1000.0 / rate) * 1_000_000 if rate > 0.0 else 0
 
 
 S = TypeVar("S", bound=type[SensorBase])

@@ -36,14 +36,17 @@ class SensorSystem(System):
         types = sensor_types()
         made = {id(sensor.description): sensor for sensor in self.sensors}
         wanted: list[SensorBase] = []
+        new: set[SensorBase] = set()
         for model in self._world.description.models:
-            for description in (sensor for link in model.links for sensor in link.sensors):
+            for description in model.sensors():
                 found = types.get(description.kind)
                 if found is None or found.runs_in != self.name:
                     continue
                 sensor = made.pop(id(description), None)
                 if sensor is None:
                     sensor = found(self._world, description)
+                    sensor.rescheduled = self._reschedule  # type: ignore[method-assign]
+                    new.add(sensor)
                     self._open(sensor)
                 wanted.append(sensor)
         for gone in made.values():
@@ -53,6 +56,8 @@ class SensorSystem(System):
         self.sensors = wanted
         for sensor in wanted:
             sensor.bind()
+            if sensor in new:
+                sensor.start()
         self._next_ns = 0
 
     def start(self) -> None:
@@ -77,6 +82,10 @@ class SensorSystem(System):
         if self._node is not None and id(sensor) not in self._nodes:
             own = self._nodes[id(sensor)] = type(self._node)(self._node.options)
             sensor.connect(own)
+            sensor.offer_set_rate(own)
+
+    def _reschedule(self) -> None:
+        self._next_ns = 0
 
     def post_update(self, info: UpdateInfo) -> None:
         """Update the sensors that are due."""
@@ -85,8 +94,5 @@ class SensorSystem(System):
             return
         for sensor in self.sensors:
             if now >= sensor.next_update_ns:
-                if sensor.has_connections():
-                    sensor.update(now)
-                sensor.updates += 1
-                sensor.next_update_ns += sensor.period_ns
+                sensor.run(now)
         self._next_ns = min((sensor.next_update_ns for sensor in self.sensors), default=_NEVER)
