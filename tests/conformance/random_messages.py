@@ -53,10 +53,12 @@ class Vocabulary:
         entry = field.message_type
         if entry is not None and entry.GetOptions().map_entry:
             target = getattr(message, field.name)
+            of = entry.fields_by_name["value"]
             for key in draw(strategies.lists(self._values(entry.fields_by_name["key"]), max_size=3)):
-                if depth:
-                    value = draw(self.messages(type(target.get_or_create(key)), depth - 1))
-                    target[key].CopyFrom(value)
+                if of.message_type is None:
+                    target[key] = draw(self._values(of))
+                elif depth:
+                    target[key].CopyFrom(draw(self.messages(type(target[key]), depth - 1)))
         elif entry is not None:
             if not depth or not self._knows(entry):
                 return

@@ -7,13 +7,21 @@ from hypothesis import HealthCheck, Phase, given, settings, strategies
 
 from gz.msgs import message_class, type_names
 from gz.msgs.descriptor_text import describe
+from gz.msgs.proto_reader import read_proto
 from gz.msgs.text import from_text, to_text
 from tests.conformance.random_messages import Vocabulary
 
 OURS = [name.replace("gz.", "ignition.") for name in type_names()]
 NEWER = {
-    *("ignition.msgs.Dataframe", "ignition.msgs.EntityWrench", "ignition.msgs.MaterialColor"),
-    *(f"ignition.msgs.{name}WithCovariance" for name in ("Odometry", "Pose", "Twist")),
+    f"ignition.msgs.{name}"
+    for name in (
+        *("AirFlowSensor", "AirSpeed", "AirSpeedSensor", "CameraTrack", "DataLoadPathOptions", "Dataframe"),
+        *("DVLBeamState", "DVLKinematicEstimate", "DVLRangeEstimate", "DVLTrackingTarget", "DVLVelocityTracking"),
+        *("EntityPlugin_V", "EntityWrench", "EntityWrenchMap", "Lens", "MaterialColor", "WheelSlipParametersCmd"),
+        *("Parameter", "ParameterDeclaration", "ParameterDeclarations"),
+        *("ParameterError", "ParameterName", "ParameterValue"),
+        *("OdometryWithCovariance", "PoseWithCovariance", "TwistWithCovariance"),
+    )
 }
 """Types that came after the release of the real client."""
 AT_ONCE = 12
@@ -29,8 +37,36 @@ def vocabulary(information):
     return Vocabulary(information)
 
 
-def test_the_real_client_knows_our_types(information):
+def test_both_know_the_same_types(information, library):
     assert set(OURS) - set(information) == NEWER
+    assert set(library.names()) - set(OURS) == set()
+
+
+def numbers(message, scope=""):
+    """Of a definition and all that is nested in it: (field, number) -> its type, (enum value, number) -> its enum."""
+    name = f"{scope}{message.name}"
+    found = {(f"{name}.{field.name}", field.number): kind(field) for field in message.field}
+    for enum in message.enum_type:
+        found |= {(f"{name}.{enum.name}.{value.name}", value.number): enum.name for value in enum.value}
+    for nested in message.nested_type:
+        found |= numbers(nested, f"{name}.")
+    return found
+
+
+def kind(field):
+    """Label, type, and the last word of the name of a message or enum; the packages differ in spelling only."""
+    what = field.type_name.rpartition(".")[2] if field.type_name else field.type
+    return field.label, what, field.HasField("oneof_index")
+
+
+@pytest.mark.parametrize("name", [name for name in OURS if name not in NEWER])
+def test_fields_have_the_numbers_and_types_of_the_real_client(information, name):
+    """Whatever the real one has, ours has under the same name, with the same number and type."""
+    own, real = (
+        numbers(read_proto(text.split("\n\n", 1)[1], name).message_type[0])
+        for text in (describe(message_class(name)), information[name])
+    )
+    assert {entry: what for entry, what in real.items() if own.get(entry) != what} == {}
 
 
 def newer_lines(own, real):
@@ -50,11 +86,14 @@ def test_the_definition_is_that_of_the_real_client(information, name):
 
 @pytest.fixture(scope="module")
 def echoes(shared_stage):
-    """Type name -> (publishing participant, real echo that listens to it), started when first asked for."""
+    """Type name -> (publishing participant, real echo that listens to it); only the last one asked for is running."""
     participant, started = shared_stage.participant(), {}
 
     def echo(name):
         if name not in started:
+            for old in started.values():
+                old.end()
+            started.clear()
             topic = f"/{name}"
             participant.ask("advertise", topic, name)
             started[name] = shared_stage.real_topic("-e", "-t", topic)
