@@ -1,7 +1,8 @@
 """The numbers of a world's entities, as Gazebo's messages carry them (`Pose.id`, `Entity.id`, `Model.id`).
 
 The world is 1; every model, link, visual, collision, sensor, joint and light gets the next number when it comes, in
-the order of the file, and keeps it. A number is never given twice, also not after its entity was removed.
+the order of the file, and keeps it. A number is never given twice, also not after its entity was removed, until the
+world is reset and counts anew.
 `World` keeps the one instance of a world; UserCommands, SceneBroadcaster and PosePublisher ask it.
 """
 
@@ -33,6 +34,10 @@ class Entities:
     """All entities of one world, by number and by name."""
 
     def __init__(self, world: WorldDescription) -> None:
+        self.restart(world)
+
+    def restart(self, world: WorldDescription) -> None:
+        """Number everything as at the beginning, because the world was rewound."""
         self._by_number: dict[int, Entity] = {}
         self._numbers: dict[tuple[str, tuple[str, ...]], int] = {}
         self._last = 0

@@ -4,7 +4,7 @@ A system is a file in this folder with a class under the `@system` decorator; no
 `World` asks `find_system` for every plugin and calls the hooks of the returned class: `servos` before the
 model is built, `configure` once, `bind` each time the physics model was built, `start` at time zero (again
 after a reset), `connect` when a transport node is attached, then `pre_update` and `post_update` around every
-physics step.
+physics step, and `paused_update` now and then while a server is paused.
 """
 
 from __future__ import annotations
@@ -78,6 +78,11 @@ class System:
 
     def post_update(self, info: UpdateInfo) -> None:
         """Look at the result of the physics step, for example publish."""
+
+    def paused_update(self, info: UpdateInfo) -> None:
+        """Say what is to be heard also while a running server is paused; called ten times a second of wall time, and
+        after every change that was asked for.
+        """
 
 
 S = TypeVar("S", bound=type[System])

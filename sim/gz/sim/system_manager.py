@@ -1,0 +1,203 @@
+"""Which systems run in a world: chosen from the plugins, configured, bound, started, connected, and ended.
+
+`World` asks `add` for the plugins of the world and of every model that is there from the beginning or comes later,
+calls `bind` after each build of MuJoCo's model and `start` at time zero, and runs the collected hooks around every
+step. Every system has a transport node of its own, so that what it advertised goes when its model goes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from gz.sim.errors import SimError, nearest
+from gz.sim.physics.servos import JointServo
+from gz.sim.sdf.description import Model, Plugin, Sensor
+from gz.sim.sdf.element import Element
+from gz.sim.sensors.registry import KNOWN_TYPES, sensor_types
+from gz.sim.systems.registry import System, UpdateInfo, find_system, system_name, systems
+
+if TYPE_CHECKING:
+    from gz.sim.world import World
+    from gz.transport import Node
+
+Hook = Callable[[UpdateInfo], None]
+
+
+@dataclass(eq=False)
+class Running:
+    """A system at work: for a model, or for the world itself (None), on its own node once there is one."""
+
+    system: System
+    model: Model | None
+    node: Node | None = None
+
+
+class SystemManager:
+    """The systems of one world, those of the world first, then those of the models in their order."""
+
+    def __init__(self, world: World) -> None:
+        """Nothing runs yet; the world adds itself and its models."""
+        self._world = world
+        self._running: list[Running] = []
+        self._servos: dict[str, list[JointServo]] = {}
+        self._options_of: Node | None = None
+        self.pre_updates: list[Hook] = []
+        self.post_updates: list[Hook] = []
+        self.paused_updates: list[Hook] = []
+
+    @property
+    def systems(self) -> list[System]:
+        """All systems in the order in which they are called."""
+        return [each.system for each in self._running]
+
+    @property
+    def servos(self) -> dict[str, list[JointServo]]:
+        """The joints that systems drive, by model."""
+        return self._servos
+
+    def add_world(self, plugins: Iterable[Plugin]) -> None:
+        """Make and configure the systems of the world itself."""
+        for plugin in plugins:
+            found = find_system(plugin, self._world.diagnostics)
+            if found is not None:
+                self._make(found, None, plugin)
+
+    def add(self, model: Model) -> list[Running]:
+        """Make and configure the systems of a model; return them. Raises `SdfError` for what they cannot work with;
+        nothing of the model is left then.
+        """
+        before = list(self._running)
+        taken = self._servos[model.name] = []
+        diagnostics = self._world.diagnostics
+        try:
+            for plugin in model.plugins:
+                found = find_system(plugin, diagnostics)
+                if found is None:
+                    continue
+                driven = found.servos(model, plugin)
+                if driven and model.static:
+                    text = f"model '{model.name}' is static, so its system {found.name} cannot move it"
+                    diagnostics.warn(plugin.element.where, text)
+                    continue
+                names = {servo.joint for servo in taken}
+                taken.extend(servo for servo in driven if servo.joint not in names)
+                self._make(found, model, plugin)
+        except Exception:
+            self._running = before
+            del self._servos[model.name]
+            raise
+        return [each for each in self._running if each not in before]
+
+    def _make(self, found: type[System], model: Model | None, plugin: Plugin) -> None:
+        made = found()
+        made.configure(self._world, model, plugin)
+        self._running.append(Running(made, model))
+
+    def bind(self) -> None:
+        """Let all systems look up their places in MuJoCo's model, and collect their hooks in order."""
+        order = {id(model): number for number, model in enumerate(self._world.description.models)}
+        self._running.sort(key=lambda each: -1 if each.model is None else order.get(id(each.model), len(order)))
+        for each in self._running:
+            each.system.bind()
+        self.pre_updates = self._hooks("pre_update")
+        self.post_updates = self._hooks("post_update")
+        self.paused_updates = self._hooks("paused_update")
+
+    def _hooks(self, hook: str) -> list[Hook]:
+        return [getattr(each, hook) for each in self.systems if getattr(type(each), hook) is not getattr(System, hook)]
+
+    def start(self, only: Iterable[Running] | None = None) -> None:
+        """Let all systems (or only these) take the state of the present as their beginning."""
+        for each in self._running if only is None else only:
+            each.system.start()
+
+    def connect(self, node: Node) -> None:
+        """Give every system, also those that come later, a node with the options of `node`."""
+        self._options_of = node
+        self.connect_new()
+
+    def connect_new(self) -> None:
+        """Connect the systems that have no node yet, when the world is on the wire at all."""
+        if self._options_of is None:
+            return
+        for each in self._running:
+            if each.node is None:
+                each.node = type(self._options_of)(self._options_of.options)
+                each.system.connect(each.node)
+
+    def remove(self, model: Model) -> None:
+        """End the systems of a model: their topics and services go."""
+        gone = [each for each in self._running if each.model is model]
+        self._running = [each for each in self._running if each.model is not model]
+        self._servos.pop(model.name, None)
+        for each in gone:
+            self._end(each)
+
+    def close(self) -> None:
+        """End what all systems opened; they stay, without nodes."""
+        for each in self._running:
+            self._end(each)
+            each.node = None
+
+    @staticmethod
+    def _end(running: Running) -> None:
+        running.system.close()
+        if running.node is not None:
+            running.node.close()
+
+    def check_world(self) -> None:
+        """Say so when a world loads plugins but not those that make it move."""
+        description = self._world.description
+        wanted = {system_name(plugin) for plugin in description.plugins}
+        if wanted and "Physics" not in wanted:
+            self._world.diagnostics.warn(
+                description.element.where,
+                f"world '{description.name}' loads plugins but not Physics, so in Gazebo nothing would move; "
+                "physics runs here, add <plugin filename='gz-sim-physics-system' name='gz::sim::systems::Physics'/>",
+            )
+
+    def check_sensors(self, model: Model) -> None:
+        """Say so when nothing will run a sensor of the model."""
+        running = {each.name for each in self.systems}
+        for sensor in model.sensors():
+            text = _why_silent(sensor, running)
+            if text:
+                self._world.diagnostics.warn(sensor.element.where, text)
+
+
+def _why_silent(sensor: Sensor, running: set[str]) -> str:
+    types, kind = sensor_types(), sensor.kind
+    if kind in types:
+        system = types[kind].runs_in
+        if system in running:
+            return ""
+        return (
+            f"sensor '{sensor.name}' stays silent because the world does not load the {system} system; add "
+            f"<plugin filename='{systems()[system].filename}' name='gz::sim::systems::{system}'/> to <world>"
+        )
+    if kind in KNOWN_TYPES:
+        return f"sensor type '{kind}' is not simulated here, sensor '{sensor.name}' stays silent"
+    hint = nearest(kind, types, listing="types that run here are")
+    return f"sensor '{sensor.name}' has type '{kind}', which is not known; {hint}"
+
+
+def default_plugins(world: Element) -> list[Plugin]:
+    """Return what Gazebo runs in a world that names no plugin: Physics, UserCommands and SceneBroadcaster."""
+    made: list[Plugin] = []
+    for name, filename in (
+        ("Physics", "gz-sim-physics-system"),
+        ("UserCommands", "gz-sim-user-commands-system"),
+        ("SceneBroadcaster", "gz-sim-scene-broadcaster-system"),
+    ):
+        attributes = {"name": f"gz::sim::systems::{name}", "filename": filename}
+        element = Element("plugin", dict(attributes), file=world.file, line=world.line)
+        made.append(Plugin(attributes["name"], filename, element))
+    return made
+
+
+def refuse_inside_step(inside: bool, what: str) -> None:
+    """Raise `SimError` when a system asks for a change of the world while it is being stepped."""
+    if inside:
+        raise SimError(f"a world cannot {what} in the middle of a step; put the work into world.requests instead")
