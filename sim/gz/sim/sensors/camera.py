@@ -22,12 +22,12 @@ _LUMINANCE = np.array((0.299, 0.587, 0.114))
 _BAYER = {"BAYER_RGGB8": "RGGB", "BAYER_BGGR8": "BGGR", "BAYER_GBRG8": "GBRG", "BAYER_GRBG8": "GRBG"}
 
 
-def to_bytes(colours: NDArray[np.float64]) -> NDArray[np.uint8]:
+def to_bytes(colours: NDArray[np.floating[Any]]) -> NDArray[np.uint8]:
     """Return colours 0..1 as 0..255, rounded."""
     return (np.clip(colours, 0.0, 1.0) * 255.0 + 0.5).astype(np.uint8)
 
 
-def encode(colours: NDArray[np.float64], height: int, width: int, pixel_format: str) -> NDArray[Any]:
+def encode(colours: NDArray[np.floating[Any]], height: int, width: int, pixel_format: str) -> NDArray[Any]:
     """Return colours (height * width, 3), each 0..1, as the numbers of an image of that format."""
     if pixel_format == "L_INT8":
         return to_bytes(colours @ _LUMINANCE).reshape(height, width)
@@ -64,9 +64,9 @@ class Camera(CameraSensor):
 
     def image(self) -> NDArray[Any]:
         """Return the image of now, with the noise of the current update, as numbers of the camera's format."""
-        colours = self._renderer.image()
+        colours: NDArray[np.floating[Any]] = self._renderer.image()
         if not self.noise.silent:
-            colours = self.noise.apply(colours, 0.0, self.random())
+            colours = self.noise.apply(colours.astype(np.float64), 0.0, self.random())
         return encode(colours, self.pinhole.height, self.pinhole.width, self.pinhole.format)
 
     def look(self, now_ns: int) -> None:

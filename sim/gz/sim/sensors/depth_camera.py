@@ -16,7 +16,7 @@ from gz.sim.sdf.description import Sensor
 from gz.sim.sensors.camera import to_bytes
 from gz.sim.sensors.camera_sensor import CameraSensor
 from gz.sim.sensors.point_cloud import COLOURED, pack_rgb
-from gz.sim.sensors.ray_caster import ALL_BITS, Floats, Hits, RayCaster
+from gz.sim.sensors.ray_caster import ALL_BITS, Hits, RayCaster
 from gz.sim.sensors.registry import sensor_type
 from gz.sim.sensors.shading import Shader
 
@@ -60,7 +60,7 @@ class DepthSensing(CameraSensor):
         depth[depth > self.pinhole.far] = np.inf
         return depth.astype("<f4").reshape(self.pinhole.height, self.pinhole.width)
 
-    def points(self, depth: NDArray[np.float32], colours: Floats) -> NDArray[Any]:
+    def points(self, depth: NDArray[np.float32], colours: NDArray[np.floating[Any]]) -> NDArray[Any]:
         """Return a coloured point for every pixel, in the sensor's frame (x ahead, y left, z up)."""
         points = np.zeros(depth.size, dtype=COLOURED)
         with np.errstate(invalid="ignore"):  # infinitely far along an axis that is not looked along
@@ -87,4 +87,4 @@ class DepthCamera(DepthSensing):
         if self.listened(""):
             self.publish_image("", depth, "R_FLOAT32", now_ns)
         if coloured:
-            self.publish_cloud("/points", self.points(depth, self.shader.colours(hits)), now_ns)
+            self.publish_cloud("/points", self.points(depth, self.shader.colours(hits, self.pinhole.width)), now_ns)

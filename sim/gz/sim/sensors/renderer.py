@@ -15,11 +15,10 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from gz.sim.errors import LOG, SimError, nearest
 from gz.sim.physics.builder import VISUAL_GROUP
-from gz.sim.sensors.shading import Shader
+from gz.sim.sensors.shading import Colours, Shader
 
 if TYPE_CHECKING:
     from gz.sim.sensors.camera_sensor import CameraSensor
@@ -47,7 +46,7 @@ class Renderer(Protocol):
     def bind(self) -> None:
         """Take over MuJoCo's model, which was just built."""
 
-    def image(self) -> NDArray[np.float64]:
+    def image(self) -> Colours:
         """Return what the camera sees now: (height * width, 3), each 0..1, without noise."""
 
 
@@ -62,9 +61,9 @@ class RayRenderer:
         """Take the colours and lights of the model."""
         self._shader.bind()
 
-    def image(self) -> NDArray[np.float64]:
+    def image(self) -> Colours:
         """Cast and shade."""
-        return self._shader.colours(self._camera.cast(normals=True))
+        return self._shader.colours(self._camera.cast(normals=True), self._camera.pinhole.width)
 
 
 class GlRenderer:
@@ -93,7 +92,7 @@ class GlRenderer:
         self._drawing = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100.value)
         mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, self._drawing)
 
-    def image(self) -> NDArray[np.float64]:
+    def image(self) -> Colours:
         """Draw the scene from the camera's place."""
         world, pinhole = self._camera.world, self._camera.pinhole
         self._context.make_current()
@@ -119,7 +118,7 @@ class GlRenderer:
             eye.frustum_width = near * pinhole.width / 2.0 / fx
         mujoco.mjr_render(self._rectangle, self._scene, self._drawing)
         mujoco.mjr_readPixels(self._pixels, None, self._rectangle, self._drawing)
-        return np.flipud(self._pixels).reshape(-1, 3) / 255.0
+        return np.flipud(self._pixels).reshape(-1, 3).astype(np.float32) / np.float32(255.0)
 
 
 @functools.cache

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import ClassVar
 
+import numpy as np
+
 from gz.sim.sensors.camera import encode
 from gz.sim.sensors.depth_camera import DepthSensing
 from gz.sim.sensors.registry import sensor_type
@@ -29,9 +31,9 @@ class RgbdCamera(DepthSensing):
             self.publish_image("/depth_image", depth, "R_FLOAT32", now_ns)
         if not coloured:
             return
-        colours = self.shader.colours(hits)
+        colours = self.shader.colours(hits, self.pinhole.width)
         if self.listened("/image"):
-            noisy = colours if self.noise.silent else self.noise.apply(colours, 0.0, self.random())
+            noisy = colours if self.noise.silent else self.noise.apply(colours.astype(np.float64), 0.0, self.random())
             image = encode(noisy, self.pinhole.height, self.pinhole.width, "RGB_INT8")
             self.publish_image("/image", image, "RGB_INT8", now_ns)
         if self.listened("/points"):

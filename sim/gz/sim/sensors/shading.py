@@ -49,8 +49,10 @@ class Shader:
     def bind(self) -> None:
         """Take the colours of all geoms; MuJoCo's model was just built."""
         model = self._world.model
-        self._colour = model.geom_rgba[:, :3].astype(np.float32)
-        self._emission = np.zeros((model.ngeom, 3), dtype=np.float32)
+        # One more row, for rays that met nothing (geom -1).
+        self._colour = np.zeros((model.ngeom + 1, 3), dtype=np.float32)
+        self._colour[:-1] = model.geom_rgba[:, :3]
+        self._emission = np.zeros((model.ngeom + 1, 3), dtype=np.float32)
         self._shadowless: list[int] = []
         for geom, _, _, part in geom_parts(self._world, VISUAL_GROUP):
             if not part.element.flag("cast_shadows", True):
@@ -79,7 +81,7 @@ class Shader:
                 strength = self._from_light(number, view).astype(np.float32)
                 more = np.multiply.outer(strength, model.light_diffuse[number])
                 light = more if light is None else light + more
-        result: Colours = self._colour.take(hits.geom, axis=0, mode="wrap")
+        result: Colours = self._colour[hits.geom]
         result *= self._ambient if light is None else np.add(light, self._ambient, out=light)
         if self._emits:
             result += self._emission[hits.geom]

@@ -1,0 +1,403 @@
+"""Cameras against geometry and against Lambert's law, written down again here without the product's code."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from gz.msgs.boolean_pb2 import Boolean
+from gz.msgs.camera_info_pb2 import CameraInfo
+from gz.msgs.image_pb2 import Image
+from gz.msgs.pointcloud_packed_pb2 import PointCloudPacked
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from gz.sim.errors import SdfError
+from gz.sim.sensors.camera import Camera, encode
+from gz.sim.sensors.camera_sensor import CameraSensor
+from gz.sim.sensors.ray_caster import RayCaster
+from gz.sim.sensors.shading import Shader
+from gz.sim.world import World
+from gz.transport import Node
+
+Load = Callable[..., World]
+
+EYE = """<model name='rig'><static>1</static><pose>0 0 1 0 0 0</pose><link name='l'>{parts}
+ <sensor name='eye' type='{kind}'><update_rate>{rate}</update_rate>{topic}<camera><horizontal_fov>{fov}</horizontal_fov>
+ <image><width>{width}</width><height>{height}</height><format>{format}</format></image>
+ <clip><near>{near}</near><far>{far}</far></clip>{more}</camera></sensor></link></model>"""
+
+
+def eye(**changes: Any) -> str:
+    usual: dict[str, Any] = {
+        "parts": "", "kind": "camera", "rate": 10, "topic": "", "fov": 1.2, "width": 64, "height": 48,
+        "format": "R8G8B8", "near": 0.1, "far": 50, "more": "",
+    }  # fmt: skip
+    return EYE.format(**{**usual, **changes})
+
+
+def thing(name: str, pose: str, geometry: str, colour: str = "1 0 0 1", more: str = "") -> str:
+    return (
+        f"<model name='{name}'><static>1</static><pose>{pose}</pose><link name='l'><visual name='v'>"
+        f"<geometry>{geometry}</geometry><material><diffuse>{colour}</diffuse></material>{more}</visual></link></model>"
+    )
+
+
+WALL = "<box><size>0.2 60 60</size></box>"
+SCENE = "<scene><ambient>0.3 0.3 0.3 1</ambient><background>0 0 1 1</background></scene>"
+
+
+def sun(direction: str, shadows: bool = True) -> str:
+    return (
+        f"<light name='sun' type='directional'><direction>{direction}</direction><diffuse>0.6 0.6 0.6 1</diffuse>"
+        f"<cast_shadows>{str(shadows).lower()}</cast_shadows></light>"
+    )
+
+
+def sensor_of(world: World) -> Any:
+    (sensor,) = next(system for system in world.systems if system.name == "Sensors").sensors  # type: ignore[attr-defined]
+    assert isinstance(sensor, CameraSensor)
+    return sensor
+
+
+def listen(node: Node, kind: Any, topic: str) -> list[Any]:
+    heard: list[Any] = []
+    node.subscribe(kind, topic, heard.append)
+    return heard
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.floats(2, 8), st.floats(-0.45, 0.45), st.floats(-0.3, 0.3))
+def test_a_ball_is_where_the_pinhole_puts_it(x: float, left: float, up: float) -> None:
+    ball = thing("ball", f"{x!r} {left * x!r} {1 + up * x!r} 0 0 0", "<sphere><radius>0.05</radius></sphere>")
+    world = World.from_string(
+        "<sdf version='1.10'><world name='w'><plugin name='gz::sim::systems::Sensors'/>"
+        f"{eye(width=320, height=240)}{ball}</world></sdf>"
+    )
+    hits = sensor_of(world).cast()
+    rows, columns = np.divmod(np.flatnonzero(hits.geom >= 0), 320)
+    focal = 160 / math.tan(0.6)
+    assert len(rows) > 0
+    # A ball off the axis is seen as an ellipse whose middle is a little further out.
+    assert columns.mean() + 0.5 == pytest.approx(160 - focal * left, abs=0.8)
+    assert rows.mean() + 0.5 == pytest.approx(120 - focal * up, abs=0.8)
+
+
+def test_a_lit_wall_has_lamberts_colour_and_the_sky_its_own(load_text: Load) -> None:
+    # The wall's face looks back along -x; light falls on it at 60 degrees.
+    light = sun(f"{math.cos(math.pi / 3)} 0 {-math.sin(math.pi / 3)}", shadows=False)
+    wall = thing("wall", "3.1 0 1 0 0 0", "<box><size>0.2 1 1</size></box>", "0.8 0.4 0.2 1")
+    image = sensor_of(load_text(SCENE + light + wall + eye())).image()
+    expected = np.array((0.8, 0.4, 0.2)) * (0.3 + 0.6 * math.cos(math.pi / 3)) * 255
+    assert image.shape == (48, 64, 3)
+    assert image[24, 32].tolist() == pytest.approx(expected.tolist(), abs=1)
+    assert image[0, 0].tolist() == [0, 0, 255]
+
+
+def test_a_sky_is_blue_above_and_pale_at_the_horizon(load_text: Load) -> None:
+    image = sensor_of(load_text("<scene><sky/></scene>" + eye(fov=2.0))).image().astype(int)
+    assert image[0, 32, 2] > image[0, 32, 0] + 40 and image[0, 32, 0] < image[23, 32, 0] - 40
+    assert (image[30:] == image[30, 0]).all()
+
+
+TABLE = thing("table", "3 0 1.5 0 0 0", "<box><size>1 1 0.1</size></box>", "0 1 0 1")
+FLOOR = thing("floor", "0 0 0 0 0 0", "<plane><normal>0 0 1</normal><size>100 100</size></plane>", "1 1 1 1")
+
+
+def test_shadows_fall_where_the_light_does_not(load_text: Load) -> None:
+    world = load_text(SCENE + sun("0 0 -1") + TABLE + FLOOR + eye(width=160, height=120))
+    image = sensor_of(world).image()
+    focal = 80 / math.tan(0.6)
+
+    def at(x: float, y: float) -> list[int]:
+        """The pixel that shows a point of the floor."""
+        return image[int(60 + focal * 1 / x), int(80 - focal * y / x)].tolist()
+
+    lit, shaded = round(255 * 0.9), round(255 * 0.3)
+    for x in (2.6, 3.0, 3.4):
+        for y in (-0.4, 0.0, 0.4):
+            assert at(x, y) == pytest.approx([shaded] * 3, abs=1), (x, y)
+        for y in (-0.7, 0.7):
+            assert at(x, y) == pytest.approx([lit] * 3, abs=1), (x, y)
+
+
+def test_following_neighbours_finds_the_same_shadows_as_looking_at_every_pixel(
+    load_text: Load, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    clutter = "".join(
+        thing(
+            f"b{i}",
+            f"{2 + i % 4} {0.9 * (i // 4) - 1} {0.3 + 0.1 * i} 0.3 0.{i} 0.{i}",
+            "<box><size>.3 .3 .3</size></box>",
+        )
+        for i in range(12)
+    )
+    world = load_text(SCENE + sun("0.4 0.3 -1") + clutter + FLOOR + eye(width=161, height=119))
+    camera = sensor_of(world)
+    quick = camera.image().astype(int)
+
+    def every_pixel(self: Shader, source: Any, view: Any, lit: Any) -> Any:
+        shadowed = np.zeros(len(lit), dtype=bool)
+        shadowed[lit] = self._shadowed(source, view.points[lit])
+        return shadowed
+
+    monkeypatch.setattr(Shader, "_shadows", every_pixel)
+    thorough = camera.image().astype(int)
+    assert (np.ptp(thorough, axis=(0, 1)) > 50).all(), "there must be something to see"
+    assert (quick != thorough).any(axis=2).mean() < 0.002
+
+
+def test_the_near_plane_is_looked_through_and_the_far_one_ends_the_view(load_text: Load) -> None:
+    near = thing("near", "0.3 0 1 0 0 0", "<box><size>0.1 0.05 0.05</size></box>", "0 1 0 1")
+    wall = thing("wall", "3.1 0 1 0 0 0", WALL)
+    scene = SCENE + near + wall
+    assert sensor_of(load_text(scene + eye(near=0.1))).image()[24, 32].tolist() == pytest.approx([0, 255 * 0.3, 0], abs=1)
+    assert sensor_of(load_text(scene + eye(near=0.5))).image()[24, 32].tolist() == pytest.approx([255 * 0.3, 0, 0], abs=1)
+    assert sensor_of(load_text(scene + eye(near=0.5, far=2.9))).image()[24, 32].tolist() == [0, 0, 255]
+
+
+def test_depth_is_measured_along_the_axis_and_points_lie_on_the_wall(load_text: Load, node: Node) -> None:
+    world = load_text(eye(kind="depth_camera", far=10) + thing("wall", "3.1 0 1 0 0 0", WALL), node=node)
+    camera = sensor_of(world)
+    assert camera.topic == "/world/w/model/rig/link/l/sensor/eye/depth_image"
+    images = listen(node, Image, camera.topic)
+    clouds = listen(node, PointCloudPacked, camera.topic + "/points")
+    infos = listen(node, CameraInfo, "/world/w/model/rig/link/l/sensor/eye/camera_info")
+    world.step(1)
+    (image,), (cloud,), (info,) = images, clouds, infos
+    assert image.pixel_format_type == 13 and image.step == 64 * 4
+    assert np.frombuffer(image.data, "<f4") == pytest.approx(3.0, abs=1e-5)
+    assert (cloud.width, cloud.height, cloud.point_step, cloud.row_step, cloud.is_dense) == (64, 48, 24, 24 * 64, True)
+    assert [(f.name, f.offset, f.datatype) for f in cloud.field] == [
+        ("x", 0, 6),
+        ("y", 4, 6),
+        ("z", 8, 6),
+        ("rgb", 16, 6),
+    ]
+    points = np.frombuffer(cloud.data, "u1").reshape(48, 64, 24)[:, :, :12].copy().view("<f4")
+    fx, cx, cy = info.intrinsics.k[0], info.intrinsics.k[2], info.intrinsics.k[5]
+    assert (fx, cx, cy) == pytest.approx((32 / math.tan(0.6), 32, 24))
+    for row, column in ((0, 0), (10, 50), (47, 63)):
+        x, y, z = points[row, column]
+        assert (x, y, z) == pytest.approx((3, -3 * (column + 0.5 - cx) / fx, -3 * (row + 0.5 - cy) / fx), abs=1e-4)
+    assert list(info.projection.p) == pytest.approx([fx, 0, cx, 0, 0, fx, cy, 0, 0, 0, 1, 0])
+
+
+def test_depth_says_too_near_and_too_far(load_text: Load) -> None:
+    near = thing("near", "0.3 0 1 0 0 0", "<box><size>0.1 0.05 0.05</size></box>")
+    camera = sensor_of(load_text(eye(kind="depth_camera", near=0.5, far=2) + near + thing("w", "3 2 1 0 0 0", WALL)))
+    depth = camera.depths(camera.cast())
+    assert depth[24, 32] == -math.inf and depth[0, 0] == math.inf
+    assert set(np.unique(depth)) == {-math.inf, math.inf}
+
+
+def test_rgbd_publishes_below_its_topic_only_what_is_heard(load_text: Load, node: Node) -> None:
+    wall = thing("wall", "3.1 0 1 0 0 0", WALL)
+    world = load_text(SCENE + eye(kind="rgbd_camera", topic="<topic>rgbd</topic>") + wall, node=node)
+    names = ("/rgbd/image", "/rgbd/depth_image", "/rgbd/points", "/rgbd/camera_info")
+    kinds = (Image, Image, PointCloudPacked, CameraInfo)
+    heard = [listen(node, kind, name) for kind, name in zip(kinds, names, strict=True)]
+    world.step(1)
+    image, depth, points, info = (each[0] for each in heard)
+    assert image.pixel_format_type == 3 and image.data[:3] == bytes((77, 0, 0))
+    assert np.frombuffer(depth.data, "<f4") == pytest.approx(3.0, abs=1e-5)
+    assert points.data[16:20] == bytes((0, 0, 77, 0)), "0x00RRGGBB, little-endian"
+    assert info.width == 64
+
+
+def label(number: int) -> str:
+    return f"<plugin filename='gz-sim-label-system' name='gz::sim::systems::Label'><label>{number}</label></plugin>"
+
+
+def test_segmentation_shows_labels_and_instances(load_text: Load, node: Node) -> None:
+    box = "<box><size>0.2 0.5 0.5</size></box>"
+    scene = (
+        thing("left", "3 1 1 0 0 0", box, more=label(40))
+        + thing("right", "3 -1 1 0 0 0", box).replace("</link>", "</link>" + label(40))
+        + thing("middle", "3 0 1 0 0 0", box)
+    )
+    world = load_text(scene + eye(kind="segmentation_camera"), node=node)
+    base = "/world/w/model/rig/link/l/sensor/eye/segmentation"
+    labels, colours = listen(node, Image, base + "/labels_map"), listen(node, Image, base + "/colored_map")
+    infos = listen(node, CameraInfo, base + "/camera_info")
+    world.step(1)
+    assert len(labels) == len(colours) == len(infos) == 1
+    pixels = np.frombuffer(labels[0].data, "u1").reshape(48, 64, 3)
+    left, middle, right = 32 - 15, 32, 32 + 15
+    assert [pixels[24, column].tolist() for column in (left, middle, right)] == [[40] * 3, [0] * 3, [40] * 3]
+    seen = np.frombuffer(colours[0].data, "u1").reshape(48, 64, 3)
+    assert (seen[24, left] == seen[24, right]).all() and seen[24, left].any() and not seen[24, middle].any()
+    panoptic = load_text(scene + eye(kind="segmentation", more="<segmentation_type>Instance</segmentation_type>"))
+    marks, shades = sensor_of(panoptic).maps()
+    assert [marks[24, column].tolist() for column in (left, middle, right)] == [[1, 0, 40], [0, 0, 0], [2, 0, 40]]
+    assert (shades[24, left] != shades[24, right]).any()
+
+
+@pytest.mark.parametrize(
+    ("camera", "expected"),
+    [
+        ({}, "/world/w/model/rig/link/l/sensor/eye/camera_info"),
+        ({"topic": "<topic>robot/front/image_raw</topic>"}, "/robot/front/camera_info"),
+        ({"topic": "<topic>camera</topic>"}, "/camera_info"),
+        ({"more": "<camera_info_topic>facts</camera_info_topic>"}, "/facts"),
+    ],
+)
+def test_where_camera_info_stands(load_text: Load, camera: dict[str, str], expected: str) -> None:
+    assert sensor_of(load_text(eye(**camera))).info_topic == expected
+
+
+def test_rate_frame_and_laziness(load_text: Load, node: Node, monkeypatch: pytest.MonkeyPatch) -> None:
+    casts = []
+    original = RayCaster.cast
+    monkeypatch.setattr(RayCaster, "cast", lambda self, **options: casts.append(1) or original(self, **options))
+    world = load_text(eye(rate=30, more="<optical_frame_id>optical</optical_frame_id>"), node=node)
+    infos = listen(node, CameraInfo, sensor_of(world).info_topic)
+    world.step(50)
+    assert len(infos) == 2 and not casts, "camera_info alone needs no picture"
+    images = listen(node, Image, sensor_of(world).topic)
+    world.step(50)
+    assert len(casts) == len(images) == 2 and len(infos) == 4
+    header = images[0].header
+    assert (header.stamp.sec, header.stamp.nsec) == (0, 66_000_000)
+    assert header.data[0].key == "frame_id" and list(header.data[0].value) == ["optical"]
+    assert infos[0].header.data[0].value[0] == "optical"
+
+
+def test_a_triggered_camera_waits_for_its_trigger(load_text: Load, node: Node) -> None:
+    world = load_text(eye(more="<triggered>true</triggered>", topic="<topic>c/i</topic>", rate=0), node=node)
+    images = listen(node, Image, "/c/i")
+    world.step(100)
+    assert not images
+    trigger = node.advertise("/c/i/trigger", Boolean)
+    trigger.publish(Boolean(data=True))
+    world.step(100)
+    assert len(images) == 1
+    trigger.publish(Boolean(data=True))
+    trigger.publish(Boolean(data=False))
+    world.step(100)
+    assert len(images) == 1
+
+
+def test_formats() -> None:
+    colours = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]], dtype=np.float32)
+    assert encode(colours, 2, 2, "RGB_INT8").tolist() == [[[255, 0, 0], [0, 255, 0]], [[0, 0, 255], [255, 255, 255]]]
+    assert encode(colours, 2, 2, "L_INT8").tolist() == [[76, 150], [29, 255]]
+    assert encode(colours, 2, 2, "L_INT16").tolist() == [[19595, 38469], [7471, 65535]]
+    assert encode(colours, 2, 2, "BAYER_RGGB8").tolist() == [[255, 255], [0, 255]]
+    assert encode(colours, 2, 2, "BAYER_BGGR8").tolist() == [[0, 255], [0, 255]]
+    assert encode(colours, 2, 2, "BAYER_GBRG8").tolist() == [[0, 0], [0, 255]]
+    assert encode(colours, 2, 2, "BAYER_GRBG8").tolist() == [[0, 0], [255, 255]]
+
+
+@pytest.mark.parametrize(("stated", "kind", "bytes_each"), [("L8", 1, 1), ("L16", 2, 2), ("BAYER_RGGB8", 15, 1)])
+def test_grey_and_bayer_images(load_text: Load, node: Node, stated: str, kind: int, bytes_each: int) -> None:
+    world = load_text(SCENE + eye(format=stated) + thing("wall", "3.1 0 1 0 0 0", WALL, "1 1 1 1"), node=node)
+    images = listen(node, Image, sensor_of(world).topic)
+    world.step(1)
+    assert (images[0].pixel_format_type, images[0].step) == (kind, 64 * bytes_each)
+    value = np.frombuffer(images[0].data, "<u2" if bytes_each == 2 else "u1")
+    assert value == pytest.approx(0.3 * (65535 if bytes_each == 2 else 255), abs=1)
+
+
+@settings(max_examples=15, deadline=None)
+@given(st.floats(-0.1, 0.3), st.floats(-0.02, 0.1), st.floats(-0.02, 0.02), st.floats(-0.02, 0.02))
+def test_a_distorted_lens_puts_points_where_browns_formula_says(k1: float, k2: float, p1: float, p2: float) -> None:
+    lens = f"<distortion><k1>{k1!r}</k1><k2>{k2!r}</k2><k3>0</k3><p1>{p1!r}</p1><p2>{p2!r}</p2></distortion>"
+    world = World.from_string(
+        "<sdf version='1.10'><world name='w'><plugin name='gz::sim::systems::Sensors'/>"
+        f"{eye(width=160, height=120, more=lens)}</world></sdf>"
+    )
+    camera = sensor_of(world)
+    left, up = camera.pinhole.slopes()
+    focal = 80 / math.tan(0.6)
+    for index in (0, 80, 60 * 160 + 80, 119 * 160 + 159, 30 * 160 + 120):
+        x, y = -left[index], -up[index]  # right and down, without distortion
+        square = x * x + y * y
+        radial = 1 + k1 * square + k2 * square**2
+        u = focal * (x * radial + 2 * p1 * x * y + p2 * (square + 2 * x * x)) + 80
+        v = focal * (y * radial + p1 * (square + 2 * y * y) + 2 * p2 * x * y) + 60
+        assert (u, v) == pytest.approx((index % 160 + 0.5, index // 160 + 0.5), abs=0.05)
+
+
+def test_stated_intrinsics_move_the_picture(load_text: Load) -> None:
+    lens = "<lens><intrinsics><fx>100</fx><fy>100</fy><cx>10</cx><cy>5</cy><s>0</s></intrinsics></lens>"
+    ball = thing("ball", "3 0 1 0 0 0", "<sphere><radius>0.05</radius></sphere>")
+    hits = sensor_of(load_text(eye(more=lens) + ball)).cast()
+    rows, columns = np.divmod(np.flatnonzero(hits.geom >= 0), 64)
+    assert (columns.mean() + 0.5, rows.mean() + 0.5) == pytest.approx((10, 5), abs=0.5)
+
+
+def test_noise_is_seeded_and_has_the_stated_spread(load_text: Load, node: Node) -> None:
+    text = SCENE + thing("wall", "3.1 0 1 0 0 0", WALL, "1 1 1 1")
+    text += eye(more="<noise><type>gaussian</type><mean>0</mean><stddev>0.05</stddev></noise>")
+    one, same, other = (sensor_of(load_text(text, seed=seed)).image().astype(float) for seed in (1, 1, 2))
+    assert (one == same).all() and (one != other).any()
+    assert one.std() == pytest.approx(0.05 * 255, rel=0.1) and one.mean() == pytest.approx(0.3 * 255, abs=2)
+
+
+def test_visibility_flags_hide_from_a_masked_camera(load_text: Load) -> None:
+    ball = thing(
+        "ball", "3 0 1 0 0 0", "<sphere><radius>0.5</radius></sphere>", more="<visibility_flags>2</visibility_flags>"
+    )
+    assert (sensor_of(load_text(ball + eye())).cast().geom >= 0).any()
+    assert (sensor_of(load_text(ball + eye(more="<visibility_mask>2</visibility_mask>"))).cast().geom >= 0).any()
+    assert not (sensor_of(load_text(ball + eye(more="<visibility_mask>5</visibility_mask>"))).cast().geom >= 0).any()
+
+
+def test_a_housing_is_looked_through_and_hides_nothing_for_others(load_text: Load) -> None:
+    housing = "<visual name='h'><geometry><box><size>0.5 0.5 0.5</size></box></geometry></visual>"
+    world = load_text(eye(parts=housing) + thing("wall", "3.1 0 1 0 0 0", WALL))
+    groups = world.model.geom_group.copy()
+    camera = sensor_of(world)
+    assert camera.depth(camera.cast()) == pytest.approx(3.0)
+    assert (world.model.geom_group == groups).all()
+
+
+def test_binding_and_starting_again_gives_the_same_image(load_text: Load) -> None:
+    text = SCENE + sun("0.4 0.3 -1") + TABLE + FLOOR
+    camera = sensor_of(load_text(text + eye(more="<noise><type>gaussian</type><stddev>0.05</stddev></noise>")))
+    before = camera.image()
+    camera.updates = 5
+    assert (camera.image() != before).any()
+    camera.bind()
+    camera.start()
+    assert (camera.image() == before).all()
+
+
+def test_images_are_the_same_bytes_in_another_world(load_text: Load) -> None:
+    text = SCENE + sun("0.4 0.3 -1") + TABLE + FLOOR + eye()
+    assert sensor_of(load_text(text)).image().tobytes() == sensor_of(load_text(text)).image().tobytes()
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"width": 0}, "1 to 4000000 pixels, this one is 0 x 48"),
+        ({"width": 1_000_000, "height": 1_000_000}, "1 to 4000000 pixels"),
+        ({"fov": 3.3}, "<horizontal_fov> must be between"),
+        ({"fov": "nan"}, "must not be NaN"),
+        ({"near": 5, "far": 1}, "0 < near < far"),
+        ({"format": "R8G8B9"}, "did you mean 'R8G8B8'"),
+        ({"kind": "segmentation_camera", "more": "<segmentation_type>semantik</segmentation_type>"}, "'semantic'"),
+        ({"more": "<lens><intrinsics><fx>0</fx></intrinsics></lens>"}, "focal length must be positive"),
+        ({"more": "<distortion><k1>inf</k1></distortion>"}, "<distortion> must hold reasonable numbers"),
+    ],
+)
+def test_impossible_cameras_are_refused(load_text: Load, changes: dict[str, Any], sentence: str) -> None:
+    with pytest.raises(SdfError, match=sentence) as error:
+        load_text(eye(**changes))
+    assert str(error.value).startswith("<string>:")
+
+
+def test_a_label_must_fit_a_byte(load_text: Load) -> None:
+    with pytest.raises(SdfError, match="0 to 255, got '256'"):
+        load_text(eye() + thing("a", "3 1 1 0 0 0", WALL).replace("</link>", "</link>" + label(256)))
+
+
+def test_saving_to_disk_is_named_as_ignored(load_text: Load) -> None:
+    world = load_text(eye(more="<save enabled='true'><path>/tmp/x</path></save>"))
+    assert any("<save> of sensor 'eye' is ignored" in warning for warning in world.warnings)
+    assert isinstance(sensor_of(world), Camera)
