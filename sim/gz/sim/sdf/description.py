@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from gz.sim.pose import IDENTITY, Pose
 from gz.sim.sdf.element import Element
+from gz.sim.spherical_coordinates import SphericalCoordinates
 
 UNLIMITED = 1e16
 """Gazebo takes joint limits of this size and above as "no limit"."""
@@ -245,6 +246,8 @@ class Model:
     joints: list[Joint] = field(default_factory=list)
     plugins: list[Plugin] = field(default_factory=list)
     nested: list[NestedModel] = field(default_factory=list)
+    version: tuple[int, int] = (1, 10)
+    """The SDF version of the file it stands in, whose rules its frames follow."""
 
     def link(self, name: str) -> Link | None:
         """Return the link of that scoped name."""
@@ -267,7 +270,7 @@ class Model:
 @dataclass(eq=False)
 class WorldDescription:
     """A whole world. `step_size_ns` in nanoseconds, `gravity` in m/s^2, `real_time_factor` 0 = as fast as
-    possible; `joints` are those between its models.
+    possible; `joints` are those between its models; `magnetic_field` in tesla along the world's axes.
     """
 
     name: str
@@ -279,5 +282,9 @@ class WorldDescription:
     lights: list[Light] = field(default_factory=list)
     joints: list[Joint] = field(default_factory=list)
     plugins: list[Plugin] = field(default_factory=list)
+    spherical_coordinates: SphericalCoordinates | None = None
+    magnetic_field: tuple[float, float, float] = (5.5645e-6, 22.8758e-6, -42.3884e-6)
     ambient: tuple[float, float, float] = (0.4, 0.4, 0.4)
     background: tuple[float, float, float] = (0.7, 0.7, 0.7)
+    version: tuple[int, int] = (1, 10)
+    """The SDF version of the file it stands in, whose rules its frames follow."""

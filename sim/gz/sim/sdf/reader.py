@@ -19,6 +19,7 @@ from gz.sim.sdf.frames import Scope
 from gz.sim.sdf.joints import read_joint
 from gz.sim.sdf.links import read_link
 from gz.sim.sdf.resources import find_model, read_text
+from gz.sim.spherical_coordinates import SphericalCoordinates
 
 _MAX_INCLUDE_DEPTH = 20
 
@@ -99,11 +100,17 @@ class _WorldReader:
         self._diagnostics = diagnostics
 
     def read(self, world: Element) -> WorldDescription:
-        description = WorldDescription(world.name, world)
+        description = WorldDescription(world.name, world, version=self._version)
         x, y, z = world.vector("gravity", (0.0, 0.0, -9.8))
         description.gravity = (x, y, z)
         if not all(map(math.isfinite, description.gravity)):
             raise world.error("<gravity> must be finite")
+        coordinates = world.find("spherical_coordinates")
+        description.spherical_coordinates = SphericalCoordinates.from_sdf(coordinates, self._diagnostics)
+        x, y, z = world.vector("magnetic_field", description.magnetic_field)
+        description.magnetic_field = (x, y, z)
+        if not all(map(math.isfinite, description.magnetic_field)):
+            raise world.error("<magnetic_field> must be finite")
         self._read_physics(world, description)
         scene = world.find("scene")
         if scene is not None:
@@ -198,6 +205,7 @@ class _WorldReader:
             raise element.error("<model> needs a name attribute")
         static = static or element.flag("static", False)
         model = Model(element.name, Pose(), element, static, element.flag("self_collide", False))
+        model.version = version
         scope = Scope("__model__", element)
         nested: list[tuple[str, Model]] = []
         for child in element.children:

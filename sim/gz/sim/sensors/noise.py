@@ -8,7 +8,7 @@ A sensor reads its `<noise>` with `Noise.from_sdf`. Sensors of a few numbers (an
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -108,11 +108,11 @@ class Channels:
     update that was due, heard or not.
     """
 
-    def __init__(self, sensor: SensorBase, noises: Mapping[str, Noise]) -> None:
-        """`noises` by name of channel, in the order of the numbers that `apply` will be given."""
+    def __init__(self, sensor: SensorBase, noises: Sequence[tuple[str, Noise]]) -> None:
+        """`noises` in the order of the numbers that `apply` will be given; channels of one name have one bias."""
         self._sensor = sensor
-        self._noises = dict(noises)
-        self._each = list(self._noises.values())
+        self._names = [name for name, _ in noises]
+        self._each = [noise for _, noise in noises]
         self.silent = all(noise.silent for noise in self._each)
         self._white = any(noise.stddev > 0.0 for noise in self._each)
         self._wanders = any(noise.wanders for noise in self._each)
@@ -123,7 +123,7 @@ class Channels:
 
     def start(self) -> None:
         """Draw the biases of a run."""
-        for index, (name, noise) in enumerate(self._noises.items()):
+        for index, (name, noise) in enumerate(zip(self._names, self._each, strict=True)):
             self.bias[index] = noise.draw_bias(self._sensor.constant_random(f"bias of {name}"))
 
     def advance(self, dt: float) -> None:

@@ -1,0 +1,147 @@
+"""IMU: orientation, angular velocity and linear acceleration of a link, as `gz.msgs.IMU`.
+
+The Imu system runs it. The acceleration is the specific force: 9.8 m/s^2 upwards when standing still, zero in free
+fall. The orientation is seen from where the sensor stood at the start, unless `<orientation_reference_frame>` names
+another frame.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import mujoco
+import numpy as np
+
+from gz.sim.errors import SimError, nearest
+from gz.sim.pose import Vector, multiply, quaternion_from_rpy, rotate
+from gz.sim.sdf.description import Sensor
+from gz.sim.sdf.element import Element
+from gz.sim.sensors.noise import Noise
+from gz.sim.sensors.registry import sensor_type
+from gz.sim.sensors.site_sensor import SiteSensor, noise_at
+
+if TYPE_CHECKING:
+    from gz.sim.world import World
+
+_FROM_ENU = {
+    "ENU": (0.0, 0.0, 0.0),
+    "NED": (math.pi, 0.0, math.pi / 2.0),
+    "NWU": (0.0, 0.0, math.pi / 2.0),
+}
+"""Roll, pitch, yaw of the named frames seen from east-north-up."""
+LOCALIZATIONS = (*_FROM_ENU, "CUSTOM", "GRAV_UP", "GRAV_DOWN")
+_AXES = [f"{group}/{axis}" for group in ("angular_velocity", "linear_acceleration") for axis in "xyz"]
+
+
+@sensor_type("imu")
+class Imu(SiteSensor):
+    """An inertial measurement unit."""
+
+    runs_in = "Imu"
+    suffix = "imu"
+    message_type = "gz.msgs.IMU"
+
+    def __init__(self, world: World, description: Sensor) -> None:
+        """Read `<imu>`; an unknown localization is warned about, and the initial orientation is used instead."""
+        super().__init__(world, description)
+        element = description.element
+        self.enable_orientation = (element.find("imu") or element).flag("enable_orientation", True)
+        self._frame = element.find("imu/orientation_reference_frame")
+        self.localization = self._frame.text_of("localization", "CUSTOM") if self._frame is not None else ""
+        if self._frame is not None and self.localization not in LOCALIZATIONS:
+            hint = nearest(self.localization, LOCALIZATIONS, listing="localizations are")
+            self._warn(f"<localization> '{self.localization}' is not known; {hint}")
+        variances = [noise.stddev**2 for _, noise in self.read_noises(element)]
+        self._covariances = [np.diag(variances[start : start + 3]).ravel().tolist() for start in (0, 3)]
+        self.reference: Vector = quaternion_from_rpy(0.0, 0.0, 0.0)
+        """The frame the orientation is seen from: its quaternion (wxyz) in the world."""
+
+    def read_noises(self, element: Element) -> Sequence[tuple[str, Noise]]:
+        """Return the noises of the angular velocity (rad/s), then of the acceleration (m/s^2), x y z each."""
+        return [(axis, noise_at(element, f"imu/{axis}")) for axis in _AXES]
+
+    def start(self) -> None:
+        """Begin the schedule and take the reference frame as it stands now."""
+        super().start()
+        found = self._reference_frame()
+        self.reference = self.motion.quaternion() if found is None else found
+
+    def fill(self, message: Any) -> None:
+        """Measure."""
+        message.entity_name = self.scoped_name
+        _, angular = self.motion.velocity(local=True)
+        measured = self.noise.apply(np.concatenate((angular, self.motion.specific_force()))).tolist()
+        if self.enable_orientation:
+            message.orientation.w, message.orientation.x, message.orientation.y, message.orientation.z = (
+                self.orientation().tolist()
+            )
+            message.orientation_covariance.data.extend([0.0] * 9)
+        turning, pushing = message.angular_velocity, message.linear_acceleration
+        turning.x, turning.y, turning.z, pushing.x, pushing.y, pushing.z = measured
+        message.angular_velocity_covariance.data.extend(self._covariances[0])
+        message.linear_acceleration_covariance.data.extend(self._covariances[1])
+
+    def orientation(self) -> Vector:
+        """Return the sensor's orientation (wxyz) seen from the reference frame."""
+        return multiply(self.reference * (1.0, -1.0, -1.0, -1.0), self.motion.quaternion())
+
+    def _reference_frame(self) -> Vector | None:
+        """Return the quaternion (wxyz) of the frame that is asked for, None for the initial orientation."""
+        if self._frame is None:
+            return None
+        if self.localization in _FROM_ENU:
+            where = self.world.description.spherical_coordinates
+            # Gazebo turns by +heading here, although the world is turned by +heading against ENU.
+            heading = math.radians(where.heading_deg) if where is not None else 0.0
+            return multiply(quaternion_from_rpy(0.0, 0.0, heading), quaternion_from_rpy(*_FROM_ENU[self.localization]))
+        if self.localization == "CUSTOM":
+            # Without a parent frame Gazebo takes the world's, not the sensor's own as SDF says.
+            parent = self._parent_frame("custom_rpy", quaternion_from_rpy(0.0, 0.0, 0.0))
+            roll, pitch, yaw = self._frame.vector("custom_rpy", (0.0, 0.0, 0.0))
+            return None if parent is None else multiply(parent, quaternion_from_rpy(roll, pitch, yaw))
+        if self.localization in ("GRAV_UP", "GRAV_DOWN"):
+            return self._gravity_frame(1.0 if self.localization == "GRAV_UP" else -1.0)
+        return None
+
+    def _gravity_frame(self, sign: float) -> Vector | None:
+        """Return the frame whose z axis is against gravity (or along it, `sign` -1), x nearest to grav_dir_x."""
+        assert self._frame is not None
+        parent = self._parent_frame("grav_dir_x", self.motion.quaternion())
+        if parent is None:
+            return None
+        gravity = np.array(self.world.description.gravity)
+        wish = rotate(parent, np.array(self._frame.vector("grav_dir_x", (1.0, 0.0, 0.0))))
+        strength = float(np.linalg.norm(gravity))
+        up = -sign * gravity / strength if strength > 0.0 else np.zeros(3)
+        ahead = wish - up * float(up @ wish)
+        length = float(np.linalg.norm(ahead))
+        if strength == 0.0 or length < 1e-9:
+            self._warn(f"{self.localization} needs gravity and a <grav_dir_x> that is not parallel to it")
+            return None
+        ahead /= length
+        found = np.zeros(4)
+        mujoco.mju_mat2Quat(found, np.column_stack((ahead, np.cross(up, ahead), up)).ravel())
+        return found
+
+    def _parent_frame(self, tag: str, unnamed: Vector) -> Vector | None:
+        """Return the orientation (wxyz) of the `parent_frame` of a tag: the world, or a link as it stands now."""
+        assert self._frame is not None
+        element = self._frame.find(tag)
+        name = element.attributes.get("parent_frame", "") if element is not None else ""
+        if name in ("", "world"):
+            return quaternion_from_rpy(0.0, 0.0, 0.0) if name else unnamed
+        model, _, link = name.partition("::")
+        try:
+            return self.world.link_pose(model, link).quaternion
+        except SimError:
+            links = [f"{each.name}::{part.name}" for each in self.world.description.models for part in each.links]
+            hint = nearest(name, ["world", *links], listing="frames are")
+            self._warn(f"parent_frame '{name}' of <{tag}> names no link; {hint}")
+            return None
+
+    def _warn(self, sentence: str) -> None:
+        assert self._frame is not None
+        text = f"{sentence}; sensor '{self.description.name}' reports its orientation from where it stands at the start"
+        self.world.diagnostics.warn(self._frame.where, text)

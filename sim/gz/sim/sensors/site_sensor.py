@@ -1,0 +1,83 @@
+"""What sensors share that measure a few numbers at one place: one site, one topic, one message, noise by channel.
+
+`imu.py`, `altimeter.py`, `magnetometer.py` and their like say which noises they have and fill in the message.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from google.protobuf.message import Message
+
+from gz.sim.physics.motion import SiteMotion
+from gz.sim.sdf.description import Sensor
+from gz.sim.sdf.element import Element
+from gz.sim.sensors.noise import Channels, Noise
+from gz.sim.sensors.registry import SensorBase
+
+if TYPE_CHECKING:
+    from gz.sim.world import World
+    from gz.transport import Node
+
+
+class SiteSensor(SensorBase):
+    """Base of the sensors that stand at one place. `motion` is that of the sensor, `noise` its channels."""
+
+    suffix: ClassVar[str]
+    """Last part of the default topic."""
+    message_type: ClassVar[str]
+    """Name of the message type, for example gz.msgs.IMU."""
+
+    def __init__(self, world: World, description: Sensor) -> None:
+        super().__init__(world, description)
+        self.noise = Channels(self, self.read_noises(description.element))
+        self._publisher: Any = None
+
+    def read_noises(self, element: Element) -> Sequence[tuple[str, Noise]]:
+        """Return the noise of each number, by name of channel; `element` is the `<sensor>`."""
+        raise NotImplementedError
+
+    def fill(self, message: Any) -> None:
+        """Measure and write what is special about this sensor; the header is written already."""
+        raise NotImplementedError
+
+    def bind(self) -> None:
+        """Find the sensor's place."""
+        self.motion = SiteMotion(self.world, self.scoped_name)
+
+    def start(self) -> None:
+        """Begin the schedule and draw the biases of the run."""
+        super().start()
+        self.noise.start()
+
+    def advance(self, dt: float) -> None:
+        """Let the biases wander."""
+        self.noise.advance(dt)
+
+    def topic_suffix(self) -> str:
+        """Return the last part of the default topic."""
+        return self.suffix
+
+    def connect(self, node: Node) -> None:
+        """Advertise the sensor's topic."""
+        from gz.msgs import message_class
+
+        self._message: type[Message] = message_class(self.message_type)
+        self._publisher = node.advertise(self.topic, self._message)
+
+    def has_connections(self) -> bool:
+        """Tell whether anybody listens."""
+        return self._publisher is not None and self._publisher.has_connections()
+
+    def update(self, now_ns: int) -> None:
+        """Publish one measurement."""
+        message: Any = self._message()
+        self.fill_header(message.header, now_ns)
+        self.fill(message)
+        self._publisher.publish(message)
+
+
+def noise_at(element: Element, path: str) -> Noise:
+    """Return the noise written at `path/noise` below an element; none when nothing is written there."""
+    return Noise.from_sdf(element.find(f"{path}/noise"))
