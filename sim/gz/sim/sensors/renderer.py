@@ -79,16 +79,19 @@ class GlRenderer:
         self._option.geomgroup[VISUAL_GROUP] = 1
         self._view = mujoco.MjvCamera()
         self._pixels = np.zeros((pinhole.height, pinhole.width, 3), dtype=np.uint8)
+        self._depth = np.zeros((pinhole.height, pinhole.width), dtype=np.float32)
+        self._shader = Shader(camera.world)
 
     def bind(self) -> None:
         """Hand shapes and colours to OpenGL."""
         model, pinhole = self._camera.world.model, self._camera.pinhole
+        # Only the lights of the world shine; the head light carries the scene's ambient light.
+        model.vis.headlight.diffuse = model.vis.headlight.specular = (0.0, 0.0, 0.0)
         visual = model.vis.global_
         visual.offwidth = max(visual.offwidth, pinhole.width)
         visual.offheight = max(visual.offheight, pinhole.height)
         self._context.make_current()
         self._scene = mujoco.MjvScene(model, maxgeom=model.ngeom + 100)
-        self._scene.flags[mujoco.mjtRndFlag.mjRND_SKYBOX] = 1
         self._drawing = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100.value)
         mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, self._drawing)
 
@@ -117,8 +120,11 @@ class GlRenderer:
             eye.frustum_center = near * (pinhole.width / 2.0 - cx) / fx
             eye.frustum_width = near * pinhole.width / 2.0 / fx
         mujoco.mjr_render(self._rectangle, self._scene, self._drawing)
-        mujoco.mjr_readPixels(self._pixels, None, self._rectangle, self._drawing)
-        return np.flipud(self._pixels).reshape(-1, 3).astype(np.float32) / np.float32(255.0)
+        mujoco.mjr_readPixels(self._pixels, self._depth, self._rectangle, self._drawing)
+        colours = np.flipud(self._pixels).reshape(-1, 3).astype(np.float32) / np.float32(255.0)
+        empty = np.flatnonzero(np.flipud(self._depth).ravel() >= 1.0)
+        colours[empty] = self._shader.background((self._camera.pinhole.directions() @ axes.reshape(3, 3).T)[empty])
+        return colours
 
 
 @functools.cache

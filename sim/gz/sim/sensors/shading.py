@@ -87,11 +87,13 @@ class Shader:
             result += self._emission[hits.geom]
         np.minimum(result, 1.0, out=result)
         missed = np.flatnonzero(~met)
-        result[missed] = self._sky_colours(hits.rays[missed]) if self._sky else self._background
+        result[missed] = self.background(hits.rays[missed])
         return result
 
-    def _sky_colours(self, rays: Floats) -> Colours:
-        """Return a sky (n, 3): pale at the horizon, blue above."""
+    def background(self, rays: Floats) -> Colours:
+        """Return what is behind everything along rays (n, 3): one colour, or a sky, pale at the horizon, blue above."""
+        if not self._sky:
+            return np.tile(self._background, (len(rays), 1))
         height = np.sqrt(np.clip(rays[:, 2], 0.0, 1.0))[:, None]
         return (_HORIZON + height * (_ZENITH - _HORIZON)).astype(np.float32)
 

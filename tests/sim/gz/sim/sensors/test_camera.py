@@ -154,9 +154,13 @@ def test_the_near_plane_is_looked_through_and_the_far_one_ends_the_view(load_tex
     near = thing("near", "0.3 0 1 0 0 0", "<box><size>0.1 0.05 0.05</size></box>", "0 1 0 1")
     wall = thing("wall", "3.1 0 1 0 0 0", WALL)
     scene = SCENE + near + wall
-    assert sensor_of(load_text(scene + eye(near=0.1))).image()[24, 32].tolist() == pytest.approx([0, 255 * 0.3, 0], abs=1)
-    assert sensor_of(load_text(scene + eye(near=0.5))).image()[24, 32].tolist() == pytest.approx([255 * 0.3, 0, 0], abs=1)
-    assert sensor_of(load_text(scene + eye(near=0.5, far=2.9))).image()[24, 32].tolist() == [0, 0, 255]
+
+    def middle(**clip: float) -> list[int]:
+        return sensor_of(load_text(scene + eye(**clip))).image()[24, 32].tolist()
+
+    assert middle(near=0.1) == pytest.approx([0, 255 * 0.3, 0], abs=1)
+    assert middle(near=0.5) == pytest.approx([255 * 0.3, 0, 0], abs=1)
+    assert middle(near=0.5, far=2.9) == [0, 0, 255]
 
 
 def test_depth_is_measured_along_the_axis_and_points_lie_on_the_wall(load_text: Load, node: Node) -> None:

@@ -322,3 +322,45 @@ def test_a_world_without_the_sensors_system_says_why_its_lidar_is_silent(
 def test_sensor_types_nothing_here_can_do_are_named(load_text: Load) -> None:
     warnings = load_text(rig(kind="gpu_lidr")).warnings
     assert any("did you mean 'gpu_lidar'" in warning for warning in warnings)
+
+
+def test_points_stand_where_the_ranges_end(load_text: Load, node: Node) -> None:
+    from gz.msgs.pointcloud_packed_pb2 import PointCloudPacked
+
+    vertical = "<vertical><samples>2</samples><min_angle>-0.1</min_angle><max_angle>0.15</max_angle></vertical>"
+    shiny = wall("visual", 3.1).replace("</visual>", "<laser_retro>7.5</laser_retro></visual>")
+    world = load_text(rig(vertical=vertical, samples=3) + shiny, node=node)
+    clouds: list[Any] = []
+    scans: list[Any] = []
+    node.subscribe(PointCloudPacked, lidar_of(world).topic + "/points", clouds.append)
+    world.step(1)
+    node.subscribe(LaserScan, lidar_of(world).topic, scans.append)
+    world.step(100)
+    assert len(clouds) == 2 and len(scans) == 1
+    cloud = clouds[-1]
+    assert [(f.name, f.offset, f.datatype, f.count) for f in cloud.field] == [
+        ("x", 0, 6, 1), ("y", 4, 6, 1), ("z", 8, 6, 1), ("intensity", 16, 6, 1), ("ring", 24, 3, 1),
+    ]  # fmt: skip
+    assert (cloud.width, cloud.height, cloud.point_step, cloud.row_step, cloud.is_dense) == (3, 2, 32, 96, False)
+    kinds = {"names": ["x", "y", "z", "i", "ring"], "formats": ["<f4"] * 4 + ["<u2"], "offsets": [0, 4, 8, 16, 24]}
+    points = np.frombuffer(cloud.data, np.dtype({**kinds, "itemsize": 32}))  # type: ignore[call-overload]
+    assert points["ring"].tolist() == [0, 0, 0, 1, 1, 1]
+    for row, elevation in ((0, -0.1), (1, 0.15)):
+        ahead = points[3 * row + 1]
+        assert ahead.tolist()[:3] == pytest.approx((3, 0, 3 * math.tan(elevation)), abs=1e-6)
+        assert ahead["i"] == 7.5
+    assert not np.isfinite(points["y"][[0, 2, 3, 5]]).any()
+    assert list(scans[0].intensities) == [0, 7.5, 0, 0, 7.5, 0]
+
+
+def test_a_lidar_has_a_bounded_number_of_beams(load_text: Load) -> None:
+    vertical = "<vertical><samples>1000</samples><min_angle>-0.2</min_angle><max_angle>0.3</max_angle></vertical>"
+    with pytest.raises(SdfError, match="2000000 beams at most, this one has 10000000"):
+        load_text(rig(vertical=vertical, samples=10000))
+
+
+def test_masked_visuals_are_not_scanned(load_text: Load) -> None:
+    hidden = wall("visual", 2.1).replace("</visual>", "<visibility_flags>4</visibility_flags></visual>")
+    masked = rig(noise="<visibility_mask>3</visibility_mask>")
+    assert lidar_of(load_text(masked + hidden + wall("visual", 3.1))).ranges()[1] == pytest.approx(3.0)
+    assert lidar_of(load_text(rig() + hidden + wall("visual", 3.1))).ranges()[1] == pytest.approx(2.0)

@@ -1,0 +1,171 @@
+"""How much lidars and cameras add to the rays they cast, and how fast a whole robot runs with its sensors heard."""
+
+import statistics
+import time
+from collections.abc import Callable, Iterator
+
+import mujoco
+import numpy as np
+
+from gz.sim.world import World
+from gz.transport import Node, NodeOptions, Scope
+from tests.bench.row import Row
+
+ROUNDS = 15
+SIM_SECONDS = 4.0
+PLUGINS = "".join(
+    f"<plugin filename='gz-sim-{file}-system' name='gz::sim::systems::{name}'/>"
+    for file, name in (("physics", "Physics"), ("sensors", "Sensors"), ("imu", "Imu"))
+)
+BEGIN = f"<sdf version='1.10'><world name='w'>{PLUGINS}<include><uri>model://sun</uri></include>"
+GROUND = "<include><uri>model://ground_plane</uri></include>"
+END = "</world></sdf>"
+LIDAR = (
+    "<sensor name='s' type='gpu_lidar'><lidar><scan><horizontal><samples>{beams}</samples>"
+    "<min_angle>-3.14159</min_angle><max_angle>3.14159</max_angle></horizontal></scan><range><min>0.1</min><max>20</max></range></lidar></sensor>"
+)
+CAMERA = (
+    "<sensor name='s' type='camera'><camera><horizontal_fov>1.3</horizontal_fov><image><width>320</width>"
+    "<height>240</height></image></camera></sensor>"
+)
+IMU = "<sensor name='imu' type='imu'><topic>imu</topic><update_rate>100</update_rate></sensor>"
+
+
+def room(shapes: int = 62) -> str:
+    """A ground and things standing on it, the same on every run."""
+    random = np.random.default_rng(3)
+    kinds = (
+        "<box><size>.5 .4 .8</size></box>",
+        "<cylinder><radius>.25</radius><length>.8</length></cylinder>",
+        "<sphere><radius>.35</radius></sphere>",
+    )
+    things = "".join(
+        f"<model name='b{i}'><static>1</static><pose>{x} {y} 0.4 0 0 {turn}</pose><link name='l'><visual name='v'>"
+        f"<geometry>{kinds[i % 3]}</geometry></visual></link></model>"
+        for i, (x, y, turn) in enumerate(random.uniform((-6, -6, 0), (6, 6, 3), (shapes, 3)).tolist())
+    )
+    return GROUND + things
+
+
+def rig(sensor: str) -> str:
+    return (
+        f"<model name='rig'><static>1</static><pose>-7 -5 2.2 0 0.35 0.65</pose><link name='l'>{sensor}</link></model>"
+    )
+
+
+def best(work: Callable[[], object]) -> float:
+    """The shortest of some rounds [s]: the one the machine disturbed least."""
+    times = []
+    for _ in range(ROUNDS):
+        start = time.perf_counter()
+        work()
+        times.append(time.perf_counter() - start)
+    return min(times)
+
+
+def sensor_of(world: World):
+    return next(system for system in world.systems if system.name == "Sensors").sensors[0]
+
+
+def bare(world: World, *, normals: bool = False) -> Callable[[], None]:
+    """MuJoCo's ray cast alone, with the rays of the world's sensor."""
+    caster = sensor_of(world).caster
+    hits = caster.cast()
+    count, rays, origin = len(hits.rays), hits.rays.ravel().copy(), hits.origin.copy()
+    geom, distance = np.zeros(count, dtype=np.int32), np.zeros(count)
+    normal = np.zeros(3 * count) if normals else None
+    groups = np.array((0, 1, 0, 0, 0, 0), dtype=np.uint8)
+
+    def cast() -> None:
+        mujoco.mj_multiRay(
+            world.model, world.data, origin, rays, groups, True, -1, geom, distance, normal, count, 100.0
+        )  # fmt: skip
+
+    return cast
+
+
+def row(name: str, work: Callable[[], object], reference: Callable[[], object], what: str, wanted: str) -> Row:
+    measured, against = best(work), best(reference)
+    return Row(name, f"{measured * 1e3:.2f} ms", f"{what} {against * 1e3:.2f} ms", f"{measured / against:.2f}", wanted)
+
+
+def robots(count: int) -> str:
+    return "".join(
+        "<include><uri>model://two_wheel_robot</uri>"
+        f"<name>robot{i}</name><pose>{2 * (i % 4)} {2 * (i // 4)} 0 0 0 0</pose></include>"
+        for i in range(count)
+    )
+
+
+def heard(world: World, node: Node) -> int:
+    """Subscribe to everything the world publishes; return how many topics that are."""
+    topics = [topic for topic in node.topic_list() if not topic.endswith(("clock", "stats"))]
+    for topic in topics:
+        node.subscribe_raw(topic, lambda data, info: None)
+    return len(topics)
+
+
+def run_seconds(world: World) -> float:
+    """Wall time [s] for the benchmark's simulated time, best of three."""
+    steps = round(SIM_SECONDS * 1e9 / world.step_size_ns)
+    times = []
+    for _ in range(3):
+        start = time.perf_counter()
+        world.step(steps)
+        times.append(time.perf_counter() - start)
+    return min(times)
+
+
+def bare_seconds(world: World) -> float:
+    """Wall time [s] of a bare mj_step loop of the same model from the same state."""
+    data = mujoco.MjData(world.model)
+    data.qpos[:], data.qvel[:] = world.data.qpos, world.data.qvel
+    steps = round(SIM_SECONDS * 1e9 / world.step_size_ns)
+    times = []
+    for _ in range(3):
+        start = time.perf_counter()
+        for _ in range(steps):
+            mujoco.mj_step(world.model, data)
+        times.append(time.perf_counter() - start)
+    return min(times)
+
+
+def rows() -> Iterator[Row]:
+    for beams in (360, 640):
+        world = World.from_string(BEGIN + room() + rig(LIDAR.format(beams=beams)) + END)
+        wanted = "<= 1.5" if beams == 360 else ""
+        yield row(f"scan of {beams} beams", sensor_of(world).measure, bare(world), "mj_multiRay", wanted)
+    world = World.from_string(BEGIN + room() + rig(CAMERA) + END)
+    yield row(
+        "camera 320x240, with shadows", sensor_of(world).image, bare(world), "mj_multiRay of its pixels", "<= 1.6"
+    )
+    yield _one_robot()
+    yield _ten_robots()
+
+
+def _one_robot() -> Row:
+    text = BEGIN + room() + robots(1) + END
+    with Node(NodeOptions(scope=Scope.PROCESS)) as node:
+        world = World.from_string(text, node=node)
+        topics = heard(world, node)
+        measured, against = run_seconds(world), bare_seconds(world)
+        world.close()
+    return Row(
+        f"small robot, all {topics} topics heard",
+        f"{SIM_SECONDS / measured:.0f} x real time",
+        f"mj_step alone {SIM_SECONDS / against:.0f} x",
+        f"{against / measured:.2f}",
+        ">= 0.5",
+    )
+
+
+def _ten_robots() -> Row:
+    times = []
+    for count in (1, 10):
+        with Node(NodeOptions(scope=Scope.PROCESS)) as node:
+            world = World.from_string(BEGIN + GROUND + robots(count) + END, node=node)
+            for i in range(count):
+                node.subscribe_raw(f"/model/robot{i}/odometry", lambda data, info: None)
+            times.append(statistics.median(run_seconds(world) for _ in range(3)))
+            world.close()
+    return Row("10 robots", f"{times[1]:.2f} s", f"one robot {times[0]:.2f} s", f"{times[1] / times[0]:.1f}", "<= 12")
