@@ -13,7 +13,6 @@ Packets and port numbers: OMG DDSI-RTPS 2.2, sections 8.5.3, 9.4.5, 9.6.1 and 9.
 from __future__ import annotations
 
 import contextlib
-import os
 import secrets
 import socket
 import struct
@@ -81,7 +80,7 @@ class Participants:
 def _own_sockets() -> Iterator[str]:
     for file in _OWN_FILES.iterdir():
         with contextlib.suppress(OSError):  # closed meanwhile
-            target = os.readlink(file)
+            target = str(file.readlink())
             if target.startswith("socket:["):
                 yield target[8:-1]
 

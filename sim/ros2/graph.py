@@ -118,6 +118,10 @@ class Graph:
             self.spin_once(left)
         return True
 
+    def spin_for(self, duration: float) -> None:
+        """Run what arrives for so many seconds."""
+        self.spin_until(lambda: False, duration)
+
     def topics(self, hidden: bool = False) -> NamesAndTypes:
         """Topics and their types, both sorted."""
         return _shown(self.node.get_topic_names_and_types(), hidden)
@@ -141,7 +145,7 @@ class Graph:
             self._wait(lambda: self._complete(QUIET), SETTLE_DEADLINE)
 
     def wait_for(self, find: Callable[[], Found]) -> Found:
-        """What `find` returns as soon as that is true, or what it returns at the end (exactly --spin-time, if given)."""
+        """What `find` returns as soon as that is true; at the latest after exactly --spin-time, if given."""
         if self._spin_time is not None:
             self.settle()
         else:
@@ -162,12 +166,12 @@ class Graph:
 
     def wait_for_publisher(self, name: str, timeout: float) -> bool:
         """Whether somebody publishes on a topic within `timeout` seconds."""
-        return self._wait(lambda: bool(self.node.count_publishers(name)), timeout)
+        return self._wait(lambda: self._participants.all_known() and self.node.count_publishers(name) > 0, timeout)
 
     def _types(self, name: str) -> list[str]:
         return dict(self.topics(hidden=True)).get(name, [])
 
-    def _wait(self, condition: Callable[[], bool], timeout: float) -> bool:
+    def _wait(self, condition: Callable[[], bool | None], timeout: float) -> bool:
         end = time.monotonic() + timeout
         while not condition():
             left = end - time.monotonic()

@@ -1,34 +1,103 @@
-"""From the name of a message type to its Python class.
+"""From the name of an interface (message, service, action) to its Python class and its definition file.
 
-`sensor_msgs/msg/LaserScan` (or `sensor_msgs/LaserScan`) is the class LaserScan of sensor_msgs.msg. Errors name
-the nearest message that is installed, as listed in the ament index.
+`sensor_msgs/msg/LaserScan` (or `sensor_msgs/LaserScan`) is the class LaserScan of sensor_msgs.msg and the file
+msg/LaserScan.msg in the share folder of the package. What there is stands in the ament index. Errors name the nearest
+interface that is installed.
 """
 
 from __future__ import annotations
 
 import importlib
+from pathlib import Path
 from typing import Any
 
 from ament_index_python import get_resource, get_resources
 
 from ros2.errors import CommandError, did_you_mean
+from ros2.packages import package_share
+
+KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}
+"""Folder (and end of the file name) of a kind of interface -> heading."""
+
+_INDEX = "rosidl_interfaces"
 
 
 def message_class(type_name: str) -> Any:
     """The class of a message type; CommandError if there is none of that name."""
+    return _class(type_name, "msg", "message")
+
+
+def service_class(type_name: str) -> Any:
+    """The class of a service type, with its Request and Response; CommandError if there is none of that name."""
+    return _class(type_name, "srv", "service")
+
+
+def message_type_name(message: Any) -> str:
+    """`package/msg/Name` of a message class."""
+    return f"{message.__module__.partition('.')[0]}/msg/{message.__name__}"
+
+
+def _class(type_name: str, kind: str, noun: str) -> Any:
     package, *middle, name = type_name.split("/") if "/" in type_name else ("", "", type_name)
-    if package and name and middle in ([], ["msg"]):
+    if package and name and middle in ([], [kind]):
         try:
-            return getattr(importlib.import_module(f"{package}.msg"), name)
-        except (ImportError, AttributeError):
+            return getattr(importlib.import_module(f"{package}.{kind}"), name)
+        except (ImportError, AttributeError, ValueError):
             pass
-    raise CommandError(f"The message type '{type_name}' is invalid" + did_you_mean(type_name, message_names()))
+    hint = did_you_mean(type_name, interface_names(kind))
+    raise CommandError(f"The {noun} type '{type_name}' is invalid" + hint)
 
 
-def message_names() -> list[str]:
-    """`package/msg/Name` of every installed message, sorted."""
-    names = []
-    for package in get_resources("rosidl_interfaces"):
-        files, _ = get_resource("rosidl_interfaces", package)
-        names += [f"{package}/{line[:-4]}" for line in files.split() if line.endswith(".msg")]
-    return sorted(names)
+def interface_packages() -> list[str]:
+    """The packages that define interfaces, sorted."""
+    return sorted(get_resources(_INDEX))
+
+
+def package_interfaces(package: str, kind: str) -> list[str]:
+    """`package/kind/Name` of each interface of one kind in a package, sorted; CommandError for an unknown package."""
+    if package not in get_resources(_INDEX):
+        raise CommandError(f"Unknown package '{package}'" + did_you_mean(package, interface_packages()))
+    files, _ = get_resource(_INDEX, package)
+    end = f".{kind}"
+    found = {line.removesuffix(end) for line in files.split() if line.startswith(f"{kind}/") and line.endswith(end)}
+    return [f"{package}/{name}" for name in sorted(found)]
+
+
+def interface_names(*kinds: str) -> list[str]:
+    """`package/kind/Name` of every installed interface of these kinds (none given: all), sorted."""
+    return sorted(
+        name
+        for package in interface_packages()
+        for kind in kinds or KINDS
+        for name in package_interfaces(package, kind)
+    )
+
+
+def interface_parts(name: str) -> tuple[str, str, str]:
+    """(package, kind, Name) of a full interface name; CommandError for one that has not three parts or no such kind."""
+    parts = name.split("/")
+    if len(parts) != 3 or not all(parts):
+        hint = did_you_mean(name, interface_names())
+        raise CommandError(f"Invalid name '{name}'. Expected three parts separated by '/'{hint}")
+    if parts[1] not in KINDS:
+        raise CommandError(f"Invalid name '{name}'. The second part must be one of {', '.join(KINDS)}")
+    return parts[0], parts[1], parts[2]
+
+
+def interface_file(name: str) -> Path:
+    """The .msg, .srv or .action file of an interface; CommandError if the package or the interface does not exist."""
+    package, kind, interface = interface_parts(name)
+    known = package_interfaces(package, kind)
+    path = package_share(package) / kind / f"{interface}.{kind}"
+    if name not in known or not path.is_file():
+        hint = did_you_mean(name, known)
+        raise CommandError(f"Could not find the interface '{path.with_suffix('.idl')}'{hint}")
+    return path
+
+
+def prototype(name: str) -> Any:
+    """A message with default values: the message itself, the request of a service, the goal of an action."""
+    interface_file(name)
+    package, kind, interface = interface_parts(name)
+    found = getattr(importlib.import_module(f"{package}.{kind}"), interface)
+    return {"msg": lambda: found(), "srv": lambda: found.Request(), "action": lambda: found.Goal()}[kind]()

@@ -25,7 +25,8 @@ def full_name(graph: Graph, name: str) -> str:
         expanded = expand_topic_name(name, graph.node.get_name(), graph.node.get_namespace())
         validate_full_topic_name(expanded)
     except (InvalidTopicNameException, ValueError) as error:
-        raise CommandError(f"'{name}' is not a topic name: {str(error).splitlines()[0]}") from None
+        reason = str(error).partition(", at ")[0].splitlines()[0]
+        raise CommandError(f"'{name}' is not a topic name: {reason}") from None
     return expanded
 
 

@@ -8,18 +8,12 @@ from collections.abc import Callable
 from typing import Any
 
 import yaml
-from rclpy.qos import (
-    DurabilityPolicy,
-    HistoryPolicy,
-    QoSPresetProfiles,
-    QoSProfile,
-    ReliabilityPolicy,
-)
 
 from ros2.errors import CommandError, did_you_mean
-from ros2.graph import Graph, add_graph_options
+from ros2.graph import Graph, add_graph_options, seconds
 from ros2.interface import message_class
 from ros2.message_text import TextFormat, is_message, to_csv, to_yaml
+from ros2.qos import add_qos_options, chosen_qos, whole_number
 from ros2.topic import following_qos, full_name, message_filter, nearest_topic, not_published, only_type
 
 _FIRST_PUBLISHER = 1.0  # s to wait for somebody to follow the QoS of, when the type is given
@@ -31,7 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("topic_name", help="Name of the ROS topic to listen to (e.g. '/chatter')")
     parser.add_argument("message_type", nargs="?", help="Type of the ROS message (e.g. 'std_msgs/msg/String')")
     parser.add_argument("--once", action="store_true", help="Print the first message received and then exit")
-    parser.add_argument("--timeout", type=float, metavar="N", help="Set a timeout in seconds for waiting")
+    parser.add_argument("--timeout", type=seconds, metavar="N", help="Set a timeout in seconds for waiting")
     parser.add_argument("--field", metavar="A.B", help="Echo a selected field of a message")
     parser.add_argument("--filter", metavar="EXPR", help="Python expression on the message m that must be true")
     parser.add_argument("-f", "--full-length", action="store_true", help="Output all elements and characters")
@@ -44,21 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--csv", action="store_true", help="Output all recursive fields separated by commas")
     parser.add_argument("--raw", action="store_true", help="Echo the raw binary representation")
     parser.add_argument("-i", "--include-message-info", action="store_true", help="Shows the message info")
-    qos = parser.add_argument_group("quality of service", "default: what all publishers of the topic offer")
-    presets = [profile.name.lower() for profile in QoSPresetProfiles]
-    qos.add_argument("--qos-profile", choices=presets, help="Preset to start from")
-    qos.add_argument("--qos-depth", type=whole_number, metavar="N", help="Queue size")
-    qos.add_argument("--qos-history", choices=HistoryPolicy.short_keys(), help="History setting")
-    qos.add_argument("--qos-reliability", choices=ReliabilityPolicy.short_keys(), help="Reliability setting")
-    qos.add_argument("--qos-durability", choices=DurabilityPolicy.short_keys(), help="Durability setting")
-
-
-def whole_number(text: str) -> int:
-    """A number from 0 on; ValueError otherwise."""
-    value = int(text)
-    if value < 0:
-        raise ValueError
-    return value
+    add_qos_options(parser, "what all publishers of the topic offer")
 
 
 def main(arguments: argparse.Namespace) -> int:
@@ -69,7 +49,7 @@ def main(arguments: argparse.Namespace) -> int:
         name = full_name(graph, arguments.topic_name)
         kind = _message_class(graph, name, given)
         printer = _Printer(arguments, kind, passes)
-        qos = _qos(graph, name, arguments)
+        qos = chosen_qos(arguments, following_qos(graph, name))
         graph.node.create_subscription(kind, name, printer, qos, raw=arguments.raw)
         end = None if arguments.timeout is None else time.monotonic() + arguments.timeout
         while not (arguments.once and printer.count):
@@ -89,22 +69,6 @@ def _message_class(graph: Graph, name: str, given: Any) -> Any:
         not_published(name)
         raise CommandError(f"Could not determine the type for the passed topic{nearest_topic(graph, name)}")
     return only_type(name, types, "echo")
-
-
-def _qos(graph: Graph, name: str, arguments: argparse.Namespace) -> QoSProfile:
-    if arguments.qos_profile:
-        qos = QoSPresetProfiles.get_from_short_key(arguments.qos_profile)
-    else:
-        qos = following_qos(graph, name)
-    if arguments.qos_depth is not None:
-        qos.depth = arguments.qos_depth
-    if arguments.qos_history:
-        qos.history = HistoryPolicy.get_from_short_key(arguments.qos_history)
-    if arguments.qos_reliability:
-        qos.reliability = ReliabilityPolicy.get_from_short_key(arguments.qos_reliability)
-    if arguments.qos_durability:
-        qos.durability = DurabilityPolicy.get_from_short_key(arguments.qos_durability)
-    return qos
 
 
 class _Printer:
