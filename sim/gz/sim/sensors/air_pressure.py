@@ -1,0 +1,75 @@
+"""Air pressure at the height of the sensor, as `gz.msgs.FluidPressure`.
+
+The AirPressure system runs it. The atmosphere is the International Standard Atmosphere, with sea level at the
+world's zero height; neither `<atmosphere>` nor the elevation of `<spherical_coordinates>` changes it, as in Gazebo.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gz.sim.sdf.description import Sensor
+from gz.sim.sdf.element import Element
+from gz.sim.sensors.noise import Noise
+from gz.sim.sensors.registry import sensor_type
+from gz.sim.sensors.site_sensor import SiteSensor, noise_at
+
+if TYPE_CHECKING:
+    from gz.sim.world import World
+
+SEA_LEVEL_PRESSURE = 101325.0
+"""Pa."""
+SEA_LEVEL_TEMPERATURE = 288.15
+"""K."""
+LAPSE_RATE = 0.0065
+"""How much colder the air gets with height (K/m)."""
+EARTH_RADIUS = 6356766.0
+"""The radius (m) that geopotential height is defined with."""
+EXPONENT = 9.80665 * 28.9644 / (8314.32 * LAPSE_RATE)
+"""g M / (R L): gravity, molar mass of air (kg/kmol), gas constant (J/(kmol K)); U.S. Standard Atmosphere 1976."""
+HIGHEST = 44_000.0
+"""Where the formula of the troposphere comes to an end (m): no air is left there."""
+
+
+def standard_temperature(height: float) -> float:
+    """Return the temperature (K) of the standard atmosphere at a height (m)."""
+    height = min(height, HIGHEST)
+    return SEA_LEVEL_TEMPERATURE - LAPSE_RATE * EARTH_RADIUS * height / (EARTH_RADIUS + height)
+
+
+def standard_pressure(height: float) -> float:
+    """Return the pressure (Pa) of the standard atmosphere at a height (m)."""
+    return SEA_LEVEL_PRESSURE * float(math.pow(standard_temperature(height) / SEA_LEVEL_TEMPERATURE, EXPONENT))
+
+
+@sensor_type("air_pressure")
+class AirPressure(SiteSensor):
+    """A barometer."""
+
+    runs_in = "AirPressure"
+    suffix = "air_pressure"
+    message_type = "gz.msgs.FluidPressure"
+
+    def __init__(self, world: World, description: Sensor) -> None:
+        """Read `<air_pressure>`; its `<reference_altitude>` has no effect, as in Gazebo, and is warned about."""
+        super().__init__(world, description)
+        altitude = description.element.find("air_pressure/reference_altitude")
+        if altitude is not None and description.element.number("air_pressure/reference_altitude", 0.0) != 0.0:
+            text = "<reference_altitude> has no effect, as in Gazebo; put the model at that height instead"
+            world.diagnostics.warn(altitude.where, text)
+        # Gazebo's variance is the root of the deviation, not its square.
+        self._variance = math.sqrt(noise_at(description.element, "air_pressure/pressure").stddev)
+
+    def read_noises(self, element: Element) -> Sequence[tuple[str, Noise]]:
+        """Return the noise of the pressure (Pa)."""
+        return [("pressure", noise_at(element, "air_pressure/pressure"))]
+
+    def fill(self, message: Any) -> None:
+        """Measure."""
+        pressure = standard_pressure(float(self.motion.position()[2]))
+        message.pressure = float(self.noise.apply(np.array((pressure,)))[0])
+        message.variance = self._variance

@@ -1,0 +1,43 @@
+"""Altimeter: height above where the sensor stood at the start, and vertical speed, as `gz.msgs.Altimeter`.
+
+The Altimeter system runs it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from gz.sim.sdf.element import Element
+from gz.sim.sensors.noise import Noise
+from gz.sim.sensors.registry import sensor_type
+from gz.sim.sensors.site_sensor import SiteSensor, noise_at
+
+
+@sensor_type("altimeter")
+class Altimeter(SiteSensor):
+    """Measures along the world's z axis."""
+
+    runs_in = "Altimeter"
+    suffix = "altimeter"
+    message_type = "gz.msgs.Altimeter"
+    reference = 0.0
+    """Height (m) of the sensor in the world at the start; positions are relative to it."""
+
+    def read_noises(self, element: Element) -> Sequence[tuple[str, Noise]]:
+        """Return the noises of the position (m) and of the velocity (m/s)."""
+        return [(tag, noise_at(element, f"altimeter/{tag}")) for tag in ("vertical_position", "vertical_velocity")]
+
+    def start(self) -> None:
+        """Begin the schedule and take the height as it is now for zero."""
+        super().start()
+        self.reference = float(self.motion.position()[2])
+
+    def fill(self, message: Any) -> None:
+        """Measure."""
+        linear, _ = self.motion.velocity(local=False)
+        measured = np.array((self.motion.position()[2] - self.reference, linear[2]))
+        message.vertical_position, message.vertical_velocity = self.noise.apply(measured).tolist()
+        message.vertical_reference = self.reference

@@ -1,0 +1,131 @@
+"""Force-torque sensor of a joint: the wrench one link puts on the other through it, as `gz.msgs.Wrench`.
+
+The ForceTorque system runs it. `<frame>` says along whose axes (parent, child or sensor), `<measure_direction>` who
+pushes whom; the torque is about the sensor's own position.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import mujoco
+import numpy as np
+
+from gz.sim.errors import nearest
+from gz.sim.physics.builder import scoped
+from gz.sim.pose import Vector
+from gz.sim.sdf.description import Joint, Model, Sensor
+from gz.sim.sdf.element import Element
+from gz.sim.sensors.noise import Noise
+from gz.sim.sensors.registry import sensor_type
+from gz.sim.sensors.site_sensor import SiteSensor, noise_at
+
+if TYPE_CHECKING:
+    from gz.sim.world import World
+    from gz.transport import Node
+
+FRAMES = ("child", "parent", "sensor")
+DIRECTIONS = ("child_to_parent", "parent_to_child")
+"""`a_to_b`: the wrench that link a puts on link b. The first of each is the default."""
+
+
+@sensor_type("force_torque")
+class ForceTorque(SiteSensor):
+    """Measures what a joint of any type, also a fixed one, transmits."""
+
+    runs_in = "ForceTorque"
+    suffix = "forcetorque"
+    message_type = "gz.msgs.Wrench"
+
+    def __init__(self, world: World, description: Sensor) -> None:
+        """Read `<force_torque>`; raise `SdfError` for a frame or direction that is not known. A sensor that does
+        not stand in a joint is warned about and stays silent.
+        """
+        super().__init__(world, description)
+        element = description.element
+        self.frame = _choice(element, "frame", FRAMES)
+        self.direction = _choice(element, "measure_direction", DIRECTIONS)
+        if not description.joint:
+            text = f"sensor '{description.name}' stays silent: a force_torque sensor must stand in a <joint>, this one "
+            world.diagnostics.warn(element.where, text + f"stands in link '{description.link}'")
+
+    def read_noises(self, element: Element) -> Sequence[tuple[str, Noise]]:
+        """Return the noises of the force (N), then of the torque (N m), x y z each."""
+        names = [f"{kind}/{axis}" for kind in ("force", "torque") for axis in "xyz"]
+        return [(name, noise_at(element, f"force_torque/{name}")) for name in names]
+
+    def connect(self, node: Node) -> None:
+        """Advertise the wrench."""
+        if self.description.joint:
+            super().connect(node)
+
+    def bind(self) -> None:
+        """Find the bodies of the joint's links; -1 for one that cannot move, because nothing is measured there."""
+        super().bind()
+        self._child, self._parent, self._weightless = -1, 0, np.zeros(0, dtype=np.int64)
+        model, joint = self._joint()
+        if joint is None or model.static:
+            return
+        compiled = self.world.model
+        self._child = mujoco.mj_name2id(compiled, mujoco.mjtObj.mjOBJ_BODY, scoped(model, joint.child))
+        parent = mujoco.mj_name2id(compiled, mujoco.mjtObj.mjOBJ_BODY, scoped(model, joint.parent))
+        self._parent = max(0, parent)
+        if self._child > 0 and compiled.body_parentid[self._child] != self._parent:
+            text = f"sensor '{self.description.name}' reports zeros: joint '{joint.name}' closes a loop of joints"
+            self.world.diagnostics.warn(self.description.element.where, text)
+            self._child = -1
+        below = [body for body in range(compiled.nbody) if self._child > 0 and self._carries(body)]
+        self._weightless = np.array([body for body in below if compiled.body_gravcomp[body] != 0.0], dtype=np.int64)
+
+    def _joint(self) -> tuple[Model, Joint | None]:
+        model = next(each for each in self.world.description.models if each.name == self.description.model)
+        return model, model.joint(self.description.joint)
+
+    def _carries(self, body: int) -> bool:
+        """Tell whether a body hangs on the joint's child."""
+        while body > 0 and body != self._child:
+            body = int(self.world.model.body_parentid[body])
+        return body == self._child
+
+    def wrench(self) -> tuple[Vector, Vector]:
+        """Return the force (N) and the torque (N m, about the sensor) of the parent on the child, in the world.
+
+        MuJoCo's `cfrc_int` of the child, after the step: its inertial forces, less what pushes it from outside.
+        """
+        model, data, child = self.world.model, self.world.data, self._child
+        if child <= 0:
+            return np.zeros(3), np.zeros(3)
+        here = self.motion.position()
+        self.motion.velocity(local=False)
+        mujoco.mj_rnePostConstraint(model, data)
+        moment, force = data.cfrc_int[child][:3].copy(), data.cfrc_int[child][3:].copy()
+        moment += np.cross(data.subtree_com[model.body_rootid[child]] - here, force)
+        # Links without gravity are held up by a force that MuJoCo leaves out of the outer ones.
+        for body in self._weightless:
+            lift = -model.body_mass[body] * model.body_gravcomp[body] * model.opt.gravity
+            force -= lift
+            moment -= np.cross(data.xipos[body] - here, lift)
+        return force, moment
+
+    def fill(self, message: Any) -> None:
+        """Measure."""
+        force, torque = self.wrench()
+        if self.frame == "sensor":
+            turn = self.motion.rotation()
+        else:
+            body = self._parent if self.frame == "parent" else self._child
+            turn = self.world.data.xmat[max(0, body)].reshape(3, 3)
+        sign = 1.0 if self.direction == "parent_to_child" else -1.0
+        measured = self.noise.apply(np.concatenate((force @ turn, torque @ turn)) * sign).tolist()
+        into, about = message.force, message.torque
+        into.x, into.y, into.z, about.x, about.y, about.z = measured
+
+
+def _choice(element: Element, tag: str, known: tuple[str, ...]) -> str:
+    found = element.find(f"force_torque/{tag}")
+    if found is None or not found.text:
+        return known[0]
+    if found.text not in known:
+        raise found.error(f"<{tag}> '{found.text}' is not known; {nearest(found.text, known, listing='it may be')}")
+    return found.text

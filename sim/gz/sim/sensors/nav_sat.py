@@ -1,0 +1,79 @@
+"""NavSat (GPS): latitude, longitude, altitude and velocity, as `gz.msgs.NavSat`.
+
+The NavSat system runs it. Where the world lies is said by its `<spherical_coordinates>`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gz.sim.sdf.description import Sensor
+from gz.sim.sdf.element import Element
+from gz.sim.sensors.noise import Noise
+from gz.sim.sensors.registry import sensor_type
+from gz.sim.sensors.site_sensor import SiteSensor, noise_at
+
+if TYPE_CHECKING:
+    from gz.sim.world import World
+
+SUSPICIOUS_DEGREES = 0.01
+"""A deviation of the horizontal position from here on (1.1 km) was most likely meant in metres."""
+
+
+@sensor_type("navsat", "gps")
+class NavSat(SiteSensor):
+    """A satellite navigation receiver. Velocities are along the world's x, y and z, as in Gazebo, also when the
+    world has a heading.
+    """
+
+    runs_in = "NavSat"
+    suffix = "navsat"
+    message_type = "gz.msgs.NavSat"
+
+    def __init__(self, world: World, description: Sensor) -> None:
+        """Read `<navsat>` or `<gps>`; warn when the world lies nowhere, and of noise that seems to be in metres."""
+        super().__init__(world, description)
+        where, name = description.element.where, description.name
+        if world.description.spherical_coordinates is None:
+            text = f"sensor '{name}' reports zeros because the world has no <spherical_coordinates>"
+            world.diagnostics.warn(where, text)
+        stddev = self.read_noises(description.element)[0][1].stddev
+        if stddev >= SUSPICIOUS_DEGREES:
+            text = f"the noise of the horizontal position is in degrees, as in Gazebo: {stddev:g} degrees of latitude"
+            world.diagnostics.warn(where, f"{text} are {stddev * 111.0:.3g} km (sensor '{name}')")
+
+    def read_noises(self, element: Element) -> Sequence[tuple[str, Noise]]:
+        """Return the noises of latitude and longitude (degrees), altitude (m), velocity east, north, up (m/s)."""
+        holder = "navsat" if element.find("navsat") is not None else "gps"
+        across, up = (noise_at(element, f"{holder}/position_sensing/{side}") for side in ("horizontal", "vertical"))
+        fast, rising = (noise_at(element, f"{holder}/velocity_sensing/{side}") for side in ("horizontal", "vertical"))
+        # Latitude and longitude have one bias, east and north as well.
+        position = [("horizontal position", across)] * 2 + [("vertical position", up)]
+        return [*position, *[("horizontal velocity", fast)] * 2, ("vertical velocity", rising)]
+
+    def fill_header(self, header: Any, now_ns: int) -> None:
+        """Write stamp and sequence number; the frame stands in the message itself."""
+        super().fill_header(header, now_ns)
+        del header.data[0]
+
+    def fill(self, message: Any) -> None:
+        """Measure."""
+        message.frame_id = self.frame_id
+        measured = np.zeros(6)
+        coordinates = self.world.description.spherical_coordinates
+        if coordinates is not None:
+            measured[:3] = coordinates.spherical(self.motion.position())
+            measured[3:], _ = self.motion.velocity(local=False)
+        latitude, longitude, altitude, east, north, up = self.noise.apply(measured).tolist()
+        message.latitude_deg = _wrapped(latitude)
+        message.longitude_deg = _wrapped(longitude)
+        message.altitude = altitude
+        message.velocity_east, message.velocity_north, message.velocity_up = east, north, up
+
+
+def _wrapped(degrees: float) -> float:
+    """Return an angle between -180 and 180 degrees."""
+    return degrees if abs(degrees) <= 180.0 else (degrees + 180.0) % 360.0 - 180.0

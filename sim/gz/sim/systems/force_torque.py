@@ -1,0 +1,14 @@
+"""ForceTorque: runs the force-torque sensors of the world; a plugin of the world.
+
+What is common to all systems that run sensors is in `gz.sim.systems.sensor_system`.
+"""
+
+from __future__ import annotations
+
+from gz.sim.systems.registry import system
+from gz.sim.systems.sensor_system import SensorSystem
+
+
+@system("ForceTorque", "gz-sim-forcetorque-system")
+class ForceTorque(SensorSystem):
+    """Runs every sensor of type force_torque."""

@@ -1,0 +1,14 @@
+"""Magnetometer: runs the magnetometers of the world; a plugin of the world.
+
+What is common to all systems that run sensors is in `gz.sim.systems.sensor_system`.
+"""
+
+from __future__ import annotations
+
+from gz.sim.systems.registry import system
+from gz.sim.systems.sensor_system import SensorSystem
+
+
+@system("Magnetometer", "gz-sim-magnetometer-system")
+class Magnetometer(SensorSystem):
+    """Runs every sensor of type magnetometer."""

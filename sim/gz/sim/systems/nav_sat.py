@@ -1,0 +1,14 @@
+"""NavSat: runs the satellite navigation receivers of the world; a plugin of the world.
+
+What is common to all systems that run sensors is in `gz.sim.systems.sensor_system`.
+"""
+
+from __future__ import annotations
+
+from gz.sim.systems.registry import system
+from gz.sim.systems.sensor_system import SensorSystem
+
+
+@system("NavSat", "gz-sim-navsat-system")
+class NavSat(SensorSystem):
+    """Runs every sensor of type navsat or gps."""
