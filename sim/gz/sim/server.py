@@ -1,8 +1,12 @@
 """A world on the wire: publishes its clock and statistics, and runs it against the wall clock when asked to.
 
 `gz sim` and launch files use `run`; a grader that owns the time uses `step`. Topics, as in Gazebo: `/clock`
-and `/world/W/clock` (gz.msgs.Clock) after every call of `step`, `/stats` and `/world/W/stats`
-(gz.msgs.WorldStatistics) at 10 Hz.
+and `/world/W/clock` (gz.msgs.Clock), `/stats` and `/world/W/stats` (gz.msgs.WorldStatistics) at 10 Hz. Services
+are in `world_services`; who asks for something is answered between two steps, also while the world is paused.
+
+The clock is published after every call of `step`, and by `run` every 5 ms of simulated time (every step when steps are
+longer), at most. Gazebo publishes it at every step; at steps of 1 ms that costs each rclpy node a third of a core
+and tells it nothing that a robot's node could use.
 """
 
 from __future__ import annotations
@@ -14,7 +18,10 @@ from typing import Any
 from gz.msgs.clock_pb2 import Clock
 from gz.msgs.world_stats_pb2 import WorldStatistics
 
+from gz.sim.control import Control
+from gz.sim.errors import LOG, SimError
 from gz.sim.world import World
+from gz.sim.world_services import WorldServices
 from gz.transport import Node
 
 STATS_PERIOD_NS = 100_000_000
@@ -22,28 +29,40 @@ PACE_NS = 5_000_000
 """In `run`, this much simulated time is stepped at once (one step when steps are longer), then the clock is
 published.
 """
+_NOTICE_S = 0.05
+"""How long a paused server may take to notice that it was stopped."""
 
 
 class Server:
     """Owns a world and the node it talks through. `paused` may be set from any thread while `run` runs."""
 
     def __init__(self, world: World, node: Node) -> None:
-        """Attach `world` to `node` (unless it already is) and advertise clock and statistics."""
+        """Attach `world` to `node` (unless it already is), advertise clock and statistics, and offer the services."""
         self.world = world
         self.node = node
-        self.paused = False
+        self.control = Control(world, self._on_rewind)
+        self.stopped = False
+        """Set when a client asked the server to end."""
         world.attach(node)
         name = world.name
         self._clocks = [node.advertise(topic, Clock) for topic in ("/clock", f"/world/{name}/clock")]
         self._stats = [node.advertise(topic, WorldStatistics) for topic in ("/stats", f"/world/{name}/stats")]
-        self._next_stats_ns = world.sim_time_ns + STATS_PERIOD_NS
-        self._started = time.monotonic_ns()
-        self._pause_ns = 0
         self._factor = 0.0
+        self._on_rewind()
+        self._services = WorldServices(self)
+
+    @property
+    def paused(self) -> bool:
+        """Whether time stands still in `run`; `step` goes on regardless."""
+        return self.control.paused
+
+    @paused.setter
+    def paused(self, paused: bool) -> None:
+        self.control.paused = paused
 
     def step(self, n: int = 1) -> None:
         """Run `n` steps, then publish the clock, and the statistics each time 0.1 s of simulated time has
-        passed.
+        passed. What clients asked for is done before the steps. Raises `SimError` as `World.step` does.
         """
         world = self.world
         world.step(n)
@@ -56,50 +75,101 @@ class Server:
         self,
         *,
         real_time_factor: float | None = None,
+        update_rate: float | None = None,
         iterations: int = 0,
         stop: threading.Event | None = None,
     ) -> None:
-        """Step until `stop` is set or `iterations` steps are done (0: no end), paced to the wall clock.
+        """Step until `stop` is set, a client stops the server, or `iterations` steps are done (0: no end), paced to
+        the wall clock.
 
-        `real_time_factor` 1 is real time, 0 as fast as possible, None what the world file says. When the
-        machine is too slow, simulated time falls behind; it is not caught up later in a burst. While paused
-        only statistics are sent.
+        `real_time_factor` 1 is real time, 0 as fast as possible, None what the world says; `update_rate` (steps per
+        second of wall time) replaces it. When the machine is too slow, simulated time falls behind; it is not caught
+        up later in a burst. While paused, clock and statistics are sent ten times a second and clients are served.
+        Unstable physics pauses the world; with `iterations`, which would then never end, it raises `SimError`.
         """
         stop = stop or threading.Event()
-        factor = self.world.description.real_time_factor if real_time_factor is None else real_time_factor
-        step_ns = self.world.step_size_ns
-        batch = max(1, PACE_NS // step_ns)
+        world = self.world
         left = iterations if iterations > 0 else -1
-        due = time.monotonic_ns()
-        measured = (due, self.world.sim_time_ns)
-        while not stop.is_set() and left != 0:
+        due = beat = measured = time.monotonic_ns()
+        advanced = 0
+        while not (stop.is_set() or self.stopped or left == 0):
+            world.requests.serve()
             if self.paused:
                 self._wait_paused(stop)
-                due = time.monotonic_ns()
-                measured = (due, self.world.sim_time_ns)
+                due = beat = measured = time.monotonic_ns()
+                advanced = 0
                 continue
-            count = batch if left < 0 else min(batch, left)
-            self.step(count)
+            step_ns = world.step_size_ns
+            count = self.control.steps_allowed(max(1, PACE_NS // step_ns))
+            count = count if left < 0 else min(count, left)
+            if not self._advance(count, iterations > 0):
+                continue
             left -= count if left > 0 else 0
+            advanced += count * step_ns
             now = time.monotonic_ns()
-            if now - measured[0] >= 200_000_000:
-                self._factor = (self.world.sim_time_ns - measured[1]) / (now - measured[0])
-                measured = (now, self.world.sim_time_ns)
+            if now - measured >= 200_000_000:
+                self._factor = advanced / (now - measured)
+                measured, advanced = now, 0
+            if now - beat >= STATS_PERIOD_NS or self.paused:
+                beat = now
+                self._publish_stats()
+            factor = self._wanted_factor(real_time_factor, update_rate)
             if factor > 0.0:
                 due += int(count * step_ns / factor)
                 if due > now:
                     stop.wait((due - now) * 1e-9)
                 elif now - due > 100_000_000:
                     due = now
+        if left == 0:
+            self._publish_stats()
+
+    def _wanted_factor(self, real_time_factor: float | None, update_rate: float | None) -> float:
+        if update_rate is not None:
+            return update_rate * self.world.step_size_ns * 1e-9
+        return self.world.description.real_time_factor if real_time_factor is None else real_time_factor
+
+    def _advance(self, count: int, strict: bool) -> bool:
+        """Step and publish the clock; on unstable physics pause, say so and return False."""
+        try:
+            self.world.step(count)
+        except SimError as error:
+            if strict:
+                raise
+            self.paused = True
+            LOG.error("%s; the world is paused", error)
+            return False
+        self.control.stepped(count)
+        self._publish_clock()
+        return True
 
     def _wait_paused(self, stop: threading.Event) -> None:
-        """Send statistics ten times a second until unpaused or stopped."""
-        began = time.monotonic_ns()
+        """Serve clients at once, and tell the time ten times a second, until unpaused or stopped."""
+        began = beat = time.monotonic_ns()
         self._factor = 0.0
-        while self.paused and not stop.wait(0.1):
-            self._publish_stats()
-            self._publish_clock()
+        self._tell_paused()
+        while self.paused and not (stop.is_set() or self.stopped):
+            self.world.requests.wait(_NOTICE_S)
+            asked = bool(self.world.requests)
+            self.world.requests.serve()
+            now = time.monotonic_ns()
+            if asked or now - beat >= STATS_PERIOD_NS:
+                beat = now
+                self._tell_paused()
         self._pause_ns += time.monotonic_ns() - began
+
+    def _tell_paused(self) -> None:
+        self._publish_stats()
+        self._publish_clock()
+        self.world.paused_update()
+
+    def _on_rewind(self) -> None:
+        """Begin anew with the clock of this world."""
+        self._next_stats_ns = self.world.sim_time_ns + STATS_PERIOD_NS
+        self._started = time.monotonic_ns()
+        self._pause_ns = 0
+
+    def _real_time_ns(self) -> int:
+        return time.monotonic_ns() - self._started
 
     def _publish_clock(self) -> None:
         listened = [publisher for publisher in self._clocks if publisher.has_connections()]
@@ -107,7 +177,7 @@ class Server:
             return
         message = Clock()
         _fill_time(message.sim, self.world.sim_time_ns)
-        _fill_time(message.real, time.monotonic_ns() - self._started)
+        _fill_time(message.real, self._real_time_ns())
         _fill_time(message.system, time.time_ns())
         for publisher in listened:
             publisher.publish(message)
@@ -119,10 +189,11 @@ class Server:
         message: Any = WorldStatistics()
         _fill_time(message.header.stamp, self.world.sim_time_ns)
         _fill_time(message.sim_time, self.world.sim_time_ns)
-        _fill_time(message.real_time, time.monotonic_ns() - self._started)
+        _fill_time(message.real_time, self._real_time_ns())
         _fill_time(message.pause_time, self._pause_ns)
         _fill_time(message.step_size, self.world.step_size_ns)
         message.paused = self.paused
+        message.stepping = self.control.stepping
         message.iterations = self.world.iterations
         message.model_count = len(self.world.description.models)
         message.real_time_factor = self._factor

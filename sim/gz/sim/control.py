@@ -1,0 +1,81 @@
+"""Running, pausing, stepping and rewinding a world: what the service `/world/W/control` asks of a running server.
+
+`Server.run` asks `Control` before every batch whether, and how far, time may go on. Requests come through
+`World.requests`, so all of this happens in the stepping thread. The rules are Gazebo's: every request says whether the
+world is paused afterwards; steps are only counted for one that is; a reset rewinds and does not pause.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from gz.sim.errors import LOG, SimError
+
+if TYPE_CHECKING:
+    from gz.sim.world import World
+
+MOST_STEPS = 2**32 - 1
+
+
+class Control:
+    """Whether time goes on, and when it is to stop by itself."""
+
+    def __init__(self, world: World, on_rewind: Callable[[], None]) -> None:
+        """Not paused; `on_rewind()` is called after time was set back."""
+        self._world = world
+        self._on_rewind = on_rewind
+        self.paused = False
+        self.stepping = False
+        """Whether it runs only for the steps that were asked for."""
+        self._steps_left = 0
+        self._run_to_ns: int | None = None
+
+    def apply(self, message: Any) -> None:
+        """Do what a gz.msgs.WorldControl says; raise `SimError` for what cannot be done."""
+        if (
+            message.HasField("reset")
+            and message.reset.model_only
+            and not (message.reset.all or message.reset.time_only)
+        ):
+            LOG.warning("resetting models only is not supported, as in Gazebo; use reset: {all: true}")
+        if message.seed:
+            LOG.warning("the seed of a running world cannot be changed, as in Gazebo; start it with gz sim --seed")
+        self.paused = message.pause
+        self.stepping = False
+        self._steps_left = 0
+        steps = message.multi_step or int(message.step)
+        if steps and self.paused:
+            self._steps_left = steps
+            self.stepping = True
+            self.paused = False
+        if message.HasField("reset") and (message.reset.all or message.reset.time_only):
+            self._world.reset(time_only=not message.reset.all)
+            self._on_rewind()
+        self._run_to_ns = None
+        if message.HasField("run_to_sim_time"):
+            wanted = message.run_to_sim_time.sec * 10**9 + message.run_to_sim_time.nsec
+            if wanted > self._world.sim_time_ns:
+                self._run_to_ns = wanted
+            elif wanted > 0:
+                now = self._world.sim_time_ns * 1e-9
+                raise SimError(f"run_to_sim_time {wanted * 1e-9:g} s is not ahead of the present time, {now:g} s")
+
+    def steps_allowed(self, most: int) -> int:
+        """Return how many steps, up to `most`, may be done before the next question."""
+        if self._steps_left:
+            most = min(most, self._steps_left)
+        if self._run_to_ns is not None:
+            step = self._world.step_size_ns
+            most = min(most, max(1, -(-(self._run_to_ns - self._world.sim_time_ns) // step)))
+        return most
+
+    def stepped(self, count: int) -> None:
+        """Take note that `count` steps were done; pause when that was all."""
+        if self._steps_left:
+            self._steps_left -= min(count, self._steps_left)
+            if not self._steps_left:
+                self.paused, self.stepping = True, False
+        if self._run_to_ns is not None and self._world.sim_time_ns >= self._run_to_ns:
+            self._run_to_ns = None
+            self.paused = True

@@ -1,0 +1,112 @@
+"""The services a server offers beside those of its systems, under Gazebo's names and types.
+
+`/world/W/control`, `/world/W/control/state`, `/world/W/generate_world_sdf`, `/gazebo/worlds`,
+`/gazebo/resource_paths/get|add|resolve`, `/gazebo/starting_world` and `/server_control`. Callbacks run in the
+transport's threads; what touches the world goes through `World.requests`.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from gz.msgs.boolean_pb2 import Boolean
+from gz.msgs.empty_pb2 import Empty
+from gz.msgs.sdf_generator_config_pb2 import SdfGeneratorConfig
+from gz.msgs.server_control_pb2 import ServerControl
+from gz.msgs.stringmsg_pb2 import StringMsg
+from gz.msgs.stringmsg_v_pb2 import StringMsg_V
+from gz.msgs.world_control_pb2 import WorldControl
+from gz.msgs.world_control_state_pb2 import WorldControlState
+
+from gz.sim.errors import LOG, ResourceError, SimError
+from gz.sim.requests import logged
+from gz.sim.sdf.resources import find_model, resource_paths
+from gz.sim.sdf_generator import generate_world
+
+if TYPE_CHECKING:
+    from gz.sim.server import Server
+
+CONTROL_PATIENCE_S = 0.5
+"""A control request is answered when it was obeyed, or after this long: then it waits for the next step."""
+
+
+class WorldServices:
+    """Offers the services of one server on its node; they end with the node."""
+
+    def __init__(self, server: Server) -> None:
+        self._server = server
+        self._world = server.world
+        node, name = server.node, server.world.name
+        offers: list[tuple[str, type, type, Callable[[Any], Any]]] = [
+            (f"/world/{name}/control", WorldControl, Boolean, self._on_control),
+            (f"/world/{name}/control/state", WorldControlState, Boolean, self._on_control_state),
+            (f"/world/{name}/generate_world_sdf", SdfGeneratorConfig, StringMsg, self._on_generate),
+            ("/gazebo/worlds", Empty, StringMsg_V, self._on_worlds),
+            ("/gazebo/starting_world", Empty, StringMsg, lambda _: StringMsg(data=name)),
+            ("/gazebo/resource_paths/get", Empty, StringMsg_V, self._on_resource_paths),
+            ("/gazebo/resource_paths/add", StringMsg_V, Empty, self._on_add_resource_paths),
+            ("/gazebo/resource_paths/resolve", StringMsg, StringMsg, self._on_resolve),
+            ("/server_control", ServerControl, Boolean, self._on_server_control),
+        ]
+        for service, request, response, callback in offers:
+            node.advertise_service(service, request, response, callback)
+
+    def _on_control(self, request: Any) -> Any:
+        topic = f"/world/{self._world.name}/control"
+        work = logged(lambda: self._server.control.apply(request), topic)
+        asked = self._world.requests.put(work)
+        if not asked.done.wait(CONTROL_PATIENCE_S):
+            return Boolean(data=True)  # as in Gazebo: it was taken, and is obeyed when the world is stepped
+        return Boolean(data=bool(asked.result))
+
+    def _on_control_state(self, request: Any) -> Any:
+        if request.HasField("state") and request.state.entities:
+            LOG.error(
+                "/world/%s/control/state: the state of components cannot be set here, the request is refused; "
+                "use set_pose_vector and control",
+                self._world.name,
+            )
+            return Boolean(data=False)
+        return self._on_control(request.world_control)
+
+    def _on_generate(self, request: Any) -> tuple[bool, Any]:
+        expand = request.global_entity_gen_config.expand_include_tags.data
+        try:
+            text = self._world.requests.call(lambda: generate_world(self._world, expand_includes=expand))
+        except SimError as error:
+            LOG.error("/world/%s/generate_world_sdf: %s", self._world.name, error)
+            return False, StringMsg()
+        return True, StringMsg(data=text)
+
+    def _on_worlds(self, _: Any) -> Any:
+        return StringMsg_V(data=[self._world.name])
+
+    def _on_resource_paths(self, _: Any) -> Any:
+        return StringMsg_V(data=[str(path) for path in resource_paths()])
+
+    def _on_add_resource_paths(self, request: Any) -> Any:
+        known = [part for part in os.environ.get("GZ_SIM_RESOURCE_PATH", "").split(os.pathsep) if part]
+        known += [path for path in request.data if path and os.pathsep not in path and path not in known]
+        os.environ["GZ_SIM_RESOURCE_PATH"] = os.pathsep.join(known)
+        return Empty()
+
+    def _on_resolve(self, request: Any) -> tuple[bool, Any]:
+        try:
+            return True, StringMsg(data=str(find_model(request.data, None).resolve()))
+        except SimError as error:
+            kind = "" if isinstance(error, ResourceError) else "it cannot be read: "
+            LOG.error("/gazebo/resource_paths/resolve: %s%s", kind, error)
+            return False, StringMsg()
+
+    def _on_server_control(self, request: Any) -> Any:
+        if request.stop:
+            LOG.info("a client stops the server")
+            self._server.stopped = True
+        others = [
+            field.name for field, _ in request.ListFields() if field.name not in ("header", "stop")
+        ]  # saving, opening and cloning belong to Gazebo Classic; Gazebo itself ignores them
+        if others:
+            LOG.error("/server_control: %s is not supported, only stop is", others[0])
+        return Boolean(data=request.stop and not others)
