@@ -1,0 +1,159 @@
+"""Program: expands one xacro file to standard output, each element marked with the file and line it comes from.
+
+Started by `xacro_file.expand`: `python -m gz.sim.sdf.urdf.expand_xacro FILE [NAME:=VALUE ...]`. Exit code 0 and the XML
+on standard output, or 1 and a line of JSON, `{"error": sentence}`, as the last of standard error.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import resource
+import sys
+import xml.dom.expatbuilder
+import xml.dom.minidom
+import xml.parsers.expat
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+PLACE = "_place_"
+"""Attribute of every element: number of the file, colon, line."""
+FILES = "_files_"
+"""Attribute of the root: JSON list of the files."""
+
+_CPU_SECONDS = 20
+_MEMORY = 2 * 1024**3
+_MOST_ELEMENTS = 300_000
+
+
+class _Places:
+    """The files that were opened, and the element xacro looked at last."""
+
+    def __init__(self) -> None:
+        self.files: list[str] = []
+        self.last: tuple[int, int] | None = None
+        self.count = 0
+
+    def handle(self, _operation: int, key: str, data: Any, _source: Any, copy: Any) -> None:
+        """Called by the DOM when an element is copied: the copy comes from the same place."""
+        if copy is not None:
+            self.count += 1
+            if self.count > _MOST_ELEMENTS:
+                raise ValueError(f"macros made more than {_MOST_ELEMENTS} elements; one may call itself without end")
+            copy.setUserData(key, data, self)
+
+    def seen(self, node: Any) -> None:
+        """Remember an element as the one to blame."""
+        place = node.getUserData(PLACE)
+        if place is not None:
+            self.last = place
+
+    def where(self) -> str:
+        """`file:line` of the element seen last."""
+        return f"{self.files[self.last[0]]}:{self.last[1]}" if self.last else ""
+
+
+def _builder(places: _Places, number: int) -> Any:
+    class Builder(xml.dom.expatbuilder.ExpatBuilderNS):
+        """Builds a DOM whose elements know their line."""
+
+        def start_element_handler(self, name: str, attributes: list[str]) -> None:
+            super().start_element_handler(name, attributes)
+            self.curNode.setUserData(PLACE, (number, self.getParser().CurrentLineNumber), places)
+
+    return Builder()
+
+
+def expand(file: str, arguments: dict[str, str]) -> str:
+    """Return the expanded XML text; raises whatever xacro raises, with `notes` saying where."""
+    import xacro
+
+    places = _Places()
+
+    def parse(inp: Any, filename: str | None = None) -> Any:
+        if inp is not None or filename is None:
+            raise ValueError("xacro parsed something that is no file")
+        places.files.append(filename)
+        try:
+            with Path(filename).open("rb") as opened:
+                return _builder(places, len(places.files) - 1).parseFile(opened)
+        except OSError as error:
+            places.files.pop()
+            if xacro.filestack:
+                xacro.filestack.pop()
+            raise xacro.XacroException(f"the file '{filename}' cannot be read ({error.strerror})", exc=error) from None
+        except xml.parsers.expat.ExpatError as error:
+            places.last = (len(places.files) - 1, error.lineno)
+            what = xml.parsers.expat.errors.messages.get(error.code, "malformed")
+            raise ValueError(f"this is not well-formed XML ({what})") from None
+
+    def watched(function: Callable[..., Any]) -> Callable[..., Any]:
+        def wrapper(node: Any, *rest: Any) -> Any:
+            places.seen(node)
+            return function(node, *rest)
+
+        return wrapper
+
+    # xacro says which file is wrong, not which line: these functions of it meet every element in turn.
+    xacro.parse = parse
+    for name in ("eval_all", "handle_macro_call", "check_attrs", "reqd_attrs"):
+        setattr(xacro, name, watched(getattr(xacro, name)))
+    try:
+        document = xacro.process_file(file, mappings=arguments)
+        root = document.documentElement
+        _mark(root)
+        root.setAttribute(FILES, json.dumps(places.files))
+        return root.toxml()
+    except (Exception, RecursionError) as error:
+        error.add_note(places.where() or file)
+        raise
+
+
+def _mark(root: Any) -> None:
+    waiting = [root]
+    while waiting:
+        node = waiting.pop()
+        place = node.getUserData(PLACE)
+        if place is not None:
+            node.setAttribute(PLACE, f"{place[0]}:{place[1]}")
+        waiting.extend(child for child in node.childNodes if child.nodeType == node.ELEMENT_NODE)
+
+
+def _sentence(error: BaseException, file: str) -> str:
+    where = getattr(error, "__notes__", [file])[0]
+    if isinstance(error, RecursionError):
+        return f"{where}: a macro or property calls itself without end"
+    if isinstance(error, MemoryError):
+        return f"{where}: xacro needs too much memory here"
+    text = " ".join(str(error).split()) or type(error).__name__
+    if isinstance(error, KeyError):
+        text = f"{text} is not defined"
+    hint = ""
+    if text.startswith("unknown macro name"):
+        hint = "; is the file that defines it included before this line?"
+    elif "Undefined substitution argument" in text:
+        hint = "; declare it with <xacro:arg name='...' default='...'/>"
+    elif "package" in text.lower() and "not found" in text:
+        hint = "; is its prefix in AMENT_PREFIX_PATH?"
+    return f"{where}: xacro: {text[:300]}{hint}"
+
+
+def main(argv: list[str]) -> int:
+    """Expand the file named first; return the exit code."""
+    file, *pairs = argv
+    resource.setrlimit(resource.RLIMIT_CPU, (_CPU_SECONDS, _CPU_SECONDS + 1))
+    resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
+    arguments = dict(pair.split(":=", 1) for pair in pairs if ":=" in pair)
+    try:
+        with contextlib.redirect_stdout(sys.stderr):
+            text = expand(file, arguments)
+    except BaseException as error:  # every way xacro can fail ends in one sentence
+        sys.stderr.write("\n" + json.dumps({"error": _sentence(error, file)}) + "\n")
+        return 1
+    sys.stdout.write(text)
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(sys.argv[1:]))

@@ -1,0 +1,234 @@
+"""The `<gazebo>` tags of a URDF: what they say about the robot, a link or a joint, put into the SDF elements.
+
+Part of the conversion. Words that are older than SDF (`mu1`, `turnGravityOff`, `springStiffness`) are translated; every
+other element is SDF already and is taken over as it stands (sensors, plugins, `<gravity>`, ...).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from gz.sim.errors import Diagnostics, nearest
+from gz.sim.pose import Pose
+from gz.sim.sdf.element import Element
+from gz.sim.sdf.urdf.making import make, place, set_value
+from gz.sim.sdf.urdf.robot import Robot
+
+LUMP = "_fixed_joint_lump__"
+"""What stands in the name of a lumped shape, between the body's name and its own."""
+
+_TRUE = ("true", "yes", "1")
+_CONTACT = {"kp": "kp", "kd": "kd", "maxVel": "max_vel", "minDepth": "min_depth"}
+_FRICTION = {"mu1": "mu", "mu2": "mu2", "fdir1": "fdir1"}
+_COLLISION = {"laserRetro": "laser_retro", "maxContacts": "max_contacts"}
+_DYNAMICS = {"springReference": "spring_reference", "springStiffness": "spring_stiffness"}
+_STOP = {"stopCfm": "cfm", "stopErp": "erp"}
+_PRESERVING = ("preserveFixedJoint", "disableFixedJointLumping")
+_TRANSLATED = {
+    *_CONTACT, *_FRICTION, *_COLLISION, *_DYNAMICS, *_STOP, *_PRESERVING,
+    "material", "collision", "visual", "static", "turnGravityOff", "dampingFactor", "selfCollide", "fudgeFactor",
+    "provideFeedback", "canonicalBody", "cfmDamping", "implicitSpringDamper",
+}  # fmt: skip
+_PLACED = ("sensor", "light", "projector")
+
+
+@dataclass(eq=False)
+class GazeboTag:
+    """One `<gazebo>`: `reference` is the link or joint it speaks of, empty for the robot."""
+
+    reference: str
+    element: Element
+
+    @property
+    def foreign(self) -> list[Element]:
+        """The children that are SDF already."""
+        return [child for child in self.element.children if child.tag not in _TRANSLATED]
+
+
+@dataclass(eq=False)
+class GazeboTags:
+    """All `<gazebo>` tags of a robot, by what they refer to."""
+
+    by_reference: dict[str, list[GazeboTag]] = field(default_factory=dict)
+
+    def of(self, reference: str) -> list[GazeboTag]:
+        """Return the tags about that link or joint (empty text: about the robot), in file order."""
+        return self.by_reference.get(reference, [])
+
+    def joints_that(self, *words: str) -> set[str]:
+        """Return the references whose tags say yes to one of `words`."""
+        return {
+            tag.reference
+            for tags in self.by_reference.values()
+            for tag in tags
+            for child in tag.element.all(*words)
+            if _yes(child)
+        }
+
+    def preserved(self) -> set[str]:
+        """Return the names of the fixed joints that stay."""
+        return self.joints_that(*_PRESERVING)
+
+
+def read_gazebo_tags(robot: Robot, diagnostics: Diagnostics) -> GazeboTags:
+    """Collect the tags of a robot; a reference to nothing gets a warning (Gazebo drops it silently)."""
+    tags = GazeboTags()
+    for element in robot.element.all("gazebo"):
+        reference = element.attributes.get("reference", "")
+        if reference and reference not in robot.links and reference not in robot.joints:
+            hint = nearest(reference, [*robot.links, *robot.joints], listing="its links and joints are")
+            diagnostics.warn(
+                element.where,
+                f"<gazebo reference='{reference}'> names no link or joint of the robot, so it does nothing; {hint}",
+            )
+        if reference:
+            for plugin in element.all("plugin"):
+                diagnostics.warn(
+                    plugin.where,
+                    f"a <plugin> in <gazebo reference='{reference}'> is not run; plugins of a robot stand in a "
+                    "<gazebo> without reference, those of a sensor in the <sensor>",
+                )
+        tags.by_reference.setdefault(reference, []).append(GazeboTag(reference, element))
+    return tags
+
+
+def value_of(element: Element) -> str:
+    """Return the value of a translated word: its attribute `value`, else its text."""
+    return element.attributes.get("value", element.text).strip()
+
+
+def _yes(element: Element) -> bool:
+    return value_of(element).lower() in _TRUE
+
+
+def tell_model(model: Element, tags: GazeboTags, lumped: dict[str, str]) -> None:
+    """Put the tags without reference into `<model>`: plugins, `static`, and joints (lumped links renamed)."""
+    for tag in tags.of(""):
+        for child in tag.element.all("static"):
+            set_value(model, "static", "true" if _yes(child) else "false", child)
+        for child in tag.foreign:
+            if child.tag == "joint":
+                ends = ("parent", "child")
+                renamed = [
+                    make(each, each.tag, lumped[value_of(each)])
+                    if each.tag in ends and value_of(each) in lumped
+                    else each
+                    for each in child.children
+                ]
+                child = make(child, "joint", "", child.attributes, renamed)
+            model.children.append(child)
+
+
+def tell_link(link: Element, tags: GazeboTags, reference: str, pose: Pose | None) -> None:
+    """Put the tags about a URDF link into the SDF `<link>`; `pose` is where a lumped link stands in it (else None)."""
+    for tag in tags.of(reference):
+        for child in tag.element.all("turnGravityOff"):
+            off = value_of(child).lower() not in ("false", "no", "0")
+            set_value(link, "gravity", "false" if off else "true", child)
+        for child in tag.element.all("selfCollide"):
+            set_value(link, "self_collide", "true" if _yes(child) else "false", child)
+        for child in tag.element.all("dampingFactor"):
+            parts = [make(child, word, value_of(child)) for word in ("linear", "angular")]
+            link.children.append(make(child, "velocity_decay", children=parts))
+        for child in tag.foreign:
+            link.children.append(_moved(child, pose) if pose is not None and child.tag in _PLACED else child)
+
+
+def _moved(element: Element, pose: Pose) -> Element:
+    """Return a sensor or light of a lumped link, its pose now in the body's frame."""
+    stated = element.find("pose")
+    if stated is not None and stated.attributes.get("relative_to", ""):
+        return element
+    own = stated.pose() if stated is not None else Pose()
+    children = [child for child in element.children if child.tag != "pose"]
+    return make(
+        element, element.tag, element.text, element.attributes, [*children, place(stated or element, pose * own)]
+    )
+
+
+def tell_collision(
+    collision: Element, tags: GazeboTags, reference: str, lumped: bool, diagnostics: Diagnostics
+) -> None:
+    """Put the tags about a URDF link into one of its `<collision>` elements: surface, contacts, blocks."""
+    for tag in tags.of(reference):
+        blocks = [child for block in tag.element.all("collision") for child in block.children]
+        words = [child for child in tag.element.children if child.tag in (*_CONTACT, *_FRICTION, *_COLLISION)]
+        if not blocks and not words:
+            continue
+        if not _reaches(collision, reference, lumped, "collision"):
+            _warn_of_name(collision, reference, (*blocks, *words)[0], diagnostics)
+            continue
+        for block in blocks:
+            if block.tag == "surface":
+                collision.children = [child for child in collision.children if child.tag != "surface"]
+            collision.children.append(_copy(block))
+        for word in words:
+            if word.tag in _COLLISION:
+                set_value(collision, _COLLISION[word.tag], value_of(word), word)
+            elif word.tag in _FRICTION:
+                set_value(collision, f"surface/friction/ode/{_FRICTION[word.tag]}", value_of(word), word)
+            else:
+                set_value(collision, f"surface/contact/ode/{_CONTACT[word.tag]}", value_of(word), word)
+
+
+def tell_visual(visual: Element, tags: GazeboTags, reference: str, lumped: bool, diagnostics: Diagnostics) -> None:
+    """Put the tags about a URDF link into one of its `<visual>` elements: material, `<visual>` blocks."""
+    for tag in tags.of(reference):
+        blocks = [child for block in tag.element.all("visual") for child in block.children]
+        materials = list(tag.element.all("material"))
+        if not blocks and not materials:
+            continue
+        if not _reaches(visual, reference, lumped, "visual"):
+            _warn_of_name(visual, reference, (*blocks, *materials)[0], diagnostics)
+            continue
+        for block in blocks:
+            if block.tag == "material":
+                visual.children = [child for child in visual.children if child.tag != "material"]
+            visual.children.append(_copy(block))
+        for material in materials:
+            if material.children:
+                diagnostics.warn(
+                    material.where,
+                    f"<material> of <gazebo reference='{reference}'> takes a name such as Gazebo/Blue; put "
+                    "<ambient> and <diffuse> into <visual><material> there",
+                )
+            elif value_of(material):
+                set_value(visual, "material/script/name", value_of(material), material)
+                set_value(visual, "material/script/uri", "file://media/materials/scripts/gazebo.material", material)
+
+
+def _reaches(shape: Element, reference: str, lumped: bool, kind: str) -> bool:
+    """Tell whether Gazebo applies the tags about a link to this shape of it, which it decides by the shape's name."""
+    if lumped:
+        return f"{LUMP}{reference}_{kind}" in shape.name
+    return LUMP not in shape.name
+
+
+def _warn_of_name(shape: Element, reference: str, word: Element, diagnostics: Diagnostics) -> None:
+    diagnostics.warn(
+        shape.where,
+        f"<{word.tag}> of <gazebo reference='{reference}'> does not reach this <{shape.tag}>: Gazebo finds it by its "
+        f"name; leave its name out or let it begin with '{reference}'",
+    )
+
+
+def tell_joint(joint: Element, tags: GazeboTags, reference: str) -> None:
+    """Put the tags about a joint into the SDF `<joint>`: springs, stops, sensors and all that is SDF already."""
+    for tag in tags.of(reference):
+        for child in tag.element.children:
+            if child.tag in _DYNAMICS:
+                set_value(joint, f"axis/dynamics/{_DYNAMICS[child.tag]}", value_of(child), child)
+            elif child.tag in _STOP:
+                set_value(joint, f"physics/ode/limit/{_STOP[child.tag]}", value_of(child), child)
+            elif child.tag == "provideFeedback":
+                set_value(joint, "physics/ode/provide_feedback", "true" if _yes(child) else "false", child)
+            elif child.tag in ("implicitSpringDamper", "cfmDamping"):
+                set_value(joint, "physics/ode/implicit_spring_damper", "true" if _yes(child) else "false", child)
+            elif child.tag == "fudgeFactor":
+                set_value(joint, "physics/ode/fudge_factor", value_of(child), child)
+        joint.children.extend(tag.foreign)
+
+
+def _copy(element: Element) -> Element:
+    """Return an element whose children can be changed without touching what it was made from."""
+    return make(element, element.tag, element.text, element.attributes, [_copy(child) for child in element.children])

@@ -1,0 +1,104 @@
+"""Which links of a URDF become one: a link on a fixed joint is lumped into the link that carries it.
+
+Part of the conversion. As in Gazebo a fixed joint stays when a `<gazebo reference="JOINT">` says `preserveFixedJoint`
+or `disableFixedJointLumping`, or when the parent is the link `world`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gz.sim.pose import Pose, matrix
+from gz.sim.sdf.urdf.robot import WORLD, Robot, UrdfInertial, UrdfJoint, UrdfLink
+
+Matrix = NDArray[np.float64]
+
+
+@dataclass(eq=False)
+class Body:
+    """One link of the SDF model: the URDF link `head` and, in `members`, head itself and all links lumped into it, each
+    with its pose in head's frame, in Gazebo's order (a link, then what hangs on it, by the names of the joints).
+    """
+
+    head: UrdfLink
+    members: list[tuple[UrdfLink, Pose]] = field(default_factory=list)
+    joint: UrdfJoint | None = None
+    """The joint that carries the head; its origin counts from `parent`."""
+    parent: str = ""
+    origin: Pose = field(default_factory=Pose)
+    inertial: UrdfInertial | None = None
+
+    @property
+    def name(self) -> str:
+        """The name of the link in the SDF model."""
+        return self.head.name
+
+
+def lump(robot: Robot, preserved: Collection[str]) -> list[Body]:
+    """Return the bodies of a robot, parents first; `preserved` names fixed joints that stay.
+
+    A root called `world` is no body: it is the world.
+    """
+    bodies: dict[str, Body] = {}
+    placed: dict[str, tuple[Body, Pose]] = {}
+    for link in robot.below(robot.root):
+        joint = link.joint
+        if joint is not None and joint.kind == "fixed" and joint.name not in preserved and joint.parent != WORLD:
+            body, pose = placed[joint.parent]
+            pose = pose * joint.origin
+        else:
+            body, pose = Body(link, joint=joint), Pose()
+            if joint is not None and joint.parent == WORLD:
+                body.parent, body.origin = WORLD, joint.origin
+            elif joint is not None:
+                carrier, offset = placed[joint.parent]
+                body.parent, body.origin = carrier.name, offset * joint.origin
+            if link.name != WORLD or joint is not None:
+                bodies[link.name] = body
+        placed[link.name] = (body, pose)
+        body.members.append((link, pose))
+    for body in bodies.values():
+        body.inertial = _lumped_inertial(body)
+    return list(bodies.values())
+
+
+def _lumped_inertial(body: Body) -> UrdfInertial | None:
+    """Return the inertia of all members together, about their centre of mass, along the axes of the head's own.
+
+    I = sum R_i I_i R_i' + m_i (|c_i|^2 1 - c_i c_i'), moved to the common centre by the parallel axis theorem.
+    """
+    parts = [(link.inertial, pose) for link, pose in body.members if link.inertial is not None]
+    if not parts:
+        return None
+    own = body.head.inertial
+    if len(parts) == 1 and own is not None:
+        return own
+    mass = math.fsum(inertial.mass for inertial, _ in parts)
+    moment, inertia = np.zeros(3), np.zeros((3, 3))
+    for inertial, pose in parts:
+        place = pose * inertial.pose
+        turn = matrix(place.quaternion)
+        moment += inertial.mass * place.position
+        inertia += turn @ _tensor(inertial) @ turn.T + inertial.mass * _point(place.position)
+    centre = moment / mass if mass else np.zeros(3)
+    inertia -= mass * _point(centre)
+    axes = own.pose.quaternion if own is not None else np.array((1.0, 0.0, 0.0, 0.0))
+    turn = matrix(axes)
+    (ixx, ixy, ixz), (_, iyy, iyz), (_, _, izz) = (turn.T @ inertia @ turn).tolist()
+    element = own.element if own is not None else parts[0][0].element
+    return UrdfInertial(mass, (ixx, iyy, izz, ixy, ixz, iyz), Pose(centre, axes), element)
+
+
+def _tensor(inertial: UrdfInertial) -> Matrix:
+    ixx, iyy, izz, ixy, ixz, iyz = inertial.moments
+    return np.array(((ixx, ixy, ixz), (ixy, iyy, iyz), (ixz, iyz, izz)))
+
+
+def _point(position: Matrix) -> Matrix:
+    """Return the inertia of a unit mass at `position` about the origin (m^2)."""
+    return float(position @ position) * np.eye(3) - np.outer(position, position)
