@@ -46,6 +46,8 @@ class Entities:
             self.add_model(model)
         for light in world.lights:
             self.add_light(light)
+        for joint in world.joints:
+            self._add("joint", (joint.name,))
 
     def add_model(self, model: Model) -> int:
         """Number a model that came, with everything in it; return the model's number."""
@@ -54,7 +56,12 @@ class Entities:
             self._add("model", (model.name, nested.name))
         for link in model.links:
             self._add("link", (model.name, link.name))
-            for kind, parts in (("visual", link.visuals), ("collision", link.collisions), ("sensor", link.sensors)):
+            for kind, parts in (
+                ("visual", link.visuals),
+                ("collision", link.collisions),
+                ("sensor", link.sensors),
+                ("light", link.lights),
+            ):
                 for part in parts:
                     self._add(kind, (model.name, link.name, part.name))
         for joint in model.joints:
@@ -69,8 +76,12 @@ class Entities:
 
     def remove(self, kind: str, name: str) -> list[int]:
         """Forget a model (with everything in it) or a light of the world; return the numbers that went."""
-        gone = [each for each in self._by_number.values() if each.path[0] == name and each.kind != "world"]
-        gone = [each for each in gone if (each.kind == "light") == (kind == "light")]
+        below = kind == "model"
+        gone = [
+            each
+            for each in self._by_number.values()
+            if each.path[0] == name and (each.kind == kind if len(each.path) == 1 else below)
+        ]
         for each in gone:
             del self._by_number[each.number]
             del self._numbers[(each.kind, each.path)]
