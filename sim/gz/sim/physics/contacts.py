@@ -1,0 +1,88 @@
+"""Which collisions touch after a step, where, and how hard: MuJoCo's contacts by the names of SDF.
+
+Used by the contact sensor and by TouchPlugin.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import mujoco
+import numpy as np
+
+from gz.sim.physics.builder import COLLISION_GROUP
+from gz.sim.pose import Vector
+
+if TYPE_CHECKING:
+    from gz.sim.world import World
+
+CollisionPath = tuple[str, str, str]
+"""Model, link and collision; the names of nested models' links are scoped."""
+
+
+@dataclass(frozen=True, slots=True)
+class ContactPoint:
+    """One point where geom `geom` touches geom `other`. `position` (m), `normal` (unit, from `other` to `geom`) and
+    `force` (N, on `geom`) are in the world; `depth` (m) is positive when they overlap.
+    """
+
+    geom: int
+    other: int
+    position: Vector
+    normal: Vector
+    depth: float
+    force: Vector
+
+
+class CollisionGeoms:
+    """Which MuJoCo geoms each `<collision>` became. Bound to one MuJoCo model: make a new one after every rebuild."""
+
+    def __init__(self, world: World) -> None:
+        known: dict[str, CollisionPath] = {}
+        for model in world.description.models:
+            for link in model.links:
+                for part in link.collisions:
+                    known[f"{model.name}::{link.name}::{part.name}"] = (model.name, link.name, part.name)
+        self.paths: dict[int, CollisionPath] = {}
+        """The collision each geom belongs to."""
+        self._geoms: dict[CollisionPath, list[int]] = {}
+        for geom in np.flatnonzero(world.model.geom_group == COLLISION_GROUP).tolist():
+            name = world.model.geom(geom).name
+            # A shape of several convex parts has one geom each, numbered behind a '#'.
+            path = known.get(name) or known.get(name.rpartition("#")[0])
+            if path is not None:
+                self.paths[geom] = path
+                self._geoms.setdefault(path, []).append(geom)
+
+    def of(self, path: CollisionPath) -> list[int]:
+        """Return the geoms of a collision, none for one that is not there."""
+        return self._geoms.get(path, [])
+
+
+def touching(world: World, geoms: Collection[int]) -> Iterator[tuple[int, int, int]]:
+    """Yield (contact, geom, other) for every contact of one of `geoms`, in MuJoCo's order; both ways round when
+    both are among `geoms`.
+    """
+    contacts = world.data.contact
+    pairs, rows = contacts.geom.tolist(), contacts.efc_address.tolist()
+    for index, ((first, second), row) in enumerate(zip(pairs, rows, strict=True)):
+        if row < 0:  # near, but without force
+            continue
+        if first in geoms:
+            yield index, first, second
+        if second in geoms:
+            yield index, second, first
+
+
+def contact_points(world: World, geoms: Collection[int]) -> Iterator[ContactPoint]:
+    """Yield every contact of one of `geoms` of the last step, seen from that geom."""
+    contacts, force = world.data.contact, np.zeros(6)
+    for index, geom, other in touching(world, geoms):
+        mujoco.mj_contactForce(world.model, world.data, index, force)
+        frame = contacts.frame[index].reshape(3, 3)
+        # MuJoCo's normal points from the first geom to the second, its force is that on the second.
+        sign = 1.0 if int(contacts.geom[index][1]) == geom else -1.0
+        position, depth = contacts.pos[index].copy(), -float(contacts.dist[index])
+        yield ContactPoint(geom, other, position, sign * frame[0], depth, sign * (force[:3] @ frame))

@@ -1,0 +1,120 @@
+"""Contact sensor: what touches the named collisions of its link, as `gz.msgs.Contacts`.
+
+The Contact system runs it. As in Gazebo it publishes at every step at which something touches, whatever
+`<update_rate>` says, and nothing otherwise; its topic stands in `<contact>`.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from gz.sim.errors import nearest
+from gz.sim.physics.contacts import CollisionGeoms, CollisionPath, ContactPoint, contact_points
+from gz.sim.sdf.description import Sensor
+from gz.sim.sensors.registry import SensorBase, sensor_type
+from gz.sim.systems.topics import valid_topic
+
+if TYPE_CHECKING:
+    from gz.sim.world import World
+    from gz.transport import Node
+
+NO_TOPIC = "__default_topic__"
+
+
+@sensor_type("contact")
+class Contact(SensorBase):
+    """Publishes one `Contact` for each pair of collisions that touch, with all their points."""
+
+    runs_in = "Contact"
+
+    def __init__(self, world: World, description: Sensor) -> None:
+        """Read `<contact>`; raise `SdfError` without one. A collision that is not there, and a topic at the wrong
+        place, are warned about.
+        """
+        super().__init__(world, description)
+        element = description.element
+        contact = element.find("contact")
+        if contact is None:
+            raise element.error(f"contact sensor '{description.name}' needs a <contact> element with a <collision>")
+        stated = contact.text_of("topic", NO_TOPIC)
+        self.topic = self.default_topic if stated == NO_TOPIC else valid_topic(stated, self.default_topic)
+        if stated == NO_TOPIC and element.find("topic") is not None:
+            text = f"the <topic> of contact sensor '{description.name}' has no effect here, it must stand in <contact>"
+            world.diagnostics.warn(element.where, f"{text}; the sensor publishes on {self.topic}")
+        self.period_ns = 0
+        model = next(each for each in world.description.models if each.name == description.model)
+        link = model.link(description.link)
+        names = [part.name for part in link.collisions] if link is not None else []
+        self.collisions: list[CollisionPath] = []
+        """The collisions that feel."""
+        for child in contact.all("collision"):
+            if child.text in names:
+                self.collisions.append((description.model, description.link, child.text))
+            elif child.text:
+                hint = nearest(child.text, names, listing="its collisions are")
+                text = f"contact sensor '{description.name}' names collision '{child.text}', which link "
+                world.diagnostics.warn(child.where, f"{text}'{description.link}' does not have; {hint}")
+        self._publisher: Any = None
+
+    def bind(self) -> None:
+        """Find the geoms of the collisions."""
+        self._geoms = CollisionGeoms(self.world)
+        self._feeling = {geom for path in self.collisions for geom in self._geoms.of(path)}
+
+    def topic_suffix(self) -> str:
+        """Return the last part of the default topic."""
+        return "contact"
+
+    def connect(self, node: Node) -> None:
+        """Advertise the contacts."""
+        from gz.msgs.contacts_pb2 import Contacts
+
+        self._type = Contacts
+        self._publisher = node.advertise(self.topic, Contacts)
+
+    def offer_set_rate(self, node: Node) -> None:
+        """Offer nothing: a contact sensor has no rate."""
+
+    def has_connections(self) -> bool:
+        """Tell whether anybody listens."""
+        return self._publisher is not None and self._publisher.has_connections()
+
+    def update(self, now_ns: int) -> None:
+        """Publish what touches, when something does."""
+        pairs: dict[tuple[CollisionPath, CollisionPath], list[ContactPoint]] = {}
+        for point in contact_points(self.world, self._feeling):
+            other = self._geoms.paths.get(point.other)
+            if other is not None:
+                pairs.setdefault((self._geoms.paths[point.geom], other), []).append(point)
+        if not pairs:
+            return
+        message = self._type()
+        _stamp(message.header, now_ns)
+        for path in dict.fromkeys(self.collisions):
+            for (own, other), points in pairs.items():
+                if own == path:
+                    self._add(message.contact.add(), own, other, points, now_ns)
+        self._publisher.publish(message)
+
+    def _add(
+        self, into: Any, own: CollisionPath, other: CollisionPath, points: list[ContactPoint], now_ns: int
+    ) -> None:
+        _stamp(into.header, now_ns)
+        for entity, path in ((into.collision1, own), (into.collision2, other)):
+            entity.id = self.world.entities.number("collision", *path)
+            entity.name = "::".join(path)
+        for point in points:
+            _set(into.position.add(), point.position.tolist())
+            _set(into.normal.add(), point.normal.tolist())
+            into.depth.append(point.depth)
+            wrench = into.wrench.add()
+            _set(wrench.body_1_wrench.force, point.force.tolist())
+            _set(wrench.body_2_wrench.force, (0.0 - point.force).tolist())
+
+
+def _stamp(header: Any, now_ns: int) -> None:
+    header.stamp.sec, header.stamp.nsec = divmod(now_ns, 1_000_000_000)
+
+
+def _set(into: Any, values: list[float]) -> None:
+    into.x, into.y, into.z = values

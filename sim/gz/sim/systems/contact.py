@@ -1,0 +1,14 @@
+"""Contact: runs the contact sensors of the world; a plugin of the world.
+
+What is common to all systems that run sensors is in `gz.sim.systems.sensor_system`.
+"""
+
+from __future__ import annotations
+
+from gz.sim.systems.registry import system
+from gz.sim.systems.sensor_system import SensorSystem
+
+
+@system("Contact", "gz-sim-contact-system")
+class Contact(SensorSystem):
+    """Runs every sensor of type contact."""

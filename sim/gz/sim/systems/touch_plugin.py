@@ -1,0 +1,121 @@
+"""TouchPlugin: says once when a model has touched a target for some time without a break; a plugin of a model.
+
+It looks at the collisions that the model's contact sensors name, after every step. A message on `/NAMESPACE/touched`
+says that it happened; then the plugin is off until the service `/NAMESPACE/enable` switches it on again.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from gz.sim.physics.contacts import CollisionGeoms, CollisionPath, touching
+from gz.sim.sdf.description import Model, Plugin
+from gz.sim.systems.registry import System, UpdateInfo, system, system_name
+from gz.sim.systems.topics import valid_topic
+
+if TYPE_CHECKING:
+    from gz.sim.world import World
+    from gz.transport import Node
+
+
+@system("TouchPlugin", "gz-sim-touchplugin-system")
+class TouchPlugin(System):
+    """`<target>`: part of the scoped name of the collisions to touch; `<time>` (s): how long, at least;
+    `<namespace>`: of the topic and the service; `<enabled>`: whether it is on from the start.
+    """
+
+    parameters = frozenset(("target", "time", "namespace", "enabled"))
+
+    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
+        """Read the parameters; raise `SdfError` when one is missing or the plugin stands in no model. Nothing is
+        ever touched when the model has no contact sensor or no Contact system runs them, and that is warned about.
+        """
+        element = plugin.element
+        if model is None:
+            raise element.error("TouchPlugin must stand in a <model>")
+        for tag in ("target", "time", "namespace"):
+            if not element.text_of(tag):
+                raise element.error(f"TouchPlugin needs <{tag}>")
+        self._world, self._model = world, model
+        self._target = element.text_of("target")
+        self._namespace = valid_topic(element.text_of("namespace"))
+        seconds = element.number("time", 0.0)
+        if not (math.isfinite(seconds) and seconds >= 0.0):
+            raise element.error(f"<time> of TouchPlugin must be a number of seconds from 0 on, got {seconds}")
+        self._time_ns = round(seconds * 1e9)
+        self._enabled_at_start = self._enabled = element.flag("enabled", False)
+        self._since_ns = -1
+        self._publisher: Any = None
+        # Gazebo looks at the model's own links only, not at those of models inside it.
+        scope = f"{plugin.scope}::" if plugin.scope else ""
+        self._feeling: list[CollisionPath] = []
+        for link in model.links:
+            if link.name.startswith(scope) and "::" not in link.name[len(scope) :]:
+                contacts = [sensor.element.find("contact") for sensor in link.sensors if sensor.kind == "contact"]
+                named = {
+                    child.text for contact in contacts if contact is not None for child in contact.all("collision")
+                }
+                self._feeling += [(model.name, link.name, part.name) for part in link.collisions if part.name in named]
+        where = element.where
+        if not self._feeling:
+            text = f"TouchPlugin of model '{model.name}' never reports a touch: "
+            world.diagnostics.warn(where, text + "no contact sensor of the model names one of its collisions")
+        elif not any(system_name(each) == "Contact" for each in world.description.plugins):
+            text = f"TouchPlugin of model '{model.name}' never reports a touch: the world does not load the Contact "
+            world.diagnostics.warn(
+                where,
+                f"{text}system; add <plugin filename='gz-sim-contact-system' name='gz::sim::systems::Contact'/>",
+            )
+            self._feeling = []
+
+    def bind(self) -> None:
+        """Find the geoms that feel, and those of the target, also of models that came."""
+        geoms = CollisionGeoms(self._world)
+        self._geoms = {geom for path in self._feeling for geom in geoms.of(path)}
+        world = self._world.name
+        self._targets = {geom for geom, path in geoms.paths.items() if self._target in _gazebo_name(world, path)}
+
+    def start(self) -> None:
+        """Be on or off as the file says."""
+        self.enable(self._enabled_at_start)
+
+    def connect(self, node: Node) -> None:
+        """Advertise the touch and offer the service that switches the plugin on and off."""
+        from gz.msgs.boolean_pb2 import Boolean
+        from gz.msgs.empty_pb2 import Empty
+
+        def serve(request: Boolean) -> Empty:
+            self.enable(request.data)
+            return Empty()
+
+        self._type = Boolean
+        self._publisher = node.advertise(f"{self._namespace}/touched", Boolean)
+        node.advertise_service(f"{self._namespace}/enable", Boolean, Empty, serve)
+
+    def enable(self, on: bool) -> None:
+        """Switch the plugin on or off; the time of touching starts anew."""
+        self._since_ns = -1
+        self._enabled = on
+
+    def post_update(self, info: UpdateInfo) -> None:
+        """Look whether the model touches its target."""
+        if not self._enabled:
+            return
+        if not any(other in self._targets for _, _, other in touching(self._world, self._geoms)):
+            self._since_ns = -1
+            return
+        if self._since_ns < 0:
+            self._since_ns = info.sim_time_ns
+        if info.sim_time_ns - self._since_ns > self._time_ns:
+            self.enable(False)
+            if self._publisher is not None:
+                self._publisher.publish(self._type(data=True))
+
+
+def _gazebo_name(world: str, path: CollisionPath) -> str:
+    """Return a collision's scoped name with the kinds before the names, which `<target>` is looked for in."""
+    model, link, collision = path
+    *nested, own = link.split("::")
+    models = "".join(f"/model/{name}" for name in (model, *nested))
+    return f"world/{world}{models}/link/{own}/collision/{collision}"
