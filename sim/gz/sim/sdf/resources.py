@@ -1,8 +1,9 @@
-"""Where worlds, models and meshes are found: given path, GZ_SIM_RESOURCE_PATH, then the folders that come
-built in.
+"""Where worlds, models, meshes and images are found, and how their text is read.
 
-Called by `World.load` for the world's name and by the reader for every `<include><uri>`. Nothing is ever
-downloaded: Fuel addresses are matched by their last part against the built-in models (`Ground Plane`, `Sun`).
+Called by `World.load` for the world's name and by the reader for every `<uri>`. Folders are those of
+GZ_SIM_RESOURCE_PATH, then of SDF_PATH and IGN_GAZEBO_RESOURCE_PATH, then the built-in ones; `package://` also looks
+into `share/` of every prefix in AMENT_PREFIX_PATH. Nothing is ever downloaded: an address of Gazebo Fuel stands for the
+model of that name in one of those folders (`Ground Plane` and `Sun` are built in).
 """
 
 from __future__ import annotations
@@ -17,26 +18,40 @@ from gz.sim.sdf.element import parse
 
 BUILT_IN_WORLDS = Path(__file__).resolve().parent.parent / "worlds"
 BUILT_IN_MODELS = Path(__file__).resolve().parent.parent / "models"
+NEWEST_SDF = (1, 12)
+
+_VARIABLES = ("GZ_SIM_RESOURCE_PATH", "SDF_PATH", "IGN_GAZEBO_RESOURCE_PATH")
+_WORLD_ENDINGS = (".sdf", ".world", ".xacro", ".urdf", ".xml")
+_MOST_BYTES = 64 * 1024 * 1024
 
 
 def resource_paths() -> list[Path]:
-    """Return the folders named in GZ_SIM_RESOURCE_PATH (separated by `:`), in order."""
-    return [Path(part) for part in os.environ.get("GZ_SIM_RESOURCE_PATH", "").split(os.pathsep) if part]
+    """Return the folders named in GZ_SIM_RESOURCE_PATH and its older names (separated by `:`), in order."""
+    words = [word for name in _VARIABLES for word in os.environ.get(name, "").split(os.pathsep) if word]
+    return [Path(word) for word in dict.fromkeys(words)]
+
+
+def package_shares() -> list[Path]:
+    """Return the `share` folders of the ROS prefixes in AMENT_PREFIX_PATH, in order."""
+    prefixes = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+    return [Path(prefix) / "share" for prefix in dict.fromkeys(prefixes) if prefix]
 
 
 def find_world(name: str | Path) -> Path:
     """Return the file of a world given as a path or a name; raise `ResourceError` with the nearest one."""
     text = str(name)
-    names = [text] if text.endswith((".sdf", ".world")) else [text, text + ".sdf"]
-    for folder in (Path(), *resource_paths(), BUILT_IN_WORLDS):
+    if text.startswith(("http://", "https://")):
+        raise ResourceError(f"world '{text}' would have to be downloaded, which is not done here; save it as a file")
+    names = [text] if text.endswith(_WORLD_ENDINGS) else [text, text + ".sdf"]
+    folders = (Path(), *resource_paths(), BUILT_IN_WORLDS)
+    for folder in folders:
         for each in names:
             for candidate in (folder / each, folder / "worlds" / each):
-                if candidate.is_file():
+                if _is_file(candidate):
                     return candidate
-    known = {path.name for folder in (Path(), *resource_paths(), BUILT_IN_WORLDS) for path in _worlds_in(folder)}
+    known = {path.name for folder in folders for path in _worlds_in(folder)}
     raise ResourceError(
-        f"world file '{text}' was not found as a path, in GZ_SIM_RESOURCE_PATH, or among the built-in "
-        "worlds; "
+        f"world file '{text}' was not found as a path, in GZ_SIM_RESOURCE_PATH, or among the built-in worlds; "
         f"{nearest(Path(text).name, known, listing='worlds that exist are')}"
     )
 
@@ -49,92 +64,140 @@ def _worlds_in(folder: Path) -> Iterator[Path]:
 
 
 def find_model(uri: str, relative_to: Path | None) -> Path:
-    """Return the SDF file that an `<include><uri>` means.
+    """Return the SDF, URDF or xacro file that an `<include><uri>` means.
 
-    `model://NAME`, `package://NAME`, a Fuel address, `file://PATH` and plain paths (relative to the including
-    file's folder `relative_to`) are understood. Raises `ResourceError`; its text has no file:line (the caller
-    knows it).
+    `model://NAME`, `package://NAME/FILE`, `file://PATH`, an address of Fuel, and paths (absolute, or relative to the
+    folder `relative_to` of the including file) are understood; a folder stands for the file its model.config names.
+    Raises `ResourceError`; its text has no file:line (the caller knows it).
     """
-    if uri.startswith("file://"):
-        return _model_file(Path(unquote(uri[7:])), uri)
-    for scheme in ("model://", "package://"):
-        if uri.startswith(scheme):
-            name = unquote(uri[len(scheme) :]).strip("/")
-            for folder in resource_paths():
-                for candidate in (folder / name, folder / "models" / name):
-                    if candidate.exists():
-                        return _model_file(candidate, uri)
-            return _built_in(name, uri)
-    if "://" in uri:
-        return _built_in(unquote(uri.rstrip("/").rsplit("/", 1)[-1]), uri)
-    for folder in ([relative_to] if relative_to else []) + resource_paths():
-        if (folder / uri).exists():
-            return _model_file(folder / uri, uri)
-    return _built_in(uri, uri)
-
-
-def _built_in(name: str, uri: str) -> Path:
-    folder = BUILT_IN_MODELS / name.lower().replace(" ", "_")
-    if name and folder.is_dir():
-        return _model_file(folder, uri)
+    for candidate in _candidates(uri, relative_to):
+        if _exists(candidate):
+            return _model_file(candidate, uri)
+    if _is_fuel(uri):
+        name = _fuel_path(uri).split("/")[0]
+        raise ResourceError(
+            f"'{uri}' is on Gazebo Fuel, and nothing is downloaded here; save the model as folder '{name}' in a folder "
+            "of GZ_SIM_RESOURCE_PATH"
+        )
+    name = uri.rpartition("://")[2].strip("/")
     known = {path.name for path in BUILT_IN_MODELS.iterdir() if path.is_dir()}
-    for each in resource_paths():
-        known |= {path.parent.name for path in each.glob("*/model.config")}
+    for folder in resource_paths():
+        for pattern in ("*/model.config", "models/*/model.config"):
+            known |= {path.parent.name for path in folder.glob(pattern)}
     raise ResourceError(
         f"model '{uri}' was not found in GZ_SIM_RESOURCE_PATH or among the built-in models; "
-        f"{nearest(name, known, listing='models that exist are')}"
+        f"{_path_hint(name, relative_to) or nearest(name, known, listing='models that exist are')}"
     )
 
 
-def _model_file(path: Path, uri: str) -> Path:
-    """Return `path` itself when it is a file, else the file of highest SDF version named by its
-    model.config.
-    """
-    if path.is_file():
-        return path
-    config = path / "model.config"
-    if not config.is_file():
-        if (path / "model.sdf").is_file():
-            return path / "model.sdf"
-        raise ResourceError(f"'{uri}' leads to {path}, which has neither model.config nor model.sdf")
-    best: tuple[tuple[int, ...], str] | None = None
-    for entry in parse(config.read_text(encoding="utf-8"), str(config)).all("sdf"):
-        digits = entry.attributes.get("version", "0").split(".")
-        version = tuple(int(digit) if digit.isdigit() else 0 for digit in digits)
-        if best is None or version > best[0]:
-            best = (version, entry.text)
-    if best is None or not (path / best[1]).is_file():
-        raise ResourceError(f"{config}: it names no <sdf> file that exists, so '{uri}' cannot be included")
-    return path / best[1]
-
-
 def find_file(uri: str, relative_to: Path | None) -> Path:
-    """Return the mesh or image that a `<uri>` means; raise `ResourceError` when there is no such file.
-
-    `model://NAME/meshes/x.stl`, `package://NAME/...`, `file://PATH` and paths (absolute, or relative to the folder
-    `relative_to` of the file that names it) are understood; folders are those of GZ_SIM_RESOURCE_PATH.
+    """Return the mesh or image that a `<uri>` means, written as those of `find_model`; raise `ResourceError` when there
+    is no such file.
     """
-    scheme, separator, rest = uri.partition("://")
-    text = unquote(rest) if separator else uri
-    if separator and scheme not in ("file", "model", "package"):
+    candidates = list(_candidates(uri, relative_to))
+    for candidate in candidates:
+        if _is_file(candidate):
+            return candidate
+    if _is_fuel(uri):
         raise ResourceError(f"'{uri}' would have to be downloaded, which is not done here; save it beside the world")
-    if scheme in ("model", "package") and separator:
-        text = text.lstrip("/")
-        folders = [*resource_paths(), *(folder / "models" for folder in resource_paths()), BUILT_IN_MODELS]
-    else:
-        folders = [*([relative_to] if relative_to else [Path()]), *resource_paths()]
-    for folder in folders:
-        if (folder / text).is_file():
-            return folder / text
-    beside = [(folder / text).parent for folder in folders]
-    known = {path.name for folder in beside if folder.is_dir() for path in folder.iterdir() if path.is_file()}
-    hint = nearest(Path(text).name, known, listing="files there are") if known else "set GZ_SIM_RESOURCE_PATH"
+    rest = uri.rpartition("://")[2].strip("/")
+    hint = _path_hint(rest, relative_to) if uri.startswith(("model://", "package://")) else ""
+    siblings = {path.name for candidate in candidates for path in _listed(candidate.parent)}
+    close = nearest(Path(rest).name, siblings) if siblings else ""
+    if not hint and close.startswith("did you mean"):
+        hint = close
+    if not hint:
+        hint = "it was looked for in " + ", ".join(dict.fromkeys(str(each.parent) for each in candidates))
     raise ResourceError(f"'{uri}' was not found; {hint}")
 
 
+def _candidates(uri: str, relative_to: Path | None) -> Iterator[Path]:
+    """Yield the places a URI can mean, best first."""
+    scheme, separator, rest = uri.partition("://")
+    if not separator:
+        scheme, rest = "", uri
+    path = unquote(rest) if separator else uri
+    beside = [relative_to if relative_to is not None else Path()]
+    if _is_fuel(uri):
+        path = _fuel_path(uri)
+    elif scheme in ("", "file"):
+        for folder in (*beside, *resource_paths()):
+            yield folder / path
+        if scheme or "/" in path:
+            return  # a bare name may still be a built-in model
+    path = path.strip("/")
+    if not path:
+        return
+    if scheme == "package":
+        yield from (share / path for share in package_shares())
+    for folder in resource_paths():
+        yield folder / path
+        yield folder / "models" / path
+    if scheme == "model":
+        yield from (share / path for share in package_shares())
+    name, slash, inside = path.partition("/")
+    yield BUILT_IN_MODELS / (name.lower().replace(" ", "_") + slash + inside)
+
+
+def _is_fuel(uri: str) -> bool:
+    return uri.startswith(("http://", "https://", "fuel://"))
+
+
+def _fuel_path(uri: str) -> str:
+    """Return `NAME` or `NAME/meshes/x.dae` of `https://fuel.../1.0/OWNER/models/NAME[/VERSION[/files/meshes/x.dae]]`."""
+    parts = unquote(uri).rstrip("/").split("/")
+    if "models" not in parts[:-1]:
+        return parts[-1]
+    name, *rest = parts[parts.index("models") + 1 :]
+    inside = rest[rest.index("files") + 1 :] if "files" in rest else []
+    return "/".join((name, *inside))
+
+
+def _path_hint(path: str, relative_to: Path | None) -> str:
+    """Return what to set when the model is the very one that names the file, but its folder is on no path."""
+    name = path.split("/")[0]
+    for folder in (relative_to, *relative_to.resolve().parents) if relative_to is not None else ():
+        for each in (folder, folder / name):
+            if name and each.name == name and each.is_dir():
+                return f"there is {each}: add {each.parent} to GZ_SIM_RESOURCE_PATH"
+    return ""
+
+
+def _model_file(path: Path, uri: str) -> Path:
+    """Return `path` itself when it is a file, else the file of highest SDF version named by its model.config."""
+    if path.is_file():
+        return path
+    config = next((path / name for name in ("model.config", "manifest.xml") if _is_file(path / name)), None)
+    if config is None:
+        if _is_file(path / "model.sdf"):
+            return path / "model.sdf"
+        raise ResourceError(f"'{uri}' leads to {path}, which has neither model.config nor model.sdf")
+    found: list[tuple[bool, tuple[int, ...], str]] = []
+    for entry in parse(read_text(config), str(config)).all("sdf"):
+        digits = entry.attributes.get("version", "0").split(".")
+        version = tuple(int(digit) if digit.isdigit() and len(digit) < 9 else 0 for digit in digits)
+        if _is_file(path / entry.text):
+            found.append((version <= NEWEST_SDF, version, entry.text))
+    if not found:
+        raise ResourceError(f"{config}: it names no <sdf> file that exists, so '{uri}' cannot be included")
+    # Of equal versions the first counts; a file newer than what is understood only when there is no other.
+    known = [each for each in found if each[0]]
+    best = max(known, key=lambda each: each[1]) if known else min(found, key=lambda each: each[1])
+    return path / best[2]
+
+
 def read_text(path: Path) -> str:
-    """Return the text of an SDF file, whatever its encoding; raise `SdfError` when it cannot be read."""
+    """Return the text of an SDF or URDF file, whatever its encoding; a `.xacro` file is expanded first.
+
+    Raises `SdfError` when it cannot be read.
+    """
+    if path.suffix == ".xacro":
+        from gz.sim.sdf.urdf.xacro_file import expand  # few worlds need it
+
+        return expand(path)
     try:
+        if path.stat().st_size > _MOST_BYTES:
+            raise SdfError(f"{path}: the file is larger than {_MOST_BYTES // 2**20} MiB; split it into included models")
         data = path.read_bytes()
     except OSError as error:
         raise SdfError(f"{path}: the file cannot be read ({error.strerror or error})") from None
@@ -144,3 +207,21 @@ def read_text(path: Path) -> str:
         except UnicodeDecodeError:
             continue
     return data.decode("latin-1")
+
+
+def _exists(path: Path) -> bool:
+    try:
+        return path.exists()
+    except (OSError, ValueError):  # a name too long, or with a zero byte
+        return False
+
+
+def _is_file(path: Path) -> bool:
+    return _exists(path) and path.is_file()
+
+
+def _listed(folder: Path) -> list[Path]:
+    try:
+        return [path for path in folder.iterdir() if path.is_file()]
+    except (OSError, ValueError):
+        return []

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import re
 import resource
 import sys
 import xml.dom.expatbuilder
@@ -17,14 +18,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-PLACE = "_place_"
-"""Attribute of every element: number of the file, colon, line."""
-FILES = "_files_"
-"""Attribute of the root: JSON list of the files."""
+from gz.sim.sdf.urdf.xacro_file import FILES, PLACE
 
-_CPU_SECONDS = 20
+_CPU_SECONDS = 10
 _MEMORY = 2 * 1024**3
-_MOST_ELEMENTS = 300_000
+_MOST_ELEMENTS = 100_000
 
 
 class _Places:
@@ -127,15 +125,18 @@ def _sentence(error: BaseException, file: str) -> str:
     if isinstance(error, MemoryError):
         return f"{where}: xacro needs too much memory here"
     text = " ".join(str(error).split()) or type(error).__name__
-    if isinstance(error, KeyError):
-        text = f"{text} is not defined"
     hint = ""
+    missing = re.search(r"package '([^']*)' not found", text)
+    if missing:
+        return f"{where}: xacro: there is no ROS package '{missing[1]}'; is its prefix in AMENT_PREFIX_PATH?"
+    if isinstance(getattr(error, "exc", None), OSError):
+        text = str(error.args[0])
+    elif isinstance(error, KeyError):
+        text = f"{text} is not defined"
     if text.startswith("unknown macro name"):
         hint = "; is the file that defines it included before this line?"
     elif "Undefined substitution argument" in text:
         hint = "; declare it with <xacro:arg name='...' default='...'/>"
-    elif "package" in text.lower() and "not found" in text:
-        hint = "; is its prefix in AMENT_PREFIX_PATH?"
     return f"{where}: xacro: {text[:300]}{hint}"
 
 

@@ -9,15 +9,24 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from gz.sim.errors import LOG, SdfError
-from gz.sim.sdf.element import Element
-from gz.sim.sdf.urdf.expand_xacro import FILES, PLACE
 
-_SECONDS = 30.0
+if TYPE_CHECKING:  # the child process imports this module too, and needs no numpy
+    from gz.sim.sdf.element import Element
+
+PLACE = "_place_"
+"""Attribute of every element of an expanded text: number of the file, colon, line."""
+FILES = "_files_"
+"""Attribute of its root: JSON list of the files."""
+
+_SECONDS = 20.0
+_COLOURS = re.compile("\x1b\\[[0-9;]*m")
 
 
 def expand(path: Path, arguments: dict[str, str] | None = None) -> str:
@@ -44,9 +53,9 @@ def expand(path: Path, arguments: dict[str, str] | None = None) -> str:
         try:
             sentence = json.loads(notes[-1])["error"]
         except (IndexError, ValueError, KeyError, TypeError):
-            sentence = f"{path}: xacro ended without a result; it may have needed too much memory or time"
+            sentence = f"{path}: xacro did not come to an end; a macro or an expression of it may grow without limit"
         raise SdfError(sentence)
-    for note in notes:
+    for note in filter(None, (_COLOURS.sub("", note).strip() for note in notes)):
         LOG.warning("%s: xacro says: %s", path, note)
     return done.stdout.decode("utf-8")
 
