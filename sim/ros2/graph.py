@@ -24,6 +24,7 @@ from rclpy.signals import SignalHandlerOptions
 
 from ros2.discovery import Participants
 from ros2.errors import CommandError
+from ros2.option_values import seconds
 
 FIRST_CONTACT = 3.3  # s within which every node there is has announced itself to a new one
 OTHER_MACHINES = 0.5  # s for answers that come over a network
@@ -45,14 +46,6 @@ def add_graph_options(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("-s", "--use-sim-time", action="store_true", help="Enable ROS simulation time")
     parser.add_argument("--no-daemon", action="store_true", help="Accepted and ignored: there is no daemon")
-
-
-def seconds(text: str) -> float:
-    """A number of seconds from 0 on, and finite; ValueError otherwise."""
-    value = float(text)
-    if not 0.0 <= value < float("inf"):
-        raise ValueError
-    return value
 
 
 def is_hidden(name: str) -> bool:

@@ -7,6 +7,7 @@ interface that is installed.
 
 from __future__ import annotations
 
+import argparse
 import importlib
 from pathlib import Path
 from typing import Any
@@ -22,6 +23,20 @@ KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}
 _INDEX = "rosidl_interfaces"
 
 
+def add_kind_options(parser: argparse.ArgumentParser) -> None:
+    """Options for which kinds are shown; `kinds` is the list of them, empty for all."""
+    for letter, word, kind in (("m", "msgs", "msg"), ("s", "srvs", "srv"), ("a", "actions", "action")):
+        parser.add_argument(
+            f"-{letter}",
+            f"--only-{word}",
+            action="append_const",
+            dest="kinds",
+            const=kind,
+            default=[],
+            help=f"Print out only the {KINDS[kind].lower()}",
+        )
+
+
 def message_class(type_name: str) -> Any:
     """The class of a message type; CommandError if there is none of that name."""
     return _class(type_name, "msg", "message")
@@ -35,6 +50,11 @@ def service_class(type_name: str) -> Any:
 def message_type_name(message: Any) -> str:
     """`package/msg/Name` of a message class."""
     return f"{message.__module__.partition('.')[0]}/msg/{message.__name__}"
+
+
+def service_type_name(service: Any) -> str:
+    """`package/srv/Name` of a service class."""
+    return f"{service.__module__.partition('.')[0]}/srv/{service.__name__}"
 
 
 def _class(type_name: str, kind: str, noun: str) -> Any:

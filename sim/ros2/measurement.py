@@ -15,6 +15,7 @@ from typing import Any
 from rclpy.qos import QoSPresetProfiles
 
 from ros2.graph import Graph
+from ros2.option_values import positive_number
 from ros2.topic import full_name, nearest_topic, not_published, only_type, warn
 
 REPORT_EVERY = 1.0  # s
@@ -30,14 +31,6 @@ def add_window(parser: argparse.ArgumentParser, default: int) -> None:
         metavar="N",
         help=f"Window size, in # of messages, for calculating (default: {default})",
     )
-
-
-def positive_number(text: str) -> int:
-    """A number from 1 on; ValueError otherwise."""
-    value = int(text)
-    if value < 1:
-        raise ValueError
-    return value
 
 
 def awaited_topic(graph: Graph, topic: str) -> tuple[str, Any]:

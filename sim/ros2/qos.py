@@ -14,7 +14,7 @@ from rclpy.qos import (
     ReliabilityPolicy,
 )
 
-from ros2.graph import seconds
+from ros2.option_values import seconds, whole_number
 
 
 def add_qos_options(parser: argparse.ArgumentParser, default: str) -> None:
@@ -30,14 +30,6 @@ def add_qos_options(parser: argparse.ArgumentParser, default: str) -> None:
     qos.add_argument(
         "--qos-liveliness-lease-duration-seconds", type=seconds, metavar="SECONDS", help="Liveliness lease duration"
     )
-
-
-def whole_number(text: str) -> int:
-    """A number from 0 on; ValueError otherwise."""
-    value = int(text)
-    if value < 0:
-        raise ValueError
-    return value
 
 
 def chosen_qos(arguments: argparse.Namespace, default: QoSProfile) -> QoSProfile:

@@ -13,11 +13,11 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.validate_node_name import validate_node_name
 
 from ros2.errors import CommandError, did_you_mean
-from ros2.graph import Graph, add_graph_options, seconds
+from ros2.graph import Graph, add_graph_options
 from ros2.interface import message_class, message_type_name
-from ros2.measurement import positive_number
 from ros2.message_value import fill
-from ros2.qos import add_qos_options, chosen_qos, whole_number
+from ros2.option_values import positive_number, rate, seconds, whole_number
+from ros2.qos import add_qos_options, chosen_qos
 from ros2.topic import full_name, warn
 
 _SAY_AGAIN = 1.0  # s between two lines while nobody listens
@@ -37,9 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "'header: auto' and 'stamp: now' are set to the time of sending",
     )
     parser.add_argument("--stdin", action="store_true", help="Read the values from standard input")
-    parser.add_argument(
-        "-r", "--rate", type=positive_rate, default=1.0, metavar="N", help="Publishing rate in Hz (default: 1)"
-    )
+    parser.add_argument("-r", "--rate", type=rate, default=1.0, metavar="N", help="Publishing rate in Hz (default: 1)")
     parser.add_argument(
         "-p",
         "--print",
@@ -73,14 +71,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("-n", "--node-name", help="Name of the created publishing node")
     add_qos_options(parser, "reliable and transient local, which every subscription can receive")
-
-
-def positive_rate(text: str) -> float:
-    """A finite number above 0; ValueError otherwise."""
-    value = float(text)
-    if not 0.0 < value < float("inf"):
-        raise ValueError
-    return value
 
 
 def main(arguments: argparse.Namespace) -> None:

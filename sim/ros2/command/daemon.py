@@ -1,0 +1,20 @@
+"""The daemon (there is none here: every command looks at the graph itself)."""
+
+from __future__ import annotations
+
+import argparse
+
+from ros2.errors import CommandError
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """What to do with it."""
+    parser.add_argument("verb", nargs="?", choices=["start", "status", "stop"], default="status")
+    parser.add_argument("--debug", action="store_true", help="Accepted and ignored")
+
+
+def main(arguments: argparse.Namespace) -> None:
+    """Say that it does not run, which is all that scripts want to know."""
+    if arguments.verb == "start":
+        raise CommandError("There is no daemon to start: every command looks at the graph itself")
+    print("The daemon is not running")

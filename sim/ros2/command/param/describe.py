@@ -1,0 +1,44 @@
+"""Show descriptive information about declared parameters."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from typing import Any
+
+from ros2.graph import Graph, add_graph_options
+from ros2.node import find_node
+from ros2.parameter import NodeParameters, type_word
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The node and its parameters."""
+    add_graph_options(parser)
+    parser.add_argument("node_name", help="Name of the ROS node")
+    parser.add_argument("parameter_names", nargs="+", help="Names of the parameters")
+    parser.add_argument("--include-hidden-nodes", action="store_true", help="Accepted: a node is named anyway")
+
+
+def main(arguments: argparse.Namespace) -> None:
+    """Type, description and limits of each."""
+    with Graph(arguments) as graph:
+        parameters = NodeParameters(graph, find_node(graph, arguments.node_name, "Node not found"))
+        for descriptor in parameters.descriptors(arguments.parameter_names):
+            print("\n".join(_lines(descriptor)))
+
+
+def _lines(descriptor: Any) -> Iterator[str]:
+    yield f"Parameter name: {descriptor.name}"
+    yield f"  Type: {type_word(descriptor.type)}"
+    if descriptor.description:
+        yield f"  Description: {descriptor.description}"
+    yield "  Constraints:"
+    if descriptor.read_only:
+        yield "    Read only: true"
+    for limits in (*descriptor.floating_point_range, *descriptor.integer_range):
+        yield f"    Min value: {limits.from_value}"
+        yield f"    Max value: {limits.to_value}"
+        if limits.step:
+            yield f"    Step: {limits.step}"
+    if descriptor.additional_constraints:
+        yield f"    Additional constraints: {descriptor.additional_constraints}"

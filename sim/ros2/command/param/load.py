@@ -1,0 +1,86 @@
+"""Load parameter file for a node."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from ros2.errors import CommandError, did_you_mean
+from ros2.graph import Graph, add_graph_options
+from ros2.message_value import parse_yaml
+from ros2.node import find_node
+from ros2.parameter import NodeParameters, flat, parameter_value
+from ros2.topic import warn
+
+_EVERY_NODE = "/**"
+_KEY = "ros__parameters"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The node and the file."""
+    add_graph_options(parser)
+    parser.add_argument("node_name", help="Name of the ROS node")
+    parser.add_argument("parameter_file", help="Parameter file in YAML format")
+    parser.add_argument("--include-hidden-nodes", action="store_true", help="Accepted: a node is named anyway")
+    parser.add_argument("--no-use-wildcard", action="store_true", help="Do not load parameters in the '/**' namespace")
+
+
+def main(arguments: argparse.Namespace) -> int:
+    """Set what the file holds for this node, one by one; exit code 1 if the node has refused one of them."""
+    content = _read(Path(arguments.parameter_file))
+    with Graph(arguments) as graph:
+        node = find_node(graph, arguments.node_name, "Node not found")
+        found = _for_node(content, node, arguments)
+        values = {name: parameter_value(value, f"{name}: {value}") for name, value in found.items()}
+        parameters = NodeParameters(graph, node)
+        refused = 0
+        for name, value in values.items():
+            taken, reason = parameters.set(name, value)
+            after = f": {reason}" if reason else ""
+            if taken:
+                print(f"Set parameter {name} successful{after}")
+            else:
+                warn(f"Set parameter {name} failed{after}")
+                refused = 1
+    return refused
+
+
+def _read(path: Path) -> dict[str, Any]:
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "it is not text in UTF-8"
+        raise CommandError(f"{path} cannot be read: {reason}") from None
+    try:
+        parse_yaml(text)
+        content = yaml.safe_load(text)
+    except (CommandError, ValueError) as error:
+        raise CommandError(f"{path}: {str(error).removeprefix('The passed value ')}") from None
+    if not isinstance(content, dict) or not content:
+        raise CommandError(f"{path} is no parameter file: it must begin with a node's name or {_EVERY_NODE}")
+    return {str(name): value for name, value in content.items()}
+
+
+def _for_node(content: dict[str, Any], node: str, arguments: argparse.Namespace) -> dict[str, Any]:
+    """Flat name -> value of what applies to a node; the node's own entry beats that for every node."""
+    found: dict[str, Any] = {}
+    applies = [node, node.lstrip("/"), arguments.node_name]
+    keys = ([] if arguments.no_use_wildcard else [_EVERY_NODE]) + list(dict.fromkeys(applies))
+    path = arguments.parameter_file
+    for key in keys:
+        if key not in content:
+            continue
+        entry = content[key]
+        if not isinstance(entry, dict) or not isinstance(entry.get(_KEY), dict):
+            near = did_you_mean(_KEY, map(str, entry)) if isinstance(entry, dict) else ""
+            raise CommandError(f"{path}: below '{key}' there must be '{_KEY}:' and below that the parameters{near}")
+        found |= flat(entry[_KEY])
+    if not any(key in content for key in keys):
+        there = ", ".join(f"'{name}'" for name in content)
+        raise CommandError(
+            f"Param file does not contain parameters for {node}, only for nodes: {there}{did_you_mean(node, content)}"
+        )
+    return found

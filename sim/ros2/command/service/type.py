@@ -1,0 +1,27 @@
+"""Output a service's type."""
+
+from __future__ import annotations
+
+import argparse
+
+from ros2.graph import Graph, add_graph_options
+from ros2.service import nearest_service, service_name, service_types
+from ros2.topic import warn
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The service."""
+    add_graph_options(parser)
+    parser.add_argument("service_name", help="Name of the ROS service to get type (e.g. '/spawn')")
+
+
+def main(arguments: argparse.Namespace) -> int:
+    """One type a line; nothing on the output and exit code 1 for an unknown service."""
+    with Graph(arguments) as graph:
+        name = service_name(graph, arguments.service_name)
+        types = service_types(graph, name)
+        for kind in types:
+            print(kind)
+        if not types and (hint := nearest_service(graph, name)):
+            warn(f"Unknown service '{arguments.service_name}'{hint}")
+        return 0 if types else 1

@@ -1,0 +1,30 @@
+"""Finding the node a user has named: for `ros2 node info` and every verb of `ros2 param`."""
+
+from __future__ import annotations
+
+from ros2.errors import CommandError, did_you_mean
+from ros2.graph import Graph
+from ros2.topic import warn
+
+
+def find_node(graph: Graph, name: str, unknown: str) -> str:
+    """The full name of a node, as soon as it is there; CommandError with the sentence `unknown` if it does not come.
+
+    A name without a leading / is in the root namespace. Says so if several nodes share the name.
+    """
+    full = name if name.startswith("/") else f"/{name}"
+    count = graph.wait_for(lambda: graph.nodes(hidden=True).count(full))
+    if not count:
+        raise CommandError(unknown + did_you_mean(full, graph.nodes(hidden=True)))
+    if count > 1:
+        warn(
+            f'There are {count} nodes in the graph with the exact name "{full}". '
+            "You are seeing information about only one of them."
+        )
+    return full
+
+
+def split_name(full: str) -> tuple[str, str]:
+    """(name, namespace) of a full node name."""
+    namespace, _, name = full.rpartition("/")
+    return name, namespace or "/"

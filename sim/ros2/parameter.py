@@ -1,0 +1,199 @@
+"""Parameters of a running node: what the verbs of `ros2 param` have in common.
+
+A node serves its parameters under `<node>/list_parameters`, `get_parameters` and so on (package rcl_interfaces); values
+cross as `rcl_interfaces/ParameterValue`. On the command line a value is YAML: `5` is an integer, `5.0` a double,
+`'5'` a string, `[1, 2]` an integer array.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import yaml
+from rcl_interfaces.msg import Parameter as ParameterMessage
+from rcl_interfaces.msg import ParameterType, ParameterValue
+from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters, SetParameters
+
+from ros2.errors import CommandError, did_you_mean
+from ros2.graph import Graph
+from ros2.message_value import parse_yaml
+from ros2.service import ANSWER_DEADLINE, call
+
+_FIELDS = {
+    ParameterType.PARAMETER_BOOL: ("Boolean", "boolean", "bool_value"),
+    ParameterType.PARAMETER_INTEGER: ("Integer", "integer", "integer_value"),
+    ParameterType.PARAMETER_DOUBLE: ("Double", "double", "double_value"),
+    ParameterType.PARAMETER_STRING: ("String", "string", "string_value"),
+    ParameterType.PARAMETER_BYTE_ARRAY: ("Byte", "byte array", "byte_array_value"),
+    ParameterType.PARAMETER_BOOL_ARRAY: ("Boolean", "boolean array", "bool_array_value"),
+    ParameterType.PARAMETER_INTEGER_ARRAY: ("Integer", "integer array", "integer_array_value"),
+    ParameterType.PARAMETER_DOUBLE_ARRAY: ("Double", "double array", "double_array_value"),
+    ParameterType.PARAMETER_STRING_ARRAY: ("String", "string array", "string_array_value"),
+}
+"""Type -> (word of `get`, word of `describe`, field of ParameterValue)"""
+
+_EXPONENT = re.compile(r"[-+]?\d+(\.\d*)?[eE][-+]?\d+")
+_INT64 = range(-(2**63), 2**63)
+
+
+class NodeParameters:
+    """The parameters of one node, asked for over its services."""
+
+    def __init__(self, graph: Graph, node: str) -> None:
+        self.node = node
+        self._graph = graph
+
+    def _call(self, kind: Any, service: str, request: Any) -> Any:
+        client = self._graph.node.create_client(kind, f"{self.node}/{service}")
+        if not self._graph.wait_for(client.service_is_ready):
+            raise CommandError(f"The node {self.node} has no parameter services")
+        return call(self._graph, client, request, ANSWER_DEADLINE)
+
+    def names(self, prefixes: Sequence[str] = ()) -> list[str]:
+        """All parameters, or those below these prefixes, sorted."""
+        response = self._call(ListParameters, "list_parameters", ListParameters.Request(prefixes=list(prefixes)))
+        return sorted(response.result.names)
+
+    def values(self, names: Sequence[str]) -> list[ParameterValue]:
+        """The value of each; not set for one that does not exist."""
+        found = list(self._call(GetParameters, "get_parameters", GetParameters.Request(names=list(names))).values)
+        if len(found) == len(names):
+            return found
+        # A node answers with nothing at all if one of several does not exist.
+        return [ParameterValue()] if len(names) == 1 else [self.values([name])[0] for name in names]
+
+    def descriptors(self, names: Sequence[str]) -> list[Any]:
+        """The rcl_interfaces/ParameterDescriptor of each; CommandError if one does not exist."""
+        request = DescribeParameters.Request(names=list(names))
+        found = list(self._call(DescribeParameters, "describe_parameters", request).descriptors)
+        known = self.names()
+        for name in names:
+            if name not in known:
+                raise self.not_set(name, known)
+        return found
+
+    def set(self, name: str, value: ParameterValue) -> tuple[bool, str]:
+        """(whether the node has taken the value, its reason). PARAMETER_NOT_SET deletes."""
+        if value.type == ParameterType.PARAMETER_STRING_ARRAY and not value.string_array_value:
+            # An empty list says nothing of its kind: it is of the kind the parameter has.
+            now = self.values([name])[0].type
+            value.type = now if type_word(now).endswith(" array") else value.type
+        request = SetParameters.Request(parameters=[ParameterMessage(name=name, value=value)])
+        results = self._call(SetParameters, "set_parameters", request).results
+        return (results[0].successful, results[0].reason) if results else (False, "the node gave no reason")
+
+    def not_set(self, name: str, known: Iterable[str] | None = None) -> CommandError:
+        """The error for a parameter that does not exist, with the nearest one that does."""
+        return CommandError("Parameter not set" + did_you_mean(name, self.names() if known is None else known))
+
+
+def python_value(value: ParameterValue) -> Any:
+    """The value in Python's own types: bool, int, float, str, bytes, a list of these; None if not set."""
+    if value.type not in _FIELDS:
+        return None
+    found = getattr(value, _FIELDS[value.type][2])
+    if value.type == ParameterType.PARAMETER_BYTE_ARRAY:
+        return [int.from_bytes(item, "little") for item in found]
+    return found if isinstance(found, bool | int | float | str) else list(found)
+
+
+def kind_word(value: ParameterValue) -> str:
+    """`Integer value is:` or `Integer values are:`"""
+    word = _FIELDS[value.type][0]
+    return f"{word} values are:" if _FIELDS[value.type][1].endswith(" array") else f"{word} value is:"
+
+
+def type_word(kind: int) -> str:
+    """`integer`, `string array`, `not set` ..."""
+    return _FIELDS[kind][1] if kind in _FIELDS else "not set"
+
+
+def value_from_yaml(text: str) -> ParameterValue:
+    """The parameter value that a YAML text stands for; CommandError for what a parameter cannot be."""
+    parse_yaml(text)  # says what is wrong and where
+    try:
+        value = yaml.safe_load(text)
+    except (yaml.YAMLError, ValueError, RecursionError):
+        value = text  # e.g. a date that does not exist: a parameter knows no dates
+    if not isinstance(value, bool | int | float | str | list | dict):
+        value = text.strip()  # nothing, null, a date
+    if value == text.strip() and _EXPONENT.fullmatch(value):
+        value = float(value)  # for YAML 1.1, 1e-3 is a text
+    return parameter_value(value, text)
+
+
+def parameter_value(value: Any, shown: str) -> ParameterValue:
+    """The parameter value of a Python value; `shown` is how the user has written it, for the error message."""
+    kind, converted = _typed(value, shown)
+    message = ParameterValue(type=kind)
+    setattr(message, _FIELDS[kind][2], converted)
+    return message
+
+
+def _typed(value: Any, shown: str) -> tuple[int, Any]:
+    if isinstance(value, bool):
+        return ParameterType.PARAMETER_BOOL, value
+    if isinstance(value, int):
+        return ParameterType.PARAMETER_INTEGER, _int64(value, shown)
+    if isinstance(value, float):
+        return ParameterType.PARAMETER_DOUBLE, value
+    if isinstance(value, str):
+        return ParameterType.PARAMETER_STRING, value
+    if isinstance(value, list):
+        return _typed_list(value, shown)
+    raise CommandError(
+        f"{_short(shown)} cannot be a parameter: it must be a bool, a number, a string or a list of one kind"
+    )
+
+
+def _typed_list(items: list[Any], shown: str) -> tuple[int, list[Any]]:
+    kinds = {type(item) for item in items}
+    if kinds == {bool}:
+        return ParameterType.PARAMETER_BOOL_ARRAY, items
+    if kinds == {int}:
+        return ParameterType.PARAMETER_INTEGER_ARRAY, [_int64(item, shown) for item in items]
+    if kinds and kinds <= {int, float}:
+        return ParameterType.PARAMETER_DOUBLE_ARRAY, [float(item) for item in items]
+    if kinds <= {str}:  # so is an empty list: the node says what it wants instead
+        return ParameterType.PARAMETER_STRING_ARRAY, items
+    raise CommandError(f"{_short(shown)} cannot be a parameter: the items of a list must be of one kind")
+
+
+def _int64(value: int, shown: str) -> int:
+    if value not in _INT64:
+        raise CommandError(f"{_short(shown)} does not fit into 64 bits")
+    return value
+
+
+def _short(text: str) -> str:
+    return repr(text if len(text) <= 60 else text[:60] + "...")
+
+
+def nested(parameters: dict[str, Any]) -> dict[str, Any]:
+    """`a.b.c` -> a dictionary in a dictionary, as parameter files hold them."""
+    tree: dict[str, Any] = {}
+    for name, value in sorted(parameters.items()):
+        *groups, last = name.split(".")
+        place = tree
+        for depth, group in enumerate(groups):
+            inner = place.setdefault(group, {})
+            if not isinstance(inner, dict):  # `a` and `a.b` both exist: a file can hold the second flat only
+                last = ".".join([*groups[depth:], last])
+                break
+            place = inner
+        place[last] = value
+    return tree
+
+
+def flat(tree: dict[Any, Any], prefix: str = "") -> dict[str, Any]:
+    """The other direction of `nested`."""
+    found: dict[str, Any] = {}
+    for name, value in tree.items():
+        full = f"{prefix}{name}"
+        if isinstance(value, dict):
+            found |= flat(value, f"{full}.")
+        else:
+            found[full] = value
+    return found
