@@ -84,7 +84,6 @@ class Inertial:
     mass: float = 1.0
     moments: tuple[float, float, float, float, float, float] = (1.0, 1.0, 1.0, 0.0, 0.0, 0.0)
     pose: Pose = IDENTITY
-    automatic: bool = False
 
 
 @dataclass(eq=False)

@@ -1,56 +1,54 @@
-"""Shapes and surfaces of `<collision>` and `<visual>`: geometry, friction, colour.
+"""`<geometry>` of a `<collision>` or `<visual>`: which shape, how large.
 
-Part of the reader: `Element` -> `Geometry`, `mu`, `rgba`. Shapes this simulator does not build are reported
-and left out.
+Part of the reader: `Element` -> `Geometry`; meshes, heightmaps and polylines have files of their own. A shape that
+cannot be built is reported and left out.
 """
 
 from __future__ import annotations
 
-from gz.sim.errors import Diagnostics, nearest
-from gz.sim.sdf.description import Geometry
+from functools import lru_cache
+
+import numpy as np
+
+from gz.sim.errors import Diagnostics
+from gz.sim.sdf.description import Geometry, TriangleMesh
 from gz.sim.sdf.element import Element
-from gz.sim.sdf.vocabulary import CHILDREN
+from gz.sim.sdf.heightmap import read_heightmap
+from gz.sim.sdf.mesh_shape import read_mesh_shape
+from gz.sim.sdf.polyline import read_polyline
 
-Rgba = tuple[float, float, float, float]
-_UNBUILT = ("mesh", "cone", "heightmap", "polyline", "image")
-_SCRIPT_COLOURS: dict[str, tuple[float, float, float]] = {
-    "grey": (0.7, 0.7, 0.7),
-    "darkgrey": (0.175, 0.175, 0.175),
-    "white": (1.0, 1.0, 1.0),
-    "flatblack": (0.1, 0.1, 0.1),
-    "black": (0.0, 0.0, 0.0),
-    "red": (1.0, 0.0, 0.0),
-    "green": (0.0, 1.0, 0.0),
-    "blue": (0.0, 0.0, 1.0),
-    "yellow": (1.0, 1.0, 0.0),
-    "orange": (1.0, 0.51, 0.0),
-    "purple": (1.0, 0.0, 1.0),
-    "turquoise": (0.0, 1.0, 1.0),
-    "indigo": (0.33, 0.0, 0.5),
-    "gold": (0.8, 0.65, 0.2),
-    "wood": (0.6, 0.45, 0.25),
-}
+SHAPES = ("box", "sphere", "cylinder", "capsule", "ellipsoid", "cone", "plane", "mesh", "heightmap", "polyline")
+_LARGEST = 1e6  # [m]
+_SMALLEST = 1e-7
+_SIDES = 32  # of a cone
 
 
-def read_geometry(owner: Element, diagnostics: Diagnostics) -> Geometry | None:
+def read_geometry(owner: Element, moving: bool, diagnostics: Diagnostics) -> Geometry | None:
     """Return the shape of a `<collision>` or `<visual>`, or None (with a warning) when there is none to
-    build.
+    build; `moving` tells whether its link can move.
     """
     holder = owner.find("geometry")
-    shapes = [child for child in holder.children if child.tag in CHILDREN["geometry"]] if holder else []
+    shapes = list(holder.all(*SHAPES, "image", "empty")) if holder else []
     if holder is None or not shapes:
         diagnostics.warn(owner.where, f"<{owner.tag}> '{owner.name}' has no <geometry> with a shape, it is left out")
         return None
     shape = shapes[0]
     if shape.tag == "empty":
         return None
-    if shape.tag in _UNBUILT:
-        diagnostics.warn(
-            shape.where,
-            f"<{shape.tag}> geometry is not simulated here, so <{owner.tag}> '{owner.name}' is left out; "
-            "use box, sphere, cylinder, capsule, ellipsoid or plane",
-        )
+    if shape.tag == "mesh":
+        return read_mesh_shape(shape, owner, moving, diagnostics)
+    if shape.tag == "heightmap":
+        return read_heightmap(shape, owner, moving, diagnostics)
+    if shape.tag == "image":
+        text = f"<image> geometry is not simulated here, so <{owner.tag}> '{owner.name}' is left out; use boxes"
+        diagnostics.warn(shape.where, text)
         return None
+    if shape.tag == "polyline":
+        made = read_polyline([each for each in shapes if each.tag == "polyline"])
+        if made is None:
+            text = f"<polyline> crosses or touches itself, so <{owner.tag}> '{owner.name}' is left out"
+            diagnostics.warn(shape.where, text)
+        return made
     return _primitive(shape)
 
 
@@ -61,54 +59,38 @@ def _primitive(shape: Element) -> Geometry:
     if shape.tag == "sphere":
         diameter = 2.0 * shape.number("radius", 1.0)
         return Geometry("sphere", _positive(shape, "radius", (diameter, diameter, diameter)))
-    if shape.tag in ("cylinder", "capsule"):
+    if shape.tag in ("cylinder", "capsule", "cone"):
         diameter = 2.0 * shape.number("radius", 0.5)
-        size = (diameter, diameter, shape.number("length", 1.0))
-        return Geometry(shape.tag, _positive(shape, "radius and length", size))
+        size = _positive(shape, "radius and length", (diameter, diameter, shape.number("length", 1.0)))
+        return Geometry(shape.tag, size, mesh=_cone(size) if shape.tag == "cone" else None)
     if shape.tag == "ellipsoid":
         radii = shape.vector("radii", (1.0, 1.0, 1.0))
         return Geometry("ellipsoid", _positive(shape, "radii", tuple(2.0 * radius for radius in radii)))
     extent = shape.vector("size", (1.0, 1.0))
-    normal = shape.vector("normal", (0.0, 0.0, 1.0))
-    if not any(normal):
+    x, y, z = shape.vector("normal", (0.0, 0.0, 1.0))
+    if not 1e-9 < np.linalg.norm((x, y, z)) < 1e9:
         raise shape.error("the <normal> of <plane> has no length; use for example 0 0 1")
     width, depth, _ = _positive(shape, "size", (*extent, 1.0))
-    return Geometry("plane", (width, depth, 0.0), (normal[0], normal[1], normal[2]))
+    return Geometry("plane", (width, depth, 0.0), (x, y, z))
 
 
 def _positive(shape: Element, what: str, size: tuple[float, ...]) -> tuple[float, float, float]:
-    if not all(0.0 < value < 1e9 for value in size):
+    if not all(value > 0.0 for value in size):
         raise shape.error(f"the {what} of <{shape.tag}> must be greater than zero")
+    if not all(_SMALLEST <= value <= _LARGEST for value in size):
+        raise shape.error(f"the {what} of <{shape.tag}> must be between {_SMALLEST:g} and {_LARGEST:g} metres")
     return size[0], size[1], size[2]
 
 
-def read_friction(collision: Element) -> float:
-    """Return the Coulomb friction coefficient of a `<collision>` (Gazebo's default is 1)."""
-    surface = collision.find("surface/friction/ode")
-    mu = surface.number("mu", 1.0) if surface is not None else 1.0
-    if mu < 0.0:
-        raise collision.error(f"friction <mu> must not be negative, got {mu}")
-    return min(mu, 1e6)
-
-
-def read_colour(visual: Element, diagnostics: Diagnostics) -> Rgba:
-    """Return the colour of a `<visual>`: diffuse, else ambient, else its Gazebo script, else grey."""
-    transparency = min(1.0, max(0.0, visual.number("transparency", 0.0)))
-    material = visual.find("material")
-    red, green, blue, alpha = 0.7, 0.7, 0.7, 1.0
-    if material is not None:
-        stated = material.find("diffuse") or material.find("ambient")
-        script = material.text_of("script/name")
-        if stated is not None and stated.text:
-            words = stated.text.split()
-            values = stated.floats(4 if len(words) == 4 else 3)
-            red, green, blue = (min(1.0, max(0.0, value)) for value in values[:3])
-            alpha = min(1.0, max(0.0, values[3])) if len(values) == 4 else 1.0
-        elif script:
-            word = script.rsplit("/", 1)[-1].lower()
-            if word in _SCRIPT_COLOURS:
-                red, green, blue = _SCRIPT_COLOURS[word]
-            else:
-                hint = nearest(word, _SCRIPT_COLOURS, listing="colours that are known are")
-                diagnostics.warn(material.where, f"material script '{script}' is not known, grey is used; {hint}")
-    return red, green, blue, alpha * (1.0 - transparency)
+@lru_cache(maxsize=64)
+def _cone(size: tuple[float, float, float]) -> TriangleMesh:
+    """Return a cone round z: the tip at half its length above the origin, the base as much below."""
+    angles = np.linspace(0.0, 2.0 * np.pi, _SIDES, endpoint=False)
+    low, high = -size[2] / 2.0, size[2] / 2.0
+    ring = np.stack((np.cos(angles) * size[0] / 2.0, np.sin(angles) * size[0] / 2.0, np.full(_SIDES, low)), axis=1)
+    vertices = np.concatenate((ring, [(0.0, 0.0, low), (0.0, 0.0, high)]))
+    here = np.arange(_SIDES, dtype=np.int32)
+    after = np.roll(here, -1)
+    base, tip = np.full(_SIDES, _SIDES, dtype=np.int32), np.full(_SIDES, _SIDES + 1, dtype=np.int32)
+    triangles = np.concatenate((np.stack((base, after, here), axis=1), np.stack((here, after, tip), axis=1)))
+    return TriangleMesh(vertices.astype(np.float32), triangles, (vertices,))

@@ -1,34 +1,32 @@
-"""`<link>` and what is fixed to it: inertia, collisions, visuals, sensors.
+"""`<link>` and what is fixed to it: inertia, collisions, visuals, sensors, lights.
 
 Part of the reader, called once per link with the scope that knows where the model's frames stand.
 """
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from gz.sim.errors import Diagnostics
 from gz.sim.pose import Pose
-from gz.sim.sdf.description import Collision, Inertial, Link, Model, Sensor, Visual
+from gz.sim.sdf.description import Collision, Link, Model, Sensor, Visual
 from gz.sim.sdf.element import Element
 from gz.sim.sdf.frames import Scope
-from gz.sim.sdf.geometry import read_colour, read_friction, read_geometry
+from gz.sim.sdf.geometry import read_geometry
+from gz.sim.sdf.inertia import WATER, automatic_inertial, is_automatic, read_inertial
+from gz.sim.sdf.lights import read_light
+from gz.sim.sdf.materials import read_bitmask, read_colour, read_friction
 
 
 def read_link(element: Element, scope: Scope, model: Model, diagnostics: Diagnostics) -> Link:
     """Return the link; its pose is in the frame of `model`, the poses of its parts in the link's own
     frame.
     """
-    link = Link(element.name, scope.pose_of(element.name, element), element)
+    link = Link(element.name, scope.pose_of(element.name, element), element, static=model.static)
     link.gravity = element.flag("gravity", True)
     link.self_collide = element.flag("self_collide", False) or model.self_collide
-    inertial = element.find("inertial")
-    if inertial is not None:
-        link.inertial = _inertial(inertial, _part_pose(inertial, link, scope), model.static)
     names: set[tuple[str, str]] = set()
-    for part in element.all("collision", "visual", "sensor"):
+    for part in element.all("collision", "visual", "sensor", "light"):
         if not part.name:
             raise part.error(f"<{part.tag}> needs a name attribute")
         if (part.tag, part.name) in names:
@@ -36,18 +34,49 @@ def read_link(element: Element, scope: Scope, model: Model, diagnostics: Diagnos
         names.add((part.tag, part.name))
         if part.tag == "sensor":
             link.sensors.append(_sensor(part, link, model, scope, diagnostics))
-            continue
-        geometry = read_geometry(part, diagnostics)
-        if geometry is None:
-            continue
-        pose = _part_pose(part, link, scope)
-        if part.tag == "collision":
-            bitmask = _bitmask(part)
-            density = part.number("density", 1000.0)
-            link.collisions.append(Collision(part.name, pose, geometry, part, read_friction(part), bitmask, density))
+        elif part.tag == "light":
+            link.lights.append(read_light(part, _part_pose(part, link, scope), diagnostics))
         else:
-            link.visuals.append(Visual(part.name, pose, geometry, part, read_colour(part, diagnostics)))
+            _add_shape(part, link, model, scope, diagnostics)
+    inertial = element.find("inertial")
+    if inertial is not None:
+        pose = _part_pose(inertial, link, scope)
+        if is_automatic(inertial) and not model.static:
+            link.inertial = automatic_inertial(inertial, link.collisions, diagnostics)
+        elif not is_automatic(inertial):
+            link.inertial = read_inertial(inertial, pose, model.static)
+    _warn_of_what_is_missing(element, model, diagnostics)
     return link
+
+
+def _add_shape(part: Element, link: Link, model: Model, scope: Scope, diagnostics: Diagnostics) -> None:
+    geometry = read_geometry(part, not model.static, diagnostics)
+    if geometry is None:
+        return
+    pose = _part_pose(part, link, scope)
+    position = part.find("geometry/heightmap/pos")
+    if geometry.kind == "heightmap" and position is not None and position.text:
+        pose = pose * Pose(position.floats(3))
+    if not np.max(np.abs(pose.position)) < 1e9:
+        raise part.error(f"<{part.tag}> '{part.name}' stands more than 1e9 m away from its link")
+    if part.tag == "collision":
+        friction = read_friction(part, diagnostics)
+        density = part.number("density", WATER)
+        link.collisions.append(Collision(part.name, pose, geometry, part, friction, read_bitmask(part), density))
+    else:
+        link.visuals.append(Visual(part.name, pose, geometry, part, read_colour(part, diagnostics)))
+
+
+def _warn_of_what_is_missing(element: Element, model: Model, diagnostics: Diagnostics) -> None:
+    """Report what a link asks for and does not get."""
+    kinematic = element.find("kinematic")
+    if kinematic is not None and element.flag("kinematic", False) and not model.static:
+        diagnostics.warn(kinematic.where, f"link '{element.name}' is not held kinematic, forces move it; use <static>")
+    if element.find("inertial/fluid_added_mass") is not None:
+        diagnostics.warn(element.where, f"<fluid_added_mass> of link '{element.name}' is ignored: there are no fluids")
+    for part in element.all("projector", "audio_source", "audio_sink", "battery", "particle_emitter"):
+        text = f"<{part.tag}> is not simulated here, link '{element.name}' goes without"
+        diagnostics.warn(part.where, text)
 
 
 def _part_pose(element: Element, link: Link, scope: Scope) -> Pose:
@@ -59,48 +88,6 @@ def _part_pose(element: Element, link: Link, scope: Scope) -> Pose:
     if not base or base == link.name:
         return child.pose()
     return link.pose.inverse() * scope.pose_of(base, child) * child.pose()
-
-
-def _inertial(element: Element, pose: Pose, static: bool) -> Inertial:
-    mass = element.number("mass", 1.0)
-    automatic = element.attributes.get("auto", "false") in ("true", "1")
-    if not automatic and not static and not (0.0 < mass < 1e12):
-        raise element.error(f"<mass> must be greater than zero, got {element.text_of('mass')}")
-    inertia = element.find("inertia")
-    values = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]
-    if inertia is not None:
-        values = [
-            inertia.number(tag, default)
-            for tag, default in zip(("ixx", "iyy", "izz", "ixy", "ixz", "iyz"), values, strict=True)
-        ]
-        if not all(map(math.isfinite, values)):
-            raise inertia.error("<inertia> must be finite")
-        if not automatic and not static:
-            _check_inertia(inertia, values)
-    ixx, iyy, izz, ixy, ixz, iyz = values
-    return Inertial(mass, (ixx, iyy, izz, ixy, ixz, iyz), pose, automatic)
-
-
-def _check_inertia(element: Element, values: list[float]) -> None:
-    ixx, iyy, izz, ixy, ixz, iyz = values
-    small, middle, large = np.linalg.eigvalsh(np.array(((ixx, ixy, ixz), (ixy, iyy, iyz), (ixz, iyz, izz))))
-    if small <= 0.0:
-        raise element.error(
-            f"<inertia> is not that of a body: its smallest principal moment is {small:.3g}, not positive"
-        )
-    if small + middle < large * (1.0 - 1e-3):
-        raise element.error(
-            "<inertia> is not that of a body: the two smaller principal moments "
-            f"({small:.3g} + {middle:.3g}) must add up to at least the largest ({large:.3g})"
-        )
-
-
-def _bitmask(collision: Element) -> int:
-    text = collision.text_of("surface/contact/collide_bitmask", "0xFF")
-    try:
-        return int(text, 0) & 0x7FFFFFFF
-    except ValueError:
-        raise collision.error(f"<collide_bitmask> must be a whole number such as 0x01, got '{text}'") from None
 
 
 def _sensor(element: Element, link: Link, model: Model, scope: Scope, diagnostics: Diagnostics) -> Sensor:

@@ -187,11 +187,10 @@ def test_a_model_that_includes_itself_is_refused(tmp_path: Path, monkeypatch: py
 
 def test_shapes_that_are_not_built_are_named(load_text: Callable[..., World]) -> None:
     world = load_text(
-        "<model name='m'><static>1</static><link name='l'><visual name='v'><geometry><mesh>"
-        "<uri>a.dae</uri></mesh>"
+        "<model name='m'><static>1</static><link name='l'><visual name='v'><geometry><image><uri>a.png</uri></image>"
         "</geometry></visual></link></model>"
     )
-    assert any("<mesh> geometry is not simulated" in warning for warning in world.warnings)
+    assert any("<image> geometry is not simulated" in warning for warning in world.warnings)
 
 
 @settings(suppress_health_check=[HealthCheck.too_slow], deadline=None, max_examples=150)

@@ -1,0 +1,154 @@
+"""Shapes of links become MuJoCo geoms: collisions in group 3, visuals in group 1.
+
+`builder` calls it for every link. Names: collision `model::link::name`, visual `model::link::name#visual`. A collision
+that is not convex is several geoms: the first has the name, the others `name#1`, `name#2`... Meshes that are the same
+in the description are one mesh in MuJoCo.
+"""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+
+from gz.sim.errors import Diagnostics
+from gz.sim.physics import recipe
+from gz.sim.pose import Pose, Vector, quaternion_between
+from gz.sim.sdf.description import Collision, Geometry, TriangleMesh, Visual, WorldDescription
+
+COLLISION_GROUP = 3
+VISUAL_GROUP = 1
+SITE_GROUP = 5
+VISUAL_SUFFIX = "#visual"
+_UNDERGROUND = 1.0
+"""Thickness (m) of the ground below the lowest point of a heightmap."""
+_PLATE = 0.001
+"""Half thickness (m) of a plane that moves."""
+
+_TYPES = {
+    "box": mujoco.mjtGeom.mjGEOM_BOX,
+    "sphere": mujoco.mjtGeom.mjGEOM_SPHERE,
+    "cylinder": mujoco.mjtGeom.mjGEOM_CYLINDER,
+    "capsule": mujoco.mjtGeom.mjGEOM_CAPSULE,
+    "ellipsoid": mujoco.mjtGeom.mjGEOM_ELLIPSOID,
+    "plane": mujoco.mjtGeom.mjGEOM_PLANE,
+}
+
+
+def geom_names(name: str, part: Collision | Visual) -> list[str]:
+    """Return the names of the geoms of a part; `name` is `model::link::part`."""
+    if isinstance(part, Visual):
+        return [name + VISUAL_SUFFIX]
+    mesh = part.geometry.mesh
+    count = len(mesh.pieces) if mesh is not None and mesh.pieces else 1
+    return [name, *(f"{name}#{number}" for number in range(1, count))]
+
+
+class Geoms:
+    """Adds the geoms of one spec; knows the friction ranks of the world and the meshes it already has."""
+
+    def __init__(self, spec: mujoco.MjSpec, world: WorldDescription, diagnostics: Diagnostics) -> None:
+        self._spec = spec
+        self._diagnostics = diagnostics
+        self._solref = recipe.contact_solref(world.step_size_ns * 1e-9)
+        collisions = [c for model in world.models for link in model.links for c in link.collisions]
+        self._ranks = recipe.friction_ranks(collision.mu for collision in collisions)
+        self._meshes: dict[tuple[TriangleMesh, int], str] = {}
+        self._fields: dict[TriangleMesh, str] = {}
+
+    def add_collision(
+        self, body: mujoco.MjsBody, name: str, base: Pose, part: Collision, *, wheel: bool, moving: bool
+    ) -> None:
+        """Add a collision whose link stands at `base` in the body; the cylinder of a driven `wheel` becomes an
+        ellipsoid.
+        """
+        geometry = part.geometry
+        pose = base * part.pose
+        if wheel and geometry.kind == "cylinder":
+            # One contact point in the wheel's middle plane: the wheel separation is then exact.
+            geometry = Geometry("ellipsoid", geometry.size)
+        if geometry.kind == "plane" and moving:
+            text = f"a plane cannot move; collision '{part.name}' becomes a thin box"
+            self._diagnostics.warn(part.element.where, text)
+        names = geom_names(name, part)
+        for number, each in enumerate(names):
+            geom = self._add(body, each, pose, geometry, moving, piece=number)
+            if geometry.kind == "plane" and not moving:
+                geom.size = (0.0, 0.0, 1.0)  # infinite
+            geom.group = COLLISION_GROUP
+            geom.contype = geom.conaffinity = part.bitmask
+            geom.solref = self._solref
+            geom.priority = self._ranks[part.mu]
+            geom.condim = 3 if part.mu > 0.0 else 1
+            geom.friction = (max(part.mu, 1e-6), 0.005, 0.0001)
+
+    def add_visual(self, body: mujoco.MjsBody, name: str, base: Pose, part: Visual, *, moving: bool) -> None:
+        """Add a visual whose link stands at `base` in the body; it touches nothing and weighs nothing."""
+        geom = self._add(body, name + VISUAL_SUFFIX, base * part.pose, part.geometry, moving, piece=-1)
+        geom.group = VISUAL_GROUP
+        geom.contype = geom.conaffinity = 0
+        geom.rgba = part.rgba
+
+    def _add(
+        self, body: mujoco.MjsBody, name: str, pose: Pose, geometry: Geometry, moving: bool, *, piece: int
+    ) -> mujoco.MjsGeom:
+        """Add the bare shape: of a mesh the convex `piece`, or (-1) its whole surface."""
+        if geometry.heights is not None and geometry.mesh is not None:
+            field = self._fields.get(geometry.mesh) or self._add_field(geometry.mesh, geometry)
+            lift = Pose((0.0, 0.0, float(geometry.heights.min())))
+            geom = _placed(body, name, pose * lift, mujoco.mjtGeom.mjGEOM_HFIELD)
+            geom.hfieldname = field
+        elif geometry.mesh is not None:
+            key = (geometry.mesh, piece)
+            mesh = self._meshes.get(key) or self._add_mesh(key)
+            geom = _placed(body, name, pose, mujoco.mjtGeom.mjGEOM_MESH)
+            geom.meshname = mesh
+        elif geometry.kind == "plane":
+            pose = pose * Pose(quaternion=quaternion_between((0.0, 0.0, 1.0), geometry.normal))
+            x, y = geometry.size[0] / 2.0, geometry.size[1] / 2.0
+            geom = _placed(body, name, pose, mujoco.mjtGeom.mjGEOM_BOX if moving else mujoco.mjtGeom.mjGEOM_PLANE)
+            geom.size = (x, y, _PLATE if moving else 1.0)
+        else:
+            geom = _placed(body, name, pose, _TYPES[geometry.kind])
+            geom.size = _half_sizes(geometry)
+        geom.mass = 0.0  # masses are the links'
+        return geom
+
+    def _add_mesh(self, key: tuple[TriangleMesh, int]) -> str:
+        surface, piece = key
+        name = self._meshes[key] = f"mesh{len(self._meshes)}"
+        mesh = self._spec.add_mesh(name=name)
+        # Surfaces may be open; as a shell none of them is refused.
+        mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
+        if piece >= 0:
+            mesh.uservert = surface.pieces[piece].ravel()
+            return name
+        vertices = surface.vertices.astype(np.float64)
+        while len(vertices) < 4:
+            vertices = np.concatenate((vertices, vertices[:1]))
+        mesh.uservert = vertices.ravel()
+        mesh.userface = surface.triangles.ravel()
+        return name
+
+    def _add_field(self, surface: TriangleMesh, geometry: Geometry) -> str:
+        heights = geometry.heights
+        assert heights is not None
+        name = self._fields[surface] = f"heightmap{len(self._fields)}"
+        low, high = float(heights.min()), float(heights.max())
+        size = (geometry.size[0] / 2.0, geometry.size[1] / 2.0, max(high - low, 1e-6), _UNDERGROUND)
+        field = self._spec.add_hfield(name=name, size=size, nrow=heights.shape[0], ncol=heights.shape[1])
+        # MuJoCo wants them from 0 to 1.
+        field.userdata = ((heights - low) / max(high - low, 1e-6)).ravel()
+        return name
+
+
+def _placed(body: mujoco.MjsBody, name: str, pose: Pose, kind: mujoco.mjtGeom) -> mujoco.MjsGeom:
+    return body.add_geom(name=name, type=kind, pos=pose.position, quat=pose.quaternion)
+
+
+def _half_sizes(geometry: Geometry) -> Vector:
+    x, y, z = (value / 2.0 for value in geometry.size)
+    if geometry.kind == "sphere":
+        return np.array((x, 0.0, 0.0))
+    if geometry.kind in ("cylinder", "capsule"):
+        return np.array((x, z, 0.0))
+    return np.array((x, y, z))

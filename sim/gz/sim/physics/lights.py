@@ -1,0 +1,36 @@
+"""Lights of the world and of links become MuJoCo lights; cameras that cast rays read them there.
+
+`builder` calls it. A light of a link is called `model::link::light`, one of the world by its name.
+"""
+
+from __future__ import annotations
+
+import math
+
+import mujoco
+import numpy as np
+
+from gz.sim.pose import Pose, matrix
+from gz.sim.sdf.description import Light
+
+_TYPES = {
+    "directional": mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
+    "point": mujoco.mjtLightType.mjLIGHT_POINT,
+    "spot": mujoco.mjtLightType.mjLIGHT_SPOT,
+}
+
+
+def add_light(body: mujoco.MjsBody, name: str, base: Pose, light: Light) -> None:
+    """Add a light to a body in which its holder stands at `base`."""
+    pose = base * light.pose
+    made = body.add_light(name=name, pos=pose.position)
+    made.type = _TYPES[light.kind]
+    made.dir = matrix(pose.quaternion) @ np.asarray(light.direction)
+    made.diffuse = np.asarray(light.diffuse) * light.intensity
+    made.specular = np.asarray(light.specular) * light.intensity
+    made.castshadow = light.cast_shadows
+    made.active = light.on
+    made.range = light.range
+    made.attenuation = (light.constant, light.linear, light.quadratic)
+    if light.kind == "spot" and light.outer_angle > 0.0:
+        made.cutoff = min(90.0, math.degrees(light.outer_angle / 2.0))

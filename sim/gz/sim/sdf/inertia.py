@@ -1,0 +1,163 @@
+"""`<inertial>`: mass, inertia and centre of mass, as stated or (`auto="true"`) as those of the collisions.
+
+Part of the reader, called by `gz.sim.sdf.links` once the collisions of a link are known.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gz.sim.errors import Diagnostics
+from gz.sim.pose import Pose, matrix
+from gz.sim.sdf.description import Collision, Geometry, Inertial, TriangleMesh
+from gz.sim.sdf.element import Element
+
+Matrix = NDArray[np.float64]
+WATER = 1000.0
+"""SDF's default density (kg/m^3)."""
+
+
+def is_automatic(element: Element) -> bool:
+    """Tell whether an `<inertial>` asks for the inertia of the collisions."""
+    return element.attributes.get("auto", "false").lower() in ("true", "1")
+
+
+def read_inertial(element: Element, pose: Pose, static: bool) -> Inertial:
+    """Return what an `<inertial>` states; raises `SdfError` for a body that cannot be, unless it never moves."""
+    mass = element.number("mass", 1.0)
+    if not static and not 0.0 < mass < 1e12:
+        raise (element.find("mass") or element).error(f"<mass> must be greater than zero, got {mass:g}")
+    inertia = element.find("inertia")
+    values = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]
+    if inertia is not None:
+        tags = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+        values = [inertia.number(tag, default) for tag, default in zip(tags, values, strict=True)]
+        if not all(abs(value) < 1e15 for value in values):
+            raise inertia.error("<inertia> must be finite")
+        if not static:
+            _check(inertia, values)
+    ixx, iyy, izz, ixy, ixz, iyz = values
+    return Inertial(mass, (ixx, iyy, izz, ixy, ixz, iyz), pose)
+
+
+def _check(element: Element, values: list[float]) -> None:
+    small, middle, large = np.linalg.eigvalsh(_symmetric(values))
+    if small <= 0.0:
+        raise element.error(
+            f"<inertia> is not that of a body: its smallest principal moment is {small:.3g}, not positive"
+        )
+    if small + middle < large * (1.0 - 1e-3):
+        raise element.error(
+            "<inertia> is not that of a body: the two smaller principal moments "
+            f"({small:.3g} + {middle:.3g}) must add up to at least the largest ({large:.3g})"
+        )
+
+
+def _symmetric(values: Sequence[float]) -> Matrix:
+    ixx, iyy, izz, ixy, ixz, iyz = values
+    return np.array(((ixx, ixy, ixz), (ixy, iyy, iyz), (ixz, iyz, izz)))
+
+
+def automatic_inertial(element: Element, collisions: Sequence[Collision], diagnostics: Diagnostics) -> Inertial:
+    """Return the inertia of the collisions, each of its own density (kg/m^3): that of the collision, else that of the
+    link's `<inertial>`, else water's. A `<mass>` beside `auto` scales the whole.
+    """
+    link_density = element.number("density", WATER)
+    mass, moment = 0.0, np.zeros(3)
+    bodies: list[tuple[float, NDArray[np.float64], Matrix]] = []
+    for collision in collisions:
+        body = solid(collision.geometry)
+        if body is None:
+            diagnostics.warn(
+                collision.element.where,
+                f"collision '{collision.name}' is a {collision.geometry.kind}, which has no volume; the automatic "
+                "inertia leaves it out",
+            )
+            continue
+        volume, centre, inertia = body
+        density = collision.element.number("density", link_density)
+        if not 0.0 < density < 1e9:
+            raise collision.element.error(f"<density> must be greater than zero, got {density:g}")
+        turn = matrix(collision.pose.quaternion)
+        place = collision.pose.transform(centre)
+        bodies.append((density * volume, place, density * (turn @ inertia @ turn.T)))
+        mass += density * volume
+        moment += density * volume * place
+    if not bodies:
+        diagnostics.warn(
+            element.where, "auto='true' finds no collision with a volume; mass 1 kg and inertia 1 are used"
+        )
+        return Inertial()
+    centre = moment / mass
+    total = np.zeros((3, 3))
+    for part, place, inertia in bodies:
+        away = place - centre
+        total += inertia + part * (float(away @ away) * np.eye(3) - np.outer(away, away))
+    stated = element.number("mass", mass)
+    if not 0.0 < stated < 1e12 or not np.linalg.eigvalsh(total)[0] > 0.0:
+        raise element.error(f"<mass> must be greater than zero, got {stated:g}")
+    total *= stated / mass
+    moments = (total[0, 0], total[1, 1], total[2, 2], total[0, 1], total[0, 2], total[1, 2])
+    ixx, iyy, izz, ixy, ixz, iyz = (float(value) for value in moments)
+    return Inertial(stated, (ixx, iyy, izz, ixy, ixz, iyz), Pose(centre))
+
+
+def solid(geometry: Geometry) -> tuple[float, NDArray[np.float64], Matrix] | None:
+    """Return volume (m^3), centre of mass (m) and inertia about it for density 1 (kg/m^3 m^5) of a shape, in its own
+    frame; None for what has no volume.
+    """
+    x, y, z = geometry.size
+    centre = np.zeros(3)
+    if geometry.kind == "box":
+        volume = x * y * z
+        moments = np.array((y * y + z * z, x * x + z * z, x * x + y * y)) / 12.0
+    elif geometry.kind in ("sphere", "ellipsoid"):
+        volume = math.pi / 6.0 * x * y * z
+        moments = np.array((y * y + z * z, x * x + z * z, x * x + y * y)) / 20.0
+    elif geometry.kind == "cylinder":
+        radius = x / 2.0
+        volume = math.pi * radius**2 * z
+        across = radius**2 / 4.0 + z * z / 12.0
+        moments = np.array((across, across, radius**2 / 2.0))
+    elif geometry.kind == "cone":
+        radius = x / 2.0
+        volume = math.pi * radius**2 * z / 3.0
+        across = 3.0 / 20.0 * radius**2 + 3.0 / 80.0 * z * z
+        moments = np.array((across, across, 0.3 * radius**2))
+        centre = np.array((0.0, 0.0, -z / 4.0))
+    elif geometry.kind == "capsule":
+        radius = x / 2.0
+        middle, caps = math.pi * radius**2 * z, 4.0 / 3.0 * math.pi * radius**3
+        volume = middle + caps
+        across = middle * (radius**2 / 4.0 + z * z / 12.0)
+        across += caps * (0.4 * radius**2 + z * z / 4.0 + 0.375 * z * radius)
+        along = middle * radius**2 / 2.0 + caps * 0.4 * radius**2
+        return volume, centre, np.diag((across, across, along))
+    elif geometry.mesh is not None and geometry.kind != "heightmap":
+        return _mesh_solid(geometry.mesh)
+    else:
+        return None
+    return volume, centre, np.diag(volume * moments)
+
+
+def _mesh_solid(mesh: TriangleMesh) -> tuple[float, NDArray[np.float64], Matrix] | None:
+    """Sum the tetrahedra between the triangles and the middle of the mesh (exact for a closed surface)."""
+    vertices = mesh.vertices.astype(np.float64)
+    middle = vertices.mean(axis=0)
+    corners = vertices[mesh.triangles] - middle
+    signed = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6.0
+    volume = float(signed.sum())
+    if abs(volume) < 1e-15:
+        return None
+    together = corners.sum(axis=1)
+    centre = np.einsum("i,ij->j", signed, together) / (4.0 * volume)
+    second = np.einsum("i,ij,ik->jk", signed, together, together)
+    second += np.einsum("i,inj,ink->jk", signed, corners, corners)
+    second = second / 20.0 - volume * np.outer(centre, centre)
+    inertia = np.trace(second) * np.eye(3) - second
+    # A surface that is inside out has the same body with the sign turned.
+    return abs(volume), middle + centre, inertia * math.copysign(1.0, volume)

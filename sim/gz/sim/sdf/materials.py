@@ -1,0 +1,155 @@
+"""`<material>` and `<surface>`: what a `<visual>` looks like and how a `<collision>` rubs.
+
+Part of the reader, called by `gz.sim.sdf.links`. What MuJoCo cannot carry (textures, direction-dependent friction,
+bouncing) is reported.
+"""
+
+from __future__ import annotations
+
+import math
+
+from gz.sim.errors import Diagnostics, nearest
+from gz.sim.sdf.element import Element
+
+Rgba = tuple[float, float, float, float]
+GREY: Rgba = (0.7, 0.7, 0.7, 1.0)
+_SCRIPT_COLOURS: dict[str, tuple[float, ...]] = {
+    "grey": (0.7, 0.7, 0.7),
+    "gray": (0.7, 0.7, 0.7),
+    "darkgrey": (0.175, 0.175, 0.175),
+    "darkgray": (0.175, 0.175, 0.175),
+    "white": (1.0, 1.0, 1.0),
+    "flatblack": (0.1, 0.1, 0.1),
+    "black": (0.0, 0.0, 0.0),
+    "red": (1.0, 0.0, 0.0),
+    "redbright": (0.87, 0.26, 0.07),
+    "green": (0.0, 1.0, 0.0),
+    "blue": (0.0, 0.0, 1.0),
+    "skyblue": (0.13, 0.44, 0.7),
+    "yellow": (1.0, 1.0, 0.0),
+    "zincyellow": (0.97, 0.95, 0.2),
+    "darkyellow": (0.7, 0.7, 0.0),
+    "orange": (1.0, 0.51, 0.0),
+    "purple": (1.0, 0.0, 1.0),
+    "turquoise": (0.0, 1.0, 1.0),
+    "indigo": (0.33, 0.0, 0.5),
+    "gold": (0.8, 0.65, 0.2),
+    "whiteglow": (1.0, 1.0, 1.0),
+    "redglow": (1.0, 0.0, 0.0),
+    "greenglow": (0.0, 1.0, 0.0),
+    "blueglow": (0.0, 0.0, 1.0),
+    "yellowglow": (1.0, 1.0, 0.0),
+    "purpleglow": (1.0, 0.0, 1.0),
+    "turquoiseglow": (0.0, 1.0, 1.0),
+    "turquoiseglowoutline": (0.0, 1.0, 1.0),
+    "redtransparent": (1.0, 0.0, 0.0, 0.5),
+    "greentransparent": (0.0, 1.0, 0.0, 0.5),
+    "bluetransparent": (0.0, 0.0, 1.0, 0.5),
+    "yellowtransparent": (1.0, 1.0, 0.0, 0.5),
+    "orangetransparent": (1.0, 0.51, 0.0, 0.5),
+    "darkmagentatransparent": (0.6, 0.0, 0.6, 0.5),
+    "greytransparent": (0.5, 0.5, 0.5, 0.5),
+    "blacktransparent": (0.0, 0.0, 0.0, 0.5),
+    "redtransparentoverlay": (1.0, 0.0, 0.0, 0.5),
+    "bluetransparentoverlay": (0.0, 0.0, 1.0, 0.5),
+    "lighton": (0.0, 1.0, 0.0),
+    "lightoff": (1.0, 0.0, 0.0),
+    "wood": (0.6, 0.45, 0.25),
+    "woodfloor": (0.55, 0.4, 0.25),
+    "woodpallet": (0.6, 0.45, 0.25),
+    "ceilingtiled": (0.85, 0.85, 0.82),
+    "paintedwall": (0.8, 0.78, 0.7),
+    "pioneerbody": (0.5, 0.0, 0.0),
+    "pioneer2body": (0.5, 0.0, 0.0),
+    "bricks": (0.55, 0.25, 0.2),
+    "road": (0.25, 0.25, 0.25),
+    "residential": (0.35, 0.35, 0.35),
+    "tarmac": (0.2, 0.2, 0.2),
+    "runway": (0.3, 0.3, 0.3),
+    "motorway": (0.25, 0.25, 0.25),
+    "pedestrian": (0.6, 0.58, 0.55),
+    "grass": (0.25, 0.5, 0.2),
+    "mud": (0.35, 0.25, 0.15),
+    "cloudysky": (0.7, 0.8, 0.9),
+    "checkerblue": (0.2, 0.3, 0.7),
+}
+
+
+def read_colour(visual: Element, diagnostics: Diagnostics) -> Rgba:
+    """Return the colour of a `<visual>`: diffuse, else ambient, else its Gazebo script, else grey."""
+    transparency = min(1.0, max(0.0, visual.number("transparency", 0.0)))
+    material = visual.find("material")
+    red, green, blue, alpha = GREY
+    if material is not None:
+        stated = material.find("diffuse") or material.find("ambient")
+        script = material.find("script")
+        if stated is not None and stated.text:
+            words = stated.text.split()
+            values = [_unit(value) for value in stated.floats(4 if len(words) == 4 else 3)]
+            red, green, blue = values[:3]
+            alpha = values[3] if len(values) == 4 else 1.0
+        elif script is not None and (script.text or script.text_of("name")):
+            red, green, blue, alpha = _script_colour(script, diagnostics)
+        if material.find("pbr/metal/albedo_map") or material.find("pbr/specular/albedo_map"):
+            text = "textures are not drawn, the plain colours of materials are (said once for the whole world)"
+            diagnostics.warn_once("textures", material.where, text)
+    return red, green, blue, alpha * (1.0 - transparency)
+
+
+def _unit(value: float) -> float:
+    return min(1.0, max(0.0, value))
+
+
+def _script_colour(script: Element, diagnostics: Diagnostics) -> Rgba:
+    """Return the colour that `<script><name>Gazebo/Red</name></script>` names; old files name it in `<script>`."""
+    name = script.text_of("name", script.text)
+    found = _SCRIPT_COLOURS.get(name.rsplit("/", 1)[-1].lower())
+    if found is not None:
+        return found[0], found[1], found[2], found[3] if len(found) == 4 else 1.0
+    if name.startswith("Gazebo/"):
+        hint = nearest(name.rsplit("/", 1)[-1].lower(), _SCRIPT_COLOURS, listing="colours that are known are")
+        diagnostics.warn(script.where, f"material script '{name}' is not known, grey is used; {hint}")
+    else:
+        text = f"material script '{name}' is a file of its own, which is not read; grey is used, give a <diffuse>"
+        diagnostics.warn(script.where, text)
+    return GREY
+
+
+def read_friction(collision: Element, diagnostics: Diagnostics) -> float:
+    """Return the Coulomb friction coefficient of a `<collision>` (Gazebo's default is 1)."""
+    surface = collision.find("surface/friction/ode")
+    mu = surface.number("mu", 1.0) if surface is not None else 1.0
+    if mu < 0.0:
+        raise (surface or collision).error(f"friction <mu> must not be negative, got {mu:g}")
+    if surface is not None:
+        _warn_of_directions(surface, mu, collision.name, diagnostics)
+    bounce = collision.find("surface/bounce")
+    if bounce is not None and bounce.number("restitution_coefficient", 0.0) > 0.0:
+        diagnostics.warn(bounce.where, f"<bounce> is not simulated, collision '{collision.name}' does not bounce")
+    return min(mu, 1e6)
+
+
+def _warn_of_directions(surface: Element, mu: float, name: str, diagnostics: Diagnostics) -> None:
+    mu2 = surface.number("mu2", mu)
+    if mu2 != mu:
+        text = f"friction is the same in all directions here: collision '{name}' uses <mu> {mu:g}, not <mu2> {mu2:g}"
+        diagnostics.warn(surface.where, text)
+    directed = surface.find("fdir1") is not None and any(surface.vector("fdir1", (0.0, 0.0, 0.0)))
+    if directed and (mu2 != mu or any(surface.number(tag, 0.0) for tag in ("slip1", "slip2"))):
+        text = f"<fdir1> of collision '{name}' is ignored: friction is the same in all directions here"
+        diagnostics.warn(surface.where, text)
+    for tag in ("slip1", "slip2"):
+        slip = surface.number(tag, 0.0)
+        if slip > 0.0 and math.isfinite(slip):
+            text = f"<{tag}> {slip:g} of collision '{name}' is ignored: wheels slip by their friction only"
+            diagnostics.warn(surface.where, text)
+            break
+
+
+def read_bitmask(collision: Element) -> int:
+    """Return the bits that decide which collisions can touch: those that have one in common."""
+    text = collision.text_of("surface/contact/collide_bitmask", "0xFF")
+    try:
+        return int(text, 0) & 0x7FFFFFFF
+    except ValueError:
+        raise collision.error(f"<collide_bitmask> must be a whole number such as 0x01, got '{text}'") from None

@@ -1,0 +1,84 @@
+"""`<mesh>` of a `<geometry>`: its file, scale and submesh become a surface of triangles.
+
+Part of the reader: `gz.sim.sdf.geometry` calls it, `gz.sim.sdf.meshes` reads the file, `gz.sim.sdf.convex` says what
+touches. Equal meshes (file, submesh, scale) are read once and shared.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+
+from gz.sim.errors import Diagnostics, ResourceError
+from gz.sim.sdf.convex import convex_pieces
+from gz.sim.sdf.description import Geometry, TriangleMesh
+from gz.sim.sdf.element import Element
+from gz.sim.sdf.meshes import read_mesh
+from gz.sim.sdf.resources import find_file
+
+_LARGEST = 1e6  # [m]
+
+
+def read_mesh_shape(shape: Element, owner: Element, moving: bool, diagnostics: Diagnostics) -> Geometry | None:
+    """Return the mesh of a `<collision>` or `<visual>`, or None after a warning when its file cannot be used."""
+    left_out = f"so <{owner.tag}> '{owner.name}' is left out"
+    uri = shape.text_of("uri")
+    if not uri:
+        diagnostics.warn(shape.where, f"<mesh> has no <uri>, {left_out}")
+        return None
+    scale = shape.vector("scale", (1.0, 1.0, 1.0))
+    if not all(1e-9 < abs(value) < 1e9 for value in scale):
+        raise shape.error(f"the <scale> of <mesh> must not be zero or infinite, got '{shape.text_of('scale')}'")
+    submesh = shape.find("submesh")
+    part = submesh.text_of("name") if submesh is not None else ""
+    center = submesh.flag("center", False) if submesh is not None else False
+    try:
+        path = find_file(uri, shape.folder)
+        stat = path.stat()
+        stamp = (stat.st_mtime_ns, stat.st_size)
+        hull = shape.attributes.get("optimization") == "convex_hull"
+        touching = "" if owner.tag != "collision" else "hull" if hull else "moving" if moving else "static"
+        mesh, fuller = _load(path, stamp, part, center, (scale[0], scale[1], scale[2]), touching)
+    except (ResourceError, OSError) as error:
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else error
+        diagnostics.warn((shape.find("uri") or shape).where, f"{reason}, {left_out}")
+        return None
+    extent = np.ptp(mesh.vertices, axis=0) if len(mesh.vertices) else np.zeros(3)
+    if not len(mesh.triangles) or not np.max(extent) > 0.0 or (touching and not mesh.pieces):
+        diagnostics.warn(shape.where, f"the mesh {path} has no surface, {left_out}")
+        return None
+    if not np.max(np.abs(mesh.vertices)) < _LARGEST:
+        diagnostics.warn(shape.where, f"the mesh {path} is larger than {_LARGEST:g} m, {left_out}; check its <scale>")
+        return None
+    if fuller:
+        text = f"<collision> '{owner.name}' touches as the convex hull of {path.name}, which is hollow or concave"
+        diagnostics.warn(shape.where, f"{text}; use several convex shapes")
+    return Geometry("mesh", (float(extent[0]), float(extent[1]), float(extent[2])), mesh=mesh)
+
+
+@lru_cache(maxsize=256)
+def _load(
+    path: Path,
+    _stamp: tuple[int, int],
+    submesh: str,
+    center: bool,
+    scale: tuple[float, float, float],
+    touching: str,
+) -> tuple[TriangleMesh, bool]:
+    """Read and scale a mesh; a changed file has another stamp and is read again."""
+    read = read_mesh(path, submesh, center)
+    vertices = np.asarray(read.vertices, dtype=np.float64) * np.array(scale)
+    triangles = np.asarray(read.triangles, dtype=np.int32)
+    if np.prod(np.sign(scale)) < 0.0:
+        triangles = triangles[:, ::-1]  # a mirrored surface would be inside out
+    pieces, fuller = (), False
+    if touching == "hull":
+        pieces, fuller = (vertices,), False
+    elif touching and np.all(np.isfinite(vertices)):
+        pieces, fuller = convex_pieces(vertices, triangles, moving=touching == "moving")
+    seen = vertices.astype(np.float32)
+    for array in (seen, triangles):
+        array.flags.writeable = False
+    return TriangleMesh(seen, triangles, pieces), fuller

@@ -1,0 +1,181 @@
+"""`<model>`: links, joints, frames, plugins and the models inside it, flattened into one `Model`.
+
+Part of the reader: `gz.sim.sdf.reader` calls it for every model of a world. Frames are resolved by
+`gz.sim.sdf.frames`, includes opened by `gz.sim.sdf.includes`.
+"""
+
+from __future__ import annotations
+
+from gz.sim.errors import Diagnostics
+from gz.sim.pose import Pose
+from gz.sim.sdf.description import Model, NestedModel, Plugin
+from gz.sim.sdf.element import Element
+from gz.sim.sdf.frames import Scope
+from gz.sim.sdf.includes import Includes, Opened, lifted
+from gz.sim.sdf.joints import check_mimics, read_joint
+from gz.sim.sdf.links import read_link
+
+Placed = tuple[Model, Scope, Pose, str]
+"""A model, its scope, the pose its file states and the frame that pose is given in."""
+_UNHEARD = {
+    "gripper": "grippers of Gazebo Classic are not simulated; use the DetachableJoint system",
+    "enable_wind": "",
+    "allow_auto_disable": "",
+}
+
+
+def pose_and_base(element: Element) -> tuple[Pose, str]:
+    """Return an element's own `<pose>` and the frame it is given in (empty: the default one)."""
+    pose = element.find("pose")
+    if pose is None:
+        return Pose(), ""
+    return pose.pose(), pose.attributes.get("relative_to", "") or pose.attributes.get("frame", "")
+
+
+def read_plugin(element: Element) -> Plugin:
+    """Return a `<plugin>`; raises `SdfError` when it names nothing."""
+    name, filename = element.name, element.attributes.get("filename", "")
+    if not name and not filename:
+        raise element.error("<plugin> needs filename and name, for example name='gz::sim::systems::DiffDrive'")
+    return Plugin(name, filename, element)
+
+
+class ModelReader:
+    """Reads the models of one world; holds what every level needs: the includes and where warnings go."""
+
+    def __init__(self, includes: Includes, diagnostics: Diagnostics) -> None:
+        self._includes = includes
+        self._diagnostics = diagnostics
+
+    def read(self, opened: Opened, static: bool = False) -> Placed:
+        """Return a model flattened, with its scope and where its file puts it; `static` holds it with its parent."""
+        element = opened.element
+        if not element.name:
+            raise element.error("<model> needs a name attribute")
+        static = static or element.flag("static", False)
+        model = Model(element.name, Pose(), element, static, element.flag("self_collide", False))
+        scope = Scope("__model__", element)
+        parts: list[Opened] = []
+        nested: list[tuple[str, Model]] = []
+        for part in self._parts(opened, static):
+            child = part.element
+            if child.tag == "model":
+                inner, inner_scope, pose, base = self.read(part, static)
+                scope.add(child.name, part.place, pose=pose, relative_to=base, nested=inner_scope)
+                nested.append((child.name, inner))
+            elif child.tag in ("link", "frame", "joint"):
+                add_frame(scope, child)
+                parts.append(part)
+            elif child.tag == "plugin":
+                model.plugins.append(read_plugin(child))
+            elif child.tag == "light":
+                self._diagnostics.warn(
+                    child.where, f"light '{child.name}' belongs into a <link> or the world, it is left out"
+                )
+            elif _UNHEARD.get(child.tag):
+                self._diagnostics.warn(child.where, _UNHEARD[child.tag])
+        for part in parts:
+            if part.element.tag == "link":
+                model.links.append(read_link(part.element, scope, model, self._diagnostics))
+        for name, inner in nested:
+            _flatten(model, inner, name, scope.pose_of(name, inner.element))
+        if model.links:
+            model.canonical_link = scope.canonical_link(element)
+        for part in parts:
+            if part.element.tag == "joint" and not self._to_nothing(part.element, scope):
+                model.joints.append(read_joint(part.element, scope, model, part.version, self._diagnostics))
+        check_mimics(model)
+        pose, base = pose_and_base(element)
+        placement = element.attributes.get("placement_frame", "")
+        if placement:
+            pose = pose * scope.pose_of(placement, element).inverse()
+        return model, scope, pose, base
+
+    def _parts(self, opened: Opened, static: bool) -> list[Opened]:
+        """Return the children of a model with their includes opened, those of merged includes among them."""
+        found: list[Opened] = []
+        for child in opened.element.children:
+            part = self._includes.open(child, opened.version, opened.chain)
+            if part is None:
+                continue
+            if not part.merged:
+                found.append(part)
+                continue
+            if part.element.tag != "model":
+                raise child.error(f"a <{part.element.tag}> cannot be merged into a model; leave merge away")
+            found.extend(self.merged(part, static))
+        return found
+
+    def merged(self, part: Opened, static: bool = False, *, world: bool = False) -> list[Opened]:
+        """Return the children of a merged include, which stand beside it in a model or (`world`) in the world."""
+        if part.element.tag == "world":
+            children = lifted(part, Pose(), "", "", world=True)
+        else:
+            # Read once for where its frame stands; the children are read again in their new place.
+            model, _, pose, base = self.read(part, static)
+            children = lifted(part, pose, base, model.canonical_link, world=world)
+        made: list[Opened] = []
+        for child in children:
+            inner = self._includes.open(child, part.version, part.chain)
+            if inner is not None:
+                made.extend(self.merged(inner, static, world=world) if inner.merged else [inner])
+        return made
+
+    def _to_nothing(self, joint: Element, scope: Scope) -> bool:
+        """Tell (and say) whether a joint leads to a model whose include was skipped."""
+        return joint_to_skipped(joint, scope, self._includes, self._diagnostics)
+
+
+def joint_to_skipped(joint: Element, scope: Scope, includes: Includes, diagnostics: Diagnostics) -> bool:
+    """Tell, after a warning, whether a joint leads to a model whose include was skipped."""
+    for role in ("parent", "child"):
+        first = joint.text_of(role).split("::")[0]
+        if first in includes.skipped and first not in scope.frames:
+            diagnostics.warn(joint.where, f"joint '{joint.name}' is skipped with the include '{first}'")
+            return True
+    return False
+
+
+def add_frame(scope: Scope, element: Element) -> None:
+    """Tell the scope about a link, frame or joint."""
+    pose, base = pose_and_base(element)
+    if element.tag == "link":
+        scope.add(element.name, element, pose=pose, relative_to=base, is_link=True)
+    elif element.tag == "frame":
+        attached = element.attributes.get("attached_to", "")
+        scope.add(element.name, element, pose=pose, relative_to=base or attached, attached_to=attached)
+    else:
+        child = element.text_of("child")
+        scope.add(element.name, element, pose=pose, relative_to=base or child, attached_to=child)
+
+
+def _flatten(model: Model, inner: Model, name: str, pose: Pose) -> None:
+    """Put a nested model's parts into its parent, with `name::` before every name."""
+    for link in inner.links:
+        link.name = f"{name}::{link.name}"
+        link.pose = pose * link.pose
+        link.self_collide = link.self_collide or inner.self_collide
+        for sensor in link.sensors:
+            sensor.link = link.name
+            sensor.model = model.name
+        model.links.append(link)
+    canonical = f"{name}::{inner.canonical_link}" if inner.canonical_link else ""
+    model.nested.append(NestedModel(name, pose, inner.element, canonical))
+    for nested in inner.nested:
+        canonical = f"{name}::{nested.canonical_link}" if nested.canonical_link else ""
+        model.nested.append(NestedModel(f"{name}::{nested.name}", pose * nested.pose, nested.element, canonical))
+    for joint in inner.joints:
+        joint.name = f"{name}::{joint.name}"
+        joint.child = f"{name}::{joint.child}"
+        joint.parent = joint.parent if joint.parent == "world" else f"{name}::{joint.parent}"
+        if joint.gearbox_reference not in ("", "world"):
+            joint.gearbox_reference = f"{name}::{joint.gearbox_reference}"
+        for axis in (joint.axis, joint.axis2):
+            if axis is not None and axis.mimic is not None:
+                axis.mimic.joint = f"{name}::{axis.mimic.joint}"
+        for sensor in joint.sensors:
+            sensor.joint, sensor.link, sensor.model = joint.name, joint.child, model.name
+        model.joints.append(joint)
+    for plugin in inner.plugins:
+        plugin.scope = f"{name}::{plugin.scope}" if plugin.scope else name
+        model.plugins.append(plugin)
