@@ -129,7 +129,8 @@ def _stl(path: Path, data: bytes) -> tuple[Vertices, list[_Part]]:
     expected = _STL_HEADER + count * _STL_FACET.itemsize
     if count >= 0 and expected <= len(data) and (expected == len(data) or not _looks_ascii(data)):
         facets = np.frombuffer(data, _STL_FACET, count, _STL_HEADER)
-        corners = facets["corners"].astype(np.float64).reshape(-1, 3)
+        with np.errstate(invalid="ignore"):  # a damaged number may be a signalling NaN; it is refused below
+            corners = facets["corners"].astype(np.float64).reshape(-1, 3)
         indices = np.arange(3 * count, dtype=np.int32).reshape(-1, 3)
         return corners, [_Part((), indices)]  # type: ignore[arg-type]
     if _looks_ascii(data):

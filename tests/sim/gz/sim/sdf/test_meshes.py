@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from gz.sim.errors import ResourceError
@@ -180,6 +180,7 @@ def test_the_three_writings_of_a_mesh_are_read_alike(tmp_path: Path, corners: li
 
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=150)
 @given(st.sampled_from(["stl", "obj", "ascii"]), st.integers(0, 400), st.integers(0, 30), st.binary(max_size=6))
+@example("stl", 168, 0, b"\x81\x7f")
 def test_any_damage_is_read_or_refused(tmp_path: Path, kind: str, start: int, length: int, put: bytes) -> None:
     whole = {
         "stl": binary_stl(CORNERS[TETRAHEDRON]),
