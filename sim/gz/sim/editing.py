@@ -20,6 +20,7 @@ from gz.sim.physics.builder import scoped
 from gz.sim.pose import Pose, multiply, rotate
 from gz.sim.sdf.description import Collision, Light, Model, Visual, WorldDescription
 from gz.sim.sdf.reader import read_model
+from gz.sim.spherical_coordinates import SphericalCoordinates
 from gz.sim.system_manager import SystemManager, refuse_inside_step
 
 if TYPE_CHECKING:
@@ -250,6 +251,12 @@ class Editing:
             if attribute not in known_fields:
                 raise SimError(f"a light has no {attribute}; {nearest(attribute, known_fields)}")
             self._change(light, attribute, value)
+        self._rebuild()
+
+    def set_spherical_coordinates(self, coordinates: SphericalCoordinates) -> None:
+        """Say where on a planet the world lies."""
+        refuse_inside_step(self.requests.inside_step, "move to another place")
+        self._change(self.description, "spherical_coordinates", coordinates)
         self._rebuild()
 
     def set_colour(self, visual: Visual, rgba: tuple[float, float, float, float]) -> None:

@@ -1,0 +1,69 @@
+"""UserCommands: creates, removes, moves and changes what is in a running world; a plugin of the world.
+
+Services `/world/W/create`, `create_multiple`, `remove`, `set_pose`, `set_pose_vector`, `light_config`, `visual_config`,
+`set_physics`, `set_spherical_coordinates`, `enable_collision`, `disable_collision` and `wheel_slip`. As in Gazebo each
+answers true as soon as the command is queued, and each has a twin `/blocking` that answers when it was done. What goes
+wrong is logged in one sentence. The commands themselves are in `entity_commands` and `property_commands`; a text is
+read in the transport's thread, so that the world goes on meanwhile, and the world is changed between two steps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from gz.sim.errors import LOG, SimError
+from gz.sim.requests import logged
+from gz.sim.sdf.description import Model, Plugin
+from gz.sim.systems.registry import System, system
+
+if TYPE_CHECKING:
+    from gz.sim.world import World
+    from gz.transport import Node
+
+Command = Callable[["World", Any], Callable[[], None]]
+"""Looks at a message (in any thread) and returns what is to be done between two steps; both raise `SimError`."""
+
+
+@system("UserCommands", "gz-sim-user-commands-system")
+class UserCommands(System):
+    """Offers the services; has no parameters."""
+
+    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
+        """Belongs to the world; `model` is None."""
+        if model is not None:
+            raise plugin.element.error("UserCommands belongs directly in the <world>, not inside a <model>")
+        self._world = world
+
+    def connect(self, node: Node) -> None:
+        """Offer every command twice, and listen to colours."""
+        from gz.msgs.boolean_pb2 import Boolean
+        from gz.msgs.material_color_pb2 import MaterialColor
+
+        from gz.sim.systems import entity_commands, property_commands
+
+        self._answer = Boolean
+        prefix = f"/world/{self._world.name}"
+        for name, (request, command) in {**entity_commands.commands(), **property_commands.commands()}.items():
+            for service, blocking in ((f"{prefix}/{name}", False), (f"{prefix}/{name}/blocking", True)):
+                node.advertise_service(service, request, Boolean, self._server_of(service, command, blocking))
+        topic = f"{prefix}/material_color"
+        colour = self._server_of(topic, property_commands.material_color, False)
+        node.subscribe(MaterialColor, topic, colour)
+
+    def _server_of(self, service: str, command: Command, blocking: bool) -> Callable[[Any], Any]:
+        world = self._world
+
+        def serve(message: Any) -> Any:
+            try:
+                work = command(world, message)
+                if blocking:
+                    world.requests.call(work)
+            except SimError as error:
+                LOG.error("%s: %s", service, error)
+                return self._answer(data=False)
+            if not blocking:
+                world.requests.put(logged(work, service))
+            return self._answer(data=True)
+
+        return serve
