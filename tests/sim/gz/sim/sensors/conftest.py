@@ -1,0 +1,57 @@
+"""What the tests of sensors share: worlds with the systems they name, and listening to a topic for some steps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+
+from gz.msgs import message_class
+from gz.sim.sensors.registry import SensorBase
+from gz.sim.systems.registry import systems
+from gz.sim.systems.sensor_system import SensorSystem
+from gz.sim.world import World
+from gz.transport import Node, NodeOptions, Scope
+
+INERTIAL = (
+    "<inertial><mass>{mass}</mass><inertia><ixx>{i}</ixx><iyy>{i}</iyy><izz>{i}</izz>"
+    "<ixy>0</ixy><ixz>0</ixz><iyz>0</iyz></inertia></inertial>"
+)
+
+
+def inertial(mass: float = 1.0, moment: float = 0.1) -> str:
+    """A mass (kg) with the same moment of inertia (kg m^2) about every axis."""
+    return INERTIAL.format(mass=mass, i=moment)
+
+
+def sensor_world(inside: str, *names: str, version: str = "1.10", step: float = 0.001, **options: Any) -> World:
+    """Load a world named `w` with Physics and the named systems."""
+    known = systems()
+    plugins = "".join(f"<plugin filename='{known[n].filename}' name='gz::sim::systems::{n}'/>" for n in names)
+    return World.from_string(
+        f"<sdf version='{version}'><world name='w'><physics type='x'><max_step_size>{step}</max_step_size></physics>"
+        "<plugin filename='gz-sim-physics-system' name='gz::sim::systems::Physics'/>"
+        f"{plugins}{inside}</world></sdf>",
+        **options,
+    )
+
+
+def sensors_of(world: World) -> list[SensorBase]:
+    """Every sensor that runs in a world."""
+    return [sensor for each in world.systems if isinstance(each, SensorSystem) for sensor in each.sensors]
+
+
+@pytest.fixture
+def listen() -> Iterator[Callable[..., list[Any]]]:
+    """`listen(world, topic, "gz.msgs.IMU")`: the list that fills with what is heard while the world steps."""
+    with Node(NodeOptions(scope=Scope.PROCESS)) as own:
+
+        def hear(world: World, topic: str, kind: str) -> list[Any]:
+            if world.node is None:
+                world.attach(own)
+            heard: list[Any] = []
+            own.subscribe(message_class(kind), topic, heard.append)
+            return heard
+
+        yield hear
