@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -45,11 +46,12 @@ def sensors_of(world: World) -> list[SensorBase]:
 @pytest.fixture
 def listen() -> Iterator[Callable[..., list[Any]]]:
     """`listen(world, topic, "gz.msgs.IMU")`: the list that fills with what is heard while the world steps."""
-    with Node(NodeOptions(scope=Scope.PROCESS)) as own:
+    with Node(NodeOptions(scope=Scope.PROCESS)) as own, contextlib.ExitStack() as worlds:
 
         def hear(world: World, topic: str, kind: str) -> list[Any]:
             if world.node is None:
                 world.attach(own)
+                worlds.callback(world.close)
             heard: list[Any] = []
             own.subscribe(message_class(kind), topic, heard.append)
             return heard

@@ -69,7 +69,8 @@ def test_in_free_fall_nothing_is_felt_but_the_spin(listen: Listen) -> None:
 
 ARM = f"""<model name='m'><link name='base'>{inertial()}</link><link name='l'><pose>0 0 0.5 0 0 0</pose>{inertial()}
   {{sensor}}</link><joint name='fixed' type='fixed'><parent>world</parent><child>base</child></joint>
-  <joint name='hinge' type='revolute'><parent>base</parent><child>l</child><axis><xyz>{{axis}}</xyz></axis></joint></model>"""
+  <joint name='hinge' type='revolute'><parent>base</parent><child>l</child><axis><xyz>{{axis}}</xyz></axis></joint>
+  </model>"""
 
 
 @settings(max_examples=10, deadline=None)
@@ -127,10 +128,13 @@ ROBOT = f"""<include><uri>model://ground_plane</uri></include><model name='m'><p
   <geometry><sphere><radius>0.05</radius></sphere></geometry><surface><friction><ode><mu>0</mu></ode></friction></surface>
   </collision></link>{{wheels}}
   <plugin filename='gz-sim-diff-drive-system' name='gz::sim::systems::DiffDrive'><left_joint>left</left_joint>
-  <right_joint>right</right_joint><wheel_separation>0.4</wheel_separation><wheel_radius>0.1</wheel_radius></plugin></model>"""
-WHEEL = f"""<link name='{{side}}_wheel'><pose>0.1 {{y}} 0 -1.5707963267948966 0 0</pose>{inertial(1, 0.005)}<collision name='c'>
-  <geometry><cylinder><radius>0.1</radius><length>0.04</length></cylinder></geometry></collision></link>
-  <joint name='{{side}}' type='revolute'><parent>l</parent><child>{{side}}_wheel</child><axis><xyz>0 0 1</xyz></axis></joint>"""
+  <right_joint>right</right_joint><wheel_separation>0.4</wheel_separation><wheel_radius>0.1</wheel_radius></plugin>
+  </model>"""
+WHEEL = f"""<link name='{{side}}_wheel'><pose>0.1 {{y}} 0 -1.5707963267948966 0 0</pose>{inertial(1, 0.005)}
+  <collision name='c'><geometry><cylinder><radius>0.1</radius><length>0.04</length></cylinder></geometry>
+  </collision></link>
+  <joint name='{{side}}' type='revolute'><parent>l</parent><child>{{side}}_wheel</child>
+  <axis><xyz>0 0 1</xyz></axis></joint>"""
 
 
 def test_driving_a_circle_pushes_to_the_side(listen: Listen) -> None:
