@@ -1,0 +1,97 @@
+"""What a launch file is made of: something to be done, if its condition holds. The actions are in `launch.actions`."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+from launch.condition import Condition
+from launch.errors import locate, nearest, place_of_caller
+from launch.launch_description_entity import LaunchDescriptionEntity
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
+
+
+class Action(LaunchDescriptionEntity):
+    """Base of all actions. A class of one's own overrides `execute`."""
+
+    def __init__(self, *, condition: Condition | None = None, **unknown: Any) -> None:
+        if unknown:
+            name = next(iter(unknown))
+            raise TypeError(f"{type(self).__name__} has no argument '{name}'{nearest(name, _arguments(type(self)))}")
+        if condition is not None and not isinstance(condition, Condition):
+            raise TypeError(
+                f"condition={condition!r} is of type {type(condition).__name__}; "
+                "IfCondition(...), UnlessCondition(...) or another condition is expected"
+            )
+        self.__condition = condition
+        self._place = place_of_caller()
+
+    @property
+    def condition(self) -> Condition | None:
+        """The condition, if there is one."""
+        return self.__condition
+
+    def describe(self) -> str:
+        """Return one line for `ros2 launch --print`."""
+        return f"{type(self).__name__}({hex(id(self))})"
+
+    def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        """What it surely leads to: nothing when there is a condition."""
+        return self.get_sub_entities() if self.__condition is None else []
+
+    def describe_conditional_sub_entities(
+        self,
+    ) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        """What it leads to when its condition holds."""
+        return [("Conditionally included by " + self.describe(), self.get_sub_entities())] if self.__condition else []
+
+    def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        """Return the entities it leads to when it is executed, as far as they are known before."""
+        return []
+
+    def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Execute the action if its condition holds; errors that come out know where the action was made."""
+        try:
+            if self.__condition is not None and not self.__condition.evaluate(context):
+                return None
+            following = self.execute(context)
+        except Exception as error:
+            locate(error, self._place)
+            raise
+        self._announce_completion(context)
+        return following
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Do the work; return the entities to be visited next."""
+        raise NotImplementedError(f"{type(self).__name__} does not say how it is executed")
+
+    def _announce_completion(self, context: LaunchContext) -> None:
+        """Emit ExecutionComplete, now or when the future of this action is done, if anybody waits for it."""
+        from launch.events import ExecutionComplete
+
+        event = ExecutionComplete(action=self)
+        future = self.get_asyncio_future()
+        if future is None or future.done():
+            if context.would_handle_event(event):
+                context.emit_event_sync(event)
+            return
+
+        def announce(_: object) -> None:
+            if context.would_handle_event(event):
+                context.emit_event_sync(event)
+
+        future.add_done_callback(announce)
+
+
+def _arguments(kind: type) -> list[str]:
+    """The names of all arguments that a class and its bases take by name."""
+    return [
+        parameter.name
+        for each in kind.__mro__
+        if "__init__" in vars(each) and each is not object
+        for parameter in inspect.signature(vars(each)["__init__"]).parameters.values()
+        if parameter.name != "self" and parameter.kind not in (parameter.VAR_KEYWORD, parameter.VAR_POSITIONAL)
+    ]

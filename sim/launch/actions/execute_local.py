@@ -1,0 +1,442 @@
+"""Starts a process of this machine, prints what it prints, tells its end, and ends it with the launch.
+
+The base of ExecuteProcess, which Node of launch_ros builds on. `execute` prepares the command; the process itself
+(`launch.child_process`) starts when the whole launch description has been visited.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import math
+import signal
+import sys
+from collections.abc import Callable
+from typing import Any
+
+import launch.logging
+from launch.action import Action
+from launch.child_process import ChildProcess
+from launch.conditions.evaluate_condition_expression import evaluate_condition_expression
+from launch.descriptions.executable import Executable
+from launch.errors import LaunchError, UsedTwiceError, locate
+from launch.event import Event
+from launch.event_handler import EventHandler, answer, known_entities
+from launch.events import Shutdown
+from launch.events.process import (
+    ProcessExited,
+    ProcessStarted,
+    ProcessStderr,
+    ProcessStdin,
+    ProcessStdout,
+    ProcessTargetedEvent,
+    ShutdownProcess,
+    SignalProcess,
+)
+from launch.launch_context import LaunchContext
+from launch.launch_description_entity import LaunchDescriptionEntity, SomeEntitiesType
+from launch.process_output import ProcessOutput, sinks
+from launch.substitution import (
+    SomeSubstitutionsType,
+    Substitution,
+    normalize_to_list_of_substitutions,
+    perform_substitutions,
+)
+from launch.substitutions import LaunchConfiguration
+from launch.substitutions.paths import nearest_program
+
+_IO_EVENTS = {"stdout": ProcessStdout, "stderr": ProcessStderr}
+_GRACE = 1.0  # [s] for what a process has left in the background, after the process itself has ended
+OnExit = SomeEntitiesType | Callable[[ProcessExited, LaunchContext], SomeEntitiesType | None] | None
+
+
+class ExecuteLocal(Action):
+    """Executes a `process_description` once.
+
+    `output` says where its output goes (`launch.process_output`); `emulate_tty` lets it believe it has a terminal;
+    `cached_output` keeps its output for `get_stdout` and `get_stderr`; `log_cmd` prints its command. `on_exit`
+    answers its end, as the handler of OnProcessExit would. With `respawn` it is started again when it ends, after
+    `respawn_delay` [s], `respawn_max_retries` times (-1: without limit). At the end of the launch it gets SIGINT,
+    after `sigterm_timeout` [s] SIGTERM, and after further `sigkill_timeout` [s] SIGKILL.
+    """
+
+    def __init__(
+        self,
+        *,
+        process_description: Executable,
+        shell: bool = False,
+        sigterm_timeout: SomeSubstitutionsType | float | None = None,
+        sigkill_timeout: SomeSubstitutionsType | float | None = None,
+        emulate_tty: bool = False,
+        output: Any = "log",
+        output_format: str | None = None,
+        cached_output: bool = False,
+        log_cmd: bool = False,
+        on_exit: OnExit = None,
+        respawn: bool | SomeSubstitutionsType = False,
+        respawn_delay: float | None = None,
+        respawn_max_retries: int = -1,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self.__process_description = process_description
+        self.__shell = shell
+        self.__timeouts = {
+            signal.SIGINT: _timeout("sigterm_timeout", sigterm_timeout),
+            signal.SIGTERM: _timeout("sigkill_timeout", sigkill_timeout),
+        }
+        self.__emulate_tty = emulate_tty
+        self.__output = _normalized_output(output)
+        self.__output_format = output_format
+        self.__cached_output = cached_output
+        self.__log_cmd = log_cmd
+        self.__on_exit = on_exit
+        if on_exit is not None:
+            known_entities(on_exit, "on_exit")
+        self.__respawn = normalize_to_list_of_substitutions(str(respawn) if isinstance(respawn, bool) else respawn)
+        self.__respawn_delay = respawn_delay or 0.0
+        self.__respawn_max_retries = respawn_max_retries
+        self.__task: asyncio.Task[None] | None = None
+        self.__child: ChildProcess | None = None
+        self.__printed: ProcessOutput | None = None
+        self.__details: dict[str, Any] | None = None
+        self.__return_code: int | None = None
+        self.__stopping: asyncio.Task[None] | None = None
+        self.__must_stop = asyncio.Event()
+        self.__ended = asyncio.Event()
+        self.__gone = asyncio.Event()
+
+    @property
+    def process_description(self) -> Executable:
+        """The command, its folder and its environment."""
+        return self.__process_description
+
+    @property
+    def shell(self) -> bool:
+        """Whether a shell runs the command."""
+        return self.__shell
+
+    @property
+    def emulate_tty(self) -> bool:
+        """Whether the process believes it has a terminal."""
+        return self.__emulate_tty
+
+    @property
+    def output(self) -> Any:
+        """Where its output goes, as it was given."""
+        return self.__output
+
+    @property
+    def process_details(self) -> dict[str, Any] | None:
+        """Its name (the label), pid, cmd, cwd and env; None before it was started."""
+        return self.__details
+
+    @property
+    def return_code(self) -> int | None:
+        """The exit code of the last run, -n for signal n; None before its end."""
+        return self.__return_code
+
+    def get_stdout(self) -> str:
+        """Return what it has printed to stdout. Raises LaunchError unless made with `cached_output`."""
+        return self._cached("stdout")
+
+    def get_stderr(self) -> str:
+        """Return what it has printed to stderr. Raises LaunchError unless made with `cached_output`."""
+        return self._cached("stderr")
+
+    def _cached(self, stream: str) -> str:
+        return "" if self.__printed is None else self.__printed.cached(stream).decode(errors="replace")
+
+    def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        """Return what answers its end."""
+        return [] if self.__on_exit is None else known_entities(self.__on_exit, "on_exit")
+
+    def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        """Nothing for sure: what it leads to depends on its end."""
+        return []
+
+    def describe_conditional_sub_entities(self) -> list[tuple[str, Any]]:
+        """Return what answers its end."""
+        entities = self.get_sub_entities()
+        return [(f"When {self.describe()} has ended", entities)] if entities else []
+
+    def get_asyncio_future(self) -> asyncio.Future[None] | None:
+        """Return what is done when the process has ended for good."""
+        return self.__task
+
+    def prepare(self, context: LaunchContext) -> None:
+        """Perform the substitutions of the command."""
+        self.__process_description.prepare(context, self)
+
+    def cleanup(self) -> None:
+        """Give back what `prepare` made; called when the process has ended for good."""
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Prepare the command and have it started soon.
+
+        Raises UsedTwiceError when it was executed before, and what performing the substitutions raises.
+        """
+        if self.__task is not None:
+            raise UsedTwiceError(
+                f"{self.describe()} is executed a second time; an action can only be executed once, make another one"
+            )
+        loop = context.asyncio_loop
+        if loop is None:
+            raise LaunchError("processes can only be started by a LaunchService that runs")
+        if context.is_shutdown:
+            return None
+        self.prepare(context)
+        label = self.__process_description.final_name
+        assert label is not None
+        settings = _Settings(
+            output=_performed_output(self.__output, context),
+            emulate_tty=self.__emulate_tty or _is_true(context.launch_configurations.get("emulate_tty")),
+            respawn=evaluate_condition_expression(context, self.__respawn),
+            timeouts={number: _seconds(context, parts) for number, parts in self.__timeouts.items()},
+            logger=launch.logging.get_logger(label),
+        )
+        line_format = self._line_format() if self.__output_format is not None else None
+        self.__printed = ProcessOutput(label, settings.output, cached=self.__cached_output, line_format=line_format)
+        context.register_event_handler(_ProcessHandler(self, settings))
+        self.__task = loop.create_task(self._run(context, settings))
+        return None
+
+    def _line_format(self) -> Callable[[str], str]:
+        text = self.__output_format or ""
+        return lambda line: text.format(this=self, line=line)
+
+    async def _run(self, context: LaunchContext, settings: _Settings) -> None:
+        """The life of the process, from its first start to its last end."""
+        try:
+            retries = 0
+            while not (context.is_shutdown or self.__must_stop.is_set()):
+                if not await self._live_once(context, settings) or not settings.respawn:
+                    break
+                if 0 <= self.__respawn_max_retries <= retries:
+                    break
+                retries += 1
+                await _happens(self.__must_stop, self.__respawn_delay)
+        except Exception as error:
+            locate(error, self._place)
+            raise
+        finally:
+            self.cleanup()
+
+    async def _live_once(self, context: LaunchContext, settings: _Settings) -> bool:
+        """One run of the process; whether it may be run again."""
+        child = self._start(context, settings)
+        self.__child = child
+        self.__ended.clear()
+        self.__gone.clear()
+        assert self.__details is not None and self.__printed is not None
+        try:
+            code = await child.wait()
+            self.__printed.flush()
+            self.__return_code = code
+            if code == 0:
+                settings.logger.info(f"process has finished cleanly [pid {child.pid}]")
+            else:
+                words = " ".join(self.__details["cmd"])
+                settings.logger.error(f"process has died [pid {child.pid}, exit code {code}, cmd '{words}'].")
+            context.emit_event_sync(ProcessExited(returncode=code, action=self, **self.__details))
+            self.__ended.set()
+            if child.has_left_something():
+                await self._wait_for_what_is_left(child, context, settings)
+        except asyncio.CancelledError:  # the event loop ends without waiting for the launch
+            child.send_signal(signal.SIGKILL)
+            raise
+        finally:
+            self.__ended.set()
+            self.__gone.set()
+            if self.__stopping is not None:
+                await self.__stopping
+            child.close()
+            self.__printed.close()
+        return not self.__must_stop.is_set()
+
+    async def _wait_for_what_is_left(self, child: ChildProcess, context: LaunchContext, settings: _Settings) -> None:
+        """What the process has started in the background belongs to the launch, too."""
+        if settings.respawn and not context.is_shutdown:
+            child.send_signal(signal.SIGKILL)  # the next one starts afresh
+        elif not context.is_shutdown:
+            settings.logger.warning(
+                "it has left processes in the background; the launch waits for them, and ends them when it ends"
+            )
+        await child.wait_for_group()
+
+    def _start(self, context: LaunchContext, settings: _Settings) -> ChildProcess:
+        description = self.__process_description
+        command = description.final_cmd or []
+        printed = self.__printed
+        assert printed is not None
+
+        def take(stream: str, data: bytes) -> None:
+            printed.feed(stream, data)
+            event = _IO_EVENTS[stream](text=data, action=self, **(self.__details or {}))
+            if context.would_handle_event(event):
+                context.emit_event_sync(event)
+
+        if self.__log_cmd:
+            settings.logger.info(
+                f"process details: cmd='{' '.join(command)}', cwd='{description.final_cwd}', "
+                f"custom_env?={description.env is not None or description.additional_env is not None}"
+            )
+        try:
+            child = ChildProcess(
+                " ".join(command) if self.__shell else command,
+                shell=self.__shell,
+                cwd=description.final_cwd,
+                env=description.final_env,
+                emulate_tty=settings.emulate_tty,
+                on_output=take,
+            )
+        except (OSError, ValueError) as error:
+            raise LaunchError(_not_started(error, command, description.final_cwd, context)) from None
+        self.__details = {
+            "name": description.final_name,
+            "pid": child.pid,
+            "cmd": command,
+            "cwd": description.final_cwd,
+            "env": description.final_env,
+        }
+        settings.logger.info(f"process started with pid [{child.pid}]")
+        context.emit_event_sync(ProcessStarted(action=self, **self.__details))
+        return child
+
+    def _stop(self, settings: _Settings, *, silent: bool) -> None:
+        """Begin to end the process: SIGINT, later SIGTERM, later SIGKILL."""
+        self.__must_stop.set()
+        running = self.__child is not None and not self.__gone.is_set()
+        if running and self.__stopping is None:
+            self.__stopping = asyncio.get_running_loop().create_task(self._escalate(settings, silent=silent))
+
+    async def _escalate(self, settings: _Settings, *, silent: bool) -> None:
+        label = self.__process_description.final_name
+        for number, following in ((signal.SIGINT, signal.SIGTERM), (signal.SIGTERM, signal.SIGKILL)):
+            self._signal(number, settings, silent=silent and number == signal.SIGINT)
+            patience = settings.timeouts[number]
+            if await _happens(self.__ended, patience):
+                # Shells let what they start in the background ignore SIGINT: no use to wait long for that.
+                if await _happens(self.__gone, min(patience, _GRACE)):
+                    return
+            else:
+                settings.logger.error(
+                    f"process[{label}] failed to terminate '{patience:g}' seconds after receiving "
+                    f"'{number.name}', escalating to '{following.name}'"
+                )
+        self._signal(signal.SIGKILL, settings)
+
+    def _signal(self, number: signal.Signals, settings: _Settings, *, silent: bool = False) -> None:
+        if self.__child is None or self.__gone.is_set():
+            settings.logger.warning(f"signal '{number.name}' is not sent: the process does not run")
+            return
+        if not silent:
+            label = self.__process_description.final_name
+            settings.logger.info(f"sending signal '{number.name}' to process[{label}]")
+        self.__child.send_signal(number)
+
+    def _handle(self, event: Event, context: LaunchContext, settings: _Settings) -> list[LaunchDescriptionEntity]:
+        """Answer an event that concerns this process."""
+        if isinstance(event, ProcessExited):
+            return answer(self.__on_exit, event, context, "on_exit")
+        if isinstance(event, Shutdown):
+            # At a terminal, Ctrl-C needs no explanation.
+            at_terminal = not context.noninteractive and sys.stdin is not None and sys.stdin.isatty()
+            self._stop(settings, silent=event.due_to_sigint and at_terminal)
+        elif isinstance(event, ShutdownProcess):
+            self._stop(settings, silent=False)
+        elif isinstance(event, SignalProcess):
+            self._signal(event.signal, settings)
+        elif isinstance(event, ProcessStdin) and self.__child is not None:
+            self.__child.write(event.text)
+        return []
+
+    def _concerns(self, event: Event) -> bool:
+        if isinstance(event, ProcessExited):
+            return self.__on_exit is not None and event.action is self
+        if isinstance(event, ProcessTargetedEvent):
+            return bool(event.process_matcher(self))
+        return isinstance(event, Shutdown) or (isinstance(event, ProcessStdin) and event.action is self)
+
+
+class _Settings:
+    """What was performed when the action was executed."""
+
+    def __init__(
+        self, output: Any, emulate_tty: bool, respawn: bool, timeouts: dict[signal.Signals, float], logger: Any
+    ) -> None:
+        self.output = output
+        self.emulate_tty = emulate_tty
+        self.respawn = respawn
+        self.timeouts = timeouts
+        self.logger = logger
+
+
+class _ProcessHandler(EventHandler):
+    """Hands events that concern a process over to its action."""
+
+    def __init__(self, action: ExecuteLocal, settings: _Settings) -> None:
+        super().__init__(matcher=action._concerns)
+        self._action = action
+        self._settings = settings
+
+    def handle(self, event: Event, context: LaunchContext) -> list[LaunchDescriptionEntity]:
+        """Return the answer to the event."""
+        return self._action._handle(event, context, self._settings)
+
+
+async def _happens(event: asyncio.Event, within: float) -> bool:
+    """Wait for an event for so many seconds; whether it came."""
+    with contextlib.suppress(TimeoutError):
+        await asyncio.wait_for(event.wait(), within)
+    return event.is_set()
+
+
+def _not_started(error: Exception, command: list[str], cwd: str | None, context: LaunchContext) -> str:
+    """Why a process did not start, in one sentence."""
+    program = command[0]
+    if isinstance(error, FileNotFoundError) and cwd is not None and error.filename == cwd:
+        return f"'{program}' cannot be started in the folder '{cwd}', which does not exist"
+    if isinstance(error, NotADirectoryError):
+        return f"'{program}' cannot be started in '{cwd}', which is no folder"
+    if isinstance(error, FileNotFoundError):
+        return f"there is no program '{program}' to be started{nearest_program(program, context)}"
+    if isinstance(error, PermissionError):
+        return f"'{program}' cannot be started: it is not executable (chmod +x makes it so)"
+    if isinstance(error, OSError) and error.errno == 8:
+        return f"'{program}' cannot be started: its first line must be #! and an interpreter"
+    return f"'{program}' cannot be started: {getattr(error, 'strerror', None) or error}"
+
+
+def _timeout(name: str, value: Any) -> list[Substitution]:
+    if value is None:
+        return [LaunchConfiguration(name, default=5)]
+    return normalize_to_list_of_substitutions(str(value) if isinstance(value, int | float) else value)
+
+
+def _seconds(context: LaunchContext, parts: list[Substitution]) -> float:
+    text = perform_substitutions(context, parts)
+    try:
+        seconds = float(text)
+    except ValueError:
+        seconds = math.nan
+    if not 0.0 <= seconds < math.inf:
+        raise LaunchError(f"the time-out {text!r} is no number of seconds")
+    return seconds
+
+
+def _is_true(text: Any) -> bool:
+    return str(text).strip().lower() in ("true", "1")
+
+
+def _normalized_output(output: Any) -> Any:
+    """Check an `output=` that is known already; one with substitutions is checked when it is performed."""
+    if isinstance(output, str | dict):
+        with contextlib.suppress(TypeError):
+            sinks(output)
+        return output
+    return normalize_to_list_of_substitutions(output)
+
+
+def _performed_output(output: Any, context: LaunchContext) -> Any:
+    return perform_substitutions(context, output) if isinstance(output, list) else output

@@ -1,0 +1,67 @@
+"""Starts a program."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from launch.actions.execute_local import ExecuteLocal
+from launch.descriptions.executable import Environment, Executable
+from launch.substitution import SomeSubstitutionsType, Substitution, describe_substitutions
+
+
+class ExecuteProcess(ExecuteLocal):
+    """Starts `cmd`, a list of words; with `shell=True` they are joined by spaces and given to /bin/sh.
+
+    `cwd` is the folder it starts in, `env` replaces the environment, `additional_env` adds to it, `prefix` goes
+    before the command, `name` stands in its label. The other arguments are those of ExecuteLocal. A plain text as
+    `cmd` needs `shell=True`.
+    """
+
+    def __init__(
+        self,
+        *,
+        cmd: Iterable[SomeSubstitutionsType],
+        prefix: SomeSubstitutionsType | None = None,
+        name: SomeSubstitutionsType | None = None,
+        cwd: SomeSubstitutionsType | None = None,
+        env: Environment | None = None,
+        additional_env: Environment | None = None,
+        **kwargs: Any,
+    ) -> None:
+        if isinstance(cmd, str) and not kwargs.get("shell") and len(cmd.split()) > 1:
+            raise TypeError(f"cmd={cmd!r} is one text; write a list of words, cmd={cmd.split()}, or add shell=True")
+        description = Executable(cmd=cmd, prefix=prefix, name=name, cwd=cwd, env=env, additional_env=additional_env)
+        super().__init__(process_description=description, **kwargs)
+
+    @property
+    def name(self) -> list[Substitution] | str | None:
+        """The label once it is known, before that the name that was given."""
+        return self.process_description.final_name or self.process_description.name
+
+    @property
+    def cmd(self) -> list[Any]:
+        """The words once they are known, before that the substitutions they are made from."""
+        return self.process_description.final_cmd or self.process_description.cmd
+
+    @property
+    def cwd(self) -> list[Substitution] | str | None:
+        """The folder it starts in."""
+        return self.process_description.final_cwd or self.process_description.cwd
+
+    @property
+    def env(self) -> Any:
+        """The environment once it is known, before that the one that replaces the launch's."""
+        return self.process_description.final_env or self.process_description.env
+
+    @property
+    def additional_env(self) -> Any:
+        """The environment variables that are added."""
+        return self.process_description.additional_env
+
+    def describe(self) -> str:
+        """Return one line for `ros2 launch --print`."""
+        words = ", ".join(describe_substitutions(word) for word in self.process_description.cmd)
+        cwd, env = self.process_description.cwd, self.process_description.env
+        folder = None if cwd is None else describe_substitutions(cwd)
+        return f"ExecuteProcess(cmd=[{words}], cwd={folder}, env={env}, shell={self.shell})"

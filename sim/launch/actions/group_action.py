@@ -1,0 +1,61 @@
+"""Several actions that share a scope and a condition."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from launch.action import Action
+from launch.actions.set_environment_variable import PopEnvironment, PushEnvironment, ResetEnvironment
+from launch.actions.set_launch_configuration import (
+    PopLaunchConfigurations,
+    PushLaunchConfigurations,
+    ResetLaunchConfigurations,
+    SetLaunchConfiguration,
+)
+from launch.launch_context import LaunchContext
+from launch.launch_description_entity import LaunchDescriptionEntity, listed
+from launch.substitution import SomeSubstitutionsType
+
+
+class GroupAction(Action):
+    """Visits `actions`; with `scoped` (the default) their changes of configurations and environment end with them.
+
+    With `forwarding=False` nothing of the outside is seen, except for the `launch_configurations` given here.
+    """
+
+    def __init__(
+        self,
+        actions: Iterable[LaunchDescriptionEntity],
+        *,
+        scoped: bool = True,
+        forwarding: bool = True,
+        launch_configurations: Mapping[SomeSubstitutionsType, SomeSubstitutionsType] | None = None,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self.__actions = listed(actions, "the list of GroupAction")
+        self.__scoped = scoped
+        self.__forwarding = forwarding
+        self.__launch_configurations = dict(launch_configurations or {})
+        self.__entities: list[LaunchDescriptionEntity] | None = None
+
+    def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        """Return the actions, between those that begin and end their scope."""
+        if self.__entities is None:
+            given = self.__launch_configurations
+            setting = [SetLaunchConfiguration(name, value) for name, value in given.items()]
+            if not self.__scoped:
+                self.__entities = [*setting, *self.__actions]
+            else:
+                opening: list[LaunchDescriptionEntity] = [PushLaunchConfigurations(), PushEnvironment()]
+                if self.__forwarding:
+                    opening += setting
+                else:
+                    opening += [ResetEnvironment(), ResetLaunchConfigurations(given)]
+                self.__entities = [*opening, *self.__actions, PopEnvironment(), PopLaunchConfigurations()]
+        return self.__entities
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
+        """Return the actions."""
+        return self.get_sub_entities()

@@ -1,0 +1,167 @@
+"""Another launch file as a part of this one."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+import launch.logging
+from launch.action import Action
+from launch.actions.opaque_function import OpaqueCoroutine, OpaqueFunction
+from launch.actions.set_launch_configuration import SetLaunchConfiguration
+from launch.errors import LaunchError, MissingArgumentError, nearest
+from launch.launch_context import LaunchContext
+from launch.launch_description import LaunchDescription
+from launch.launch_description_entity import LaunchDescriptionEntity
+from launch.launch_description_source import LaunchDescriptionSource, as_source
+from launch.substitution import (
+    SomeSubstitutionsType,
+    Substitution,
+    normalize_to_list_of_substitutions,
+    perform_substitutions,
+)
+from launch.substitutions.this_launch_file import CURRENT_FILE, CURRENT_FOLDER
+
+_CHAIN = "launch_file_chain"
+_DEEPEST = 50
+Pairs = Iterable[tuple[SomeSubstitutionsType, SomeSubstitutionsType]]
+
+
+class IncludeLaunchDescription(Action):
+    """Visits the launch description of `launch_description_source`, given as a source or as a path.
+
+    `launch_arguments` are pairs or a dict. The included file shares the scope of this one: it sees all
+    configurations, and what it sets stays; GroupAction keeps it apart.
+    """
+
+    def __init__(
+        self,
+        launch_description_source: LaunchDescriptionSource | SomeSubstitutionsType,
+        *,
+        launch_arguments: Pairs | Mapping[SomeSubstitutionsType, SomeSubstitutionsType] | None = None,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self.__source = as_source(launch_description_source)
+        pairs = launch_arguments.items() if isinstance(launch_arguments, Mapping) else (launch_arguments or ())
+        self.__launch_arguments = [_as_pair(pair) for pair in pairs]
+
+    @property
+    def launch_description_source(self) -> LaunchDescriptionSource:
+        """Where the launch description comes from."""
+        return self.__source
+
+    @property
+    def launch_arguments(self) -> list[tuple[list[Substitution], list[Substitution]]]:
+        """Names and values that are set for it."""
+        return self.__launch_arguments
+
+    def describe(self) -> str:
+        """Return one line for `ros2 launch --print`."""
+        return f"IncludeLaunchDescription({self.__source.location})"
+
+    def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        """Return the launch description if it can be had now; one that cannot is told of when it is executed."""
+        try:
+            description = self.__source.try_get_launch_description_without_context()
+        except Exception as error:
+            launch.logging.get_logger("launch").debug(f"{self.__source.location} cannot be looked into: {error}")
+            return []
+        return [] if description is None else [description]
+
+    def leads_back_into(self, chain: Iterable[IncludeLaunchDescription]) -> bool:
+        """Return whether one of these includes the same file."""
+        own = self.__source.plain_location
+        others = [each.launch_description_source.plain_location for each in chain]
+        return own is not None and any(other is not None and _same(own, other) for other in others)
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
+        """Load the launch file; return its arguments and its launch description.
+
+        Raises MissingArgumentError, LaunchError for files that include each other without end, and whatever loading
+        the file raises.
+        """
+        outside = context.get_locals_as_dict()
+        before = {name: outside.get(name) for name in (CURRENT_FILE, CURRENT_FOLDER, _CHAIN)}
+        description = self.__source.get_launch_description(context)
+        location = self.__source.location
+        inside: dict[str, Any] = {_CHAIN: self._extended_chain(before[_CHAIN] or (), context)}
+        if location != "''":
+            inside |= {CURRENT_FILE: location, CURRENT_FOLDER: os.path.dirname(location)}  # noqa: PTH120
+        given = [perform_substitutions(context, name) for name, _ in self.__launch_arguments]
+        self._check_required(description, given, context)
+        self._warn_of_unknown(description, given)
+        context.extend_locals(inside)
+        setting = [SetLaunchConfiguration(name, value) for name, value in self.__launch_arguments]
+
+        def leave(context: LaunchContext) -> None:
+            context.extend_locals(before)
+
+        return [*setting, description, OpaqueFunction(function=leave)]
+
+    def _extended_chain(self, chain: tuple[tuple[str, str], ...], context: LaunchContext) -> tuple:
+        """The files being included, each with the configurations it met: the same pair again means no end."""
+        here = (self.__source.location, repr(sorted(context.launch_configurations.items(), key=lambda item: item[0])))
+        if self.__source.plain_location is None and here[0] == "''":
+            return chain
+        if here in chain or len(chain) >= _DEEPEST:
+            names = " -> ".join(path for path, _ in (*chain[-4:], here))
+            raise LaunchError(f"the launch files include each other without end: {names}")
+        return (*chain, here)
+
+    def _check_required(self, description: LaunchDescription, given: list[str], context: LaunchContext) -> None:
+        declared = description.get_launch_arguments_with_include_launch_description_actions(only_search_local=True)
+        for argument, _ in declared:
+            if argument._conditionally_included or argument.default_value is not None:
+                continue
+            if argument.name not in given and argument.name not in context.launch_configurations:
+                raise MissingArgumentError(
+                    f"Included launch description missing required argument '{argument.name}' "
+                    f"(description: '{argument.description}'), given: [{', '.join(given)}]"
+                )
+
+    def _warn_of_unknown(self, description: LaunchDescription, given: list[str]) -> None:
+        """Say so when an argument cannot have an effect: most likely its name is misspelt."""
+        if not given or _may_use_anything(description, [self]):
+            return
+        known = {argument.name for argument in description.get_launch_arguments()}
+        unknown = [name for name in dict.fromkeys(given) if name not in known]
+        if not unknown or not Path(self.__source.location).is_file():
+            return
+        source = Path(self.__source.location).read_text(encoding="utf-8", errors="replace")
+        for name in unknown:
+            if not re.search(rf"""["']{re.escape(name)}["']""", source):
+                listing = nearest(name, known, "its arguments are") or "; it has no arguments"
+                launch.logging.get_logger("launch").warning(
+                    f"'{name}' is not an argument of {self.__source.location} and has no effect there{listing}"
+                )
+
+
+def _may_use_anything(entity: LaunchDescriptionEntity, chain: list[IncludeLaunchDescription]) -> bool:
+    """Whether a part of a launch description cannot be looked into, and may use any launch configuration."""
+    if isinstance(entity, OpaqueFunction | OpaqueCoroutine):
+        return True
+    if isinstance(entity, IncludeLaunchDescription):
+        if entity.leads_back_into(chain):
+            return False
+        if not entity.get_sub_entities():
+            return True
+        chain = [*chain, entity]
+    groups = [entity.describe_sub_entities(), *[group for _, group in entity.describe_conditional_sub_entities()]]
+    return any(_may_use_anything(each, chain) for group in groups for each in group)
+
+
+def _as_pair(pair: Any) -> tuple[list[Substitution], list[Substitution]]:
+    if not isinstance(pair, tuple | list) or len(pair) != 2:
+        raise TypeError(
+            f"launch_arguments holds {pair!r}; pairs of name and value are expected: "
+            'launch_arguments={"name": "value"}.items()'
+        )
+    return normalize_to_list_of_substitutions(pair[0]), normalize_to_list_of_substitutions(pair[1])
+
+
+def _same(one: str, other: str) -> bool:
+    return os.path.realpath(one) == os.path.realpath(other)

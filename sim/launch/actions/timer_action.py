@@ -1,0 +1,119 @@
+"""Does something after a while."""
+
+from __future__ import annotations
+
+import asyncio
+import math
+from collections.abc import Iterable
+from typing import Any
+
+from launch.action import Action
+from launch.errors import LaunchError
+from launch.event import Event
+from launch.event_handler import EventHandler
+from launch.events import Shutdown, TimerEvent
+from launch.launch_context import LaunchContext
+from launch.launch_description_entity import LaunchDescriptionEntity, listed
+from launch.substitution import SomeSubstitutionsType, normalize_to_list_of_substitutions, perform_substitutions
+
+
+class TimerAction(Action):
+    """Visits `actions` once, `period` [s] after it was executed; the end of the launch cancels it."""
+
+    def __init__(
+        self,
+        *,
+        period: float | SomeSubstitutionsType,
+        actions: Iterable[LaunchDescriptionEntity],
+        cancel_on_shutdown: bool | SomeSubstitutionsType = True,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self.__period = normalize_to_list_of_substitutions(str(period) if isinstance(period, int | float) else period)
+        self.__actions = listed(actions, "the list of TimerAction")
+        self.__cancel_on_shutdown = normalize_to_list_of_substitutions(
+            str(cancel_on_shutdown) if isinstance(cancel_on_shutdown, bool) else cancel_on_shutdown
+        )
+        self.__future: asyncio.Future[None] | None = None
+        self.__timer: asyncio.TimerHandle | None = None
+        self.__canceled = False
+
+    @property
+    def period(self) -> list:
+        """The time [s] as substitutions."""
+        return self.__period
+
+    @property
+    def actions(self) -> list[LaunchDescriptionEntity]:
+        """What is done then."""
+        return self.__actions
+
+    def describe(self) -> str:
+        """Return one line for `ros2 launch --print`."""
+        return f"TimerAction(period={' + '.join(part.describe() for part in self.__period)})"
+
+    def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        """What the time leads to."""
+        return [(f"After {self.describe()}", self.__actions)]
+
+    def get_asyncio_future(self) -> asyncio.Future[None] | None:
+        """Return what is done when the time has come or the timer was cancelled."""
+        return self.__future
+
+    def cancel(self) -> None:
+        """Let nothing happen, now and later."""
+        self.__canceled = True
+        self._settle()
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Start the timer. Raises LaunchError for a period that is no number of seconds."""
+        from launch.conditions import evaluate_condition_expression
+
+        text = perform_substitutions(context, self.__period)
+        try:
+            period = float(text)
+        except ValueError:
+            period = math.nan
+        if not 0.0 <= period < math.inf:
+            raise LaunchError(f"period={text!r} of TimerAction is no number of seconds")
+        loop = context.asyncio_loop
+        if loop is None:
+            raise LaunchError("TimerAction can only be executed by a LaunchService that runs")
+        if self.__canceled or context.is_shutdown:
+            return None
+        self._settle()
+        self.__future = loop.create_future()
+        cancel_on_shutdown = evaluate_condition_expression(context, self.__cancel_on_shutdown)
+        handler = _TimerHandler(self, cancel_on_shutdown)
+        context.register_event_handler(handler)
+        self.__future.add_done_callback(lambda _: context.unregister_event_handler(handler))
+        self.__timer = loop.call_later(period, context.emit_event_sync, TimerEvent(timer_action=self))
+        return None
+
+    def _settle(self) -> None:
+        if self.__timer is not None:
+            self.__timer.cancel()
+        if self.__future is not None and not self.__future.done():
+            self.__future.set_result(None)
+
+
+class _TimerHandler(EventHandler):
+    """Answers the timer's event with its actions, and the end of the launch with cancelling it."""
+
+    def __init__(self, timer: TimerAction, cancel_on_shutdown: bool) -> None:
+        super().__init__(matcher=self._concerns_the_timer)
+        self._timer = timer
+        self._cancel_on_shutdown = cancel_on_shutdown
+
+    def _concerns_the_timer(self, event: Event) -> bool:
+        if isinstance(event, Shutdown):
+            return self._cancel_on_shutdown
+        return isinstance(event, TimerEvent) and event.timer_action is self._timer
+
+    def handle(self, event: Event, context: LaunchContext) -> list[LaunchDescriptionEntity]:
+        """Return the actions when their time has come."""
+        future = self._timer.get_asyncio_future()
+        if future is None or future.done():
+            return []
+        self._timer._settle()
+        return self._timer.actions if isinstance(event, TimerEvent) else []

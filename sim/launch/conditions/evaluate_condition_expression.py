@@ -1,0 +1,38 @@
+"""Reads true or false out of text: the rule of conditions, boolean substitutions and boolean launch arguments."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from launch.errors import LaunchError
+from launch.substitution import Substitution, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
+
+VALID_TRUE_EXPRESSIONS = ["true", "1"]
+VALID_FALSE_EXPRESSIONS = ["false", "0"]
+
+
+class InvalidConditionExpressionError(LaunchError):
+    """Text that is neither true nor false."""
+
+
+def evaluate_condition_expression(context: LaunchContext, expression: Sequence[Substitution]) -> bool:
+    """Return the performed expression as a bool. Raises InvalidConditionExpressionError."""
+    text = perform_substitutions(context, expression)
+    value = as_bool(text)
+    if value is None:
+        raise InvalidConditionExpressionError(
+            f"invalid condition expression: {text!r}; true, false, 1 or 0 is expected"
+        )
+    return value
+
+
+def as_bool(text: str) -> bool | None:
+    """Return what the text means, upper or lower case; None when it is neither true nor false."""
+    word = text.strip().lower()
+    if word in VALID_TRUE_EXPRESSIONS:
+        return True
+    return False if word in VALID_FALSE_EXPRESSIONS else None

@@ -1,0 +1,99 @@
+"""What a launch file did wrong, said in one sentence with the file and the line.
+
+Raised all over this package; `LaunchService` and `ros2 launch` turn whatever reaches them into a sentence with
+`sentence`. An error gets its place from the user's own code in its traceback, else from where the action in
+question was made (`place_of_caller`, `locate`).
+"""
+
+from __future__ import annotations
+
+import difflib
+import os
+import sys
+import sysconfig
+import traceback
+from collections.abc import Iterable
+
+from launch.ament_prefix import nearest_package_of
+
+_OWN_FOLDER = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))  # noqa: PTH100, PTH120 - at every start
+_OWN_FOLDERS = tuple(os.path.join(_OWN_FOLDER, name) + os.sep for name in ("launch", "launch_ros", "ros2"))  # noqa: PTH118
+_LIBRARIES = tuple(
+    folder + os.sep for folder in {sysconfig.get_path(name) for name in ("stdlib", "platstdlib", "purelib", "platlib")}
+)
+Place = tuple[str, int]
+
+
+class LaunchError(Exception):
+    """Base of what this package raises on purpose; its text is one sentence fit for a student."""
+
+
+class MissingArgumentError(LaunchError, RuntimeError):
+    """A launch argument without a default was not given."""
+
+
+class InvalidArgumentError(LaunchError, RuntimeError):
+    """A launch argument has a value that its choices do not allow."""
+
+
+class UsedTwiceError(LaunchError, RuntimeError):
+    """An action that can only be executed once was executed again."""
+
+
+class NotAvailableError(LaunchError, NotImplementedError):
+    """Something that the full ROS 2 can do and this package cannot."""
+
+
+class NotTextError(LaunchError, TypeError):
+    """A value stands where text or a substitution is expected."""
+
+
+def nearest(name: str, known: Iterable[str], listing: str = "there are") -> str:
+    """Return `; did you mean 'x'?`, or a list of `known` when none of them is close; empty when there is none."""
+    names = sorted(set(known))
+    close = difflib.get_close_matches(name, names, n=1, cutoff=0.6)
+    if close:
+        return f"; did you mean '{close[0]}'?"
+    if not names:
+        return ""
+    return f"; {listing}: {', '.join(names[:12])}{', ...' if len(names) > 12 else ''}"
+
+
+def place_of_caller() -> Place | None:
+    """The file and line of the user's code that is being executed, None when there is none."""
+    frame = sys._getframe(1)
+    while frame is not None:
+        path = frame.f_code.co_filename
+        if _is_of_the_user(path):
+            return path, frame.f_lineno
+        frame = frame.f_back  # type: ignore[assignment]
+    return None
+
+
+def locate(error: BaseException, place: Place | None) -> None:
+    """Note where the thing that failed was made; the first note stays."""
+    if place is not None and not hasattr(error, "launch_place"):
+        error.launch_place = place  # type: ignore[attr-defined]
+
+
+def sentence(error: BaseException) -> str:
+    """The error as `file:line: text`; the text starts with the error's type unless it is one of LaunchError."""
+    if isinstance(error, SyntaxError) and error.filename:
+        return f"{error.filename}:{error.lineno}: {type(error).__name__}: {error.msg}"
+    # A KeyError puts its text in quotes; ament's PackageNotFoundError is one.
+    text = str(error.args[0]) if isinstance(error, KeyError) and type(error) is not KeyError else str(error)
+    text += nearest_package_of(text)
+    if not isinstance(error, LaunchError):
+        text = f"{type(error).__name__}: {text}" if text else type(error).__name__
+    place = _place_in(error)
+    return text if place is None or text.startswith(f"{place[0]}:") else f"{place[0]}:{place[1]}: {text}"
+
+
+def _place_in(error: BaseException) -> Place | None:
+    frames = traceback.extract_tb(error.__traceback__)
+    places = [(frame.filename, frame.lineno or 0) for frame in frames if _is_of_the_user(frame.filename)]
+    return places[-1] if places else getattr(error, "launch_place", None)
+
+
+def _is_of_the_user(path: str) -> bool:
+    return not path.startswith(("<", *_OWN_FOLDERS, *_LIBRARIES))

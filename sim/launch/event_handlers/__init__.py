@@ -1,0 +1,19 @@
+"""Event handlers for RegisterEventHandler."""
+
+from launch.event_handlers.on_action_event_base import (
+    OnActionEventBase,
+    OnExecutionComplete,
+    OnProcessExit,
+    OnProcessIO,
+    OnProcessStart,
+)
+from launch.event_handlers.on_shutdown import OnShutdown
+
+__all__ = [
+    "OnActionEventBase",
+    "OnExecutionComplete",
+    "OnProcessExit",
+    "OnProcessIO",
+    "OnProcessStart",
+    "OnShutdown",
+]

@@ -1,0 +1,9 @@
+"""What is raised for a launch file that cannot be loaded."""
+
+from __future__ import annotations
+
+from launch.errors import LaunchError
+
+
+class InvalidLaunchFileError(LaunchError):
+    """A launch file is not there, is no launch file, or lacks what a launch file must have."""

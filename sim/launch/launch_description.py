@@ -1,0 +1,117 @@
+"""A launch file's content: entities in the order in which they are visited."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+from launch.errors import locate, place_of_caller
+from launch.launch_description_entity import LaunchDescriptionEntity, listed
+
+if TYPE_CHECKING:
+    from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
+    from launch.launch_context import LaunchContext
+
+
+class LaunchDescription(LaunchDescriptionEntity):
+    """A list of actions and launch descriptions; `add_action` adds to its end."""
+
+    def __init__(
+        self,
+        initial_entities: Iterable[LaunchDescriptionEntity] | None = None,
+        *,
+        deprecated_reason: str | None = None,
+    ) -> None:
+        if isinstance(initial_entities, LaunchDescriptionEntity):
+            raise TypeError(
+                f"LaunchDescription wants a list of actions: [{type(initial_entities).__name__}(...)]; the brackets "
+                "are missing"
+            )
+        try:
+            self.__entities = listed(initial_entities, "the list of LaunchDescription")
+        except Exception as error:
+            locate(error, place_of_caller())
+            raise
+        self.__deprecated_reason = deprecated_reason
+
+    @property
+    def entities(self) -> list[LaunchDescriptionEntity]:
+        """The entities."""
+        return self.__entities
+
+    @property
+    def deprecated(self) -> bool:
+        """Whether another launch file should be used."""
+        return self.__deprecated_reason is not None
+
+    @property
+    def deprecated_reason(self) -> str | None:
+        """Why another launch file should be used."""
+        return self.__deprecated_reason
+
+    def add_entity(self, entity: LaunchDescriptionEntity) -> None:
+        """Add an entity to the end."""
+        self.__entities += listed([entity], "add_entity")
+
+    def add_action(self, action: LaunchDescriptionEntity) -> None:
+        """Add an action to the end."""
+        self.__entities += listed([action], "add_action")
+
+    def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Return the entities to be visited."""
+        if self.__deprecated_reason is not None:
+            import launch.logging
+
+            launch.logging.get_logger("launch").warning(
+                f"this launch description is deprecated: {self.__deprecated_reason}"
+            )
+        return self.__entities
+
+    def describe(self) -> str:
+        """Return one line for `ros2 launch --print`."""
+        return f"LaunchDescription({hex(id(self))})"
+
+    def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        """Return the entities."""
+        return list(self.__entities)
+
+    def get_launch_arguments(self, conditional_inclusion: bool = False) -> list[DeclareLaunchArgument]:
+        """Return the arguments that are declared here and in included files, each name once.
+
+        Arguments inside of something conditional are marked as such. Files whose path needs the launch to run are
+        left out.
+        """
+        found = self.get_launch_arguments_with_include_launch_description_actions(conditional_inclusion)
+        arguments: dict[Any, DeclareLaunchArgument] = {}
+        for argument, _ in found:
+            arguments.setdefault(argument.name, argument)
+        return list(arguments.values())
+
+    def get_launch_arguments_with_include_launch_description_actions(
+        self, conditional_inclusion: bool = False, *, only_search_local: bool = False
+    ) -> list[tuple[DeclareLaunchArgument, list[IncludeLaunchDescription]]]:
+        """Return the declared arguments, each with the chain of includes that leads to it, the innermost last."""
+        from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription, ResetLaunchConfigurations
+
+        found: list[tuple[DeclareLaunchArgument, list[IncludeLaunchDescription]]] = []
+
+        def search(
+            entities: Iterable[LaunchDescriptionEntity], conditional: bool, chain: list[IncludeLaunchDescription]
+        ) -> None:
+            for entity in entities:
+                if isinstance(entity, DeclareLaunchArgument):
+                    entity._conditionally_included |= conditional or entity.condition is not None
+                    found.append((entity, chain))
+                if isinstance(entity, ResetLaunchConfigurations):
+                    return  # what comes now cannot see arguments from outside
+                deeper = chain
+                if isinstance(entity, IncludeLaunchDescription):
+                    if only_search_local or entity.leads_back_into(chain):
+                        continue
+                    deeper = [*chain, entity]
+                search(entity.describe_sub_entities(), conditional, deeper)
+                for _, group in entity.describe_conditional_sub_entities():
+                    search(group, True, deeper)
+
+        search(self.__entities, conditional_inclusion, [])
+        return found

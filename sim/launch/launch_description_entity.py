@@ -1,0 +1,71 @@
+"""What a launch description is made of: something that can be visited, and may lead to more of its kind.
+
+`visit` walks depth first through an entity and all it leads to; `LaunchService` calls it for each event.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any, Union
+
+from launch.errors import LaunchError
+
+if TYPE_CHECKING:
+    from asyncio import Future
+
+    from launch.launch_context import LaunchContext
+
+
+class LaunchDescriptionEntity:
+    """Base of actions and launch descriptions."""
+
+    def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Do the work; return the entities to be visited next."""
+        return None
+
+    def describe(self) -> str:
+        """Return one line for `ros2 launch --print`."""
+        return repr(self)
+
+    def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        """Return the entities this one surely leads to, as far as that is known before it is visited."""
+        return []
+
+    def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        """Return the entities it may lead to, each group with the condition in words."""
+        return []
+
+    def get_asyncio_future(self) -> Future[None] | None:
+        """Return what is done when the entity is; None when it is done as soon as it was visited."""
+        return None
+
+
+SomeEntitiesType = Union[LaunchDescriptionEntity, Iterable[LaunchDescriptionEntity]]  # noqa: UP007 - public
+
+
+def listed(entities: Any, what: str) -> list[LaunchDescriptionEntity]:
+    """Return one entity, an iterable of them or None as a list.
+
+    Raises LaunchError if something else is among them; `what` tells the user where it came from.
+    """
+    if entities is None:
+        return []
+    if isinstance(entities, LaunchDescriptionEntity):
+        return [entities]
+    items = list(entities) if isinstance(entities, Iterable) else [entities]
+    for item in items:
+        if not isinstance(item, LaunchDescriptionEntity):
+            raise LaunchError(f"{what} holds {item!r} of type {type(item).__name__}; only actions can stand there")
+    return items
+
+
+def visit(entity: LaunchDescriptionEntity, context: LaunchContext) -> None:
+    """Visit an entity and everything it leads to, depth first; note their futures in the context."""
+    if not isinstance(entity, LaunchDescriptionEntity):
+        raise LaunchError(f"{entity!r} of type {type(entity).__name__} stands where an action is expected")
+    following = entity.visit(context)
+    future = entity.get_asyncio_future()
+    if future is not None:
+        context.add_completion_future(future)
+    for each in following or ():
+        visit(each, context)

@@ -1,0 +1,95 @@
+"""Where an included launch description comes from: made already, or a file that is loaded when it is needed."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any
+
+from launch.invalid_launch_file_error import InvalidLaunchFileError
+from launch.substitution import (
+    SomeSubstitutionsType,
+    Substitution,
+    describe_substitutions,
+    normalize_to_list_of_substitutions,
+    perform_substitutions,
+)
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
+    from launch.launch_description import LaunchDescription
+
+
+class LaunchDescriptionSource:
+    """A launch description, or the `location` of one. A class of one's own overrides `_get_launch_description`."""
+
+    def __init__(
+        self,
+        launch_description: LaunchDescription | None = None,
+        location: SomeSubstitutionsType | os.PathLike[str] | None = None,
+        method: str = "unspecified mechanism from a script",
+    ) -> None:
+        self.__launch_description = launch_description
+        self.__location = [] if location is None else normalize_to_list_of_substitutions(location)
+        self.__expanded_location: str | None = None
+        self.__method = method
+
+    @property
+    def method(self) -> str:
+        """In words, how it is loaded."""
+        return self.__method
+
+    @property
+    def location(self) -> str:
+        """The path, or its description as long as it is not known."""
+        return self.__expanded_location or describe_substitutions(self.__location)
+
+    @property
+    def plain_location(self) -> str | None:
+        """The path if it is known before the launch runs, else None."""
+        from launch.substitutions import TextSubstitution
+
+        texts = [part.text for part in self.__location if isinstance(part, TextSubstitution)]
+        return "".join(texts) if texts and len(texts) == len(self.__location) else None
+
+    def try_get_launch_description_without_context(self) -> LaunchDescription | None:
+        """Return the launch description if it can be had before the launch runs, else None.
+
+        Raises whatever loading the file raises.
+        """
+        if self.__launch_description is None and self.plain_location is not None:
+            self._load(self.plain_location)
+        return self.__launch_description
+
+    def get_launch_description(self, context: LaunchContext) -> LaunchDescription:
+        """Return the launch description; its file is loaded when it is asked for first."""
+        if self.__launch_description is None:
+            self._load(perform_substitutions(context, self.__location))
+        assert self.__launch_description is not None
+        return self.__launch_description
+
+    def _load(self, location: str) -> None:
+        self.__expanded_location = os.path.abspath(location) if location else location  # noqa: PTH100
+        self.__launch_description = self._get_launch_description(location)
+
+    def _get_launch_description(self, location: str) -> LaunchDescription:
+        raise InvalidLaunchFileError(f"{type(self).__name__} does not say how '{location}' is loaded")
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.location})"
+
+
+def as_source(source: Any) -> LaunchDescriptionSource:
+    """Return a source for what IncludeLaunchDescription was given: a source, or the path of a launch file."""
+    if isinstance(source, LaunchDescriptionSource):
+        return source
+    from launch.launch_description import LaunchDescription
+    from launch.launch_description_sources import AnyLaunchDescriptionSource
+
+    if isinstance(source, LaunchDescription):
+        return LaunchDescriptionSource(source)
+    if isinstance(source, str | os.PathLike | Substitution | list | tuple):
+        return AnyLaunchDescriptionSource(source)
+    raise TypeError(
+        f"IncludeLaunchDescription wants PythonLaunchDescriptionSource(path), not {source!r} of type "
+        f"{type(source).__name__}"
+    )

@@ -1,0 +1,36 @@
+"""Launch files of any kind, told by their names."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from launch.invalid_launch_file_error import InvalidLaunchFileError
+from launch.launch_description import LaunchDescription
+from launch.launch_description_source import LaunchDescriptionSource
+from launch.launch_description_sources.python_launch_description_source import (
+    get_launch_description_from_python_launch_file,
+)
+from launch.substitution import SomeSubstitutionsType
+
+_OTHER_KINDS = {".xml": "an XML", ".yaml": "a YAML", ".yml": "a YAML"}
+
+
+class AnyLaunchDescriptionSource(LaunchDescriptionSource):
+    """The launch file at a path, which may be put together from substitutions."""
+
+    def __init__(self, launch_file_path: SomeSubstitutionsType | os.PathLike[str]) -> None:
+        super().__init__(location=launch_file_path, method="any launch file")
+
+    def _get_launch_description(self, location: str) -> LaunchDescription:
+        return get_launch_description_from_any_launch_file(location)
+
+
+def get_launch_description_from_any_launch_file(launch_file_path: str) -> LaunchDescription:
+    """Return the launch description of a file. Raises InvalidLaunchFileError for anything but a Python file."""
+    kind = _OTHER_KINDS.get(Path(launch_file_path).suffix.lower())
+    if kind is not None and Path(launch_file_path).is_file():
+        raise InvalidLaunchFileError(
+            f"'{launch_file_path}' is {kind} launch file; only Python launch files (.launch.py) can be used here"
+        )
+    return get_launch_description_from_python_launch_file(launch_file_path)

@@ -1,0 +1,40 @@
+"""Shows a launch description as a tree, for `ros2 launch --print`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from launch.actions import IncludeLaunchDescription
+from launch.launch_description import LaunchDescription
+from launch.launch_description_entity import LaunchDescriptionEntity
+
+
+class LaunchIntrospector:
+    """Formats launch descriptions."""
+
+    def format_launch_description(self, launch_description: LaunchDescription) -> str:
+        """Return the object's name, and a line for each entity below it."""
+        return "\n".join([repr(launch_description), *_tree(launch_description.entities, ())])
+
+
+def _tree(entities: Iterable[LaunchDescriptionEntity], chain: tuple[IncludeLaunchDescription, ...]) -> list[str]:
+    lines = []
+    items = list(entities)
+    for number, entity in enumerate(items):
+        last = number == len(items) - 1
+        lines.append(("└── " if last else "├── ") + entity.describe())
+        lines += [("    " if last else "│   ") + line for line in _below(entity, chain)]
+    return lines
+
+
+def _below(entity: LaunchDescriptionEntity, chain: tuple[IncludeLaunchDescription, ...]) -> list[str]:
+    if isinstance(entity, IncludeLaunchDescription):
+        if entity.leads_back_into(chain):
+            return ["└── (itself again)"]
+        chain = (*chain, entity)
+    lines = _tree(entity.describe_sub_entities(), chain)
+    for text, group in entity.describe_conditional_sub_entities():
+        below = _tree(group, chain)
+        if below:
+            lines += [f"└── {text}", *[f"    {line}" for line in below]]
+    return lines

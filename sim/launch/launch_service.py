@@ -1,0 +1,234 @@
+"""Runs launch descriptions: visits them, hands events to event handlers, and ends everything it has started.
+
+    service = LaunchService()
+    service.include_launch_description(description)
+    exit_code = service.run()
+
+`ros2 launch` does this. One event after the other is offered to all handlers; what they answer is visited. The run
+ends when the launch was shut down and nothing is left; it shuts itself down when there is nothing more to wait for.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import signal
+import threading
+import traceback
+from collections.abc import Callable, Coroutine, Iterable
+from types import FrameType
+
+import launch.logging
+from launch.errors import LaunchError, sentence
+from launch.event import Event
+from launch.events import IncludeLaunchDescription, Shutdown
+from launch.launch_context import LaunchContext
+from launch.launch_description import LaunchDescription
+from launch.launch_description_entity import listed, visit
+
+_OTHER_ENDS = (signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
+_LOG = launch.logging.get_logger("launch")
+
+
+class LaunchService:
+    """One run. `argv` is kept for launch files that read it; `noninteractive` tells that nobody is at a terminal."""
+
+    def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False, debug: bool = False) -> None:
+        self.__context = LaunchContext(argv=argv, noninteractive=noninteractive)
+        self.__debug = debug
+        self.__return_code = 0
+        self.__is_running = False
+        self.__lock = threading.Lock()
+        self.__visiting = False
+        self.__held_signal: int | None = None
+        self.__loop: asyncio.AbstractEventLoop | None = None
+        if debug:
+            launch.logging.launch_config.level = "DEBUG"
+
+    @property
+    def context(self) -> LaunchContext:
+        """The state of the run."""
+        return self.__context
+
+    @property
+    def event_loop(self) -> asyncio.AbstractEventLoop | None:
+        """The event loop while it runs, else None."""
+        return self.__loop
+
+    def include_launch_description(self, launch_description: LaunchDescription) -> None:
+        """Have a launch description visited."""
+        self.emit_event(IncludeLaunchDescription(launch_description))
+
+    def emit_event(self, event: Event) -> None:
+        """Queue an event; from any thread, before and during the run."""
+        self.__context.emit_event_sync(event)
+
+    def shutdown(self, force_sync: bool = False) -> Coroutine[None, None, None] | None:
+        """End the run as if nothing was left to be done; from any thread.
+
+        Called in the event loop of the run it returns a coroutine that waits for nothing, for `await`.
+        """
+        self.emit_event(Shutdown(reason="LaunchService.shutdown() called"))
+        try:
+            inside = asyncio.get_running_loop() is self.__loop
+        except RuntimeError:
+            inside = False
+        return _nothing() if inside and not force_sync else None
+
+    def run(self, *, shutdown_when_idle: bool = True) -> int:
+        """Run to the end: 0, or 1 when the launch itself failed. In any thread, also where a loop is running.
+
+        The exit codes of processes do not count. In the main thread SIGINT, SIGTERM, SIGHUP and SIGQUIT end the run.
+        """
+        work = self.run_async(shutdown_when_idle=shutdown_when_idle)
+        try:
+            asyncio.get_running_loop()
+        except RuntimeError:
+            with asyncio.Runner() as runner:
+                return runner.get_loop().run_until_complete(work)
+        return self._run_in_thread(work)
+
+    def _run_in_thread(self, work: Coroutine[None, None, int]) -> int:
+        """Run beside an event loop that waits meanwhile, as in a notebook."""
+        result: list[int] = []
+        thread = threading.Thread(target=lambda: result.append(asyncio.run(work)), name="launch")
+        thread.start()
+        while True:
+            try:
+                thread.join()
+                return result[0] if result else 1
+            except KeyboardInterrupt:
+                self._interrupt_soon(signal.SIGINT)
+
+    async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
+        """Run to the end in the event loop that awaits this; as `run`."""
+        with self.__lock:
+            if self.__is_running:
+                raise LaunchError("this LaunchService is running already; make another one")
+            self.__is_running = True
+        self.__return_code = 0
+        self.__context._set_is_shutdown(False)
+        self.__loop = asyncio.get_running_loop()
+        launch.logging.launch_config.announce()
+        restore_signals = self._take_signals()
+        self.__context._set_asyncio_loop(self.__loop)
+        try:
+            await self._run(shutdown_when_idle)
+        except asyncio.CancelledError:
+            self.emit_event(Shutdown(reason="the task of the launch was cancelled"))
+            await self._run(shutdown_when_idle)
+            raise
+        finally:
+            restore_signals()
+            self.__context._set_asyncio_loop(None)
+            self.__context._reset_environment()
+            self.__loop = None
+            self.__is_running = False
+        return self.__return_code
+
+    async def _run(self, shutdown_when_idle: bool) -> None:
+        context = self.__context
+        while True:
+            event = context._next_event()
+            if event is not None:
+                self._process(event)
+                continue
+            failure = context._next_failure()
+            if failure is not None:
+                self._fail(failure)
+                continue
+            if not context._is_busy:
+                if context.is_shutdown:
+                    return
+                if shutdown_when_idle:
+                    self.emit_event(Shutdown(reason="idle"))
+                    continue
+            await context._something_happens()
+
+    def _process(self, event: Event) -> None:
+        """Offer an event to all handlers and visit what they answer."""
+        _LOG.debug(f"processing event: '{event.name}'")
+        if isinstance(event, Shutdown):
+            if self.__context.is_shutdown:
+                return
+            self.__context._set_is_shutdown(True)
+        try:
+            try:
+                self.__visiting = True
+                self._visit_answers(event)
+            finally:
+                self.__visiting = False
+        except KeyboardInterrupt:
+            self.__context._drop_scopes()
+        except Exception as error:
+            self.__context._drop_scopes()
+            self._fail(error)
+        if self.__held_signal is not None:
+            number, self.__held_signal = self.__held_signal, None
+            self._interrupt(number)
+
+    def _visit_answers(self, event: Event) -> None:
+        context = self.__context
+        if isinstance(event, IncludeLaunchDescription):
+            visit(event.launch_description, context)
+        for handler in context.handlers_of(event):
+            context._push_locals()
+            context.extend_locals({"event": event})
+            for entity in listed(handler.handle(event, context), f"the answer of {type(handler).__name__}"):
+                visit(entity, context)
+            context._pop_locals()
+
+    def _fail(self, error: BaseException) -> None:
+        """Say what went wrong and end the run with exit code 1."""
+        self.__return_code = 1
+        _LOG.debug("".join(traceback.format_exception(error)).rstrip())
+        _LOG.error(f"Caught exception in launch (see debug for traceback): {sentence(error)}")
+        self.emit_event(Shutdown(reason=f"Caught exception in launch: {error}"))
+
+    # Signals
+
+    def _take_signals(self) -> Callable[[], None]:
+        """Handle signals in the main thread; return what undoes that.
+
+        Handlers of the real kind: they work where the parent has set SIGINT to ignored, as a shell's `&` does.
+        """
+        if threading.current_thread() is not threading.main_thread():
+            return lambda: None
+        before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGCHLD, *_OTHER_ENDS)}
+        for number in (signal.SIGINT, *_OTHER_ENDS):
+            signal.signal(number, self._on_signal)
+        if before[signal.SIGCHLD] is signal.SIG_IGN:
+            signal.signal(signal.SIGCHLD, signal.SIG_DFL)  # else the exit codes of children would be lost
+
+        def restore() -> None:
+            for number, handler in before.items():
+                signal.signal(number, handler if handler is not None else signal.SIG_DFL)
+
+        return restore
+
+    def _on_signal(self, number: int, frame: FrameType | None) -> None:
+        if self.__visiting:
+            # The launch file's own code, or a Command, is running; it may never end.
+            self.__held_signal = number
+            raise KeyboardInterrupt
+        self._interrupt_soon(number)
+
+    def _interrupt_soon(self, number: int) -> None:
+        loop = self.__loop
+        if loop is not None:
+            loop.call_soon_threadsafe(self._interrupt, number)
+
+    def _interrupt(self, number: int) -> None:
+        """End the run for a signal: with exit code 0 for SIGINT, else 1."""
+        if number == signal.SIGINT:
+            again = " again, ignoring..." if self.__context.is_shutdown else ""
+            _LOG.warning(f"user interrupted with ctrl-c (SIGINT){again}")
+            self.emit_event(Shutdown(reason="ctrl-c (SIGINT)", due_to_sigint=True))
+            return
+        self.__return_code = 1
+        name = signal.Signals(number).name
+        _LOG.warning(f"received {name}: shutting down")
+        self.emit_event(Shutdown(reason=name))
+
+
+async def _nothing() -> None:
+    """What shutdown() gives to be awaited."""

@@ -1,0 +1,177 @@
+"""What a launch writes: lines on the screen, `launch.log`, and the output of its processes in either.
+
+    launch.logging.get_logger("my_launch").info("up and running")
+
+prints `[INFO] [my_launch]: up and running` and writes the same with a time in front to `launch.log`. The log folder
+is `<date>-<time>-<host>-<pid>` below ROS_LOG_DIR, else ROS_HOME/log, else ~/.ros/log; it is made when the first line
+is logged.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+import os
+import socket
+import sys
+import time
+from datetime import datetime
+from pathlib import Path
+from typing import TextIO
+
+SCREEN_FORMAT = "[{0.levelname}] [{0.name}]: {1}"
+LOG_FORMAT = "{0.created:.7f} [{0.levelname}] [{0.name}]: {1}"
+
+
+class LaunchConfig:
+    """Level, log folder, screen and log file: one of them, `launch_config`, for the whole process."""
+
+    def __init__(self) -> None:
+        self._reset()
+
+    def _reset(self) -> None:
+        self._level = logging.INFO
+        self._log_dir: str | None = None
+        self._log_file: TextIO | None = None
+        self._announced = False
+        self._screen_is_gone = False
+
+    @property
+    def level(self) -> int:
+        """The level below which nothing is logged; set it with a number or a name of `logging`."""
+        return self._level
+
+    @level.setter
+    def level(self, level: int | str) -> None:
+        number = logging.getLevelName(level.upper()) if isinstance(level, str) else level
+        if not isinstance(number, int):
+            raise ValueError(f"{level!r} is no logging level; debug, info, warning, error and critical are")
+        self._level = number
+        for logger in _loggers.values():
+            logger.setLevel(number)
+
+    @property
+    def log_dir(self) -> str:
+        """The folder of this process's log files; asking for it makes it."""
+        if self._log_dir is None:
+            self._open_log()
+        assert self._log_dir is not None
+        return self._log_dir
+
+    @log_dir.setter
+    def log_dir(self, path: str) -> None:
+        if self._log_dir is not None:
+            raise RuntimeError(f"the log folder is in use already: {self._log_dir}")
+        self._open_log(Path(path))
+
+    def get_log_file_path(self, file_name: str = "launch.log") -> str:
+        """Return the path of a file in the log folder."""
+        return str(Path(self.log_dir) / file_name)
+
+    def announce(self) -> None:
+        """Say once where the log files are and what is logged."""
+        if self._announced:
+            return
+        self._announced = True
+        folder = self.log_dir
+        get_logger("launch").info(f"All log files can be found below {folder}")
+        get_logger("launch").info(f"Default logging verbosity is set to {logging.getLevelName(self._level)}")
+
+    def write_to_screen(self, text: str) -> None:
+        """Write whole lines to stdout. A reader that has gone away does not stop the launch."""
+        if self._screen_is_gone:
+            return
+        try:
+            sys.stdout.write(text)
+            sys.stdout.flush()
+        except (OSError, ValueError):
+            self._screen_is_gone = True
+            with contextlib.suppress(OSError, ValueError):
+                # Whatever is buffered would fail again, and loudly, when Python exits.
+                os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        except UnicodeEncodeError:
+            encoding = sys.stdout.encoding
+            sys.stdout.write(text.encode(encoding, "replace").decode(encoding))
+            sys.stdout.flush()
+
+    def write_to_log(self, text: str) -> None:
+        """Write whole lines to launch.log, if there can be one."""
+        if self._log_dir is None:
+            self._open_log()
+        if self._log_file is not None:
+            with contextlib.suppress(OSError, ValueError):
+                self._log_file.write(text)
+                self._log_file.flush()
+
+    def _open_log(self, folder: Path | None = None) -> None:
+        base = folder.parent if folder is not None else _log_base()
+        if folder is None:
+            now = datetime.now().strftime("%Y-%m-%d-%H-%M-%S-%f")
+            folder = base / f"{now}-{socket.gethostname()}-{os.getpid()}"
+        self._log_dir = str(folder)
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            self._log_file = (folder / "launch.log").open("a", encoding="utf-8", errors="replace")
+        except OSError as error:
+            get_logger("launch").warning(
+                f"there will be no log files: {folder} cannot be made ({error.strerror}); set ROS_LOG_DIR to a folder "
+                "that can be written to"
+            )
+            return
+        with contextlib.suppress(OSError):
+            _point_latest_at(base, folder)
+
+
+def _log_base() -> Path:
+    if os.environ.get("ROS_LOG_DIR"):
+        return Path(os.environ["ROS_LOG_DIR"]).expanduser()
+    if os.environ.get("ROS_HOME"):
+        return Path(os.environ["ROS_HOME"]).expanduser() / "log"
+    return Path("~/.ros/log").expanduser()
+
+
+def _point_latest_at(base: Path, folder: Path) -> None:
+    """Let the link `latest` lead to this run's folder; several launches may do so at once."""
+    link = base / f".latest-{os.getpid()}"
+    link.unlink(missing_ok=True)
+    link.symlink_to(folder.name)
+    if (base / "latest").is_symlink() or not (base / "latest").exists():
+        link.replace(base / "latest")
+    else:
+        link.unlink()
+
+
+class _Handler(logging.Handler):
+    """Writes a record to screen and log file."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        message = record.getMessage()
+        if record.exc_info:
+            message += "\n" + logging.Formatter().formatException(record.exc_info)
+        launch_config.write_to_screen(SCREEN_FORMAT.format(record, message) + "\n")
+        launch_config.write_to_log(LOG_FORMAT.format(record, message) + "\n")
+
+
+_loggers: dict[str, logging.Logger] = {}
+_handler = _Handler()
+launch_config = LaunchConfig()
+
+
+def get_logger(name: str = "launch") -> logging.Logger:
+    """Return the logger of this name. It is apart from the loggers of `logging`, whatever the name."""
+    if name not in _loggers:
+        logger = logging.Logger(name, launch_config.level)
+        logger.addHandler(_handler)
+        _loggers[name] = logger
+    return _loggers[name]
+
+
+def reset() -> None:
+    """Forget the log folder and the level: the next launch of this process has its own."""
+    launch_config._reset()
+    launch_config.level = logging.INFO
+
+
+def stamp() -> str:
+    """Return the time [s since 1970] as it stands at the start of a line in launch.log."""
+    return f"{time.time():.7f}"

@@ -1,0 +1,121 @@
+"""Where the lines that a process prints go: screen, launch.log, files of its own.
+
+`ExecuteLocal` feeds it what it reads; whole lines come out. The choice is made with `output=` of an action:
+
+    screen   both streams on the screen
+    log      both in launch.log, stderr on the screen as well (the default)
+    both     both in launch.log and on the screen
+    own_log  <label>-stdout.log, <label>-stderr.log and <label>.log (both streams) in the log folder
+    full     all of it
+
+or with a dict: `{"stdout": "screen", "stderr": {"log", "own_log"}}`.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from launch.errors import LaunchError, nearest
+from launch.logging import launch_config, stamp
+
+STREAMS = ("stdout", "stderr")
+_OVERRIDE = "OVERRIDE_LAUNCH_PROCESS_OUTPUT"
+_SINKS = ("screen", "log", "own_log")
+_OWN_OF_BOTH = "own_log_of_both"
+_WORDS: dict[str, dict[str, set[str]]] = {
+    "screen": {"both": {"screen"}},
+    "log": {"both": {"log"}, "stderr": {"screen"}},
+    "both": {"both": {"screen", "log"}},
+    "own_log": {"both": {"own_log"}, "stdout": {"own_log"}, "stderr": {"own_log"}},
+    "full": {"both": {"screen", "log", "own_log"}, "stdout": {"own_log"}, "stderr": {"own_log"}},
+}
+
+
+def sinks(output: str | dict[str, Any]) -> dict[str, set[str]]:
+    """Return the sinks of each stream for an `output=` argument. Raises LaunchError for words that mean nothing."""
+    chosen: dict[str, Any]
+    output = os.environ.get(_OVERRIDE) or output
+    if isinstance(output, str):
+        if output not in _WORDS:
+            raise LaunchError(f"output='{output}' means nothing{nearest(output, _WORDS, 'it can be')}")
+        chosen = _WORDS[output]
+    elif isinstance(output, dict):
+        chosen = output
+    else:
+        raise LaunchError(f"output={output!r} is of type {type(output).__name__}; a word or a dict is expected")
+    result: dict[str, set[str]] = {stream: set() for stream in STREAMS}
+    for key, words in chosen.items():
+        if key not in (*STREAMS, "both"):
+            raise LaunchError(f"output has the key '{key}'{nearest(str(key), (*STREAMS, 'both'), 'it can have')}")
+        for word in [words] if isinstance(words, str) else words:
+            if word not in _SINKS:
+                raise LaunchError(f"output of {key} is '{word}'{nearest(str(word), _SINKS, 'it can be')}")
+            for stream in STREAMS if key == "both" else (key,):
+                result[stream].add(_OWN_OF_BOTH if key == "both" and word == "own_log" else word)
+    return result
+
+
+class ProcessOutput:
+    """The output of one process under its label; `line_format(line)` makes a line for the screen."""
+
+    def __init__(
+        self, label: str, output: str | dict[str, Any], *, cached: bool, line_format: Callable[[str], str] | None
+    ) -> None:
+        self._label = label
+        self._sinks = sinks(output)
+        self._rest = {stream: b"" for stream in STREAMS}
+        self._cache: dict[str, bytearray] | None = {stream: bytearray() for stream in STREAMS} if cached else None
+        self._format = line_format or (lambda line: f"[{label}] {line}")
+        self._files: dict[str, BinaryIO] = {}
+
+    def feed(self, stream: str, data: bytes) -> None:
+        """Take what was read from a stream; write the lines that are complete."""
+        if self._cache is not None:
+            self._cache[stream] += data
+        complete, newline, rest = (self._rest[stream] + data).rpartition(b"\n")
+        self._rest[stream] = rest
+        if newline:
+            self._write(stream, complete.split(b"\n"))
+
+    def flush(self) -> None:
+        """Write what came without a newline at its end."""
+        for stream, rest in self._rest.items():
+            if rest:
+                self._rest[stream] = b""
+                self._write(stream, [rest])
+
+    def close(self) -> None:
+        """Close the files."""
+        self.flush()
+        for file in self._files.values():
+            file.close()
+        self._files.clear()
+
+    def cached(self, stream: str) -> bytes:
+        """Return all that came on a stream. Raises LaunchError unless it was made with `cached`."""
+        if self._cache is None:
+            raise LaunchError(f"the {stream} of {self._label} was not kept; give the action cached_output=True")
+        return bytes(self._cache[stream])
+
+    def _write(self, stream: str, raw: list[bytes]) -> None:
+        sinks = self._sinks[stream]
+        lines = [line.removesuffix(b"\r").decode(errors="replace") for line in raw]
+        if "log" in sinks:
+            launch_config.write_to_log("".join([f"{stamp()} [{self._label}] {line}\n" for line in lines]))
+        if "screen" in sinks:
+            launch_config.write_to_screen("".join([self._format(line) + "\n" for line in lines]))
+        if "own_log" in sinks:
+            self._write_file(f"{self._label}-{stream}.log", raw)
+        if _OWN_OF_BOTH in sinks:
+            self._write_file(f"{self._label}.log", raw)
+
+    def _write_file(self, name: str, lines: Iterable[bytes]) -> None:
+        with contextlib.suppress(OSError):
+            if name not in self._files:
+                path = Path(launch_config.log_dir) / name.replace(os.sep, "_")
+                self._files[name] = path.open("ab", buffering=0)
+            self._files[name].write(b"".join([line + b"\n" for line in lines]))

@@ -1,0 +1,100 @@
+"""What a command prints."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import signal
+import subprocess
+
+import launch.logging
+from launch.launch_context import LaunchContext
+from launch.substitution import (
+    SomeSubstitutionsType,
+    Substitution,
+    describe_substitutions,
+    normalize_to_list_of_substitutions,
+    perform_substitutions,
+)
+from launch.substitutions.paths import nearest_program
+from launch.substitutions.substitution_failure import SubstitutionFailure
+
+_ON_STDERR = ("fail", "ignore", "warn", "capture")
+
+
+class Command(Substitution):
+    """The output of `command`, which is split into words as a shell would, and started without one.
+
+    `on_stderr` says what happens when the command writes to stderr: `fail` (the default), `ignore`, `warn`, or
+    `capture` it behind the output. A failing command is a SubstitutionFailure in any case.
+    """
+
+    def __init__(self, command: SomeSubstitutionsType, *, on_stderr: SomeSubstitutionsType = "fail") -> None:
+        self.__command = normalize_to_list_of_substitutions(command)
+        self.__on_stderr = normalize_to_list_of_substitutions(on_stderr)
+
+    @property
+    def command(self) -> list[Substitution]:
+        """The command."""
+        return self.__command
+
+    @property
+    def on_stderr(self) -> list[Substitution]:
+        """What happens when it writes to stderr."""
+        return self.__on_stderr
+
+    def describe(self) -> str:
+        """`Command('...')`."""
+        return f"Command({describe_substitutions(self.__command)})"
+
+    def perform(self, context: LaunchContext) -> str:
+        """Run the command to its end; return what it wrote to stdout, the last newline included."""
+        text = perform_substitutions(context, self.__command)
+        on_stderr = perform_substitutions(context, self.__on_stderr)
+        if on_stderr not in _ON_STDERR:
+            raise SubstitutionFailure(f"on_stderr of Command is {on_stderr!r}; it can be {', '.join(_ON_STDERR)}")
+        try:
+            words = shlex.split(text)
+        except ValueError as error:
+            raise SubstitutionFailure(f"the command {text!r} cannot be split into words: {error}") from None
+        if not words:
+            raise SubstitutionFailure("the command of Command is empty")
+        code, output, errors = _run(words, context)
+        if code != 0:
+            ended = f"exit code {code}" if code > 0 else f"signal {signal.Signals(-code).name}"
+            said = f": {errors.strip()}" if errors.strip() else ""
+            raise SubstitutionFailure(f"the command '{text}' failed with {ended}{said}")
+        if errors and on_stderr == "fail":
+            raise SubstitutionFailure(
+                f"the command '{text}' wrote to stderr, which on_stderr='warn' would allow: {errors.strip()}"
+            )
+        if errors and on_stderr == "warn":
+            launch.logging.get_logger("launch.substitutions.command").warning(
+                f"the command '{text}' wrote to stderr: {errors.strip()}"
+            )
+        return output + errors if on_stderr == "capture" else output
+
+
+def _run(words: list[str], context: LaunchContext) -> tuple[int, str, str]:
+    """(exit code, stdout, stderr) of a command, which does not outlive an interruption of this function."""
+    try:
+        process = subprocess.Popen(
+            words,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            env=dict(context.environment),
+            process_group=0,
+        )
+    except FileNotFoundError:
+        known = nearest_program(words[0], context)
+        raise SubstitutionFailure(f"there is no program '{words[0]}' for Command to run{known}") from None
+    except OSError as error:
+        raise SubstitutionFailure(f"the program '{words[0]}' does not start: {error.strerror}") from None
+    with process:
+        try:
+            output, errors = process.communicate()
+        except BaseException:
+            os.killpg(process.pid, signal.SIGKILL)
+            raise
+    return process.returncode, output.decode(errors="replace"), errors.decode(errors="replace")

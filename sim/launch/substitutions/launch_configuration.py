@@ -1,0 +1,57 @@
+"""The value of a launch argument or of anything else that was set with SetLaunchConfiguration."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from launch.errors import nearest
+from launch.launch_context import LaunchContext
+from launch.substitution import (
+    SomeSubstitutionsType,
+    Substitution,
+    normalize_to_list_of_substitutions,
+    perform_substitutions,
+)
+from launch.substitutions.substitution_failure import SubstitutionFailure
+
+
+class LaunchConfiguration(Substitution):
+    """The value of `variable_name`, else `default`; SubstitutionFailure when there is neither.
+
+    A default that is no text, such as a number, becomes text with str().
+    """
+
+    def __init__(self, variable_name: SomeSubstitutionsType, *, default: Any | Iterable[Any] | None = None) -> None:
+        self.__variable_name = normalize_to_list_of_substitutions(variable_name)
+        self.__default = None if default is None else _as_substitutions(default)
+
+    @property
+    def variable_name(self) -> list[Substitution]:
+        """The name."""
+        return self.__variable_name
+
+    def describe(self) -> str:
+        """`LaunchConfig('name')`."""
+        return f"LaunchConfig({' + '.join(part.describe() for part in self.__variable_name)})"
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return the value. Raises SubstitutionFailure with the nearest name."""
+        name = perform_substitutions(context, self.__variable_name)
+        if name in context.launch_configurations:
+            value = context.launch_configurations[name]
+            return value if isinstance(value, str) else str(value)
+        if self.__default is None:
+            known = nearest(name, context.launch_configurations, "these exist")
+            raise SubstitutionFailure(f"launch configuration '{name}' does not exist{known}")
+        return perform_substitutions(context, self.__default)
+
+
+def _as_substitutions(default: Any) -> list[Substitution]:
+    if isinstance(default, str | Substitution):
+        return normalize_to_list_of_substitutions(default)
+    if isinstance(default, Iterable):
+        return normalize_to_list_of_substitutions(
+            item if isinstance(item, str | Substitution) else str(item) for item in default
+        )
+    return normalize_to_list_of_substitutions(str(default))

@@ -1,0 +1,9 @@
+"""What a substitution raises when it has no text."""
+
+from __future__ import annotations
+
+from launch.errors import LaunchError
+
+
+class SubstitutionFailure(LaunchError, RuntimeError):
+    """A substitution could not be performed."""

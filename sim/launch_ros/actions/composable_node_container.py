@@ -1,0 +1,48 @@
+"""Containers of composable nodes, and lifecycle nodes: can be written in a launch file, but not be executed here.
+
+Many launch files import them for a case that is switched off by default. They need programs that only a full ROS 2
+has (rclcpp components, the lifecycle manager), and say so when they are executed.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.action import Action
+from launch.errors import NotAvailableError
+from launch.launch_context import LaunchContext
+
+
+class _OnlyDescribed(Action):
+    """Base: keeps its arguments as attributes and fails when it is executed."""
+
+    _instead = "start its nodes with Node(package=..., executable=...)"
+
+    def __init__(self, *, condition: Any = None, **arguments: Any) -> None:
+        super().__init__(condition=condition)
+        self.arguments = arguments
+
+    def describe(self) -> str:
+        """Return one line for `ros2 launch --print`."""
+        return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in self.arguments.items())})"
+
+    def execute(self, context: LaunchContext) -> None:
+        """Raise NotAvailableError."""
+        raise NotAvailableError(
+            f"{type(self).__name__} needs a full ROS 2 installation and cannot be executed here; {self._instead}, or "
+            "switch it off with its condition"
+        )
+
+
+class ComposableNodeContainer(_OnlyDescribed):
+    """A process into which composable nodes are loaded."""
+
+
+class LoadComposableNodes(_OnlyDescribed):
+    """Loads composable nodes into a container that runs."""
+
+
+class LifecycleNode(_OnlyDescribed):
+    """A node with states that are changed from outside."""
+
+    _instead = "use Node for a node that needs no state changes"

@@ -1,0 +1,1 @@
+"""Events of nodes; those of lifecycle nodes are in `launch_ros.events.lifecycle`."""

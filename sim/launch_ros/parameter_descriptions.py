@@ -1,0 +1,149 @@
+"""Parameters with more to say about them: values of a certain type, single parameters, parameter files."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from launch.errors import LaunchError
+from launch.frontend import parse_substitution
+from launch.launch_context import LaunchContext
+from launch.substitution import (
+    SomeSubstitutionsType,
+    Substitution,
+    normalize_to_list_of_substitutions,
+    perform_substitutions,
+)
+from launch_ros.parameter_values import Value, check_value, coerce, evaluate_value
+
+
+class ParameterValue:
+    """A value whose type is given: `value_type` is str, int, float, bool or List[...] of one of them.
+
+    Without a type it is the value itself. What is text, such as the result of `Command`, needs `value_type=str`,
+    or it is read as YAML.
+    """
+
+    def __init__(self, value: Any, *, value_type: Any = None) -> None:
+        self.__value = value
+        self.__value_type = value_type
+        if not (isinstance(value, list | tuple) and any(isinstance(item, Substitution) for item in value)):
+            check_value("ParameterValue", value)
+
+    @property
+    def value(self) -> Any:
+        """The value as it was given."""
+        return self.__value
+
+    @property
+    def value_type(self) -> Any:
+        """Its type; None when that does not matter."""
+        return self.__value_type
+
+    def evaluate(self, context: LaunchContext, name: str = "") -> Value:
+        """Return the value a node is to get. Raises ParameterTypeError (a TypeError)."""
+        if self.__value_type is None:
+            return evaluate_value(context, name, self.__value)
+        value = self.__value
+        if isinstance(value, Substitution) or (
+            isinstance(value, list | tuple) and any(isinstance(item, Substitution) for item in value)
+        ):
+            value = perform_substitutions(context, normalize_to_list_of_substitutions(value))
+        return coerce(name, value, self.__value_type)
+
+
+class Parameter:
+    """One parameter: its name, its value, and the type of the value if that is given."""
+
+    def __init__(self, name: SomeSubstitutionsType, value: Any, *, value_type: Any = None) -> None:
+        self.__name = normalize_to_list_of_substitutions(name)
+        self.__value = ParameterValue(value, value_type=value_type)
+
+    @property
+    def name(self) -> list[Substitution]:
+        """The name."""
+        return self.__name
+
+    @property
+    def value(self) -> Any:
+        """The value as it was given."""
+        return self.__value.value
+
+    @property
+    def value_type(self) -> Any:
+        """The type of the value."""
+        return self.__value.value_type
+
+    def evaluate(self, context: LaunchContext) -> tuple[str, Value]:
+        """Return name and value."""
+        name = perform_substitutions(context, self.__name)
+        return name, self.__value.evaluate(context, name)
+
+
+class ParameterFile:
+    """A parameter file; with `allow_substs` it may hold `$(var name)` and other substitutions."""
+
+    def __init__(
+        self,
+        param_file: SomeSubstitutionsType | os.PathLike[str],
+        *,
+        allow_substs: bool | SomeSubstitutionsType = False,
+    ) -> None:
+        self.__param_file = normalize_to_list_of_substitutions(param_file)
+        self.__allow_substs = normalize_to_list_of_substitutions(
+            str(allow_substs) if isinstance(allow_substs, bool) else allow_substs
+        )
+        self.__made: Path | None = None
+
+    @property
+    def param_file(self) -> list[Substitution]:
+        """The path."""
+        return self.__param_file
+
+    @property
+    def allow_substs(self) -> list[Substitution]:
+        """Whether substitutions in the file are performed."""
+        return self.__allow_substs
+
+    def evaluate(self, context: LaunchContext) -> Path:
+        """Return the path of the file to be used, a new one when it holds substitutions."""
+        from launch.conditions import evaluate_condition_expression
+
+        path = Path(perform_substitutions(context, self.__param_file))
+        if not evaluate_condition_expression(context, self.__allow_substs) or not path.is_file():
+            return path
+        source = path.read_text(encoding="utf-8")
+        try:
+            # Comments may hold what is no substitution; YAML knows them.
+            plain = yaml.safe_dump(yaml.safe_load(source), width=float("inf"))
+            text = perform_substitutions(context, parse_substitution(plain))
+            yaml.safe_load(text)
+        except yaml.YAMLError as error:
+            raise LaunchError(f"the parameter file '{path}' is no YAML: {_one_line(error)}") from None
+        self.cleanup()
+        self.__made = write_parameter_file(text)
+        return self.__made
+
+    def cleanup(self) -> None:
+        """Delete the file that was made, if one was."""
+        if self.__made is not None:
+            with contextlib.suppress(FileNotFoundError):
+                self.__made.unlink()
+            self.__made = None
+
+
+def write_parameter_file(text: str) -> Path:
+    """Write a parameter file into the folder for temporary files; return its path."""
+    descriptor, path = tempfile.mkstemp(prefix="launch_params_")
+    with os.fdopen(descriptor, "w", encoding="utf-8") as file:
+        file.write(text)
+    return Path(path)
+
+
+def _one_line(error: yaml.YAMLError) -> str:
+    return " ".join(str(error).split())

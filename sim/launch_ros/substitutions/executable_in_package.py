@@ -1,0 +1,56 @@
+"""The path of an executable of a ROS package."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from launch.errors import nearest
+from launch.launch_context import LaunchContext
+from launch.substitution import (
+    SomeSubstitutionsType,
+    Substitution,
+    describe_substitutions,
+    normalize_to_list_of_substitutions,
+    perform_substitutions,
+)
+from launch.substitutions import SubstitutionFailure
+from launch_ros.substitutions.find_package import FindPackagePrefix
+
+
+class ExecutableInPackage(FindPackagePrefix):
+    """`<prefix>/lib/<package>/<executable>`; SubstitutionFailure with the nearest name when there is none."""
+
+    def __init__(self, executable: SomeSubstitutionsType, package: SomeSubstitutionsType) -> None:
+        super().__init__(package)
+        self.__executable = normalize_to_list_of_substitutions(executable)
+
+    @property
+    def executable(self) -> list[Substitution]:
+        """The name of the executable."""
+        return self.__executable
+
+    def describe(self) -> str:
+        """`ExecInPkg(pkg='package', exec='executable')`."""
+        package, executable = describe_substitutions(self.package), describe_substitutions(self.__executable)
+        return f"ExecInPkg(pkg={package}, exec={executable})"
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return the path."""
+        executable = perform_substitutions(context, self.__executable)
+        package = perform_substitutions(context, self.package)
+        prefix = Path(self.find(package))
+        folder = prefix / "lib" / package
+        if not folder.is_dir():
+            raise SubstitutionFailure(
+                f"package '{package}' found at '{prefix}', but libexec directory '{folder}' does not exist"
+            )
+        path = folder / executable
+        if path.is_file() and os.access(path, os.X_OK):
+            return str(path)
+        if path.is_file():
+            raise SubstitutionFailure(f"'{path}' is not executable; chmod +x makes it so")
+        known = [each.name for each in folder.iterdir() if each.is_file() and os.access(each, os.X_OK)]
+        raise SubstitutionFailure(
+            f"executable '{executable}' not found on the libexec directory '{folder}'{nearest(executable, known)}"
+        )

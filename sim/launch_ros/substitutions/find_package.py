@@ -1,0 +1,72 @@
+"""The folders of a ROS package."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ament_index_python.packages import PackageNotFoundError, get_package_prefix
+
+from launch.ament_prefix import nearest_package_of
+from launch.launch_context import LaunchContext
+from launch.substitution import (
+    SomeSubstitutionsType,
+    Substitution,
+    describe_substitutions,
+    normalize_to_list_of_substitutions,
+    perform_substitutions,
+)
+from launch.substitutions import PathJoinSubstitution, SubstitutionFailure
+
+
+class FindPackage(Substitution):
+    """Base: finds a package. Raises SubstitutionFailure with the nearest name when there is none."""
+
+    def __init__(self, package: SomeSubstitutionsType) -> None:
+        self.__package = normalize_to_list_of_substitutions(package)
+
+    @property
+    def package(self) -> list[Substitution]:
+        """The name of the package."""
+        return self.__package
+
+    def find(self, package_name: str) -> str:
+        """Return the folder in question."""
+        return package_prefix(package_name)
+
+    def __truediv__(self, component: SomeSubstitutionsType) -> PathJoinSubstitution:
+        return PathJoinSubstitution([self, component])
+
+    def describe(self) -> str:
+        """`FindPackageShare(pkg='name')`."""
+        return f"{type(self).__name__}(pkg={describe_substitutions(self.__package)})"
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return the folder."""
+        return self.find(perform_substitutions(context, self.__package))
+
+
+class FindPackagePrefix(FindPackage):
+    """The folder a package is installed in."""
+
+
+class FindPackageShare(FindPackage):
+    """The folder of a package's shared files: launch files, worlds, configurations."""
+
+    def find(self, package_name: str) -> str:
+        """Return `<prefix>/share/<package>`."""
+        return str(Path(package_prefix(package_name)) / "share" / package_name)
+
+
+def package_prefix(package_name: str) -> str:
+    """Return the folder a package is installed in. Raises SubstitutionFailure."""
+    try:
+        return get_package_prefix(package_name)
+    except PackageNotFoundError as error:
+        sentence = str(error.args[0])
+        raise SubstitutionFailure(sentence + nearest_package_of(sentence)) from None
+    except ValueError as error:  # a name that no package can have
+        raise SubstitutionFailure(str(error)) from None
+    except OSError:
+        raise SubstitutionFailure(
+            f"package '{package_name}' not found: AMENT_PREFIX_PATH, which names the folders to search, is not set"
+        ) from None

@@ -1,0 +1,55 @@
+"""Starts Gazebo with the words in `gz_args`, as `gz sim <gz_args>` would: `gz_args:="-r -s empty.sdf"`."""
+
+import os
+import shlex
+import sys
+from pathlib import Path
+
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, ExecuteProcess, LogInfo, Shutdown
+from launch.conditions import IfCondition, LaunchConfigurationNotEquals
+from launch.substitutions import IfElseSubstitution, LaunchConfiguration
+
+
+def generate_launch_description() -> LaunchDescription:
+    """The arguments of ros_gz_sim's launch file, and one process, `gazebo`."""
+    # The `gz` of the Python that runs this launch file, whatever PATH says.
+    beside = Path(sys.executable).with_name("gz")
+    gz = shlex.quote(str(beside)) if os.access(beside, os.X_OK) else "gz"
+    return LaunchDescription(
+        [
+            DeclareLaunchArgument(
+                "gz_args", default_value="", description="Arguments to be passed to Gazebo Sim: -r to run, the world"
+            ),
+            DeclareLaunchArgument("gz_version", default_value="8", description="Gazebo Sim's major version"),
+            DeclareLaunchArgument("ign_args", default_value="", description="Deprecated: use gz_args"),
+            DeclareLaunchArgument("ign_version", default_value="", description="Deprecated: use gz_version"),
+            DeclareLaunchArgument("debugger", default_value="false", description="Run in a debugger (gdb)"),
+            DeclareLaunchArgument(
+                "on_exit_shutdown", default_value="false", description="Shutdown on gz-sim exit: true or false"
+            ),
+            _deprecated("ign_args", "gz_args"),
+            _deprecated("ign_version", "gz_version"),
+            ExecuteProcess(
+                cmd=[
+                    # Without exec the shell would stay, and its exit code would hide Gazebo's.
+                    ["exec ", gz, " sim ", LaunchConfiguration("gz_args"), " ", LaunchConfiguration("ign_args")],
+                    "--force-version",
+                    LaunchConfiguration("gz_version"),
+                ],
+                name="gazebo",
+                output="screen",
+                shell=True,
+                prefix=IfElseSubstitution(
+                    LaunchConfiguration("debugger"), "x-terminal-emulator -e gdb -ex run --args", ""
+                ),
+                on_exit=[
+                    Shutdown(reason="Gazebo has ended", condition=IfCondition(LaunchConfiguration("on_exit_shutdown")))
+                ],
+            ),
+        ]
+    )
+
+
+def _deprecated(old: str, new: str) -> LogInfo:
+    return LogInfo(msg=f"'{old}' is deprecated: use '{new}'", condition=LaunchConfigurationNotEquals(old, ""))
