@@ -81,8 +81,9 @@ class SystemManager:
                     text = f"model '{model.name}' is static, so its system {found.name} cannot move it"
                     diagnostics.warn(plugin.element.where, text)
                     continue
-                names = {servo.joint for servo in taken}
-                taken.extend(servo for servo in driven if servo.joint not in names)
+                for servo in driven:
+                    if all(servo.actuator != other.actuator for other in taken):
+                        taken.append(servo)
                 self._make(found, model, plugin)
         except Exception:
             self._running = before

@@ -161,9 +161,9 @@ class _Builder:
         body = self._bodies[name] = holder.add_body(name=name, pos=pose.position, quat=pose.quaternion)
         servo = None
         if edge is not None:
-            servo = next((s for s in self._servos.get(model.name, []) if s.joint == edge.joint.name), None)
-            wheel = servo is not None and servo.kind == WHEEL
-            armature = recipe.wheel_armature(model.mass(), servo.sharing, servo.radius) if servo and wheel else 0.0
+            wheels = (s for s in self._servos.get(model.name, []) if s.kind == WHEEL)
+            servo = next((s for s in wheels if s.joint == edge.joint.name), None)
+            armature = recipe.wheel_armature(model.mass(), servo.sharing, servo.radius) if servo else 0.0
             add_joint(self._spec, body, edge.name, edge.joint, armature, self._step)
             if edge.joint.kind not in ("fixed", "gearbox"):
                 self._tree.built[edge.name] = edge.joint
@@ -171,7 +171,7 @@ class _Builder:
             body.add_freejoint(name=name + "#free")
         body.gravcomp = 0.0 if link.gravity else 1.0
         self._set_inertia(body, link)
-        self._add_parts(body, model, link, Pose(), wheel=servo is not None and servo.kind == WHEEL)
+        self._add_parts(body, model, link, Pose(), wheel=servo is not None)
 
     @staticmethod
     def _set_inertia(body: mujoco.MjsBody, link: Link) -> None:

@@ -18,6 +18,11 @@ SLIP_SPEED = 0.01
 gives.
 """
 
+SERVO_GIVE = 1e-3
+"""How much a load may slow a joint servo, as a fraction of what it does to a free joint in one step. Measured: stiffer
+gains nothing, softer lets an arm creep.
+"""
+
 DISCRETE = True
 """Use MuJoCo's `discrete` integrator. With False, `implicitfast` and a rotor inertia on the wheels give the
 same numbers.
@@ -57,6 +62,22 @@ def friction_ranks(coefficients: Iterable[float]) -> dict[float, int]:
 def wheel_gain(mass: float, sharing: int, radius: float) -> float:
     """Return the servo gain kv (N m s/rad) of one of `sharing` driven wheels under a model of `mass` kg."""
     return mass * GRAVITY / sharing * radius * radius / SLIP_SPEED
+
+
+def servo_gain(inverse_inertia: float, step: float) -> float:
+    """Return the gain kv of a servo that holds a joint's velocity against loads.
+
+    `inverse_inertia` is that which the joint sees (MuJoCo's `dof_invweight0`, 1/(kg m^2) or 1/kg). A load leaves a
+    speed error of SERVO_GIVE of what it would change the speed by in one `step` (s) of free motion.
+    """
+    return 1.0 / (max(inverse_inertia, 1e-12) * step * SERVO_GIVE)
+
+
+def strongest_push(inverse_inertia: float) -> float:
+    """Return the largest force (N m or N) a motor is ever asked for: it would give a free joint 1e6 rad/s^2 or m/s^2,
+    more than any machine and less than upsets the solver.
+    """
+    return 1e6 / max(inverse_inertia, 1e-12)
 
 
 def wheel_armature(mass: float, sharing: int, radius: float) -> float:

@@ -1,7 +1,8 @@
 """Joints that systems drive: each becomes a MuJoCo actuator whose control a system writes before every step.
 
-A system says in `System.servos` which joints it wants; the builder adds the actuators with `add_servo`; the
-system finds its place in `data.ctrl` with `World.joint_address`.
+A system says in `System.servos` which joints it wants; the builder adds the actuators with `add_servo`; the system
+finds its `Drive` with `find_drive` each time it is bound. There are two families: servos hold a velocity
+(`WHEEL`, `VELOCITY`), motors push with a force (`FORCE`, `APPLIED`).
 """
 
 from __future__ import annotations
@@ -12,16 +13,28 @@ from dataclasses import dataclass
 import mujoco
 
 from gz.sim.physics import recipe
+from gz.sim.physics.joint_axis import JointAxis, axis_name, find_axes
 from gz.sim.sdf.description import UNLIMITED, Model
 
 WHEEL = "wheel"
+"""Holds a velocity as far as the tyre grips: the recipe for wheels that carry a robot."""
 VELOCITY = "velocity"
+"""Holds a velocity against any load, as Gazebo's joint servos do."""
+FORCE = "force"
+"""Pushes with the force a controller computes."""
+APPLIED = "applied"
+"""Pushes with a force that comes on top of all else."""
+
+FASTEST = 1e4
+"""No joint is asked to move faster than this (rad/s or m/s), whatever its limits say."""
+
+_SUFFIX = {WHEEL: "", VELOCITY: "", FORCE: "#force", APPLIED: "#applied"}
 
 
 @dataclass(frozen=True)
 class JointServo:
-    """A system's wish to drive a joint by velocity: `joint` (scoped name), `kind`, wheel `radius` (m),
-    `sharing` wheels, `effort` (N m or N) as the most it may push.
+    """A system's wish to drive a joint: `joint` (scoped name), `kind`, wheel `radius` (m), `sharing` wheels,
+    `effort` (N m or N) as the most it may push, `axis` 1 for the second axis of a joint that has two.
     """
 
     joint: str
@@ -29,22 +42,84 @@ class JointServo:
     radius: float = 0.0
     sharing: int = 1
     effort: float = math.inf
+    axis: int = 0
+
+    @property
+    def actuator(self) -> str:
+        """The scoped name of its actuator; wishes of the same name share one."""
+        return axis_name(self.joint, self.axis) + _SUFFIX[self.kind]
 
 
 def add_servo(spec: mujoco.MjSpec, model: Model, servo: JointServo, name: str) -> None:
-    """Add the actuator of a servo; `name` is the MuJoCo name of the joint and becomes the actuator's."""
+    """Add the actuator of a servo; `name` is the MuJoCo name of the joint."""
     joint = model.joint(servo.joint)
     assert joint is not None
-    if servo.kind == WHEEL:
-        gain = recipe.wheel_gain(model.mass(), servo.sharing, servo.radius)
-    else:
-        child = model.link(joint.child)
-        assert child is not None
-        gain = 100.0 * child.inertial.mass
-    actuator = spec.add_actuator(name=name, target=name)
+    target = axis_name(name, servo.axis)
+    if spec.joint(target) is None:
+        return  # It closes a loop or holds a link that never moves: MuJoCo has no joint there.
+    actuator = spec.add_actuator(name=target + _SUFFIX[servo.kind], target=target)
     actuator.trntype = mujoco.mjtTrn.mjTRN_JOINT
-    actuator.set_to_velocity(kv=gain)
-    effort = min(servo.effort, joint.axis.effort if joint.axis is not None else math.inf)
+    if servo.kind == WHEEL:
+        actuator.set_to_velocity(kv=recipe.wheel_gain(model.mass(), servo.sharing, servo.radius))
+    elif servo.kind == VELOCITY:
+        actuator.set_to_velocity(kv=0.0)  # `find_drive` sets the gain when the inertia it works on is known.
+    else:
+        actuator.set_to_motor()
+    axis = joint.axis2 if servo.axis else joint.axis
+    effort = min(servo.effort, axis.effort if axis is not None else math.inf)
     if 0.0 < effort < UNLIMITED:
         actuator.forcelimited = mujoco.mjtLimited.mjLIMITED_TRUE
         actuator.forcerange = (-effort, effort)
+
+
+@dataclass(frozen=True, slots=True)
+class Drive:
+    """A servo or motor that was found: its place `control` in `data.ctrl`, the `axis` it moves, the most it may be
+    asked for (`limit`: rad/s or m/s of a servo, N m or N of a motor).
+    """
+
+    control: int
+    axis: JointAxis
+    limit: float
+
+    def push(self, data: mujoco.MjData, force: float) -> None:
+        """Let a motor push with `force` (N m or N) in the next step."""
+        data.ctrl[self.control] = min(max(force, -self.limit), self.limit)
+
+    def hold(self, data: mujoco.MjData, speed: float, dt: float) -> None:
+        """Let a servo move with `speed` (rad/s or m/s) in the next step of `dt` seconds, at most up to the limit of the
+        joint: a servo is stronger than the stop it would run into.
+        """
+        axis = self.axis
+        speed = min(max(speed, -self.limit), self.limit)
+        if axis.lower > -math.inf or axis.upper < math.inf:
+            position = data.qpos.item(axis.position)
+            if speed < 0.0:
+                speed = max(speed, min(0.0, (axis.lower - position) / dt))
+            else:
+                speed = min(speed, max(0.0, (axis.upper - position) / dt))
+        data.ctrl[self.control] = speed
+
+
+def find_drive(mj_model: mujoco.MjModel, model: Model, servo: JointServo) -> Drive | None:
+    """Find a servo of a model in MuJoCo's model and make it as stiff as the inertia it moves asks for; None for a
+    joint that does not move.
+    """
+    name = f"{model.name}::{servo.joint}"
+    axes = find_axes(mj_model, name)
+    actuator = f"{model.name}::{servo.actuator}"
+    control = int(mujoco.mj_name2id(mj_model, mujoco.mjtObj.mjOBJ_ACTUATOR, actuator))
+    if control < 0 or servo.axis >= len(axes):
+        return None
+    axis = axes[servo.axis]
+    inverse_inertia = float(mj_model.dof_invweight0[axis.velocity])
+    if servo.kind in (FORCE, APPLIED):
+        return Drive(control, axis, recipe.strongest_push(inverse_inertia))
+    if mj_model.actuator_gainprm[control, 0] == 0.0:
+        gain = recipe.servo_gain(inverse_inertia, float(mj_model.opt.timestep))
+        mj_model.actuator_gainprm[control, 0] = gain
+        mj_model.actuator_biasprm[control, 2] = -gain
+    joint = model.joint(servo.joint)
+    stated = (joint.axis2 if servo.axis else joint.axis) if joint is not None else None
+    fastest = stated.velocity if stated is not None and stated.velocity > 0.0 else math.inf
+    return Drive(control, axis, min(fastest, FASTEST))

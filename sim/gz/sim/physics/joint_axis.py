@@ -1,0 +1,70 @@
+"""The axes of a joint in MuJoCo's arrays: where they stand, how fast they move, what pushes them.
+
+The builder makes one MuJoCo joint for each axis of a revolute, prismatic, universal, ... joint, and one with three
+degrees of freedom for a ball. Systems that report or drive joints look an axis up with `find_axes` when they are bound.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from gz.sim.physics.joints import AXIS2_SUFFIX
+
+_JOINT = mujoco.mjtObj.mjOBJ_JOINT
+_BALL = int(mujoco.mjtJoint.mjJNT_BALL)
+
+
+def axis_name(joint: str, axis: int) -> str:
+    """Return the MuJoCo name of the first (0) or second (1) axis of a joint."""
+    return joint + AXIS2_SUFFIX if axis else joint
+
+
+@dataclass(frozen=True, slots=True)
+class JointAxis:
+    """One axis: `position` is its index in qpos, `velocity` that in qvel; for a ball the first of its four and three,
+    and `part` (0, 1, 2) says which component of the rotation vector is meant. `lower` and `upper` (rad or m) are its
+    limits.
+    """
+
+    position: int
+    velocity: int
+    part: int = -1
+    lower: float = -math.inf
+    upper: float = math.inf
+
+    def read_position(self, data: mujoco.MjData) -> float:
+        """Return where the axis stands (rad or m)."""
+        if self.part < 0:
+            return data.qpos.item(self.position)
+        turn = np.zeros(3)
+        mujoco.mju_quat2Vel(turn, data.qpos[self.position : self.position + 4], 1.0)
+        return turn.item(self.part)
+
+    def read_velocity(self, data: mujoco.MjData) -> float:
+        """Return how fast the axis moves (rad/s or m/s)."""
+        return data.qvel.item(self.velocity + max(self.part, 0))
+
+    def read_force(self, data: mujoco.MjData) -> float:
+        """Return what actuators and applied forces pushed with along the axis in the last step (N m or N)."""
+        dof = self.velocity + max(self.part, 0)
+        return data.qfrc_actuator.item(dof) + data.qfrc_applied.item(dof)
+
+
+def find_axes(model: mujoco.MjModel, name: str) -> list[JointAxis]:
+    """Return the axes of the MuJoCo joint `name`; none for what does not move (fixed, static, closing a loop)."""
+    found: list[JointAxis] = []
+    for axis in (0, 1):
+        number = int(mujoco.mj_name2id(model, _JOINT, axis_name(name, axis)))
+        if number < 0:
+            continue
+        position, velocity = int(model.jnt_qposadr[number]), int(model.jnt_dofadr[number])
+        if int(model.jnt_type[number]) == _BALL:
+            return [JointAxis(position, velocity, part) for part in range(3)]
+        limited = bool(model.jnt_limited[number])
+        lower, upper = model.jnt_range[number].tolist() if limited else (-math.inf, math.inf)
+        found.append(JointAxis(position, velocity, lower=lower, upper=upper))
+    return found

@@ -1,0 +1,57 @@
+"""JointController: keeps joints at a commanded velocity.
+
+`gz.msgs.Double` on `/model/M/joint/J/cmd_vel` (rad/s or m/s) -> servos that hold the velocity against any load up to
+the effort of the joint; with `<use_force_commands>` a PID controller turns the error of the first joint into a force.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from gz.sim.physics.servos import FORCE, VELOCITY
+from gz.sim.sdf.description import Model, Plugin
+from gz.sim.sdf.element import Element
+from gz.sim.systems import pid
+from gz.sim.systems.joint_command import JointCommand
+from gz.sim.systems.registry import UpdateInfo, system
+
+if TYPE_CHECKING:
+    from gz.sim.world import World
+
+
+@system("JointController", "gz-sim-joint-controller-system")
+class JointController(JointCommand):
+    """As in Gazebo the joints are held at `<initial_velocity>` (0) from the beginning."""
+
+    quantity = "cmd_vel"
+    actuators_field = "velocity"
+    parameters = JointCommand.TOPIC_PARAMETERS | {*pid.PARAMETERS, "use_force_commands", "initial_velocity"}
+
+    @classmethod
+    def servo_kind(cls, element: Element) -> str:
+        """A servo, or a motor with `<use_force_commands>`."""
+        return FORCE if element.flag("use_force_commands", False) else VELOCITY
+
+    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
+        """Read joints, topic, gains and the velocity to begin with."""
+        super().configure(world, model, plugin)
+        element = plugin.element
+        self.pid = pid.PID.from_sdf(element, 1.0, 0.0, 0.0, 1.0, -1.0, 1000.0, -1000.0, 0.0)
+        self._by_force = element.flag("use_force_commands", False)
+        self._initial = element.number("initial_velocity", 0.0)
+
+    def start(self) -> None:
+        """Begin with the initial velocity."""
+        self.value = self._initial
+        self.pid.reset()
+
+    def pre_update(self, info: UpdateInfo) -> None:
+        """Hand the velocity to the servos, or the force to the motors."""
+        data, drives = self.world.data, self.drives
+        if not self._by_force:
+            for drive in drives:
+                drive.hold(data, self.value, info.dt)
+        elif drives:
+            error = drives[0].axis.read_velocity(data) - self.value
+            for drive in drives:
+                drive.push(data, self.pid.update(error, info.dt))

@@ -1,0 +1,119 @@
+"""JointStatePublisher: says after every step how the joints of a model stand, move and are pushed.
+
+MuJoCo's state -> `gz.msgs.Model` on `/world/W/model/M/joint_state`, one `joint` each with `axis1` (and `axis2`) holding
+position (rad or m), velocity and force (N m or N: what actuators and applied forces pushed with in the last step).
+`parameter_bridge` makes a `sensor_msgs/JointState` of it.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from gz.sim.physics.joint_axis import JointAxis, find_axes
+from gz.sim.pose import Pose, rotate
+from gz.sim.sdf.description import UNLIMITED, Axis, Joint, Model, Plugin
+from gz.sim.systems.model_scope import ModelScope
+from gz.sim.systems.registry import System, UpdateInfo, system
+from gz.sim.systems.topics import valid_topic
+
+if TYPE_CHECKING:
+    from gz.sim.world import World
+    from gz.transport import Node
+
+
+@system("JointStatePublisher", "gz-sim-joint-state-publisher-system")
+class JointStatePublisher(System):
+    """Reports the joints of one model, without those of models nested in it, or the ones `<joint_name>` lists."""
+
+    parameters = frozenset(("joint_name", "topic", "update_rate"))
+
+    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
+        """Choose joints and topic."""
+        element = plugin.element
+        self.world = world
+        self.scope = ModelScope(world, model, plugin, self.name)
+        named = element.find("joint_name") is not None
+        self.joints = self.scope.find_joints(element) if named else self.scope.joints()
+        self.topic = valid_topic(element.text_of("topic"), f"/world/{world.name}{self.scope.topic}/joint_state")
+        rate = element.number("update_rate", 0.0)
+        self._period_ns = int(1e9 / rate) if 0.0 < rate < 1e9 else 0
+        self._publisher: Any = None
+
+    def bind(self) -> None:
+        """Find the joints."""
+        prefix = f"{self.scope.model.name}::"
+        self._axes: list[tuple[int, str, JointAxis]] = []
+        for index, joint in enumerate(self.joints):
+            # A ball has three components, a message two places.
+            for place, axis in zip(("axis1", "axis2"), find_axes(self.world.model, prefix + joint.name), strict=False):
+                self._axes.append((index, place, axis))
+        if self._publisher is not None:
+            self._make_template()
+
+    def start(self) -> None:
+        """Nothing was published yet."""
+        self._last_ns = 0
+
+    def connect(self, node: Node) -> None:
+        """Advertise the state."""
+        from gz.msgs.model_pb2 import Model as ModelMessage
+
+        self._type = ModelMessage
+        self._publisher = node.advertise(self.topic, ModelMessage)
+        self._make_template()
+
+    def post_update(self, info: UpdateInfo) -> None:
+        """Publish when due and somebody listens."""
+        if info.sim_time_ns - self._last_ns < self._period_ns:
+            return
+        self._last_ns = info.sim_time_ns
+        if self._publisher is not None and self._publisher.has_connections():
+            self._publish(info.sim_time_ns)
+
+    def paused_update(self, info: UpdateInfo) -> None:
+        """Go on saying the same, as Gazebo does."""
+        if self._publisher is not None and self._publisher.has_connections():
+            self._publish(info.sim_time_ns)
+
+    def _publish(self, now_ns: int) -> None:
+        message = self._type()
+        message.CopyFrom(self._template)
+        message.header.stamp.sec, message.header.stamp.nsec = divmod(now_ns, 1_000_000_000)
+        _fill_pose(message.pose, self.scope.pose())
+        data = self.world.data
+        joints = message.joint
+        for index, place, axis in self._axes:
+            filled = getattr(joints[index], place)
+            filled.position = axis.read_position(data)
+            filled.velocity = axis.read_velocity(data)
+            filled.force = axis.read_force(data)
+        self._publisher.publish(message)
+
+    def _make_template(self) -> None:
+        """Prepare what is the same in every message."""
+        scope = self.scope
+        message = self._type(name=scope.name, id=self.world.entities.number("model", *scope.path))
+        moving = {(index, place) for index, place, _ in self._axes}
+        for index, joint in enumerate(self.joints):
+            made = message.joint.add(name=scope.own_name(joint.name), id=scope.entity("joint", joint.name))
+            made.parent, made.child = scope.own_name(joint.parent), scope.own_name(joint.child)
+            _fill_pose(made.pose, joint.pose)
+            if (index, "axis1") in moving:
+                made.axis1.SetInParent()
+                if joint.axis is not None:
+                    _fill_axis(made.axis1, joint, joint.axis)
+        self._template = message
+
+
+def _fill_axis(message: Any, joint: Joint, axis: Axis) -> None:
+    back = joint.pose.inverse().quaternion
+    message.xyz.x, message.xyz.y, message.xyz.z = rotate(back, Pose(axis.direction).position).tolist()
+    message.limit_lower = axis.lower if axis.lower > -UNLIMITED else float("-inf")
+    message.limit_upper = axis.upper if axis.upper < UNLIMITED else float("inf")
+    message.damping = axis.damping
+
+
+def _fill_pose(message: Any, pose: Pose) -> None:
+    message.position.x, message.position.y, message.position.z = pose.position.tolist()
+    turn = message.orientation
+    turn.w, turn.x, turn.y, turn.z = pose.quaternion.tolist()

@@ -1,0 +1,208 @@
+"""OdometryPublisher: says where a model really is, in the form of odometry.
+
+MuJoCo's state -> `Odometry` on `/model/M/odometry`, the same with covariances on `/model/M/odometry_with_covariance`,
+`Pose_V` on `/model/M/pose`. The pose is that of the world (not of the place where the model started), the twist that of
+the model in its own axes, linear parts as means over the last ten steps. Nothing drifts; `<gaussian_noise>` is added to
+the twist only, as in Gazebo.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections import deque
+from typing import TYPE_CHECKING, Any
+
+import mujoco
+import numpy as np
+
+from gz.sim.pose import Pose, Vector, multiply, rotate
+from gz.sim.sdf.description import Model, Plugin
+from gz.sim.systems.model_scope import ModelScope
+from gz.sim.systems.registry import System, UpdateInfo, system
+from gz.sim.systems.topics import valid_topic
+
+if TYPE_CHECKING:
+    from gz.sim.world import World
+    from gz.transport import Node
+
+WINDOW = 10
+_INVERSE = np.array((1.0, -1.0, -1.0, -1.0))
+
+
+@system("OdometryPublisher", "gz-sim-odometry-publisher-system")
+class OdometryPublisher(System):
+    """Publishes the truth about one model. Parameters and defaults are Gazebo's."""
+
+    parameters = frozenset(
+        (
+            "odom_frame",
+            "robot_base_frame",
+            "odom_publish_frequency",
+            "odom_topic",
+            "odom_covariance_topic",
+            "tf_topic",
+            "dimensions",
+            "xyz_offset",
+            "rpy_offset",
+            "gaussian_noise",
+        )
+    )
+
+    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
+        """Read the parameters; raise `SdfError` for dimensions other than 2 and 3, and numbers that are not finite."""
+        element = plugin.element
+        self.world = world
+        self.scope = scope = ModelScope(world, model, plugin, self.name)
+        self.frame_id = element.text_of("odom_frame", f"{scope.name}/odom")
+        self.child_frame_id = element.text_of("robot_base_frame", f"{scope.name}/base_footprint")
+        self.dimensions = element.integer("dimensions", 2)
+        if self.dimensions not in (2, 3):
+            raise element.error(f"OdometryPublisher's <dimensions> must be 2 or 3, got {self.dimensions}")
+        offset = (*element.vector("xyz_offset", (0.0, 0.0, 0.0)), *element.vector("rpy_offset", (0.0, 0.0, 0.0)))
+        self.noise = element.number("gaussian_noise", 0.0)
+        if not all(map(math.isfinite, (*offset, self.noise))) or self.noise < 0.0:
+            raise element.error(
+                "OdometryPublisher's offsets and <gaussian_noise> must be finite, the noise not negative"
+            )
+        self._offset = Pose.from_rpy(offset[:3], offset[3:])
+        frequency = element.number("odom_publish_frequency", 50.0)
+        self._period_ns = int(1e9 / frequency) if 0.0 < frequency < 1e9 else 0
+        default = f"/model/{scope.name}"
+        self.odometry_topic = valid_topic(element.text_of("odom_topic"), f"{default}/odometry")
+        self.covariance_topic = valid_topic(
+            element.text_of("odom_covariance_topic"), f"{default}/odometry_with_covariance"
+        )
+        self.tf_topic = valid_topic(element.text_of("tf_topic"), f"{default}/pose")
+        self._publishers: tuple[Any, ...] = ()
+
+    def bind(self) -> None:
+        """Find out whether the state holds the pose of the model directly: when its canonical link floats freely."""
+        scope, model = self.scope, self.world.model
+        self._link_to_base = scope.link_to_frame() * self._offset
+        self._address = -1
+        body = scope.body(scope.canonical_link)
+        if body > 0 and model.body_jntnum[body] == 1:
+            joint = int(model.body_jntadr[body])
+            if int(model.jnt_type[joint]) == int(mujoco.mjtJoint.mjJNT_FREE):
+                self._address = int(model.jnt_qposadr[joint])
+
+    def start(self) -> None:
+        """No pose was seen yet."""
+        self._published_ns = 0
+        self._published = 0
+        self._seen: deque[Vector | Pose] = deque(maxlen=WINDOW + 1)
+        self._last: Pose | None = None
+        self._velocities: deque[Vector] = deque(maxlen=WINDOW)
+        self._turning = np.zeros(3)
+        self._steps = self._caught_up = 0
+
+    def connect(self, node: Node) -> None:
+        """Advertise the three topics."""
+        from gz.msgs.odometry_pb2 import Odometry
+        from gz.msgs.odometry_with_covariance_pb2 import OdometryWithCovariance
+        from gz.msgs.pose_v_pb2 import Pose_V
+
+        self._types: tuple[Any, ...] = (Odometry, OdometryWithCovariance, Pose_V)
+        topics = (self.odometry_topic, self.covariance_topic, self.tf_topic)
+        self._publishers = tuple(node.advertise(topic, kind) for topic, kind in zip(topics, self._types, strict=True))
+
+    def post_update(self, info: UpdateInfo) -> None:
+        """Remember where the model is; publish when due and somebody listens."""
+        if self._address >= 0:
+            self._seen.append(self.world.data.qpos[self._address : self._address + 7].copy())
+        elif any(publisher.has_connections() for publisher in self._publishers):
+            self._seen.append(self.scope.world_pose() * self._offset)
+        self._steps += 1
+        # Gazebo uses the first step to start and says nothing about it.
+        if self._steps == 1 or info.sim_time_ns - self._published_ns < self._period_ns:
+            return
+        self._published_ns = info.sim_time_ns
+        self._published += 1
+        heard = [publisher.has_connections() for publisher in self._publishers]
+        if any(heard):
+            self._publish(info, heard)
+
+    def _publish(self, info: UpdateInfo, heard: list[bool]) -> None:
+        pose = self._catch_up(info.dt)
+        if pose is None:
+            return
+        odometry_type, covariance_type, pose_v_type = self._types
+        message = odometry_type()
+        _fill_header(message.header, info.sim_time_ns, self.frame_id, self.child_frame_id)
+        x, y, z = pose.position.tolist()
+        message.pose.position.x, message.pose.position.y = x, y
+        if self.dimensions == 3:
+            message.pose.position.z = z
+        turn = message.pose.orientation
+        turn.w, turn.x, turn.y, turn.z = pose.quaternion.tolist()
+        linear, angular = message.twist.linear, message.twist.angular
+        speeds = np.concatenate((self._mean_velocity(), self._turning))
+        if self.dimensions == 2:
+            speeds[2:5] = 0.0
+        if self.noise > 0.0:
+            speeds += self.noise * self._random().standard_normal(6)
+        linear.x, linear.y, linear.z, angular.x, angular.y, angular.z = speeds.tolist()
+        if heard[0]:
+            self._publishers[0].publish(message)
+        if heard[1]:
+            both = covariance_type()
+            both.header.CopyFrom(message.header)
+            both.pose_with_covariance.pose.CopyFrom(message.pose)
+            both.twist_with_covariance.twist.CopyFrom(message.twist)
+            diagonal = (np.eye(6) * self.noise**2).ravel().tolist()
+            both.pose_with_covariance.covariance.data.extend(diagonal)
+            both.twist_with_covariance.covariance.data.extend(diagonal)
+            self._publishers[1].publish(both)
+        if heard[2]:
+            frames = pose_v_type()
+            frame = frames.pose.add()
+            frame.CopyFrom(message.pose)
+            frame.header.CopyFrom(message.header)
+            self._publishers[2].publish(frames)
+
+    def _catch_up(self, dt: float) -> Pose | None:
+        """Turn the poses seen since the last message into velocities; return the present pose of the base."""
+        if self._steps - self._caught_up != len(self._seen):
+            # Steps in between were not kept: begin anew with what is there.
+            self._last = None
+            self._velocities.clear()
+        self._caught_up = self._steps
+        for seen in self._seen:
+            pose = seen if isinstance(seen, Pose) else Pose(seen[:3], seen[3:]) * self._link_to_base
+            if self._last is not None:
+                self._velocities.append(self._velocity(self._last, pose, dt))
+                between = multiply(pose.quaternion, self._last.quaternion * _INVERSE)
+                self._turning = rotate(pose.quaternion * _INVERSE, np.array(Pose((0.0, 0.0, 0.0), between).rpy()) / dt)
+            self._last = pose
+        self._seen.clear()
+        return self._last
+
+    def _velocity(self, before: Pose, now: Pose, dt: float) -> Vector:
+        """Return the linear velocity (m/s) of the base along its own axes; in 2-D only its heading counts."""
+        moved = (now.position - before.position) / dt
+        if self.dimensions == 3:
+            return rotate(now.quaternion * _INVERSE, moved)
+        yaw = now.yaw()
+        cosine, sine = math.cos(yaw), math.sin(yaw)
+        return np.array((cosine * moved[0] + sine * moved[1], cosine * moved[1] - sine * moved[0], 0.0))
+
+    def _mean_velocity(self) -> Vector:
+        if not self._velocities:
+            return np.zeros(3)
+        mean: Vector = np.mean(self._velocities, axis=0)
+        return mean
+
+    def _random(self) -> np.random.Generator:
+        """Return the generator of this message: it depends on seed, model and number of the message only."""
+        text = f"{self.world.seed}/{self.scope.full_name}/OdometryPublisher/{self._published}"
+        key = int.from_bytes(hashlib.sha256(text.encode()).digest()[:16], "little")
+        return np.random.Generator(np.random.Philox(key=key))
+
+
+def _fill_header(header: Any, now_ns: int, frame_id: str, child_frame_id: str) -> None:
+    header.stamp.sec, header.stamp.nsec = divmod(now_ns, 1_000_000_000)
+    for key, value in (("frame_id", frame_id), ("child_frame_id", child_frame_id)):
+        entry = header.data.add()
+        entry.key = key
+        entry.value.append(value)
