@@ -16,8 +16,10 @@ import signal
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from prefix import local_setup
+from ros2 import completion
 from ros2.errors import CommandError
 from ros2.hand_over import hand_over
 
@@ -64,6 +66,10 @@ def _run(folder: Path, program: str, arguments: list[str]) -> int:
     known = found(folder)
     parser = _menu(folder, program, known)
     first = arguments[0] if arguments else "--help"
+    if folder == COMMANDS and first == completion.PRINT:
+        return completion.print_script(arguments[1:])
+    if folder == COMMANDS and first == completion.COMPLETE:
+        return completion.print_candidates(arguments[1:])
     if first in ("-h", "--help"):
         parser.print_help()
         return 0
@@ -75,22 +81,29 @@ def _run(folder: Path, program: str, arguments: list[str]) -> int:
         parser.error(f"invalid choice: {first!r} (choose from {', '.join(map(repr, known))}){hint}")
     if known[first].is_dir():
         return _run(known[first], f"{program} {first}", arguments[1:])
-    module = importlib.import_module(_module_name(known[first]))
-    verb = argparse.ArgumentParser(prog=f"{program} {first}", description=_summary(known[first]))
-    module.add_arguments(verb)
+    module, verb = load(known[first], f"{program} {first}")
     return module.main(verb.parse_args(arguments[1:])) or 0
+
+
+def load(path: Path, program: str) -> tuple[Any, argparse.ArgumentParser]:
+    """The module of a command or verb, and the reader of its options; `program` is what the user has typed for it."""
+    module = importlib.import_module(_module_name(path))
+    parser = argparse.ArgumentParser(prog=program, description=_summary(path))
+    module.add_arguments(parser)
+    return module, parser
 
 
 def _menu(folder: Path, program: str, known: dict[str, Path]) -> argparse.ArgumentParser:
     width = max(len(name) for name in known)
     kind = "Commands" if folder == COMMANDS else "Verbs"
     word = kind.lower().rstrip("s")
+    more = ["", *completion.HELP] if folder == COMMANDS else []
     lines = [f"  {name:<{width}}  {_summary(path)}".rstrip() for name, path in known.items()]
     return argparse.ArgumentParser(
         prog=program,
         usage=f"{program} [-h] <{word}> ...",
         description=_summary(folder),
-        epilog="\n".join([f"{kind}:", *lines, "", f"  Call `{program} <{word}> -h` for more detailed usage."]),
+        epilog="\n".join([f"{kind}:", *lines, "", f"  Call `{program} <{word}> -h` for more detailed usage.", *more]),
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
 

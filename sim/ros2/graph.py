@@ -133,7 +133,8 @@ class Graph:
         """Wait until the graph is complete as far as one can tell, or exactly --spin-time."""
         if self._spin_time is not None:
             end = self._born + self._spin_time
-            self._wait(lambda: time.monotonic() >= end, self._spin_time)
+            # Asked each time, because it calls those who are missing.
+            self._wait(lambda: (self._participants.all_known(), time.monotonic() >= end)[1], self._spin_time)
         else:
             self._wait(lambda: self._complete(QUIET), SETTLE_DEADLINE)
 

@@ -44,6 +44,13 @@ def to_yaml(message: Any, form: TextFormat) -> str:
     )
 
 
+def to_line(message: Any) -> str:
+    """The whole message as YAML in one line."""
+    whole = _plain(message, "", TextFormat(limit=None))
+    text = yaml.dump(whole, Dumper=_Dumper, sort_keys=False, width=sys.maxsize, default_flow_style=True)
+    return text.rstrip("\n")
+
+
 def to_csv(message: Any, form: TextFormat) -> str:
     """All values of the message in one line, separated by commas."""
     return ",".join(_values(_plain(message, "", form)))
@@ -54,6 +61,15 @@ class _Dumper(yaml.SafeDumper):
 
     def ignore_aliases(self, data: Any) -> bool:
         return True
+
+
+def _text(dumper: yaml.SafeDumper, text: str) -> yaml.ScalarNode:
+    # YAML takes these for line breaks, and folds them, unless they are escaped in double quotes.
+    style = '"' if any(mark in text for mark in "\x85\u2028\u2029") else None
+    return dumper.represent_scalar("tag:yaml.org,2002:str", text, style=style)
+
+
+_Dumper.add_representer(str, _text)
 
 
 def _plain(value: Any, kind: str, form: TextFormat) -> Any:

@@ -76,17 +76,16 @@ class NodeParameters:
 
     def set(self, name: str, value: ParameterValue) -> tuple[bool, str]:
         """(whether the node has taken the value, its reason). PARAMETER_NOT_SET deletes."""
-        if value.type == ParameterType.PARAMETER_STRING_ARRAY and not value.string_array_value:
-            # An empty list says nothing of its kind: it is of the kind the parameter has.
-            now = self.values([name])[0].type
-            value.type = now if type_word(now).endswith(" array") else value.type
+        if type_word(value.type).endswith(" array"):
+            value = _as(self.values([name])[0].type, value)
         request = SetParameters.Request(parameters=[ParameterMessage(name=name, value=value)])
         results = self._call(SetParameters, "set_parameters", request).results
         return (results[0].successful, results[0].reason) if results else (False, "the node gave no reason")
 
     def not_set(self, name: str, known: Iterable[str] | None = None) -> CommandError:
         """The error for a parameter that does not exist, with the nearest one that does."""
-        return CommandError("Parameter not set" + did_you_mean(name, self.names() if known is None else known))
+        others = [other for other in (self.names() if known is None else known) if other != name]
+        return CommandError("Parameter not set" + did_you_mean(name, others))
 
 
 def python_value(value: ParameterValue) -> Any:
@@ -97,6 +96,16 @@ def python_value(value: ParameterValue) -> Any:
     if value.type == ParameterType.PARAMETER_BYTE_ARRAY:
         return [int.from_bytes(item, "little") for item in found]
     return found if isinstance(found, bool | int | float | str) else list(found)
+
+
+def _as(kind: int, value: ParameterValue) -> ParameterValue:
+    """The list as the kind the parameter has: an empty list says nothing of its kind, and bytes look like numbers."""
+    items = python_value(value)
+    if not items and type_word(kind).endswith(" array"):
+        return ParameterValue(type=kind)
+    if kind == ParameterType.PARAMETER_BYTE_ARRAY and all(isinstance(item, int) and 0 <= item < 256 for item in items):
+        return ParameterValue(type=kind, byte_array_value=[bytes([item]) for item in items])
+    return value
 
 
 def kind_word(value: ParameterValue) -> str:

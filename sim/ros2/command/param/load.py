@@ -26,10 +26,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("parameter_file", help="Parameter file in YAML format")
     parser.add_argument("--include-hidden-nodes", action="store_true", help="Accepted: a node is named anyway")
     parser.add_argument("--no-use-wildcard", action="store_true", help="Do not load parameters in the '/**' namespace")
+    parser.add_argument("--strict", action="store_true", help="Exit code 1 if the node refuses a value (default: 0)")
 
 
 def main(arguments: argparse.Namespace) -> int:
-    """Set what the file holds for this node, one by one; exit code 1 if the node has refused one of them."""
+    """Set what the file holds for this node, one by one; refusals are told on stderr."""
     content = _read(Path(arguments.parameter_file))
     with Graph(arguments) as graph:
         node = find_node(graph, arguments.node_name, "Node not found")
@@ -45,7 +46,7 @@ def main(arguments: argparse.Namespace) -> int:
             else:
                 warn(f"Set parameter {name} failed{after}")
                 refused = 1
-    return refused
+    return refused if arguments.strict else 0
 
 
 def _read(path: Path) -> dict[str, Any]:
@@ -75,8 +76,7 @@ def _for_node(content: dict[str, Any], node: str, arguments: argparse.Namespace)
             continue
         entry = content[key]
         if not isinstance(entry, dict) or not isinstance(entry.get(_KEY), dict):
-            near = did_you_mean(_KEY, map(str, entry)) if isinstance(entry, dict) else ""
-            raise CommandError(f"{path}: below '{key}' there must be '{_KEY}:' and below that the parameters{near}")
+            raise CommandError(f"{path}: below '{key}' there must be '{_KEY}:' and below that the parameters")
         found |= flat(entry[_KEY])
     if not any(key in content for key in keys):
         there = ", ".join(f"'{name}'" for name in content)
