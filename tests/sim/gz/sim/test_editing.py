@@ -106,6 +106,7 @@ def test_spawned_robots_drive_and_their_topics_go_with_them(node: Node) -> None:
     assert not [topic for topic in topics if f"/{name}" in topic]
     assert "/model/robot/odometry" in topics
     assert not node.topic_info(f"/model/{name}/odometry")[0]
+    world.close()
 
 
 def test_static_models_and_lights_come_move_and_go(load_text: Load) -> None:
@@ -139,7 +140,8 @@ def test_a_model_is_set_down_with_its_motion_turned_along(load_text: Load) -> No
 
 ARM = """<model name='arm'><pose>1 1 0 0 0 0</pose><link name='base'/><link name='upper'><pose>0 0 1 0 0 0</pose></link>
 <joint name='fix' type='fixed'><parent>world</parent><child>base</child></joint>
-<joint name='j' type='revolute'><parent>base</parent><child>upper</child><axis><xyz>0 0 1</xyz></axis></joint></model>"""
+<joint name='j' type='revolute'><parent>base</parent><child>upper</child><axis><xyz>0 0 1</xyz></axis></joint>
+</model>"""
 
 
 def test_a_model_that_the_world_holds_is_moved_with_its_joints_as_they_are(load_text: Load) -> None:
