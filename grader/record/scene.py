@@ -17,6 +17,7 @@ LINK_TICKS = 5  # links (wheels turn) are drawn every so many ticks
 UNITS = {"linear_x": " [m/s]", "angular_z": " [rad/s]", "distance": " [m]", "yaw": " [rad]"}
 SCAN_COLOR = np.array([[230, 60, 200, 255]], dtype=np.uint8)
 GROUND_SIZE = 20.0  # [m] side of the square drawn for an infinite plane
+FACETS = 100_000  # so many triangles of one surface are shaded
 
 
 def shape(kind: str, size: Any, color: Any) -> Any:
@@ -44,6 +45,26 @@ def shape(kind: str, size: Any, color: Any) -> Any:
     return None
 
 
+def surface(vertices: Any, triangles: Any, color: Any) -> Any:
+    """Return the archetype for a surface of triangles: vertices (n, 3) in metres, triangles (m, 3) indices.
+
+    Each triangle has corners of its own, so that edges look sharp; a surface of more than FACETS triangles is drawn as
+    it is, without shading.
+    """
+    rgba = np.array([round(255 * c) for c in color], dtype=np.uint8)
+    if len(triangles) > FACETS:
+        return rr.Mesh3D(vertex_positions=vertices, triangle_indices=triangles, albedo_factor=rgba)
+    corners = np.asarray(vertices)[np.asarray(triangles)]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-20)
+    return rr.Mesh3D(
+        vertex_positions=corners.reshape(-1, 3),
+        triangle_indices=np.arange(3 * len(corners), dtype=np.uint32).reshape(-1, 3),
+        vertex_normals=np.repeat(normals, 3, axis=0),
+        albedo_factor=rgba,
+    )
+
+
 class Scene:
     """Follows one world: call `tick()` after every step of simulated time.
 
@@ -65,7 +86,10 @@ class Scene:
         recorder.static("/world", rr.ViewCoordinates.RIGHT_HAND_Z_UP)
         for visual in world.geometry():
             entity = f"/world/{visual.model}/{visual.link}/{visual.name}"
-            archetype = shape(visual.kind, [float(s) for s in visual.size], visual.rgba)
+            if visual.triangles is None:
+                archetype = shape(visual.kind, [float(s) for s in visual.size], visual.rgba)
+            else:
+                archetype = surface(visual.vertices, visual.triangles, visual.rgba)
             if archetype is None:
                 continue
             recorder.static(entity, archetype)

@@ -7,6 +7,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from gz.sim.pose import Pose, quaternion_between
 from gz.sim.sdf.description import WorldDescription
 
@@ -15,11 +18,14 @@ from gz.sim.sdf.description import WorldDescription
 class VisualShape:
     """One visible shape, fixed to a link.
 
-    `kind` is box, sphere, cylinder, capsule, ellipsoid or plane. `size` holds full extents in metres along
-    the shape's own axes: box (x, y, z); sphere (d, d, d); cylinder (d, d, length); capsule (d, d, length
-    without its caps); ellipsoid (2 rx, 2 ry, 2 rz); plane (x, y, 0). Cylinders and capsules stand along z, a
-    plane's normal is z: a `<normal>` is already part of `pose`. `pose` is the shape in its link's frame,
-    `rgba` its colour (each 0..1).
+    `kind` is box, sphere, cylinder, capsule, ellipsoid, cone, plane, mesh, polyline or heightmap. `size` holds full
+    extents in metres along the shape's own axes: box (x, y, z); sphere (d, d, d); cylinder (d, d, length); capsule
+    (d, d, length without its caps); ellipsoid (2 rx, 2 ry, 2 rz); cone (d, d, height); plane (x, y, 0); others their
+    bounding box. Cylinders, capsules and cones stand along z, a plane's normal is z: a `<normal>` is already part of
+    `pose`. `pose` is the shape in its link's frame, `rgba` its colour (each 0..1).
+
+    `vertices` (n, 3) float32 in metres in the shape's own frame and `triangles` (m, 3) int32 are the surface of a cone,
+    mesh, polyline or heightmap, None for the other kinds. Equal meshes are the same arrays; they cannot be written to.
     """
 
     model: str
@@ -30,6 +36,8 @@ class VisualShape:
     pose: Pose
     rgba: tuple[float, float, float, float]
     static: bool
+    vertices: NDArray[np.float32] | None = None
+    triangles: NDArray[np.int32] | None = None
 
 
 def visual_shapes(world: WorldDescription) -> list[VisualShape]:
@@ -52,6 +60,8 @@ def visual_shapes(world: WorldDescription) -> list[VisualShape]:
                         pose,
                         visual.rgba,
                         model.static,
+                        None if geometry.mesh is None else geometry.mesh.vertices,
+                        None if geometry.mesh is None else geometry.mesh.triangles,
                     )
                 )
     return shapes

@@ -99,8 +99,8 @@ def add_mimics(spec: mujoco.MjSpec, model: Model, built: Mapping[str, Joint], st
                 continue
             mimic = axis.mimic
             leader = built.get(f"{model.name}::{mimic.joint}")
-            led = leader and (leader.axis if mimic.axis == "axis" else leader.axis2)
-            if led is None or leader is None or (suffix and joint.kind == "gearbox"):
+            led = None if leader is None else leader.axis if mimic.axis == "axis" else leader.axis2
+            if led is None or (suffix and joint.kind == "gearbox"):
                 continue
             start = mimic.offset + mimic.multiplier * (led.initial_position - mimic.reference) - axis.initial_position
             follower = f"{model.name}::{joint.name}{suffix}"

@@ -38,21 +38,27 @@ def read_heightmap(shape: Element, owner: Element, moving: bool, diagnostics: Di
     try:
         path = find_file(uri, shape.folder)
         stat = path.stat()
-        pixels = _grey(path, stat.st_mtime_ns)
+        heights, mesh = _terrain(path, stat.st_mtime_ns, (size[0], size[1], size[2]))
     except (ResourceError, OSError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else error
         diagnostics.warn((shape.find("uri") or shape).where, f"{reason}, {left_out}")
         return None
+    return Geometry("heightmap", (size[0], size[1], abs(size[2])), mesh=mesh, heights=heights)
+
+
+@lru_cache(maxsize=8)
+def _terrain(path: Path, _stamp: int, size: tuple[float, float, float]) -> tuple[NDArray[np.float64], TriangleMesh]:
+    """Return heights (rows, columns) in metres and their surface; a changed file has another stamp."""
+    pixels = _grey(path)
     brightest = float(pixels.max())
     heights = pixels[::-1] / brightest if brightest > 0.0 else pixels
     if size[2] < 0.0:
         heights = 1.0 - heights
     heights = heights * abs(size[2])
-    return Geometry("heightmap", (size[0], size[1], abs(size[2])), mesh=_surface(heights, size), heights=heights)
+    return heights, _surface(heights, size)
 
 
-@lru_cache(maxsize=8)
-def _grey(path: Path, _stamp: int) -> NDArray[np.float64]:
+def _grey(path: Path) -> NDArray[np.float64]:
     """Return the first channel of an image as (rows, columns) of 0..255."""
     try:
         data = path.read_bytes()

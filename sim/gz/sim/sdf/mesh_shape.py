@@ -10,6 +10,7 @@ from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gz.sim.errors import Diagnostics, ResourceError
 from gz.sim.sdf.convex import convex_pieces
@@ -19,6 +20,7 @@ from gz.sim.sdf.meshes import read_mesh
 from gz.sim.sdf.resources import find_file
 
 _LARGEST = 1e6  # [m]
+_SMALLEST_AREA = 1e-12  # [m^2]
 
 
 def read_mesh_shape(shape: Element, owner: Element, moving: bool, diagnostics: Diagnostics) -> Geometry | None:
@@ -73,12 +75,20 @@ def _load(
     triangles = np.asarray(read.triangles, dtype=np.int32)
     if np.prod(np.sign(scale)) < 0.0:
         triangles = triangles[:, ::-1]  # a mirrored surface would be inside out
-    pieces, fuller = (), False
-    if touching == "hull":
-        pieces, fuller = (vertices,), False
-    elif touching and np.all(np.isfinite(vertices)):
+    pieces: tuple[NDArray[np.float64], ...] = ()
+    fuller = False
+    if not np.all(np.isfinite(vertices)) or _area(vertices, triangles) < _SMALLEST_AREA:
+        triangles = triangles[:0]
+    elif touching == "hull":
+        pieces = (vertices,)
+    elif touching:
         pieces, fuller = convex_pieces(vertices, triangles, moving=touching == "moving")
     seen = vertices.astype(np.float32)
     for array in (seen, triangles):
         array.flags.writeable = False
     return TriangleMesh(seen, triangles, pieces), fuller
+
+
+def _area(vertices: NDArray[np.float64], triangles: NDArray[np.int32]) -> float:
+    a, b, c = (vertices[triangles[:, corner]] for corner in range(3))
+    return 0.5 * float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum())

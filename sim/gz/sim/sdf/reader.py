@@ -74,7 +74,7 @@ def read_model(text: str, file: str, diagnostics: Diagnostics, name: str = "") -
     world = _WorldReader(sdf_version(root), diagnostics).read(around)
     if not world.models and not world.lights:
         raise entity.error("what this <include> names was not found, so nothing is created")
-    return (*world.models, *world.lights)[0]
+    return world.models[0] if world.models else world.lights[0]
 
 
 class _WorldReader:

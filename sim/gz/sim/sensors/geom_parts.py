@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import mujoco
 
-from gz.sim.physics.builder import VISUAL_GROUP, VISUAL_SUFFIX
+from gz.sim.physics.geoms import VISUAL_GROUP, geom_names
 from gz.sim.sdf.description import Collision, Link, Model, Visual
 
 if TYPE_CHECKING:
@@ -29,12 +29,11 @@ class GeomPart(NamedTuple):
 
 def geom_parts(world: World, group: int) -> Iterator[GeomPart]:
     """Yield the parts of a geom group (visuals or collisions) that have a geom, in file order."""
-    suffix = VISUAL_SUFFIX if group == VISUAL_GROUP else ""
     for model in world.description.models:
         for link in model.links:
-            parts: list[Visual | Collision] = [*(link.visuals if suffix else link.collisions)]
+            parts: list[Visual | Collision] = [*(link.visuals if group == VISUAL_GROUP else link.collisions)]
             for part in parts:
-                name = f"{model.name}::{link.name}::{part.name}{suffix}"
-                geom = mujoco.mj_name2id(world.model, mujoco.mjtObj.mjOBJ_GEOM, name)
-                if geom >= 0:
-                    yield GeomPart(geom, model, link, part)
+                for name in geom_names(f"{model.name}::{link.name}::{part.name}", part):
+                    geom = mujoco.mj_name2id(world.model, mujoco.mjtObj.mjOBJ_GEOM, name)
+                    if geom >= 0:
+                        yield GeomPart(geom, model, link, part)
