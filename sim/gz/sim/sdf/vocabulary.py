@@ -1,9 +1,9 @@
-"""The words of SDF: which elements may stand inside which, so that a typo is answered with the word that was
-meant.
+"""The words of SDF 1.4 to 1.12: which elements may stand inside which and which attributes they have, so that a typo is
+answered with the word that was meant.
 
-Used by the reader right after parsing. An unknown element never stops a world (Gazebo ignores it silently);
-it gets one warning line. Elements with a prefix (`gz:...`), and everything inside `<plugin>` and `<gui>`,
-belong to others and pass.
+Used by the reader right after parsing. An unknown word never stops a world (Gazebo ignores it with a warning, too); it
+gets one warning line. Words with a prefix (`gz:...`), and everything inside `<plugin>` and `<gui>`, belong to others
+and pass. An element that means different things in different places (`<image>`, `<contact>`) has the words of them all.
 """
 
 from __future__ import annotations
@@ -13,39 +13,82 @@ from collections.abc import Iterator
 from gz.sim.errors import Diagnostics, nearest
 from gz.sim.sdf.element import Element
 
-_NOISE = "type mean stddev bias_mean bias_stddev dynamic_bias_stddev dynamic_bias_correlation_time precision"
-_GEOMETRY = "box sphere cylinder capsule ellipsoid plane cone mesh heightmap polyline image empty"
+_MOST_REPORTED = 100
+_AXES = "x y z"
 _AXIS = "xyz initial_position use_parent_model_frame dynamics limit mimic"
-_CAMERA = (
-    "triggered trigger_topic camera_info_topic horizontal_fov image clip save depth_camera "
-    "segmentation_type box_type "
-    "noise distortion lens visibility_mask optical_frame_id pose background"
+_SWEEP = "samples resolution min_angle max_angle noise"
+_RAY = "scan range noise visibility_mask"
+_SENSING = "horizontal vertical"
+_STATE = "name pose scale velocity acceleration wrench"
+_METAL = (
+    "albedo_map roughness_map metalness_map roughness metalness normal_map ambient_occlusion_map environment_map "
+    "emissive_map light_map"
 )
-_RAY = "scan range noise visibility_mask vertical horizontal"
+_NOISE = "type mean stddev bias_mean bias_stddev dynamic_bias_stddev dynamic_bias_correlation_time precision rate accel"
+_EMITTER = (
+    "emitting duration size particle_size lifetime rate min_velocity max_velocity scale_rate color_start color_end "
+    "color_range_image topic particle_scatter_ratio pose material"
+)
+_ADDED_MASS = "xx xy xz xp xq xr yy yz yp yq yr zz zp zq zr pp pq pr qq qr rr"
 
 CHILDREN: dict[str, frozenset[str]] = {
     parent: frozenset(words.split())
     for parent, words in {
-        "sdf": "world model actor light",
+        "sdf": "world model actor light include",
         "world": (
-            "audio wind include gravity magnetic_field atmosphere gui physics scene light model actor "
-            "road plugin joint "
-            "frame state population spherical_coordinates"
+            "audio wind include gravity magnetic_field atmosphere gui physics scene light model actor road plugin "
+            "joint frame state population spherical_coordinates"
         ),
         "model": (
-            "static self_collide allow_auto_disable frame pose link joint model include gripper plugin enable_wind"
+            "static self_collide allow_auto_disable frame pose link joint model include gripper plugin enable_wind "
+            "scale joint_state link_state model_state light"
         ),
-        "include": "uri name static pose placement_frame plugin merge",
+        "include": "uri name static pose placement_frame plugin model_state",
+        "actor": "static skin animation script link joint plugin pose frame",
+        "skin": "filename scale",
+        "animation": "filename scale interpolate_x",
+        "script": "loop delay_start auto_start trajectory name uri",
+        "trajectory": "waypoint",
+        "waypoint": "time pose",
+        "audio": "device",
+        "wind": "linear_velocity",
+        "atmosphere": "temperature temperature_gradient pressure",
+        "spherical_coordinates": (
+            "surface_model world_frame_orientation latitude_deg longitude_deg elevation heading_deg "
+            "surface_axis_equatorial surface_axis_polar"
+        ),
+        "road": "width point material",
+        "population": "model_count distribution box cylinder model pose frame",
+        "distribution": "type rows cols step",
+        "state": (
+            "sim_time wall_time real_time iterations insertions deletions model light joint model_state light_state "
+            "joint_state"
+        ),
+        "insertions": "model light joint",
+        "deletions": "name",
+        "model_state": f"joint_state link_state model_state joint link {_STATE}",
+        "link_state": f"collision_state {_STATE}",
+        "light_state": "pose frame",
+        "joint_state": "axis_state axis2_state angle",
+        "axis_state": "position velocity acceleration effort",
+        "axis2_state": "position velocity acceleration effort",
         "link": (
-            "pose gravity enable_wind self_collide kinematic must_be_base_link velocity_decay inertial "
-            "collision visual "
-            "sensor projector audio_sink audio_source battery light particle_emitter plugin frame"
+            "pose gravity enable_wind self_collide kinematic must_be_base_link velocity_decay inertial collision "
+            "visual sensor projector audio_sink audio_source battery light particle_emitter plugin frame velocity "
+            "acceleration wrench"
         ),
+        "velocity_decay": "linear angular",
         "inertial": "mass density auto_inertia_params pose inertia frame fluid_added_mass",
         "inertia": "ixx ixy ixz iyy iyz izz",
-        "collision": ("laser_retro max_contacts pose geometry surface density auto_inertia_params plugin frame"),
-        "visual": ("cast_shadows laser_retro transparency visibility_flags pose material geometry plugin meta frame"),
-        "geometry": _GEOMETRY,
+        "fluid_added_mass": _ADDED_MASS,
+        "projector": "texture fov near_clip far_clip visibility_flags pose plugin frame",
+        "audio_source": "uri pitch gain contact loop pose frame",
+        "battery": "voltage",
+        "particle_emitter": _EMITTER,
+        "collision": "laser_retro max_contacts pose geometry surface density auto_inertia_params plugin frame",
+        "visual": "cast_shadows laser_retro transparency visibility_flags pose material geometry plugin meta frame",
+        "meta": "layer",
+        "geometry": "box sphere cylinder capsule ellipsoid plane cone mesh heightmap polyline image empty",
         "box": "size",
         "sphere": "radius",
         "cylinder": "radius length",
@@ -54,57 +97,205 @@ CHILDREN: dict[str, frozenset[str]] = {
         "ellipsoid": "radii",
         "plane": "normal size",
         "mesh": "uri submesh scale convex_decomposition",
+        "submesh": "name center",
+        "convex_decomposition": "max_convex_hulls voxel_resolution",
+        "heightmap": "uri size pos texture blend use_terrain_paging sampling",
+        "texture": "size diffuse normal",
+        "blend": "min_height fade_dist",
+        "polyline": "point height",
+        "image": "width height format anti_aliasing uri scale threshold granularity",
         "material": (
             "script shader render_order lighting ambient diffuse specular shininess emissive double_sided pbr"
         ),
+        "shader": "normal_map",
+        "pbr": "metal specular",
+        "metal": _METAL,
+        "specular": f"{_METAL} specular_map glossiness_map glossiness",
         "surface": "bounce friction contact soft_contact",
-        "friction": "ode torsional bullet mu",
+        "bounce": "restitution_coefficient threshold",
+        "friction": "ode torsional bullet",
+        "torsional": "coefficient use_patch_radius patch_radius surface_radius ode",
+        "soft_contact": "dart",
+        "ode": (
+            "mu mu2 fdir1 slip1 slip2 slip soft_cfm soft_erp kp kd max_vel min_depth solver constraints cfm_damping "
+            "implicit_spring_damper fudge_factor cfm erp bounce max_force velocity limit suspension provide_feedback"
+        ),
+        "bullet": (
+            "friction friction2 fdir1 rolling_friction soft_cfm soft_erp kp kd split_impulse "
+            "split_impulse_penetration_threshold solver constraints"
+        ),
+        "dart": ("bone_attachment stiffness damping flesh_mass_fraction collision_detector solver max_contacts"),
+        "simbody": "min_step_size accuracy max_transient_velocity contact must_be_loop_joint",
+        "solver": (
+            "type min_step_size iters precon_iters sor use_dynamic_moi_rescaling friction_model island_threads "
+            "thread_position_correction solver_type"
+        ),
+        "constraints": (
+            "cfm erp contact_max_correcting_vel contact_surface_layer split_impulse split_impulse_penetration_threshold"
+        ),
+        "contact": (
+            "collision topic collide_without_contact collide_without_contact_bitmask collide_bitmask category_bitmask "
+            "poissons_ratio elastic_modulus ode bullet stiffness dissipation plastic_coef_restitution "
+            "plastic_impact_velocity static_friction dynamic_friction viscous_friction "
+            "override_impact_capture_velocity override_stiction_transition_velocity"
+        ),
         "joint": (
-            "parent child gearbox_ratio gearbox_reference_body thread_pitch "
-            "screw_thread_pitch axis axis2 physics pose sensor frame plugin"
+            "parent child gearbox_ratio gearbox_reference_body thread_pitch screw_thread_pitch axis axis2 physics pose "
+            "sensor frame plugin angle"
         ),
         "axis": _AXIS,
         "axis2": _AXIS,
+        "mimic": "multiplier offset reference",
         "limit": "lower upper effort velocity stiffness dissipation cfm erp",
-        "dynamics": "damping friction spring_reference spring_stiffness cfm_damping implicit_spring_damper",
+        "suspension": "cfm erp",
+        "dynamics": "damping friction spring_reference spring_stiffness",
         "frame": "pose",
+        "gripper": "grasp_check gripper_link palm_link",
+        "grasp_check": "detach_steps attach_steps min_contact_count",
         "sensor": (
             "always_on update_rate visualize topic enable_metrics pose plugin frame frame_id gz_frame_id "
-            "ignition_frame_id air_pressure air_speed altimeter camera contact force_torque gps navsat "
-            "imu lidar ray "
+            "ignition_frame_id air_pressure air_speed altimeter camera contact force_torque gps navsat imu lidar ray "
             "logical_camera magnetometer rfid rfidtag sonar transceiver"
         ),
         "lidar": _RAY,
         "ray": _RAY,
         "scan": "horizontal vertical",
-        "horizontal": "samples resolution min_angle max_angle",
-        "vertical": "samples resolution min_angle max_angle",
+        "horizontal": _SWEEP,
+        "vertical": _SWEEP,
         "range": "min max resolution",
         "noise": _NOISE,
-        "camera": _CAMERA,
-        "image": "width height format anti_aliasing",
+        "rate": "mean stddev bias_mean bias_stddev",
+        "accel": "mean stddev bias_mean bias_stddev",
+        "camera": (
+            "triggered trigger_topic camera_info_topic horizontal_fov image clip save depth_camera segmentation_type "
+            "box_type noise distortion lens visibility_mask optical_frame_id pose background frame view_controller "
+            "projection_type track_visual"
+        ),
+        "track_visual": "name min_dist max_dist static use_model_frame xyz inherit_yaw",
         "clip": "near far",
-        "imu": ("angular_velocity linear_acceleration orientation_reference_frame enable_orientation noise topic"),
+        "save": "path",
+        "depth_camera": "output clip",
+        "distortion": "k1 k2 k3 p1 p2 center",
+        "lens": "type scale_to_hfov custom_function cutoff_angle env_texture_size intrinsics projection",
+        "custom_function": "c1 c2 c3 f fun",
+        "intrinsics": "fx fy cx cy s",
+        "projection": "p_fx p_fy p_cx p_cy tx ty",
+        "imu": (
+            "angular_velocity linear_acceleration orientation orientation_reference_frame enable_orientation noise "
+            "topic"
+        ),
+        "orientation_reference_frame": "localization custom_rpy grav_dir_x",
+        "angular_velocity": _AXES,
+        "linear_acceleration": _AXES,
+        "orientation": _AXES,
+        "magnetometer": _AXES,
+        "x": "noise",
+        "y": "noise",
+        "z": "noise",
+        "altimeter": "vertical_position vertical_velocity",
+        "vertical_position": "noise",
+        "vertical_velocity": "noise",
+        "air_pressure": "reference_altitude pressure",
+        "air_speed": "pressure",
+        "pressure": "noise range",
+        "navsat": "position_sensing velocity_sensing",
+        "gps": "position_sensing velocity_sensing",
+        "position_sensing": _SENSING,
+        "velocity_sensing": _SENSING,
+        "force_torque": "frame measure_direction force torque range",
+        "force": _AXES,
+        "torque": _AXES,
+        "logical_camera": "near far aspect_ratio horizontal_fov",
+        "sonar": "geometry min max radius",
+        "transceiver": "essid frequency min_frequency max_frequency gain power sensitivity",
         "light": ("cast_shadows diffuse specular attenuation direction spot pose intensity visualize light_on frame"),
-        "physics": ("max_step_size real_time_factor real_time_update_rate max_contacts ode bullet simbody dart"),
+        "attenuation": "range linear constant quadratic",
+        "spot": "inner_angle outer_angle falloff",
+        "physics": (
+            "max_step_size real_time_factor real_time_update_rate max_contacts ode bullet simbody dart gravity "
+            "magnetic_field provide_feedback"
+        ),
         "scene": "ambient background sky shadows fog grid origin_visual shadow_caster_material_name",
+        "sky": "time sunrise sunset clouds cubemap_uri",
+        "clouds": "speed direction humidity mean_size ambient",
+        "fog": "color type start end density",
     }.items()
 }
+"""Child elements by parent. A parent that is not here is not looked into."""
+
+_NAMED = (
+    "world model actor joint link collision visual sensor light frame camera battery projector road population gripper "
+    "trajectory animation particle_emitter model_state link_state joint_state light_state collision_state"
+)
+ATTRIBUTES: dict[str, frozenset[str]] = {
+    element: frozenset(words.split())
+    for element, words in {
+        **{element: "name" for element in _NAMED.split()},
+        "sdf": "version",
+        "world": "name namespace",
+        "model": "name namespace canonical_link placement_frame",
+        "include": "merge",
+        "frame": "name attached_to",
+        "joint": "name type",
+        "sensor": "name type",
+        "light": "name type",
+        "particle_emitter": "name type",
+        "physics": "name default type",
+        "state": "world_name",
+        "atmosphere": "type",
+        "pose": "relative_to frame degrees rotation_format",
+        "xyz": "expressed_in",
+        "angle": "axis",
+        "mimic": "joint axis",
+        "inertial": "auto",
+        "mesh": "optimization",
+        "noise": "type",
+        "normal_map": "type",
+        "light_map": "uv_set",
+        "shader": "type",
+        "save": "enabled",
+        "custom_rpy": "parent_frame",
+        "grav_dir_x": "parent_frame",
+        "trajectory": "id type tension",
+        "angular": "degrees",
+        "position": "degrees",
+        "actor": "name static",
+        "plugin": "name filename",
+    }.items()
+}
+_ANY_ATTRIBUTE = frozenset(("gui",))
 
 
 def check(root: Element, diagnostics: Diagnostics) -> None:
-    """Warn about each element of the tree that SDF does not know at its place, with the nearest word."""
-    for element, child in _unknown(root):
-        hint = nearest(child.tag, CHILDREN[element.tag], listing="elements that can stand there are")
-        diagnostics.warn(child.where, f"<{element.tag}> has no element <{child.tag}>, it is ignored; {hint}")
+    """Warn about each element and attribute of the tree that SDF does not know at its place, with the nearest word."""
+    for count, (where, sentence, word, known, listing) in enumerate(_unknown(root)):
+        if count >= _MOST_REPORTED:
+            diagnostics.warn(root.where, f"more than {_MOST_REPORTED} words are unknown to SDF, the rest is not named")
+            return
+        diagnostics.warn(where, f"{sentence}, it is ignored; {nearest(word, known, listing=listing)}")
 
 
-def _unknown(element: Element) -> Iterator[tuple[Element, Element]]:
-    known = CHILDREN.get(element.tag)
-    for child in element.children:
-        if ":" in child.tag or child.tag in ("plugin", "gui"):
+def _unknown(root: Element) -> Iterator[tuple[str, str, str, frozenset[str], str]]:
+    """Yield place, sentence, word, and the words that are known there."""
+    waiting = [root]
+    while waiting:
+        element = waiting.pop()
+        known = CHILDREN.get(element.tag)
+        if element.attributes and element.tag not in _ANY_ATTRIBUTE:
+            allowed = ATTRIBUTES.get(element.tag, frozenset())
+            for name in element.attributes:
+                if name not in allowed and ":" not in name and name != "xmlns":
+                    sentence = f"<{element.tag}> has no attribute '{name}'"
+                    yield element.where, sentence, name, allowed, "its attributes are"
+        if known is None:
             continue
-        if known is not None and child.tag not in known:
-            yield element, child
-        elif known is not None:
-            yield from _unknown(child)
+        below = []
+        for child in element.children:
+            if ":" in child.tag or child.tag in ("plugin", "gui"):
+                continue
+            if child.tag in known:
+                below.append(child)
+            else:
+                sentence = f"<{element.tag}> has no element <{child.tag}>"
+                yield child.where, sentence, child.tag, known, "elements that can stand there are"
+        waiting.extend(reversed(below))
