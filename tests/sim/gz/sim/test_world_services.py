@@ -1,0 +1,216 @@
+"""The services of a server: control with all it can say, the world as SDF, names, paths, stop; also while paused."""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+from google.protobuf import text_format
+from gz.msgs.boolean_pb2 import Boolean
+from gz.msgs.empty_pb2 import Empty
+from gz.msgs.sdf_generator_config_pb2 import SdfGeneratorConfig
+from gz.msgs.server_control_pb2 import ServerControl
+from gz.msgs.stringmsg_pb2 import StringMsg
+from gz.msgs.stringmsg_v_pb2 import StringMsg_V
+from gz.msgs.world_control_pb2 import WorldControl
+from gz.msgs.world_control_state_pb2 import WorldControlState
+from gz.msgs.world_stats_pb2 import WorldStatistics
+
+from gz.sim.server import Server
+from gz.sim.world import World
+from gz.transport import Node
+
+DEADLINE = 20
+
+
+class Running:
+    """A server that runs in a thread of its own, and what its statistics say."""
+
+    def __init__(self, world: World, node: Node) -> None:
+        self.world = world
+        self.server = Server(world, node)
+        self._node = node
+        self._stop = threading.Event()
+        self._changed = threading.Condition()
+        self._last: Any = None
+        node.subscribe(WorldStatistics, "/stats", self._take)
+        self.thread = threading.Thread(target=self._run)
+        self.error: BaseException | None = None
+
+    def _run(self) -> None:
+        try:
+            self.server.run(real_time_factor=0.0, stop=self._stop)
+        except BaseException as error:
+            self.error = error
+
+    def _take(self, message: Any) -> None:
+        with self._changed:
+            self._last = message
+            self._changed.notify_all()
+
+    def wait(self, condition: Callable[[Any], bool]) -> Any:
+        with self._changed:
+            self._last = None
+            assert self._changed.wait_for(lambda: self._last is not None and condition(self._last), DEADLINE)
+            return self._last
+
+    def control(self, text: str) -> bool:
+        request = text_format.Parse(text, WorldControl())
+        service = f"/world/{self.world.name}/control"
+        executed, answer = self._node.request(service, request, WorldControl, Boolean, 20_000)
+        assert executed
+        return bool(answer.data)
+
+    def end(self) -> None:
+        self._stop.set()
+        if self.thread.is_alive():
+            self.thread.join(DEADLINE)
+        assert not self.thread.is_alive() and self.error is None
+        self.world.close()
+
+
+@pytest.fixture
+def running(node: Node) -> Iterator[Running]:
+    made = Running(World.load("lidar_room.sdf"), node)
+    made.server.paused = True
+    made.thread.start()
+    yield made
+    made.end()
+
+
+def test_pause_step_and_run_to(running: Running) -> None:
+    assert running.control("pause: true, multi_step: 37")
+    assert running.wait(lambda m: m.paused and m.iterations == 37)
+    assert running.control("pause: true, step: true")
+    assert running.wait(lambda m: m.paused and m.iterations == 38)
+    assert running.control("pause: false, run_to_sim_time: {nsec: 61000000}")
+    assert running.wait(lambda m: m.paused and m.iterations == 61)
+    assert running.control("pause: false, multi_step: 3")
+    assert running.wait(lambda m: not m.paused and m.iterations > 200), "steps count only for a paused world"
+    assert running.control("pause: true")
+    assert running.wait(lambda m: m.paused)
+    stood = running.world.iterations
+    assert running.control("pause: true")
+    assert running.world.iterations == stood
+
+
+def test_reset_rewinds_and_says_itself_whether_it_pauses(running: Running) -> None:
+    running.control("pause: true, multi_step: 100")
+    running.wait(lambda m: m.paused and m.iterations == 100)
+    assert running.control("pause: true, reset: {all: true}")
+    assert running.wait(lambda m: m.paused and m.iterations == 0)
+    running.control("pause: true, multi_step: 50")
+    running.wait(lambda m: m.paused and m.iterations == 50)
+    assert running.control("reset: {time_only: true}, multi_step: 0"), "as ros_gz does it: pause is false, so it runs"
+    assert running.wait(lambda m: not m.paused and m.iterations > 0)
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("pause: true, seed: 4", "gz sim --seed"),
+        ("pause: true, reset: {model_only: true}", "models only is not supported"),
+        ("pause: true, run_to_sim_time: {nsec: 1000000}", "not ahead of the present time"),
+    ],
+)
+def test_what_control_cannot_do_is_said(
+    running: Running, caplog: pytest.LogCaptureFixture, text: str, sentence: str
+) -> None:
+    caplog.set_level(logging.WARNING, "gz.sim")
+    running.control("pause: true, multi_step: 5")
+    running.wait(lambda m: m.paused and m.iterations == 5)
+    assert running.control(text) is ("run_to" not in text)
+    assert sentence in caplog.text
+    assert running.world.iterations == 5
+
+
+def test_control_state(running: Running, node: Node, caplog: pytest.LogCaptureFixture) -> None:
+    request = text_format.Parse("world_control {pause: true, multi_step: 4}", WorldControlState())
+    assert node.request("/world/lidar_room/control/state", request, WorldControlState, Boolean, 20_000)[1].data
+    assert running.wait(lambda m: m.iterations == 4)
+    request.state.entities.add().id = 7
+    assert not node.request("/world/lidar_room/control/state", request, WorldControlState, Boolean, 20_000)[1].data
+    assert "cannot be set here" in caplog.text
+
+
+def test_a_paused_world_takes_in_models_at_once(running: Running, node: Node) -> None:
+    from gz.msgs.entity_factory_pb2 import EntityFactory
+
+    request = EntityFactory(sdf="<sdf version='1.10'><model name='box'><link name='l'/></model></sdf>")
+    service = "/world/lidar_room/create/blocking"
+    if service not in node.service_list():
+        pytest.skip("lidar_room.sdf does not load UserCommands")
+    assert node.request(service, request, EntityFactory, Boolean, 20_000)[1].data
+    assert "box" in running.world.model_names() and running.world.iterations == 0
+
+
+def test_unstable_physics_pauses_a_running_server_which_goes_on_serving(
+    running: Running, caplog: pytest.LogCaptureFixture
+) -> None:
+    running.world.requests.call(lambda: running.world.data.qvel.__setitem__(0, float("nan")))
+    running.control("pause: false")
+    assert running.wait(lambda m: m.paused)
+    errors = [record.getMessage() for record in caplog.records if record.levelno >= logging.ERROR]
+    assert len(errors) == 1 and "body 'robot::base_link'" in errors[0] and "is paused" in errors[0]
+    assert running.control("pause: true, reset: {all: true}")
+    running.control("pause: true, multi_step: 10")
+    assert running.wait(lambda m: m.paused and m.iterations == 10)
+
+
+def test_unstable_physics_ends_a_run_of_so_many_steps(node: Node) -> None:
+    from gz.sim.errors import SimError
+
+    world = World.load("lidar_room.sdf")
+    server = Server(world, node)
+    world.data.qvel[0] = float("nan")
+    with pytest.raises(SimError, match="unstable"):
+        server.run(real_time_factor=0.0, iterations=100)
+    world.close()
+
+
+def test_names_and_stop(running: Running, node: Node) -> None:
+    assert list(node.request("/gazebo/worlds", None, Empty, StringMsg_V, 20_000)[1].data) == ["lidar_room"]
+    assert node.request("/gazebo/starting_world", None, Empty, StringMsg, 20_000)[1].data == "lidar_room"
+    assert not node.request("/server_control", ServerControl(clone=True), ServerControl, Boolean, 20_000)[1].data
+    assert running.thread.is_alive()
+    assert node.request("/server_control", ServerControl(stop=True), ServerControl, Boolean, 20_000)[1].data
+    running.thread.join(DEADLINE)
+    assert not running.thread.is_alive()
+
+
+def test_resource_paths(running: Running, node: Node, tmp_path: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("GZ_SIM_RESOURCE_PATH", "/one")
+    node.request("/gazebo/resource_paths/add", StringMsg_V(data=[str(tmp_path), "/one"]), StringMsg_V, Empty, 20_000)
+    got = node.request("/gazebo/resource_paths/get", None, Empty, StringMsg_V, 20_000)[1]
+    assert list(got.data) == ["/one", str(tmp_path)]
+    folder = tmp_path / "chair"
+    folder.mkdir()
+    (folder / "model.sdf").write_text("<sdf version='1.9'/>")
+    asked = StringMsg(data="model://chair")
+    assert node.request("/gazebo/resource_paths/resolve", asked, StringMsg, StringMsg, 20_000)[1].data == str(
+        folder / "model.sdf"
+    )
+    asked.data = "model://char"
+    assert not node.request("/gazebo/resource_paths/resolve", asked, StringMsg, StringMsg, 20_000)[0]
+
+
+def test_requests_beside_a_running_world_are_all_answered(running: Running, node: Node) -> None:
+    running.control("pause: false")
+    answers: list[bool] = []
+
+    def hammer() -> None:
+        for _ in range(30):
+            config = SdfGeneratorConfig()
+            answers.append(
+                node.request("/world/lidar_room/generate_world_sdf", config, SdfGeneratorConfig, StringMsg, 20_000)[0]
+            )
+
+    threads = [threading.Thread(target=hammer) for _ in range(3)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(DEADLINE)
+    assert answers == [True] * 90
