@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import math
 import signal
 import sys
 from collections.abc import Callable
@@ -17,7 +16,7 @@ from typing import Any
 import launch.logging
 from launch.action import Action
 from launch.child_process import ChildProcess
-from launch.conditions.evaluate_condition_expression import evaluate_condition_expression
+from launch.conditions.evaluate_condition_expression_impl import as_bool, evaluate_condition_expression
 from launch.descriptions.executable import Executable
 from launch.errors import LaunchError, UsedTwiceError, locate
 from launch.event import Event
@@ -35,15 +34,19 @@ from launch.events.process import (
 )
 from launch.launch_context import LaunchContext
 from launch.launch_description_entity import LaunchDescriptionEntity, SomeEntitiesType
-from launch.process_output import ProcessOutput, sinks
+from launch.process_output import ProcessOutput
+from launch.process_settings import (
+    ProcessSettings,
+    normalized_output,
+    performed_output,
+    seconds,
+    timeout_substitutions,
+    why_not_started,
+)
 from launch.substitution import (
     SomeSubstitutionsType,
-    Substitution,
     normalize_to_list_of_substitutions,
-    perform_substitutions,
 )
-from launch.substitutions import LaunchConfiguration
-from launch.substitutions.paths import nearest_program
 
 _IO_EVENTS = {"stdout": ProcessStdout, "stderr": ProcessStderr}
 _GRACE = 1.0  # [s] for what a process has left in the background, after the process itself has ended
@@ -82,11 +85,11 @@ class ExecuteLocal(Action):
         self.__process_description = process_description
         self.__shell = shell
         self.__timeouts = {
-            signal.SIGINT: _timeout("sigterm_timeout", sigterm_timeout),
-            signal.SIGTERM: _timeout("sigkill_timeout", sigkill_timeout),
+            signal.SIGINT: timeout_substitutions("sigterm_timeout", sigterm_timeout),
+            signal.SIGTERM: timeout_substitutions("sigkill_timeout", sigkill_timeout),
         }
         self.__emulate_tty = emulate_tty
-        self.__output = _normalized_output(output)
+        self.__output = normalized_output(output)
         self.__output_format = output_format
         self.__cached_output = cached_output
         self.__log_cmd = log_cmd
@@ -188,11 +191,11 @@ class ExecuteLocal(Action):
         self.prepare(context)
         label = self.__process_description.final_name
         assert label is not None
-        settings = _Settings(
-            output=_performed_output(self.__output, context),
-            emulate_tty=self.__emulate_tty or _is_true(context.launch_configurations.get("emulate_tty")),
+        settings = ProcessSettings(
+            output=performed_output(self.__output, context),
+            emulate_tty=self.__emulate_tty or as_bool(context.launch_configurations.get("emulate_tty", "")) is True,
             respawn=evaluate_condition_expression(context, self.__respawn),
-            timeouts={number: _seconds(context, parts) for number, parts in self.__timeouts.items()},
+            timeouts={number: seconds(context, parts) for number, parts in self.__timeouts.items()},
             logger=launch.logging.get_logger(label),
         )
         line_format = self._line_format() if self.__output_format is not None else None
@@ -205,7 +208,7 @@ class ExecuteLocal(Action):
         text = self.__output_format or ""
         return lambda line: text.format(this=self, line=line)
 
-    async def _run(self, context: LaunchContext, settings: _Settings) -> None:
+    async def _run(self, context: LaunchContext, settings: ProcessSettings) -> None:
         """The life of the process, from its first start to its last end."""
         try:
             retries = 0
@@ -222,7 +225,7 @@ class ExecuteLocal(Action):
         finally:
             self.cleanup()
 
-    async def _live_once(self, context: LaunchContext, settings: _Settings) -> bool:
+    async def _live_once(self, context: LaunchContext, settings: ProcessSettings) -> bool:
         """One run of the process; whether it may be run again."""
         child = self._start(context, settings)
         self.__child = child
@@ -254,7 +257,9 @@ class ExecuteLocal(Action):
             self.__printed.close()
         return not self.__must_stop.is_set()
 
-    async def _wait_for_what_is_left(self, child: ChildProcess, context: LaunchContext, settings: _Settings) -> None:
+    async def _wait_for_what_is_left(
+        self, child: ChildProcess, context: LaunchContext, settings: ProcessSettings
+    ) -> None:
         """What the process has started in the background belongs to the launch, too."""
         if settings.respawn and not context.is_shutdown:
             child.send_signal(signal.SIGKILL)  # the next one starts afresh
@@ -264,7 +269,7 @@ class ExecuteLocal(Action):
             )
         await child.wait_for_group()
 
-    def _start(self, context: LaunchContext, settings: _Settings) -> ChildProcess:
+    def _start(self, context: LaunchContext, settings: ProcessSettings) -> ChildProcess:
         description = self.__process_description
         command = description.final_cmd or []
         printed = self.__printed
@@ -291,7 +296,7 @@ class ExecuteLocal(Action):
                 on_output=take,
             )
         except (OSError, ValueError) as error:
-            raise LaunchError(_not_started(error, command, description.final_cwd, context)) from None
+            raise LaunchError(why_not_started(error, command, description.final_cwd, context)) from None
         self.__details = {
             "name": description.final_name,
             "pid": child.pid,
@@ -303,14 +308,14 @@ class ExecuteLocal(Action):
         context.emit_event_sync(ProcessStarted(action=self, **self.__details))
         return child
 
-    def _stop(self, settings: _Settings, *, silent: bool) -> None:
+    def _stop(self, settings: ProcessSettings, *, silent: bool) -> None:
         """Begin to end the process: SIGINT, later SIGTERM, later SIGKILL."""
         self.__must_stop.set()
         running = self.__child is not None and not self.__gone.is_set()
         if running and self.__stopping is None:
             self.__stopping = asyncio.get_running_loop().create_task(self._escalate(settings, silent=silent))
 
-    async def _escalate(self, settings: _Settings, *, silent: bool) -> None:
+    async def _escalate(self, settings: ProcessSettings, *, silent: bool) -> None:
         label = self.__process_description.final_name
         for number, following in ((signal.SIGINT, signal.SIGTERM), (signal.SIGTERM, signal.SIGKILL)):
             self._signal(number, settings, silent=silent and number == signal.SIGINT)
@@ -326,7 +331,7 @@ class ExecuteLocal(Action):
                 )
         self._signal(signal.SIGKILL, settings)
 
-    def _signal(self, number: signal.Signals, settings: _Settings, *, silent: bool = False) -> None:
+    def _signal(self, number: signal.Signals, settings: ProcessSettings, *, silent: bool = False) -> None:
         if self.__child is None or self.__gone.is_set():
             settings.logger.warning(f"signal '{number.name}' is not sent: the process does not run")
             return
@@ -335,7 +340,7 @@ class ExecuteLocal(Action):
             settings.logger.info(f"sending signal '{number.name}' to process[{label}]")
         self.__child.send_signal(number)
 
-    def _handle(self, event: Event, context: LaunchContext, settings: _Settings) -> list[LaunchDescriptionEntity]:
+    def _handle(self, event: Event, context: LaunchContext, settings: ProcessSettings) -> list[LaunchDescriptionEntity]:
         """Answer an event that concerns this process."""
         if isinstance(event, ProcessExited):
             return answer(self.__on_exit, event, context, "on_exit")
@@ -359,23 +364,10 @@ class ExecuteLocal(Action):
         return isinstance(event, Shutdown) or (isinstance(event, ProcessStdin) and event.action is self)
 
 
-class _Settings:
-    """What was performed when the action was executed."""
-
-    def __init__(
-        self, output: Any, emulate_tty: bool, respawn: bool, timeouts: dict[signal.Signals, float], logger: Any
-    ) -> None:
-        self.output = output
-        self.emulate_tty = emulate_tty
-        self.respawn = respawn
-        self.timeouts = timeouts
-        self.logger = logger
-
-
 class _ProcessHandler(EventHandler):
     """Hands events that concern a process over to its action."""
 
-    def __init__(self, action: ExecuteLocal, settings: _Settings) -> None:
+    def __init__(self, action: ExecuteLocal, settings: ProcessSettings) -> None:
         super().__init__(matcher=action._concerns)
         self._action = action
         self._settings = settings
@@ -390,53 +382,3 @@ async def _happens(event: asyncio.Event, within: float) -> bool:
     with contextlib.suppress(TimeoutError):
         await asyncio.wait_for(event.wait(), within)
     return event.is_set()
-
-
-def _not_started(error: Exception, command: list[str], cwd: str | None, context: LaunchContext) -> str:
-    """Why a process did not start, in one sentence."""
-    program = command[0]
-    if isinstance(error, FileNotFoundError) and cwd is not None and error.filename == cwd:
-        return f"'{program}' cannot be started in the folder '{cwd}', which does not exist"
-    if isinstance(error, NotADirectoryError):
-        return f"'{program}' cannot be started in '{cwd}', which is no folder"
-    if isinstance(error, FileNotFoundError):
-        return f"there is no program '{program}' to be started{nearest_program(program, context)}"
-    if isinstance(error, PermissionError):
-        return f"'{program}' cannot be started: it is not executable (chmod +x makes it so)"
-    if isinstance(error, OSError) and error.errno == 8:
-        return f"'{program}' cannot be started: its first line must be #! and an interpreter"
-    return f"'{program}' cannot be started: {getattr(error, 'strerror', None) or error}"
-
-
-def _timeout(name: str, value: Any) -> list[Substitution]:
-    if value is None:
-        return [LaunchConfiguration(name, default=5)]
-    return normalize_to_list_of_substitutions(str(value) if isinstance(value, int | float) else value)
-
-
-def _seconds(context: LaunchContext, parts: list[Substitution]) -> float:
-    text = perform_substitutions(context, parts)
-    try:
-        seconds = float(text)
-    except ValueError:
-        seconds = math.nan
-    if not 0.0 <= seconds < math.inf:
-        raise LaunchError(f"the time-out {text!r} is no number of seconds")
-    return seconds
-
-
-def _is_true(text: Any) -> bool:
-    return str(text).strip().lower() in ("true", "1")
-
-
-def _normalized_output(output: Any) -> Any:
-    """Check an `output=` that is known already; one with substitutions is checked when it is performed."""
-    if isinstance(output, str | dict):
-        with contextlib.suppress(TypeError):
-            sinks(output)
-        return output
-    return normalize_to_list_of_substitutions(output)
-
-
-def _performed_output(output: Any, context: LaunchContext) -> Any:
-    return perform_substitutions(context, output) if isinstance(output, list) else output

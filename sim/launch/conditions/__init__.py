@@ -1,6 +1,6 @@
 """Conditions for `condition=` of an action."""
 
-from launch.conditions.evaluate_condition_expression import (
+from launch.conditions.evaluate_condition_expression_impl import (
     InvalidConditionExpressionError,
     evaluate_condition_expression,
 )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from launch.condition import Condition
-from launch.conditions.evaluate_condition_expression import evaluate_condition_expression
+from launch.conditions.evaluate_condition_expression_impl import evaluate_condition_expression
 from launch.launch_context import LaunchContext
 from launch.substitution import SomeSubstitutionsType, normalize_to_list_of_substitutions
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
-from launch.conditions.evaluate_condition_expression import as_bool
+from launch.conditions.evaluate_condition_expression_impl import as_bool
 from launch.launch_context import LaunchContext
 from launch.substitution import (
     SomeSubstitutionsType,

@@ -1,0 +1,3 @@
+"""LaunchConfigurationNotEquals, in the module where launch of ROS 2 has it."""
+
+from launch.conditions.launch_configuration_equals import LaunchConfigurationNotEquals as LaunchConfigurationNotEquals

@@ -1,0 +1,3 @@
+"""IncludeLaunchDescription, in the module where launch of ROS 2 has it."""
+
+from launch.events.execution_complete import IncludeLaunchDescription as IncludeLaunchDescription

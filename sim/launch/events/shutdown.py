@@ -1,0 +1,3 @@
+"""Shutdown, in the module where launch of ROS 2 has it."""
+
+from launch.events.execution_complete import Shutdown as Shutdown

@@ -1,0 +1,77 @@
+"""How a process is run, as ExecuteLocal was told: checked when it is told, performed when it is executed."""
+
+from __future__ import annotations
+
+import logging
+import math
+import signal
+from dataclasses import dataclass
+from typing import Any
+
+from launch.errors import LaunchError
+from launch.launch_context import LaunchContext
+from launch.process_output import sinks
+from launch.substitution import Substitution, normalize_to_list_of_substitutions, perform_substitutions
+from launch.substitutions import LaunchConfiguration
+from launch.substitutions.paths import nearest_program
+
+_DEFAULT_TIMEOUT = 5  # [s]
+
+
+@dataclass(frozen=True)
+class ProcessSettings:
+    """What was performed when the action was executed; `timeouts` [s] are those after SIGINT and after SIGTERM."""
+
+    output: Any
+    emulate_tty: bool
+    respawn: bool
+    timeouts: dict[signal.Signals, float]
+    logger: logging.Logger
+
+
+def timeout_substitutions(name: str, value: Any) -> list[Substitution]:
+    """Return a time-out [s] as substitutions; None means the launch configuration `name`, else 5."""
+    if value is None:
+        return [LaunchConfiguration(name, default=_DEFAULT_TIMEOUT)]
+    return normalize_to_list_of_substitutions(str(value) if isinstance(value, int | float) else value)
+
+
+def seconds(context: LaunchContext, parts: list[Substitution]) -> float:
+    """Return the performed time-out. Raises LaunchError when it is no number of seconds."""
+    text = perform_substitutions(context, parts)
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not 0.0 <= value < math.inf:
+        raise LaunchError(f"the time-out {text!r} is no number of seconds")
+    return value
+
+
+def normalized_output(output: Any) -> Any:
+    """Return an `output=`, checked if it is known already, else as substitutions. Raises LaunchError."""
+    if isinstance(output, str | dict):
+        sinks(output)
+        return output
+    return normalize_to_list_of_substitutions(output)
+
+
+def performed_output(output: Any, context: LaunchContext) -> Any:
+    """Return an `output=` as a word or a dict."""
+    return perform_substitutions(context, output) if isinstance(output, list) else output
+
+
+def why_not_started(error: Exception, command: list[str], cwd: str | None, context: LaunchContext) -> str:
+    """Return why a process did not start, in one sentence."""
+    program = command[0]
+    if isinstance(error, FileNotFoundError) and cwd is not None and error.filename == cwd:
+        return f"'{program}' cannot be started in the folder '{cwd}', which does not exist"
+    if isinstance(error, NotADirectoryError):
+        return f"'{program}' cannot be started in '{cwd}', which is no folder"
+    if isinstance(error, FileNotFoundError):
+        return f"there is no program '{program}' to be started{nearest_program(program, context)}"
+    if isinstance(error, PermissionError):
+        return f"'{program}' cannot be started: it is not executable (chmod +x makes it so)"
+    if isinstance(error, OSError) and error.errno == 8:
+        return f"'{program}' cannot be started: its first line must be #! and an interpreter"
+    return f"'{program}' cannot be started: {getattr(error, 'strerror', None) or error}"

@@ -1,0 +1,3 @@
+"""StateTransition, in the module where launch_ros of ROS 2 has it."""
+
+from launch_ros.events.lifecycle import StateTransition as StateTransition
