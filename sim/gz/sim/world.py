@@ -18,6 +18,7 @@ from gz.sim.editing import Editing
 from gz.sim.entities import Entities
 from gz.sim.errors import LOG, Diagnostics, SimError
 from gz.sim.physics.builder import build_spec
+from gz.sim.physics.refusal import refusal
 from gz.sim.physics.instability import UNSTABLE, why_unstable
 from gz.sim.physics.state import copy_state
 from gz.sim.requests import Requests
@@ -162,11 +163,10 @@ class World(Truth, Editing):
         mujoco.set_mju_user_warning(lambda text: LOG.warning("physics: %s", text))
         try:
             model = spec.compile()
+            data = mujoco.MjData(model)
         except (ValueError, mujoco.FatalError) as error:
-            reason = " ".join(str(error).split())
-            raise self.description.element.error(f"the physics engine refuses this world: {reason}") from None
-        self.model = model
-        self.data = mujoco.MjData(model)
+            raise refusal(self.description, error) from None
+        self.model, self.data = model, data
         mujoco.mj_forward(self.model, self.data)
         self._refreshed = -1
         self._find_canonical_links()

@@ -1,0 +1,49 @@
+"""What MuJoCo says when it refuses a world, as a sentence about the file that was loaded.
+
+Called where a spec is compiled. MuJoCo names its own element (`Element name 'robot::wheel'`); the builder's names lead
+back to the link, joint, collision or visual, and to its line.
+"""
+
+from __future__ import annotations
+
+import re
+
+from gz.sim.errors import SdfError
+from gz.sim.sdf.description import Model, WorldDescription
+from gz.sim.sdf.element import Element
+
+_NAMED = re.compile(r"Element name '([^']*)'")
+_TAIL = re.compile(r"\s*Element (name|id).*", re.DOTALL)
+
+
+def refusal(world: WorldDescription, error: Exception) -> SdfError:
+    """Return the error that says which part of the world MuJoCo refuses, and why."""
+    text = str(error)
+    named = _NAMED.search(text)
+    reason = " ".join(_TAIL.sub("", text).removeprefix("Error: ").split()) or type(error).__name__
+    found = _find(world, named.group(1)) if named else None
+    if found is None:
+        return world.element.error(f"the physics engine refuses this world: {reason}")
+    what, element = found
+    return element.error(f"the physics engine refuses {what}: {reason}")
+
+
+def _find(world: WorldDescription, name: str) -> tuple[str, Element] | None:
+    name = name.split("#")[0]
+    for model in world.models:
+        if name.startswith(f"{model.name}::"):
+            return _part(model, name[len(model.name) + 2 :])
+    return next(((f"joint '{j.name}'", j.element) for j in world.joints if j.name == name), None)
+
+
+def _part(model: Model, name: str) -> tuple[str, Element]:
+    for link in model.links:
+        if link.name == name:
+            return f"link '{name}' of model '{model.name}'", link.element
+        for part in (*link.collisions, *link.visuals, *link.sensors, *link.lights):
+            if f"{link.name}::{part.name}" == name:
+                return f"<{part.element.tag}> '{part.name}' of link '{link.name}'", part.element
+    for joint in model.joints:
+        if joint.name == name:
+            return f"joint '{name}' of model '{model.name}'", joint.element
+    return f"model '{model.name}'", model.element
