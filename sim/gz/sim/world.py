@@ -18,8 +18,8 @@ from gz.sim.editing import Editing
 from gz.sim.entities import Entities
 from gz.sim.errors import LOG, Diagnostics, SimError
 from gz.sim.physics.builder import build_spec
-from gz.sim.physics.refusal import refusal
 from gz.sim.physics.instability import UNSTABLE, why_unstable
+from gz.sim.physics.refusal import refusal
 from gz.sim.physics.state import copy_state
 from gz.sim.requests import Requests
 from gz.sim.sdf.description import WorldDescription
