@@ -1,0 +1,204 @@
+"""PosePublisher: the poses of a model's links, and of more of its parts when asked for, as transforms for tf.
+
+After each step, or `<update_frequency>` times a second of simulated time, on `/model/M/pose`: one Pose an entity, or
+one Pose_V of all. Each pose is in the frame of its parent: the header's `frame_id` is the parent's name with that of
+its models before it (`robot`, `robot::arm`), `child_frame_id` the entity's (`robot::arm::hand`), which is also the
+name of the pose. With `<static_publisher>` what no joint moves goes to `/model/M/pose_static`.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from gz.sim.scene.fields import fill_pose, set_pose, set_stamp
+from gz.sim.scene.graph import SceneGraph, Vertex
+from gz.sim.sdf.description import Model, Plugin
+from gz.sim.sdf.element import Element
+from gz.sim.systems.registry import System, UpdateInfo, system
+from gz.sim.systems.topics import valid_topic
+
+if TYPE_CHECKING:
+    from gz.sim.world import World
+    from gz.transport import Node
+
+
+class Stream:
+    """What goes to one topic: the poses of the same entities each time, and when it is due next."""
+
+    def __init__(self, topic: str, period_ns: int, together: bool) -> None:
+        """`together`: one Pose_V of all instead of one Pose each."""
+        self.topic = topic
+        self.together = together
+        self.publisher: Any = None
+        self._period_ns = period_ns
+        self._last_ns = 0
+        self._vertices: list[Vertex] = []
+
+    def begin(self) -> None:
+        """Count the time from zero again."""
+        self._last_ns = 0
+
+    def fill(self, vertices: list[Vertex], movers: list[Vertex], pose_v: Any) -> None:
+        """Take over the entities; `pose_v` is the Pose_V message that will hold them."""
+        self.message = pose_v
+        places = {id(vertex): place for place, vertex in enumerate(movers)}
+        self._moving: list[tuple[int, Any]] = []
+        for vertex in vertices:
+            pose = pose_v.pose.add(name=vertex.scoped_name())
+            above = vertex.parent.scoped_name() if vertex.parent is not None else ""
+            for key, value in (("frame_id", above), ("child_frame_id", pose.name)):
+                pose.header.data.add(key=key).value.append(value)
+            set_pose(pose, vertex.pose)
+            if id(vertex) in places:
+                self._moving.append((places[id(vertex)], pose))
+
+    def due(self, now_ns: int) -> bool:
+        """Tell whether the topic is to be published on, and take it as done."""
+        if now_ns - self._last_ns < self._period_ns:
+            return False
+        self._last_ns = now_ns
+        return bool(self.publisher.has_connections())
+
+    def publish(self, now_ns: int, positions: list[list[float]], quaternions: list[list[float]]) -> None:
+        """Publish the poses, of which those of the movers are given."""
+        for place, pose in self._moving:
+            fill_pose(pose, positions[place], quaternions[place])
+        for pose in self.message.pose:
+            set_stamp(pose.header, now_ns)
+            if not self.together:
+                self.publisher.publish(pose)
+        if self.together:
+            self.publisher.publish(self.message)
+
+
+@system("PosePublisher", "gz-sim-pose-publisher-system")
+class PosePublisher(System):
+    """Publishes the poses of one model's parts. Parameters and defaults are Gazebo's."""
+
+    parameters = frozenset(
+        [
+            "publish_link_pose",
+            "publish_visual_pose",
+            "publish_collision_pose",
+            "publish_sensor_pose",
+            "publish_model_pose",
+            "publish_nested_model_pose",
+            "use_pose_vector_msg",
+            "update_frequency",
+            "static_publisher",
+            "static_update_frequency",
+        ]
+    )
+
+    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
+        """Read the parameters; `model` must not be None."""
+        element = plugin.element
+        if model is None:
+            raise element.error("PosePublisher belongs inside a <model>, not directly in the <world>")
+        self._world, self._model, self._scope = world, model, plugin.scope
+        kinds = (("link", True), ("visual", False), ("collision", False), ("sensor", False))
+        self._kinds = {kind for kind, default in kinds if element.flag(f"publish_{kind}_pose", default)}
+        self._nested = element.flag("publish_nested_model_pose", False)
+        # As in Gazebo: the model itself comes along with its nested ones, and may then be left out, not the reverse.
+        self._own = self._nested and element.flag("publish_model_pose", self._nested)
+        together = element.flag("use_pose_vector_msg", False)
+        frequency = _frequency(element, "update_frequency", -1.0)
+        self.topic = valid_topic("/model/" + "/model/".join((model.name, *filter(None, plugin.scope.split("::")))))
+        self.topic += "/pose"
+        self._moving = Stream(self.topic, _period_ns(frequency), together)
+        self._static: Stream | None = None
+        if element.flag("static_publisher", False):
+            static_frequency = _frequency(element, "static_update_frequency", frequency)
+            self._static = Stream(f"{self.topic}_static", _period_ns(static_frequency), together)
+        self._streams = [stream for stream in (self._static, self._moving) if stream is not None]
+        self._graph: SceneGraph | None = None
+        self._connected = False
+
+    def bind(self) -> None:
+        """The bodies have other numbers: the graph has to be made anew."""
+        self._graph = None
+
+    def start(self) -> None:
+        """Count time from zero."""
+        for stream in self._streams:
+            stream.begin()
+
+    def connect(self, node: Node) -> None:
+        """Advertise the topics."""
+        from gz.msgs.pose_pb2 import Pose
+        from gz.msgs.pose_v_pb2 import Pose_V
+
+        self._pose_v = Pose_V
+        for stream in self._streams:
+            stream.publisher = node.advertise(stream.topic, Pose_V if stream.together else Pose)
+        self._connected = True
+
+    def post_update(self, info: UpdateInfo) -> None:
+        """Publish what is due and listened to."""
+        if not self._connected:
+            return
+        now_ns = info.sim_time_ns
+        due = [stream for stream in self._streams if stream.due(now_ns)]
+        if not due:
+            return
+        if self._graph is None:
+            self._graph = self._made_graph()
+        positions, quaternions = (array.tolist() for array in self._graph.poses())
+        for stream in due:
+            stream.publish(now_ns, positions, quaternions)
+
+    def _made_graph(self) -> SceneGraph:
+        """Return the model's graph after giving each stream its part of it."""
+        graph = SceneGraph(self._world, [self._model])
+        graph.look()
+        top = graph.root.children[0]
+        path = "::".join(filter(None, (self._model.name, self._scope)))
+        own = next((each for each in top.below() if each.kind == "model" and each.scoped_name() == path), top)
+        wanted = [vertex for vertex in own.below() if self._wants(vertex)]
+        jointed = _moved_by_joints(own) if self._static is not None else frozenset(map(id, wanted))
+        self._moving.fill([each for each in wanted if id(each) in jointed], graph.movers, self._pose_v())
+        if self._static is not None:
+            still = [each for each in wanted if id(each) not in jointed]
+            self._static.fill(still, graph.movers, self._pose_v())
+        return graph
+
+    def _wants(self, vertex: Vertex) -> bool:
+        if vertex.kind != "model":
+            return vertex.kind in self._kinds
+        nested = vertex.parent is not None and vertex.parent.kind == "model"
+        return self._nested if nested else self._own
+
+
+def _moved_by_joints(own: Vertex) -> frozenset[int]:
+    """Return the identities of the links and nested models below `own` that a joint moves against their parent.
+
+    A model stands where its canonical link stands: that link never moves against it, so what a joint does to the link
+    is seen in the pose of the model, seen from its own parent.
+    """
+    links = {each.described.name: each for each in own.below() if each.kind == "link"}
+    moved: set[int] = set()
+    for joint in own.below():
+        if joint.kind != "joint" or joint.described.kind == "fixed":
+            continue
+        for name in (joint.described.parent, joint.described.child):
+            vertex = links.get(name)
+            while vertex is not None and vertex is not own:
+                above = vertex.parent
+                if above is None or above.described.canonical_link != name:
+                    moved.add(id(vertex))
+                    break
+                vertex = above
+    return frozenset(moved)
+
+
+def _frequency(element: Element, tag: str, default: float) -> float:
+    value = element.number(tag, default)
+    if value == math.inf:
+        raise element.error(f"PosePublisher's <{tag}> must be finite; leave it out to publish at each step")
+    return value
+
+
+def _period_ns(frequency: float) -> int:
+    """Return the period of a frequency in Hz; 0, each step, for zero and less."""
+    return int(1e9 / frequency) if frequency > 0.0 else 0

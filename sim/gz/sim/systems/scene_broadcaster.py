@@ -1,0 +1,261 @@
+"""SceneBroadcaster: tells the outside what there is in the world and where it is.
+
+Topics below `/world/W`: `pose/info` (Pose_V: every model, link, visual and light) at 60 Hz, `dynamic_pose/info`
+(Pose_V: models and links that can move), `scene/info` (Scene: what came), `scene/deletion` (UInt32_V: the numbers of
+what went), `state` (SerializedStepMap). Services: `scene/info`, `scene/graph` (Graphviz), `state` and `state_async`.
+Poses are in the parent's frame, names without scope, as in Gazebo. Rates are of simulated time; while a server is
+paused it asks for everything ten times a second. What is sent is made by `gz.sim.scene`, and only if somebody listens.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from gz.sim.errors import LOG, SimError
+from gz.sim.scene.fields import fill_pose, set_pose, set_stamp
+from gz.sim.scene.graph import KINDS, SceneGraph, Vertex
+from gz.sim.sdf.description import Model, Plugin
+from gz.sim.sdf.element import Element
+from gz.sim.systems.registry import System, UpdateInfo, system
+
+if TYPE_CHECKING:
+    from gz.sim.world import World
+    from gz.transport import Node
+
+POSE_HERTZ = 60.0
+T = TypeVar("T")
+
+
+class Schedule:
+    """A topic of a fixed rate: when its next message is due (ns of simulated time)."""
+
+    def __init__(self, hertz: float) -> None:
+        self.period_ns = max(1, round(1e9 / hertz))
+        self.next_ns = 0
+
+    def due(self, now_ns: int) -> bool:
+        """Tell whether a message is due, and plan the next one."""
+        if now_ns < self.next_ns:
+            return False
+        self.next_ns = (now_ns // self.period_ns + 1) * self.period_ns
+        return True
+
+
+class PoseVector:
+    """A Pose_V of the same entities each time, of which only what moved is written anew."""
+
+    def __init__(self, message: Any, vertices: list[Vertex], movers: list[Vertex]) -> None:
+        self.message = message
+        fields: dict[int, Any] = {}
+        for vertex in vertices:
+            pose = message.pose.add(name=vertex.name, id=vertex.number)
+            set_pose(pose, vertex.pose)
+            fields[id(vertex)] = pose
+        self._moving = [(place, fields[id(vertex)]) for place, vertex in enumerate(movers) if id(vertex) in fields]
+
+    def at(self, now_ns: int, positions: list[list[float]], quaternions: list[list[float]]) -> Any:
+        """Return the message with the poses of the movers, stamped `now_ns`."""
+        set_stamp(self.message.header, now_ns)
+        for place, field in self._moving:
+            fill_pose(field, positions[place], quaternions[place])
+        return self.message
+
+
+@system("SceneBroadcaster", "gz-sim-scene-broadcaster-system")
+class SceneBroadcaster(System):
+    """The scene of one world on the wire. Parameters and defaults are Gazebo's."""
+
+    parameters = frozenset(["dynamic_pose_hertz", "state_hertz"])
+
+    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
+        """Read the rates; a SceneBroadcaster stands directly in the world."""
+        if model is not None:
+            raise plugin.element.error("SceneBroadcaster belongs directly in the <world>, not inside a <model>")
+        self._world = world
+        self._dynamic_hertz = _rate(plugin.element, "dynamic_pose_hertz")
+        self._state_hertz = _rate(plugin.element, "state_hertz")
+        self._graph: SceneGraph | None = None
+        self._sent: dict[tuple[str, str], list[int]] = {}
+        """What the outside knows of: kind and name -> its number and those of the models and lights inside it."""
+        self._node: Node | None = None
+
+    def bind(self) -> None:
+        """Something may have come or gone: what was known of the world is out of date."""
+        self._graph = None
+
+    def start(self) -> None:
+        """Begin the schedules anew; everything that is there is new, once what is no more has been taken back."""
+        self._all, self._dynamic = Schedule(POSE_HERTZ), Schedule(self._dynamic_hertz)
+        self._state = Schedule(self._state_hertz)
+        self._next_ns = 0
+        self._state_known = False
+        self._graph = None
+        if self._node is not None:
+            self._announce(self._outline(self._current_graph()), removals_only=True)
+        self._sent = {}
+        self._graph = None
+
+    def connect(self, node: Node) -> None:
+        """Advertise the topics and offer the services."""
+        from gz.msgs.empty_pb2 import Empty
+        from gz.msgs.pose_v_pb2 import Pose_V
+        from gz.msgs.scene_pb2 import Scene
+        from gz.msgs.serialized_map_pb2 import SerializedStepMap
+        from gz.msgs.stringmsg_pb2 import StringMsg
+        from gz.msgs.uint32_v_pb2 import UInt32_V
+
+        self._pose_v, self._step_map, self._numbers, self._empty = Pose_V, SerializedStepMap, UInt32_V, Empty
+        self._node = node
+        root = f"/world/{self._world.name}"
+        self._all_publisher = node.advertise(f"{root}/pose/info", Pose_V)
+        self._dynamic_publisher = node.advertise(f"{root}/dynamic_pose/info", Pose_V)
+        self._scene_publisher = node.advertise(f"{root}/scene/info", Scene)
+        self._deletion_publisher = node.advertise(f"{root}/scene/deletion", UInt32_V)
+        self._state_publisher = node.advertise(f"{root}/state", SerializedStepMap)
+        node.advertise_service(f"{root}/scene/info", Empty, Scene, self._answer(self._scene, Scene))
+        node.advertise_service(f"{root}/scene/graph", Empty, StringMsg, self._answer(self._dot, StringMsg))
+        node.advertise_service(
+            f"{root}/state", Empty, SerializedStepMap, self._answer(self._full_step, SerializedStepMap)
+        )
+        node.advertise_service(f"{root}/state_async", StringMsg, Empty, self._send_state)
+
+    def post_update(self, info: UpdateInfo) -> None:
+        """Publish what is due."""
+        if self._node is None:
+            return
+        if self._graph is None:
+            self._renew()
+        now_ns = info.sim_time_ns
+        if now_ns < self._next_ns:
+            return
+        # All three schedules move on, whether somebody listens or not.
+        due = self._all.due(now_ns), self._dynamic.due(now_ns), self._state.due(now_ns)
+        self._next_ns = min(self._all.next_ns, self._dynamic.next_ns, self._state.next_ns)
+        self._publish(now_ns, *due)
+
+    def paused_update(self, info: UpdateInfo) -> None:
+        """Publish everything."""
+        if self._node is None:
+            return
+        if self._graph is None:
+            self._renew()
+        self._publish(info.sim_time_ns, True, True, True)
+
+    def _publish(self, now_ns: int, every: bool, dynamic: bool, state: bool) -> None:
+        every = every and self._all_publisher.has_connections()
+        dynamic = dynamic and self._dynamic_publisher.has_connections()
+        if every or dynamic:
+            positions, quaternions = (array.tolist() for array in self._current_graph().poses())
+            if every:
+                self._all_publisher.publish(self._all_poses.at(now_ns, positions, quaternions))
+            if dynamic:
+                self._dynamic_publisher.publish(self._dynamic_poses.at(now_ns, positions, quaternions))
+        if state:
+            self._publish_state()
+
+    def _publish_state(self) -> None:
+        """Publish the whole state to those who begin to listen and after every change, else what moves."""
+        if not self._state_publisher.has_connections():
+            self._state_known = False
+            return
+        from gz.sim.scene.state import pose_state
+
+        if self._state_known:
+            message = self._step(pose_state(self._world, self._current_graph()))
+        else:
+            message = self._full_step()
+            self._state_known = True
+        self._state_publisher.publish(message)
+
+    def _current_graph(self) -> SceneGraph:
+        if self._graph is None:
+            self._graph = SceneGraph(self._world)
+        return self._graph
+
+    def _renew(self) -> None:
+        """Make the graph of what there is now, and say what came and what went."""
+        graph = self._current_graph()
+        graph.look()
+        listed = list(graph)
+        by_kind = [vertex for kind in KINDS for vertex in listed if vertex.kind == kind]
+        moving = [vertex for vertex in by_kind if vertex.moves]
+        self._all_poses = PoseVector(self._pose_v(), by_kind, graph.movers)
+        self._dynamic_poses = PoseVector(self._pose_v(), moving, graph.movers)
+        self._state_known = False
+        outline = self._outline(graph)
+        self._announce(outline)
+        self._sent = outline
+
+    @staticmethod
+    def _outline(graph: SceneGraph) -> dict[tuple[str, str], list[int]]:
+        return {
+            (vertex.kind, vertex.name): [each.number for each in vertex.below() if each.kind in ("model", "light")]
+            for vertex in graph.root.children
+            if vertex.kind in ("model", "light")
+        }
+
+    def _announce(self, outline: dict[tuple[str, str], list[int]], *, removals_only: bool = False) -> None:
+        gone = [number for key, numbers in self._sent.items() if outline.get(key) != numbers for number in numbers]
+        if gone and self._deletion_publisher.has_connections():
+            self._deletion_publisher.publish(self._numbers(data=gone))
+        new = [numbers[0] for key, numbers in outline.items() if self._sent.get(key) != numbers]
+        if new and not removals_only and self._scene_publisher.has_connections():
+            from gz.sim.scene.message import scene_message
+
+            self._scene_publisher.publish(scene_message(self._world, self._current_graph(), new))
+
+    def _scene(self) -> Any:
+        from gz.sim.scene.message import scene_message
+
+        return scene_message(self._world, self._current_graph())
+
+    def _dot(self) -> Any:
+        from gz.msgs.stringmsg_pb2 import StringMsg
+
+        return StringMsg(data=self._current_graph().dot())
+
+    def _full_step(self) -> Any:
+        from gz.sim.scene.state import full_state
+
+        return self._step(full_state(self._world, self._current_graph()))
+
+    def _step(self, state: Any) -> Any:
+        """Return a SerializedStepMap of now; it says nothing of wall time, so that equal runs give equal bytes."""
+        world = self._world
+        message = self._step_map(state=state)
+        stats = message.stats
+        stats.sim_time.sec, stats.sim_time.nsec = divmod(world.sim_time_ns, 1_000_000_000)
+        stats.step_size.sec, stats.step_size.nsec = divmod(world.step_size_ns, 1_000_000_000)
+        stats.iterations = world.iterations
+        return message
+
+    def _answer(self, work: Callable[[], T], response_type: Callable[[], T]) -> Callable[[Any], tuple[bool, T]]:
+        """Wrap what a service returns: it is made between two steps, by the thread that steps the world."""
+
+        def answer(_request: Any) -> tuple[bool, T]:
+            try:
+                return True, self._world.requests.call(work)
+            except SimError as error:
+                LOG.error("the scene of world '%s' was asked for: %s", self._world.name, error)
+                return False, response_type()
+
+        return answer
+
+    def _send_state(self, request: Any) -> Any:
+        """Call the service that `request` names with the whole state; that call is one-way."""
+        made, message = self._answer(self._full_step, self._step_map)(request)
+        if made and self._node is not None:
+            try:
+                self._node.request(request.data, message, self._step_map, self._empty)
+            except ValueError as error:
+                LOG.error("state_async of world '%s' was asked for: %s", self._world.name, error)
+        return self._empty()
+
+
+def _rate(element: Element, tag: str) -> float:
+    hertz = element.number(tag, POSE_HERTZ)
+    if not 0.0 < hertz < math.inf:
+        raise element.error(f"SceneBroadcaster's <{tag}> must be greater than zero, got {hertz:g}")
+    return hertz
