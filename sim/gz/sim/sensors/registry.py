@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
+from gz.sim.requests import logged
 from gz.sim.sdf.description import Sensor
 from gz.sim.systems.topics import valid_topic
 
@@ -136,11 +137,13 @@ class SensorBase:
         from gz.msgs.double_pb2 import Double
         from gz.msgs.empty_pb2 import Empty
 
+        service = f"{self.topic}/set_rate"
+
         def serve(request: Double) -> Empty:
-            self.set_rate(request.data)
+            self.world.requests.put(logged(lambda: self.set_rate(request.data), service))
             return Empty()
 
-        node.advertise_service(f"{self.topic}/set_rate", Double, Empty, serve)
+        node.advertise_service(service, Double, Empty, serve)
 
     def set_rate(self, rate: float) -> None:
         """Make the updates rarer: `rate` in Hz, at most `<update_rate>`; any rate, also 0 for every step, when

@@ -32,7 +32,10 @@ class SensorSystem(System):
         self._next_ns = 0
 
     def bind(self) -> None:
-        """Make the sensors of models that came, drop those of models that went, and let all find their places."""
+        """Make the sensors of models that came, drop those of models that went, and let all find their places.
+
+        Nothing has changed when a sensor cannot be made.
+        """
         types = sensor_types()
         made = {id(sensor.description): sensor for sensor in self.sensors}
         wanted: list[SensorBase] = []
@@ -47,7 +50,6 @@ class SensorSystem(System):
                     sensor = found(self._world, description)
                     sensor.rescheduled = self._reschedule  # type: ignore[method-assign]
                     new.add(sensor)
-                    self._open(sensor)
                 wanted.append(sensor)
         for gone in made.values():
             node = self._nodes.pop(id(gone), None)
@@ -58,6 +60,7 @@ class SensorSystem(System):
             sensor.bind()
             if sensor in new:
                 sensor.start()
+                self._open(sensor)
         self._next_ns = 0
 
     def start(self) -> None:

@@ -10,6 +10,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from gz.sim.physics.contacts import CollisionGeoms, CollisionPath, touching
+from gz.sim.requests import logged
 from gz.sim.sdf.description import Model, Plugin
 from gz.sim.systems.registry import System, UpdateInfo, system, system_name
 from gz.sim.systems.topics import valid_topic
@@ -85,13 +86,15 @@ class TouchPlugin(System):
         from gz.msgs.boolean_pb2 import Boolean
         from gz.msgs.empty_pb2 import Empty
 
+        service = f"{self._namespace}/enable"
+
         def serve(request: Boolean) -> Empty:
-            self.enable(request.data)
+            self._world.requests.put(logged(lambda: self.enable(request.data), service))
             return Empty()
 
         self._type = Boolean
         self._publisher = node.advertise(f"{self._namespace}/touched", Boolean)
-        node.advertise_service(f"{self._namespace}/enable", Boolean, Empty, serve)
+        node.advertise_service(service, Boolean, Empty, serve)
 
     def enable(self, on: bool) -> None:
         """Switch the plugin on or off; the time of touching starts anew."""

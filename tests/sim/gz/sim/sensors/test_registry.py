@@ -11,6 +11,7 @@ from gz.msgs.empty_pb2 import Empty
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from gz.sim.errors import SdfError
 from gz.sim.sensors.registry import sensor_types
 from gz.sim.systems.registry import systems
 from gz.sim.world import World
@@ -122,24 +123,40 @@ def test_a_sensor_of_every_step_can_be_slowed_and_quickened(listen: Listen) -> N
     assert times(heard)[5:] == [16, 17, 18]
 
 
+LATE = (
+    "<sdf version='1.10'><model name='n'><static>1</static><pose>0 0 7 0 0 0</pose><link name='l'>"
+    "<sensor name='s' type='altimeter'><update_rate>100</update_rate>{}</sensor></link></model></sdf>"
+)
+
+
 def test_models_that_come_and_go_take_their_sensors_along(listen: Listen) -> None:
-    """The system is told as after a spawn: the description changed, MuJoCo's model is new."""
-    static = "<model name='n'><static>1</static><pose>0 0 7 0 0 0</pose><link name='l'>{}</link></model>"
-    late = static.format("<sensor name='s' type='altimeter'><update_rate>100</update_rate></sensor>")
-    world = sensor_world(rated(100) + late, "Altimeter")
+    world = sensor_world(rated(100), "Altimeter")
     heard = listen(world, TOPIC.replace("/m/", "/n/"), "gz.msgs.Altimeter")
-    system = next(each for each in world.systems if each.name == "Altimeter")
-    gone = world.description.models.pop()
-    system.bind()
-    assert [sensor.scoped_name for sensor in sensors_of(world)] == ["m::l::s"]
     world.step(105)
-    assert heard == []
-    world.description.models.append(gone)
-    system.bind()
+    world.spawn(LATE.format(""))
     world.step(25)
     # Due at once, then on the same grid as the others.
     assert times(heard) == [106, 110, 120, 130]
     assert heard[0].vertical_reference == 7.0
+    world.remove("n")
+    world.step(50)
+    assert len(heard) == 4
+    assert [sensor.scoped_name for sensor in sensors_of(world)] == ["m::l::s"]
+    assert world.node is not None
+    assert world.node.topic_info(TOPIC.replace("/m/", "/n/"))[0] == []
+    assert all("/n/" not in name for name in world.node.service_list())
+
+
+def test_a_model_whose_sensor_makes_no_sense_does_not_come(listen: Listen) -> None:
+    world = sensor_world(rated(100), "Altimeter")
+    heard = listen(world, TOPIC, "gz.msgs.Altimeter")
+    noise = "<altimeter><vertical_position><noise type='gausian'/></vertical_position></altimeter>"
+    with pytest.raises(SdfError, match="did you mean 'gaussian'"):
+        world.spawn(LATE.format(noise))
+    world.step(20)
+    assert times(heard) == [1, 10, 20]
+    assert [sensor.scoped_name for sensor in sensors_of(world)] == ["m::l::s"]
+    assert world.node is not None and all("/n/" not in name for name in world.node.topic_list())
 
 
 def test_moving_sensors_find_their_place_again(listen: Listen) -> None:
@@ -147,7 +164,7 @@ def test_moving_sensors_find_their_place_again(listen: Listen) -> None:
     world = sensor_world(f"<model name='m'><link name='l'>{inertial()}{sensor}</link></model>", "Altimeter")
     heard = listen(world, TOPIC, "gz.msgs.Altimeter")
     world.step(100)
-    next(each for each in world.systems if each.name == "Altimeter").bind()
+    world.spawn(LATE.format(""))
     world.step(100)
     # Falling from rest for 0.2 s, counted from where it began.
     assert heard[-1].vertical_position == pytest.approx(-0.5 * 9.8 * 0.2**2, rel=0.01)
