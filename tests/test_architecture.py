@@ -12,7 +12,14 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-PACKAGES = {"gz": ROOT / "sim", "ros_gz_bridge": ROOT / "sim", "ros_gz_sim": ROOT / "sim", "grader": ROOT}
+PACKAGES = {
+    "gz": ROOT / "sim",
+    "launch": ROOT / "sim",
+    "launch_ros": ROOT / "sim",
+    "ros_gz_bridge": ROOT / "sim",
+    "ros_gz_sim": ROOT / "sim",
+    "grader": ROOT,
+}
 CODE_FOLDERS = ("sim", "grader", "exercises", "solutions", "chapters", "tests")
 LONGEST_FILE = 400
 VAGUE_NAMES = {"utils", "util", "helpers", "helper", "common", "misc"}
@@ -84,6 +91,10 @@ def forbidden(name):
         tops |= {"grader"}
     if below(name, "ros_gz_bridge"):
         tops |= {"mujoco", "gz.sim", "grader"}
+    if below(name, "launch", "launch_ros"):
+        tops |= {"rclpy", "mujoco", "gz", "ros_gz_bridge", "ros_gz_sim", "ros2", "grader"}
+    if below(name, "launch"):
+        tops |= {"launch_ros", "ament_index_python"}
     if below(name, "ros_gz_sim"):
         tops |= {"grader"}
     if below(name, "gz.transport"):
