@@ -77,6 +77,7 @@ class Geoms:
             geom.group = COLLISION_GROUP
             geom.contype = geom.conaffinity = part.bitmask
             geom.solref = self._solref
+            geom.solimp[:2] = recipe.CONTACT_IMPEDANCE
             geom.priority = self._ranks[part.mu]
             geom.condim = 3 if part.mu > 0.0 else 1
             geom.friction = (max(part.mu, 1e-6), 0.005, 0.0001)

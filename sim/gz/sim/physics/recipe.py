@@ -1,7 +1,7 @@
 """The numbers that make MuJoCo drive wheeled robots as Gazebo does: solver, contacts, wheel servos.
 
-Used by `builder`. Measured with four robots from 1 to 140 kg: steady speed within 0.35 %, yaw rate within 0.5
-%, at steps of 1 to 4 ms. Soft, naive settings make light robots hop or turn up to 30 % too slowly.
+Used by `builder`. Measured with four robots from 1 to 140 kg: steady speed and yaw rate within 0.25 % at steps of
+1 to 4 ms (`tests/bench/bench_physics.py`). Soft, naive settings make light robots hop or turn up to 30 % too slowly.
 """
 
 from __future__ import annotations
@@ -21,6 +21,11 @@ gives.
 SERVO_GIVE = 1e-3
 """How much a load may slow a joint servo, as a fraction of what it does to a free joint in one step. Measured: stiffer
 gains nothing, softer lets an arm creep.
+"""
+
+CONTACT_IMPEDANCE = (0.95, 0.97)
+"""Impedance of a contact that just touches and of one pressed in: so hard that a wheel sinks in by less than 0.2 % of
+its radius, which is its error in speed (with MuJoCo's default up to 0.7 % at steps of 4 ms).
 """
 
 DISCRETE = True
@@ -43,9 +48,9 @@ def apply_options(spec: mujoco.MjSpec, step: float, gravity: tuple[float, float,
 
 def contact_solref(step: float) -> tuple[float, float]:
     """Return time constant (s) and damping ratio of a contact: stiff, and damped enough not to throw bodies
-    out.
+    out. Less damping throws out what starts inside the ground, more lets light robots rock at steps of 4 ms.
     """
-    return max(0.004, 2.0 * step), 3.0
+    return max(0.004, 2.0 * step), 2.0
 
 
 def friction_ranks(coefficients: Iterable[float]) -> dict[float, int]:
