@@ -47,7 +47,7 @@ def to_yaml(message: Any, form: TextFormat) -> str:
 def to_line(message: Any) -> str:
     """The whole message as YAML in one line."""
     whole = _plain(message, "", TextFormat(limit=None))
-    text = yaml.dump(whole, Dumper=_Dumper, sort_keys=False, width=sys.maxsize, default_flow_style=True)
+    text = yaml.dump(whole, Dumper=_LineDumper, sort_keys=False, width=sys.maxsize, default_flow_style=True)
     return text.rstrip("\n")
 
 
@@ -70,6 +70,18 @@ def _text(dumper: yaml.SafeDumper, text: str) -> yaml.ScalarNode:
 
 
 _Dumper.add_representer(str, _text)
+
+
+class _LineDumper(_Dumper):
+    """Writes no line break."""
+
+
+def _line(dumper: yaml.SafeDumper, text: str) -> yaml.ScalarNode:
+    style = '"' if text.splitlines() != [text] else None
+    return dumper.represent_scalar("tag:yaml.org,2002:str", text, style=style)
+
+
+_LineDumper.add_representer(str, _line)
 
 
 def _plain(value: Any, kind: str, form: TextFormat) -> Any:

@@ -143,7 +143,8 @@ def _list(kind: Any, node: yaml.Node, place: _Place, stamps: list[Stamp]) -> lis
     if not isinstance(node, yaml.SequenceNode):
         raise place.wants("a list", node)
     items = node.value
-    if items and isinstance(items[-1], yaml.ScalarNode) and items[-1].value == "...":
+    cut = items and isinstance(items[-1], yaml.ScalarNode) and items[-1].value == "..."
+    if cut and not isinstance(kind.value_type, AbstractString | AbstractWString):
         raise place.refuse(f"'{place.path}' ends in '...': echo has left items out; use ros2 topic echo --full-length")
     if isinstance(kind, Array) and len(items) != kind.size:
         raise place.refuse(f"'{place.path}' of {place.kind} has {kind.size} items, not {len(items)}")

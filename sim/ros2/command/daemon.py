@@ -9,7 +9,9 @@ from ros2.errors import CommandError
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """What to do with it."""
-    parser.add_argument("verb", nargs="?", choices=["start", "status", "stop"], default="status")
+    parser.add_argument(
+        "verb", nargs="?", choices=["start", "status", "stop"], default="status", help="Default: status"
+    )
     parser.add_argument("--debug", action="store_true", help="Accepted and ignored")
 
 
