@@ -19,7 +19,8 @@ from launch.ament_prefix import nearest_package_of
 _OWN_FOLDER = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))  # noqa: PTH100, PTH120 - at every start
 _OWN_FOLDERS = tuple(os.path.join(_OWN_FOLDER, name) + os.sep for name in ("launch", "launch_ros", "ros2"))  # noqa: PTH118
 _LIBRARIES = tuple(
-    folder + os.sep for folder in {sysconfig.get_path(name) for name in ("stdlib", "platstdlib", "purelib", "platlib")}
+    folder + os.sep
+    for folder in {sysconfig.get_path(name) for name in ("stdlib", "platstdlib", "purelib", "platlib", "scripts")}
 )
 Place = tuple[str, int]
 

@@ -38,7 +38,7 @@ def check_value(name: str, value: Any) -> None:
     if isinstance(value, Mapping):
         for key, each in value.items():
             check_value(f"{name}.{key}", each)
-    elif isinstance(value, ParameterValue | Substitution | os.PathLike | SCALARS):
+    elif isinstance(value, (ParameterValue, Substitution, os.PathLike, *SCALARS)):
         return
     elif isinstance(value, Sequence) and not isinstance(value, bytes):
         if not any(isinstance(item, Substitution | list | tuple) for item in value):

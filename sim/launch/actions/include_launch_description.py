@@ -92,8 +92,8 @@ class IncludeLaunchDescription(Action):
         if location != "''":
             inside |= {CURRENT_FILE: location, CURRENT_FOLDER: os.path.dirname(location)}  # noqa: PTH120
         given = [perform_substitutions(context, name) for name, _ in self.__launch_arguments]
-        self._check_required(description, given, context)
         self._warn_of_unknown(description, given)
+        self._check_required(description, given, context)
         context.extend_locals(inside)
         setting = [SetLaunchConfiguration(name, value) for name, value in self.__launch_arguments]
 
