@@ -10,10 +10,14 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from gz.sim.errors import nearest
 from gz.sim.physics.servos import WHEEL, JointServo
+from gz.sim.pose import Vector, rotate
 from gz.sim.sdf.description import Model, Plugin
 from gz.sim.sdf.element import Element
+from gz.sim.systems.model_scope import ModelScope
 from gz.sim.systems.registry import System, UpdateInfo, system
 from gz.sim.systems.speed_limiter import SpeedLimiter
 from gz.sim.systems.topics import valid_topic
@@ -68,8 +72,8 @@ class DiffDrive(System):
 
     def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
         """Read the parameters; `model` must not be None."""
-        if model is None:
-            raise plugin.element.error("DiffDrive belongs inside a <model>, not directly in the <world>")
+        scope = ModelScope(world, model, plugin, self.name)
+        model = scope.model
         element = plugin.element
         self._world = world
         separation = _positive(element, "wheel_separation", 1.0)
@@ -81,15 +85,27 @@ class DiffDrive(System):
         self._limited = not (self._limit_linear.unlimited and self._limit_angular.unlimited)
         frequency = element.number("odom_publish_frequency", 50.0)
         self._odometry_period_ns = int(1e9 / frequency) if frequency > 0.0 and math.isfinite(frequency) else 0
-        name = model.name if not plugin.scope else plugin.scope.rsplit("::", 1)[-1]
+        name = scope.name
         self.command_topic = valid_topic(element.text_of("topic"), f"/model/{name}/cmd_vel")
         self.enable_topic = valid_topic(f"/model/{name}/enable")
         self.odometry_topic = valid_topic(element.text_of("odom_topic"), f"/model/{name}/odometry")
         self.tf_topic = valid_topic(element.text_of("tf_topic"), f"/model/{name}/tf")
         self.frame_id = element.text_of("frame_id", f"{name}/odom")
-        self.child_frame_id = element.text_of("child_frame_id", f"{name}/{model.canonical_link.replace('::', '/')}")
+        base = scope.own_name(scope.canonical_link).replace("::", "/")
+        self.child_frame_id = element.text_of("child_frame_id", f"{name}/{base}")
         self._model = model
         self._sides = [_joints(model, plugin, side) for side in ("left_joint", "right_joint")]
+        for side in self._sides:
+            if _skids(model, side, radius):
+                text = (
+                    f"DiffDrive of model '{scope.full_name}' has wheels one behind the other, so it must skid to turn; "
+                )
+                text += (
+                    "tyres here grip alike in all directions (<slip1>, <slip2> and <mu2> do not count), expect it to "
+                )
+                text += "turn with a third of the commanded rate; two driven wheels and casters turn as commanded"
+                world.diagnostics.warn(element.where, text)
+                break
         self._odometry = WheelOdometry(separation, radius)
         self._publisher: Any = None
         self._tf_publisher: Any = None
@@ -246,6 +262,23 @@ def _joints(model: Model, plugin: Plugin, side: str) -> list[str]:
     if not names:
         raise plugin.element.error(f"DiffDrive needs at least one <{side}>, none was found")
     return names
+
+
+def _skids(model: Model, side: list[str], radius: float) -> bool:
+    """Tell whether wheels of one side stand one behind the other, not on one axle."""
+    places: list[Vector] = []
+    axles: list[Vector] = []
+    for name in side:
+        joint = model.joint(name)
+        link = model.link(joint.child) if joint is not None else None
+        if joint is None or link is None or joint.axis is None:
+            continue
+        places.append((link.pose * joint.pose).position)
+        axles.append(rotate(link.pose.quaternion, np.array(joint.axis.direction)))
+    return any(
+        float(np.linalg.norm(np.cross(place - places[0], axle))) > 0.1 * radius
+        for place, axle in zip(places, axles, strict=True)
+    )
 
 
 def _positive(element: Element, tag: str, default: float) -> float:
