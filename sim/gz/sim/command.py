@@ -16,10 +16,23 @@ import sys
 import threading
 from collections.abc import Sequence
 from pathlib import Path
-from typing import NoReturn
+from typing import TYPE_CHECKING, NoReturn
+
+if TYPE_CHECKING:
+    from gz.sim.sdf.description import Plugin
 
 _LEVELS = {0: logging.CRITICAL + 1, 1: logging.WARNING, 2: logging.WARNING, 3: logging.INFO, 4: logging.DEBUG}
 _PREFIXES = {logging.WARNING: "[Wrn]", logging.INFO: "[Msg]", logging.DEBUG: "[Dbg]"}
+
+
+_ACCEPTED = {
+    "--force-version": "N",
+    "--physics-engine": "NAME",
+    "--render-engine-gui": "NAME",
+    "--render-engine-api-backend": "NAME",
+    "--gui-config": "FILE",
+}
+_ACCEPTED_FLAGS = ("--levels", "--log-compress", "--record-resources")
 
 
 class _Parser(argparse.ArgumentParser):
@@ -50,6 +63,13 @@ def _count(text: str) -> int:
     return value
 
 
+def _seconds(text: str) -> float:
+    value = _number(text)
+    if value > 1e9:
+        raise argparse.ArgumentTypeError(f"must be at most 1e9 seconds, got {text}")
+    return value
+
+
 def _parser() -> _Parser:
     parser = _Parser(prog="gz sim", description="Run a simulation.", allow_abbrev=False)
     parser.add_argument("file", nargs="?", help="world: a path, a name in GZ_SIM_RESOURCE_PATH, or a built-in world")
@@ -63,10 +83,29 @@ def _parser() -> _Parser:
     parser.add_argument("--iterations", type=_count, default=0, metavar="N", help="end after N steps (0: never)")
     parser.add_argument("-z", dest="rate", type=_number, metavar="HZ", help="steps per second of wall time")
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="seed of all sensor noise")
+    parser.add_argument(
+        "--initial-sim-time", type=_seconds, default=0.0, metavar="S", help="simulated time to start at, in seconds"
+    )
+    parser.add_argument("--strict", action="store_true", help="refuse a world that would be warned about")
+    recording = parser.add_argument_group("recording (read it with gz log)")
+    recording.add_argument("--record", action="store_true", help="record poses into ~/.gz/sim/log/TIME/state.tlog")
+    recording.add_argument("--record-path", metavar="FOLDER", help="record into this folder")
+    recording.add_argument(
+        "--record-topic", action="append", default=[], metavar="REGEX", help="record these topics too; may be repeated"
+    )
+    recording.add_argument("--record-period", type=_seconds, metavar="S", help="shortest time between recorded poses")
+    recording.add_argument("--log-overwrite", action="store_true", help="use the folder even if it holds a recording")
+    engine = "'raycast' (default), or 'mujoco' for its renderer on a machine with OpenGL"
+    for option in ("--render-engine", "--render-engine-server"):
+        parser.add_argument(option, dest="render_engine", default="raycast", metavar="NAME", help=engine)
+        engine = "the same"
     parser.add_argument("--headless-rendering", action="store_true", help="accepted; sensors never need a display here")
-    parser.add_argument("--force-version", metavar="N", help="accepted, there is one version")
-    parser.add_argument("--physics-engine", metavar="NAME", help="accepted, MuJoCo is always used")
-    parser.add_argument("--render-engine", metavar="NAME", help="accepted, rays are always cast by MuJoCo")
+    for option, metavar in _ACCEPTED.items():
+        parser.add_argument(option, metavar=metavar, help="accepted, changes nothing here")
+    for option in _ACCEPTED_FLAGS:
+        parser.add_argument(option, action="store_true", help="accepted, changes nothing here")
+    parser.add_argument("--playback", metavar="FOLDER", help="refused: recordings are read with gz log")
+    parser.add_argument("--version", "--versions", dest="version", action="store_true", help="the version")
     return parser
 
 
@@ -92,15 +131,43 @@ def main(argv: Sequence[str] | None = None) -> int:
         signal.signal(number, lambda _number, _frame: stop.set())
     arguments = _parser().parse_args(sys.argv[2:] if argv is None else list(argv))
     _set_up_logging(arguments.verbose)
+    if arguments.version:
+        from importlib import metadata
+
+        print(metadata.version("gz-ros2-course"))
+        return 0
+    refused = ""
     if arguments.gui:
-        sys.stderr.write("gz sim: -g asks for Gazebo's window, which is not part of this simulator; use -s\n")
-        return 2
-    if arguments.file is None:
-        sys.stderr.write(
-            "gz sim: which world? Name a file or a built-in world, for example: gz sim -r lidar_room.sdf\n"
-        )
+        refused = "-g asks for Gazebo's window, which is not part of this simulator; use -s"
+    elif arguments.playback is not None:
+        refused = "--playback is not done here; look into a recording with gz log -i, or run the world again"
+    elif arguments.file is None:
+        refused = "which world? Name a file or a built-in world, for example: gz sim -r lidar_room.sdf"
+    if refused:
+        sys.stderr.write(f"gz sim: {refused}\n")
         return 2
     return _simulate(arguments, stop)
+
+
+def _recorder(arguments: argparse.Namespace) -> list[Plugin]:
+    """Return the LogRecord plugin that the options ask for, if they ask for one."""
+    from gz.sim.sdf.description import Plugin
+    from gz.sim.sdf.element import Element
+
+    if not (arguments.record or arguments.record_path or arguments.record_topic):
+        return []
+    where = "command line"
+    element = Element("plugin", {"name": "gz::sim::systems::LogRecord", "filename": "gz-sim-log-record-system"})
+    texts = [("record_topic", topic) for topic in arguments.record_topic]
+    if arguments.record_path:
+        texts.append(("record_path", arguments.record_path))
+    if arguments.record_period is not None:
+        texts.append(("record_period", repr(arguments.record_period)))
+    if arguments.log_overwrite:
+        texts.append(("overwrite", "true"))
+    element.file = where
+    element.children = [Element(tag, {}, text, file=where) for tag, text in texts]
+    return [Plugin(element.attributes["name"], element.attributes["filename"], element)]
 
 
 def _simulate(arguments: argparse.Namespace, stop: threading.Event) -> int:
@@ -111,7 +178,14 @@ def _simulate(arguments: argparse.Namespace, stop: threading.Event) -> int:
     from gz.transport import Node
 
     try:
-        world = World.load(Path(arguments.file), seed=arguments.seed)
+        world = World.load(
+            Path(arguments.file),
+            seed=arguments.seed,
+            render_engine=arguments.render_engine,
+            initial_sim_time=arguments.initial_sim_time,
+            strict=arguments.strict,
+            server_plugins=_recorder(arguments),
+        )
     except SimError as error:
         sys.stderr.write(f"gz sim: {error}\n")
         return 1
@@ -121,14 +195,16 @@ def _simulate(arguments: argparse.Namespace, stop: threading.Event) -> int:
         sys.stderr.write(f"gz sim: the transport cannot be opened ({error}); check GZ_IP and GZ_PARTITION\n")
         return 1
     with node:
-        server = Server(world, node)
-        server.paused = not arguments.run
-        LOG.info("world '%s' is loaded with models %s", world.name, world.model_names(static=True))
-        if server.paused:
-            LOG.warning("world '%s' is paused; start it with -r to let time run", world.name)
-        factor = None if arguments.rate is None else arguments.rate * world.step_size_ns * 1e-9
         try:
-            server.run(real_time_factor=factor, iterations=arguments.iterations, stop=stop)
+            server = Server(world, node)
+            server.paused = not arguments.run
+            LOG.info("world '%s' is loaded with models %s", world.name, world.model_names(static=True))
+            if server.paused:
+                LOG.warning("world '%s' is paused; start it with -r to let time run", world.name)
+            server.run(update_rate=arguments.rate, iterations=arguments.iterations, stop=stop)
+        except SimError as error:
+            sys.stderr.write(f"gz sim: {error}\n")
+            return 1
         finally:
             world.close()
     return 0

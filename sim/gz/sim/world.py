@@ -9,6 +9,7 @@ systems. The questions are in `truth`, the changes in `editing`. Same file, seed
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,7 +23,7 @@ from gz.sim.physics.instability import UNSTABLE, why_unstable
 from gz.sim.physics.refusal import refusal
 from gz.sim.physics.state import copy_state
 from gz.sim.requests import Requests
-from gz.sim.sdf.description import WorldDescription
+from gz.sim.sdf.description import Plugin, WorldDescription
 from gz.sim.sdf.reader import read_world, read_world_file
 from gz.sim.sdf.resources import find_world
 from gz.sim.system_manager import SystemManager, default_plugins, refuse_inside_step
@@ -52,8 +53,12 @@ class World(Truth, Editing):
         node: Node | None = None,
         render_engine: str = "raycast",
         initial_sim_time: float = 0.0,
+        server_plugins: Sequence[Plugin] = (),
     ) -> None:
-        """Build and start a world from its description; use `World.load` or `World.from_string`."""
+        """Build and start a world from its description; use `World.load` or `World.from_string`.
+
+        `server_plugins` are systems of the world that its file does not name.
+        """
         self.description = description
         self.diagnostics = diagnostics
         self.seed = seed
@@ -75,7 +80,7 @@ class World(Truth, Editing):
         self._begin_editing()
         if not description.plugins:
             description.plugins = default_plugins(description.element)
-        self._manager.add_world(description.plugins)
+        self._manager.add_world((*description.plugins, *server_plugins))
         for model in description.models:
             self._manager.add(model)
         self._build()
@@ -98,6 +103,7 @@ class World(Truth, Editing):
         render_engine: str = "raycast",
         initial_sim_time: float = 0.0,
         strict: bool = False,
+        server_plugins: Sequence[Plugin] = (),
     ) -> World:
         """Load a world by path, by name in GZ_SIM_RESOURCE_PATH, or built in; raise `SdfError` saying where
         and why. With `strict` everything that would be a warning is an error.
@@ -111,6 +117,7 @@ class World(Truth, Editing):
             node=node,
             render_engine=render_engine,
             initial_sim_time=initial_sim_time,
+            server_plugins=server_plugins,
         )
 
     @classmethod

@@ -1,0 +1,120 @@
+"""List the models of a running world and look at one: `gz model --list`, `gz model -m robot -p`.
+
+Run by `gz.command`. Asks `/world/W/scene/info` for what there is and listens to `/world/W/pose/info` for where it is;
+both come from the SceneBroadcaster of the world.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import threading
+from typing import Any
+
+from gz.command_line import Parser, nearest
+from gz.transport.node import Node
+
+_TIMEOUT_MS = 5000
+
+
+def add_arguments(parser: Parser) -> None:
+    """Adds the options of `gz model`."""
+    parser.add_argument("--list", action="store_true", help="the names of all models")
+    parser.add_argument("-m", "--model", metavar="NAME", help="the model to look at")
+    parser.add_argument("-p", "--pose", action="store_true", help="its pose only: position (m), roll pitch yaw (rad)")
+    parser.add_argument("-l", "--link", metavar="NAME", nargs="?", const="", help="its links, or one of them")
+    parser.add_argument("-j", "--joint", metavar="NAME", nargs="?", const="", help="its joints, or one of them")
+    parser.commands("--list", "--model")
+    for option in ("--pose", "--link", "--joint"):
+        parser.needs(option, "--model")
+
+
+def run(values: argparse.Namespace) -> int:
+    """Runs `gz model`; the exit code. Raises ValueError, with one sentence, when there is nothing to look at."""
+    with Node() as node:
+        world = _world(node)
+        scene = _scene(node, world)
+        if values.list:
+            print("Available models:")
+            for model in scene.model:
+                print(f"    - {model.name}")
+            return 0
+        model = _named(scene.model, values.model, f"world '{world}' has no model")
+        pose = _pose_now(node, world, model)
+        if values.pose:
+            print(f"{_position(pose)}\n{_angles(pose)}")
+            return 0
+        _print_model(model, pose, values)
+    return 0
+
+
+def _world(node: Node) -> str:
+    from gz.msgs.empty_pb2 import Empty
+    from gz.msgs.stringmsg_v_pb2 import StringMsg_V
+
+    done, worlds = node.request("/gazebo/worlds", None, Empty, StringMsg_V, _TIMEOUT_MS)
+    if not done or not worlds.data:
+        raise ValueError("no running world answers; start one with gz sim, in the same GZ_PARTITION")
+    return str(worlds.data[0])
+
+
+def _scene(node: Node, world: str) -> Any:
+    from gz.msgs.empty_pb2 import Empty
+    from gz.msgs.scene_pb2 import Scene
+
+    done, scene = node.request(f"/world/{world}/scene/info", None, Empty, Scene, _TIMEOUT_MS)
+    if not done:
+        raise ValueError(f"world '{world}' does not tell its scene; it needs the SceneBroadcaster system")
+    return scene
+
+
+def _named(parts: Any, name: str, sentence: str) -> Any:
+    found = next((each for each in parts if each.name == name), None)
+    if found is None:
+        raise ValueError(f"{sentence} '{name}'{nearest(name, [each.name for each in parts])}")
+    return found
+
+
+def _pose_now(node: Node, world: str, model: Any) -> Any:
+    """Return the present pose of a model; that of the scene when no poses come."""
+    from gz.msgs.pose_v_pb2 import Pose_V
+
+    heard = threading.Event()
+    found: list[Any] = []
+
+    def take(message: Any) -> None:
+        found.extend(each for each in message.pose if each.id == model.id)
+        heard.set()
+
+    node.subscribe(Pose_V, f"/world/{world}/pose/info", take)
+    heard.wait(_TIMEOUT_MS / 1000)
+    return found[0] if found else model.pose
+
+
+def _print_model(model: Any, pose: Any, values: argparse.Namespace) -> None:
+    print(f"Model: [{model.id}]\n  - Name: {model.name}")
+    print(f"  - Pose [ XYZ (m) ] [ RPY (rad) ]:\n    {_position(pose)}\n    {_angles(pose)}")
+    if values.link is not None or values.joint is None:
+        links = model.link if not values.link else [_named(model.link, values.link, "it has no link")]
+        for link in links:
+            print(f"  - Link [{link.id}]\n    - Name: {link.name}\n    - Parent: {model.name} [{model.id}]")
+            print(f"    - Pose [ XYZ (m) ] [ RPY (rad) ]:\n      {_position(link.pose)}\n      {_angles(link.pose)}")
+    if values.joint is not None or values.link is None:
+        joints = model.joint if not values.joint else [_named(model.joint, values.joint, "it has no joint")]
+        for joint in joints:
+            print(
+                f"  - Joint [{joint.id}]\n    - Name: {joint.name}\n    - Type: {joint.Type.Name(joint.type).lower()}"
+            )
+            print(f"    - Parent Link: {joint.parent}\n    - Child Link: {joint.child}")
+
+
+def _position(pose: Any) -> str:
+    return f"[{pose.position.x:.6f} {pose.position.y:.6f} {pose.position.z:.6f}]"
+
+
+def _angles(pose: Any) -> str:
+    w, x, y, z = pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z
+    sine = max(-1.0, min(1.0, 2.0 * (w * y - z * x)))
+    roll = math.atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y))
+    yaw = math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+    return f"[{roll:.6f} {math.asin(sine):.6f} {yaw:.6f}]"
