@@ -6,6 +6,8 @@ Used by the sensors that stand at one place (IMU, altimeter, ...). A step leaves
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 import mujoco
@@ -18,6 +20,29 @@ if TYPE_CHECKING:
     from gz.sim.world import World
 
 _SITE = mujoco.mjtObj.mjOBJ_SITE
+
+
+@contextmanager
+def start_of_step(world: World) -> Iterator[None]:
+    """Look at MuJoCo's places, velocities and forces as they were when the last step began: the moment whose contacts,
+    forces and accelerations belong together. Everything is as before afterwards.
+
+    The step went v' = v + h a, then q' = q + h v'; it is gone back the same way.
+    """
+    world.refresh()
+    model, data = world.model, world.data
+    qpos, qvel = data.qpos.copy(), data.qvel.copy()
+    try:
+        mujoco.mj_integratePos(model, data.qpos, qvel, -model.opt.timestep)
+        data.qvel -= model.opt.timestep * data.qacc
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+        mujoco.mj_comVel(model, data)
+        mujoco.mj_rnePostConstraint(model, data)
+        yield
+    finally:
+        data.qpos[:], data.qvel[:] = qpos, qvel
+        mujoco.mj_kinematics(model, data)
 
 
 class SiteMotion:

@@ -14,6 +14,7 @@ import numpy as np
 
 from gz.sim.errors import nearest
 from gz.sim.physics.builder import scoped
+from gz.sim.physics.motion import start_of_step
 from gz.sim.pose import Vector
 from gz.sim.sdf.description import Joint, Model, Sensor
 from gz.sim.sdf.element import Element
@@ -89,16 +90,21 @@ class ForceTorque(SiteSensor):
         return body == self._child
 
     def wrench(self) -> tuple[Vector, Vector]:
-        """Return the force (N) and the torque (N m, about the sensor) of the parent on the child, in the world.
-
-        MuJoCo's `cfrc_int` of the child, after the step: its inertial forces, less what pushes it from outside.
+        """Return the force (N) and the torque (N m, about the sensor) of the parent on the child during the last
+        step, along the axes that are asked for.
         """
-        model, data, child = self.world.model, self.world.data, self._child
-        if child <= 0:
+        if self._child <= 0:
             return np.zeros(3), np.zeros(3)
+        with start_of_step(self.world):
+            force, torque = self._in_world()
+            body = self._parent if self.frame == "parent" else self._child
+            turn = self.motion.rotation() if self.frame == "sensor" else self.world.data.xmat[body].reshape(3, 3)
+            return force @ turn, torque @ turn
+
+    def _in_world(self) -> tuple[Vector, Vector]:
+        """MuJoCo's `cfrc_int` of the child: its inertial forces, less what pushes it from outside."""
+        model, data, child = self.world.model, self.world.data, self._child
         here = self.motion.position()
-        self.motion.velocity(local=False)
-        mujoco.mj_rnePostConstraint(model, data)
         moment, force = data.cfrc_int[child][:3].copy(), data.cfrc_int[child][3:].copy()
         moment += np.cross(data.subtree_com[model.body_rootid[child]] - here, force)
         # Links without gravity are held up by a force that MuJoCo leaves out of the outer ones.
@@ -110,14 +116,8 @@ class ForceTorque(SiteSensor):
 
     def fill(self, message: Any) -> None:
         """Measure."""
-        force, torque = self.wrench()
-        if self.frame == "sensor":
-            turn = self.motion.rotation()
-        else:
-            body = self._parent if self.frame == "parent" else self._child
-            turn = self.world.data.xmat[max(0, body)].reshape(3, 3)
         sign = 1.0 if self.direction == "parent_to_child" else -1.0
-        measured = self.noise.apply(np.concatenate((force @ turn, torque @ turn)) * sign).tolist()
+        measured = self.noise.apply(np.concatenate(self.wrench()) * sign).tolist()
         into, about = message.force, message.torque
         into.x, into.y, into.z, about.x, about.y, about.z = measured
 

@@ -1,0 +1,106 @@
+"""NavSat: where it says it is, how fast, in which fields; its noise."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gz.sim.spherical_coordinates import SphericalCoordinates
+
+from .conftest import inertial, sensor_world
+
+Listen = Callable[..., list[Any]]
+TOPIC = "/world/w/model/m/link/l/sensor/s/navsat"
+PLACE = (
+    "<spherical_coordinates><latitude_deg>48.1</latitude_deg><longitude_deg>11.6</longitude_deg>"
+    "<elevation>520</elevation><heading_deg>{}</heading_deg></spherical_coordinates>"
+)
+
+
+def model(inside: str = "", kind: str = "navsat", pose: str = "100 50 5 0 0 1", extra: str = "") -> str:
+    sensor = f"<sensor name='s' type='{kind}'><pose>0.5 0 0 0 0 0</pose>{inside}</sensor>"
+    return f"<model name='m'>{extra}<pose>{pose}</pose><link name='l'>{inertial()}{sensor}</link></model>"
+
+
+@pytest.mark.parametrize("kind", ["navsat", "gps"])
+def test_position_and_velocity(listen: Listen, kind: str) -> None:
+    world = sensor_world(PLACE.format(0) + model(kind=kind), "NavSat")
+    heard = listen(world, TOPIC, "gz.msgs.NavSat")
+    world.data.qvel[:] = (3, 4, 9.8 * 0.001, 0, 0, 2)
+    world.step(1)
+    (fix,) = heard
+    at = np.array((100 + 0.5 * np.cos(1.002) + 0.003, 50 + 0.5 * np.sin(1.002) + 0.004, 5))
+    expected = SphericalCoordinates(latitude_deg=48.1, longitude_deg=11.6, elevation=520).spherical(at)
+    assert (fix.latitude_deg, fix.longitude_deg) == pytest.approx(expected[:2], abs=1e-11)
+    assert fix.altitude == pytest.approx(expected[2], abs=1e-4)
+    # The sensor sits 0.5 m ahead of a body that turns with 2 rad/s.
+    assert fix.velocity_east == pytest.approx(3 - np.sin(1.002), abs=1e-3)
+    assert fix.velocity_north == pytest.approx(4 + np.cos(1.002), abs=1e-3)
+    assert fix.velocity_up == pytest.approx(0, abs=1e-6)
+    assert fix.frame_id == "m::l::s" and [each.key for each in fix.header.data] == ["seq"]
+
+
+def test_the_heading_of_the_world_turns_positions_but_not_velocities(listen: Listen) -> None:
+    """As Gazebo does: with a heading of 90 degrees the world's x axis points north."""
+    world = sensor_world(PLACE.format(90) + model(pose="99.5 0 0 0 0 0"), "NavSat")
+    heard = listen(world, TOPIC, "gz.msgs.NavSat")
+    world.data.qvel[0] = 3
+    world.step(1)
+    assert heard[0].longitude_deg == pytest.approx(11.6, abs=1e-7)
+    assert heard[0].latitude_deg == pytest.approx(48.1 + 100 / 111_200, abs=1e-5)
+    assert heard[0].velocity_east == pytest.approx(3)
+
+
+def test_a_world_that_lies_nowhere_is_warned_about(listen: Listen) -> None:
+    world = sensor_world(model(), "NavSat")
+    assert "has no <spherical_coordinates>" in world.warnings[0] and len(world.warnings) == 1
+    heard = listen(world, TOPIC, "gz.msgs.NavSat")
+    world.step(1)
+    assert (heard[0].latitude_deg, heard[0].altitude, heard[0].velocity_up) == (0, 0, 0)
+
+
+def noise(across: float, up: float) -> str:
+    gaussian = "<noise type='gaussian'><stddev>{}</stddev><bias_mean>{}</bias_mean></noise>"
+    sides = [f"<{side}>{gaussian.format(n, 10 * n)}</{side}>" for side, n in (("horizontal", across), ("vertical", up))]
+    both = "".join(sides)
+    return f"<navsat><position_sensing>{both}</position_sensing><velocity_sensing>{both}</velocity_sensing></navsat>"
+
+
+def test_noise_across_and_up(listen: Listen) -> None:
+    world = sensor_world(PLACE.format(0) + model(noise(1e-5, 0.5), extra="<static>1</static>"), "NavSat")
+    assert world.warnings == []
+    heard = listen(world, TOPIC, "gz.msgs.NavSat")
+    world.step(2000)
+    fields = ("latitude_deg", "longitude_deg", "altitude", "velocity_east", "velocity_north", "velocity_up")
+    values = np.array([[getattr(fix, name) for name in fields] for fix in heard])
+    assert values.std(axis=0) == pytest.approx((1e-5, 1e-5, 0.5, 1e-5, 1e-5, 0.5), rel=0.06)
+    bias = values.mean(axis=0)
+    assert np.abs(bias[3:]) == pytest.approx((1e-4, 1e-4, 5), rel=0.05)
+    assert bias[3] == pytest.approx(bias[4], rel=0.05), "east and north have one bias"
+
+
+def test_noise_that_was_meant_in_metres_is_warned_about() -> None:
+    world = sensor_world(PLACE.format(0) + model(noise(0.5, 0.5)), "NavSat")
+    (warning,) = world.warnings
+    assert "in degrees" in warning and "55.5 km" in warning
+
+
+def test_longitudes_go_round(listen: Listen) -> None:
+    far = "<horizontal><noise type='gaussian'><mean>170</mean></noise></horizontal>"
+    bias = f"<navsat><position_sensing>{far}</position_sensing></navsat>"
+    world = sensor_world(PLACE.format(0) + model(bias), "NavSat")
+    heard = listen(world, TOPIC, "gz.msgs.NavSat")
+    world.step(1)
+    assert heard[0].longitude_deg == pytest.approx(11.6 + 170 - 360, abs=0.01)
+
+
+def test_the_place_may_change_while_it_runs(listen: Listen) -> None:
+    world = sensor_world(PLACE.format(0) + model(), "NavSat")
+    heard = listen(world, TOPIC, "gz.msgs.NavSat")
+    world.step(1)
+    world.set_spherical_coordinates(SphericalCoordinates(latitude_deg=-30))
+    world.step(1)
+    assert heard[1].latitude_deg == pytest.approx(-30, abs=0.01)
