@@ -156,15 +156,19 @@ class _WorldReader:
         return found
 
     def _read_physics(self, world: Element, description: WorldDescription) -> None:
-        physics = world.find("physics")
-        if physics is None:
+        profiles = list(world.all("physics"))
+        if not profiles:
             return
+        chosen = [each for each in profiles if each.attributes.get("default", "false").lower() in ("true", "1")]
+        physics = (chosen or profiles)[0]
         step = physics.number("max_step_size", 0.001)
-        step_ns = round(step * 1e9) if math.isfinite(step) else 0
-        if not 1_000 <= step_ns <= 100_000_000:
-            raise physics.error(f"<max_step_size> must be between 0.000001 and 0.1 seconds, got {step}")
+        if not 1e-6 <= step <= 0.1:
+            where = physics.find("max_step_size") or physics
+            raise where.error(f"<max_step_size> must be between 0.000001 and 0.1 seconds, got {step:g}")
+        step_ns = round(step * 1e9)
         description.step_size_ns = step_ns
-        description.real_time_factor = max(0.0, physics.number("real_time_factor", 1.0))
+        factor = physics.number("real_time_factor", 1.0)
+        description.real_time_factor = max(0.0, factor) if math.isfinite(factor) else 0.0
 
 
 def _bounded(pose: Pose, element: Element) -> Pose:
