@@ -69,6 +69,7 @@ class LogWriter:
         self._topics: dict[tuple[str, str], int] = {}
         self._types: dict[str, int] = {}
         self._pending = 0
+        self._closed = False
 
     def write(self, entry: Entry) -> None:
         """Append a message; raise `SimError` when the disk refuses."""
@@ -97,6 +98,9 @@ class LogWriter:
 
     def close(self) -> None:
         """Make everything safe and close the file; closing twice does nothing."""
+        if self._closed:
+            return
+        self._closed = True
         try:
             if self._database.in_transaction:
                 self._database.execute("COMMIT")

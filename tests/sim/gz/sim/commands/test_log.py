@@ -1,0 +1,43 @@
+"""`gz log` shows what a recording holds, and says so when there is none."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from gz.msgs.double_pb2 import Double
+
+from gz.command import main
+from gz.sim.tlog import Entry, LogWriter
+
+
+@pytest.fixture
+def log(tmp_path: Path) -> Path:
+    writer = LogWriter(tmp_path / "state.tlog")
+    for number in range(3):
+        writer.write(Entry("/speed", "gz.msgs.Double", number * 500_000_000, Double(data=number).SerializeToString()))
+    writer.close()
+    return tmp_path
+
+
+def test_info(log: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["log", "-i", str(log)]) == 0
+    out = capsys.readouterr().out
+    assert "End:        1.000 s" in out and "  /speed [gz.msgs.Double] 3\n" in out
+
+
+def test_echo(log: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["log", "-e", str(log / "state.tlog"), "-t", "/speed"]) == 0
+    assert capsys.readouterr().out == "\n".join(["", "data: 1", "", "data: 2", "", ""])
+    assert main(["log", "-e", str(log), "-t", "/speed", "-n", "2"]) == 0
+    assert capsys.readouterr().out.count("data") == 1
+
+
+def test_nonsense(log: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["log", "-e", str(log), "-t", "/sped"]) == 1
+    assert "did you mean '/speed'" in capsys.readouterr().err
+    assert main(["log", "-i", str(log / "nothing")]) == 1
+    assert "there is no log" in capsys.readouterr().err
+    with pytest.raises(SystemExit):
+        main(["log", "-e", str(log)])
+    assert "requires --topic" in capsys.readouterr().err

@@ -1,0 +1,60 @@
+"""`gz model` against a running world in this process."""
+
+from __future__ import annotations
+
+import threading
+import uuid
+from collections.abc import Iterator
+
+import pytest
+
+from gz.command import main
+from gz.sim.server import Server
+from gz.sim.world import World
+from gz.transport import Node
+
+
+@pytest.fixture(autouse=True)
+def partition(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("GZ_IP", "127.0.0.1")
+    monkeypatch.setenv("GZ_PARTITION", uuid.uuid4().hex)
+
+
+WORLD = """<sdf version='1.10'><world name='w'><model name='arm'><static>1</static><pose>1 2 3 0 0 0.5</pose>
+<link name='base'/><link name='upper'/><joint name='elbow' type='revolute'><parent>base</parent><child>upper</child>
+<axis><xyz>0 0 1</xyz></axis></joint></model></world></sdf>"""
+
+
+@pytest.fixture
+def running() -> Iterator[None]:
+    stop = threading.Event()
+    with Node() as node:
+        world = World.from_string(WORLD)
+        server = Server(world, node)
+        thread = threading.Thread(target=lambda: server.run(stop=stop))
+        thread.start()
+        yield
+        stop.set()
+        thread.join(20)
+        world.close()
+
+
+@pytest.mark.usefixtures("running")
+def test_list_and_look(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["model", "--list"]) == 0
+    assert capsys.readouterr().out == "Available models:\n    - arm\n"
+    assert main(["model", "-m", "arm", "-p"]) == 0
+    assert capsys.readouterr().out == "[1.000000 2.000000 3.000000]\n[0.000000 0.000000 0.500000]\n"
+    assert main(["model", "-m", "arm"]) == 0
+    out = capsys.readouterr().out
+    assert "Name: arm" in out and "Name: upper" in out and "Name: elbow" in out and "Type: revolute" in out
+    assert main(["model", "-m", "arn"]) == 1
+    assert "did you mean 'arm'" in capsys.readouterr().err
+
+
+def test_no_world(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    from gz.sim.commands import model
+
+    monkeypatch.setattr(model, "_TIMEOUT_MS", 100)
+    assert main(["model", "--list"]) == 1
+    assert "no running world answers" in capsys.readouterr().err
