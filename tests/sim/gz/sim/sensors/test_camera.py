@@ -405,3 +405,21 @@ def test_saving_to_disk_is_named_as_ignored(load_text: Load) -> None:
     world = load_text(eye(more="<save enabled='true'><path>/tmp/x</path></save>"))
     assert any("<save> of sensor 'eye' is ignored" in warning for warning in world.warnings)
     assert isinstance(sensor_of(world), Camera)
+
+
+def test_a_point_light_fades_and_a_spot_light_has_an_edge(load_text: Load) -> None:
+    wall = thing("wall", "3.1 0 1 0 0 0", WALL, "1 1 1 1")
+    fading = (
+        "<attenuation><range>50</range><constant>0</constant><linear>0.5</linear><quadratic>0</quadratic></attenuation>"
+    )
+    lamp = f"<light name='a' type='point'><pose>0 0 1 0 0 0</pose><diffuse>0.6 0.6 0.6 1</diffuse>{fading}</light>"
+    image = sensor_of(load_text(SCENE + lamp + wall + eye())).image()
+    ahead = 0.3 + 0.6 / (0.5 * 3)
+    assert image[24, 32, 0] == pytest.approx(255 * ahead, abs=2)
+    assert image[24, 0, 0] < image[24, 32, 0] - 10
+    spot = (
+        "<light name='a' type='spot'><pose>0 0 1 0 0 0</pose><direction>1 0 0</direction><diffuse>.6 .6 .6 1</diffuse>"
+        "<spot><inner_angle>0.2</inner_angle><outer_angle>0.4</outer_angle><falloff>1</falloff></spot></light>"
+    )
+    image = sensor_of(load_text(SCENE + spot + wall + eye())).image()
+    assert image[24, 0, 0] == pytest.approx(255 * 0.3, abs=2) and image[24, 32, 0] > 100
