@@ -41,13 +41,18 @@ JOINT_TYPES = (
 Components = Iterator[tuple[str, bytes]]
 
 
+def fnv_1a(text: str) -> int:
+    """Return the 64-bit FNV-1a hash of a text (Fowler, Noll, Vo: http://www.isthe.com/chongo/tech/comp/fnv)."""
+    number = 0xCBF29CE484222325
+    for byte in text.encode():
+        number = ((number ^ byte) * 0x100000001B3) & 0xFFFFFFFFFFFFFFFF
+    return number
+
+
 @functools.cache
 def component_type(name: str) -> int:
     """Return the type number of Gazebo's component `name`, for example `Pose`."""
-    number = 0xCBF29CE484222325
-    for byte in f"gz_sim_components.{name}".encode():
-        number = ((number ^ byte) * 0x100000001B3) & 0xFFFFFFFFFFFFFFFF
-    return number
+    return fnv_1a(f"gz_sim_components.{name}")
 
 
 def full_state(world: World, graph: SceneGraph) -> SerializedStateMap:

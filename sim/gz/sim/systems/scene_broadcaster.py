@@ -167,7 +167,9 @@ class SceneBroadcaster(System):
         else:
             message = self._full_step()
             self._state_known = True
-        self._state_publisher.publish(message)
+        # A map has no order of its own: without the sorting equal states could be different bytes.
+        data = message.SerializeToString(deterministic=True)
+        self._state_publisher.publish_raw(data, message.DESCRIPTOR.full_name)
 
     def _current_graph(self) -> SceneGraph:
         if self._graph is None:
