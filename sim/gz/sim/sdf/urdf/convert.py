@@ -187,12 +187,13 @@ def _add_joint(
             make(source, "frame", attributes={"name": joint.name}, children=[place(source, body.origin, base)])
         )
         return
-    kind = {"continuous": "revolute"}.get(joint.kind, joint.kind)
-    made = make(source, "joint", attributes={"name": joint.name, "type": "revolute" if hinge else kind})
+    hinge = hinge and joint.kind == "fixed"
+    kind = "revolute" if hinge or joint.kind == "continuous" else joint.kind
+    made = make(source, "joint", attributes={"name": joint.name, "type": kind})
     made.children.append(place(source.find("origin") or source, body.origin, base))
     made.children.append(make(source.find("parent") or source, "parent", body.parent))
     made.children.append(make(source.find("child") or source, "child", body.name))
-    if hinge and kind == "fixed":
+    if hinge:
         set_value(made, "axis/limit/lower", "0", source)
         set_value(made, "axis/limit/upper", "0", source)
     elif kind != "fixed":
