@@ -224,6 +224,7 @@ class World(Truth, Editing):
                     for pre_update in pre_updates:
                         pre_update(info)
                     advance(model, data)
+                    self._refreshed = -1  # A system may have asked for poses before the step.
                     for post_update in post_updates:
                         post_update(info)
             finally:
