@@ -103,7 +103,9 @@ def test_on_a_pendulum_it_feels_what_the_pendulum_equation_says() -> None:
         world.step(100)
         angle, rate = float(world.data.qpos[0]), float(world.data.qvel[0])
         slowing = -mass * GRAVITY * radius * math.sin(angle) / (moment + mass * radius**2)
-        sensor.motion.velocity(local=True)
+        linear, angular = sensor.motion.velocity(local=True)
+        assert angular == pytest.approx((0, rate, 0), abs=1e-12)
+        assert linear == pytest.approx((-rate * radius, 0, 0), abs=1e-12)
         # The bob at (0, 0, -r) moves towards -x as the angle grows; gravity is felt as (-g sin, 0, g cos).
         expected = (-radius * slowing - GRAVITY * math.sin(angle), 0, GRAVITY * math.cos(angle) + rate**2 * radius)
         assert sensor.motion.specific_force() == pytest.approx(expected, abs=0.01)

@@ -62,24 +62,41 @@ def test_a_world_that_lies_nowhere_is_warned_about(listen: Listen) -> None:
     assert (heard[0].latitude_deg, heard[0].altitude, heard[0].velocity_up) == (0, 0, 0)
 
 
-def noise(across: float, up: float) -> str:
-    gaussian = "<noise type='gaussian'><stddev>{}</stddev><bias_mean>{}</bias_mean></noise>"
-    sides = [f"<{side}>{gaussian.format(n, 10 * n)}</{side}>" for side, n in (("horizontal", across), ("vertical", up))]
-    both = "".join(sides)
-    return f"<navsat><position_sensing>{both}</position_sensing><velocity_sensing>{both}</velocity_sensing></navsat>"
+def noise(across: float, up: float, fast: float = 0.0, rising: float = 0.0) -> str:
+    def sides(tag: str, horizontal: float, vertical: float) -> str:
+        gaussian = "<noise type='gaussian'><stddev>{}</stddev><bias_mean>{}</bias_mean></noise>"
+        both = (("horizontal", horizontal), ("vertical", vertical))
+        return f"<{tag}>{''.join(f'<{side}>{gaussian.format(n, 10 * n)}</{side}>' for side, n in both)}</{tag}>"
+
+    return f"<navsat>{sides('position_sensing', across, up)}{sides('velocity_sensing', fast, rising)}</navsat>"
 
 
 def test_noise_across_and_up(listen: Listen) -> None:
-    world = sensor_world(PLACE.format(0) + model(noise(1e-5, 0.5), extra="<static>1</static>"), "NavSat")
+    parts = noise(1e-5, 0.5, 0.2, 0.3)
+    world = sensor_world(PLACE.format(0) + model(parts, pose="-0.5 0 0 0 0 0", extra="<static>1</static>"), "NavSat")
     assert world.warnings == []
     heard = listen(world, TOPIC, "gz.msgs.NavSat")
     world.step(2000)
     fields = ("latitude_deg", "longitude_deg", "altitude", "velocity_east", "velocity_north", "velocity_up")
-    values = np.array([[getattr(fix, name) for name in fields] for fix in heard])
-    assert values.std(axis=0) == pytest.approx((1e-5, 1e-5, 0.5, 1e-5, 1e-5, 0.5), rel=0.06)
+    values = np.array([[getattr(fix, name) for name in fields] for fix in heard]) - (48.1, 11.6, 520, 0, 0, 0)
+    deviations = np.array((1e-5, 1e-5, 0.5, 0.2, 0.2, 0.3))
+    assert values.std(axis=0) == pytest.approx(deviations, rel=0.06)
     bias = values.mean(axis=0)
-    assert np.abs(bias[3:]) == pytest.approx((1e-4, 1e-4, 5), rel=0.05)
-    assert bias[3] == pytest.approx(bias[4], rel=0.05), "east and north have one bias"
+    assert np.abs(bias) == pytest.approx(10 * deviations, rel=0.05)
+    # Latitude and longitude have one bias, east and north as well.
+    assert np.sign(bias[0]) == np.sign(bias[1]) and np.sign(bias[3]) == np.sign(bias[4])
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_latitude_and_longitude_have_one_bias_whatever_the_seed(listen: Listen, seed: int) -> None:
+    still = noise(1e-5, 0, 1).replace("<stddev>1e-05", "<stddev>0").replace("<stddev>1<", "<stddev>0<")
+    place = PLACE.format(0) + model(still, pose="-0.5 0 0 0 0 0", extra="<static>1</static>")
+    world = sensor_world(place, "NavSat", seed=seed)
+    heard = listen(world, TOPIC, "gz.msgs.NavSat")
+    world.step(1)
+    away = heard[0].latitude_deg - 48.1
+    assert abs(away) == pytest.approx(1e-4) and heard[0].longitude_deg - 11.6 == pytest.approx(away)
+    assert abs(heard[0].velocity_east) == 10 and heard[0].velocity_north == heard[0].velocity_east
 
 
 def test_noise_that_was_meant_in_metres_is_warned_about() -> None:
