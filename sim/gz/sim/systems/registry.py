@@ -10,7 +10,6 @@ physics step, and `paused_update` now and then while a server is paused.
 from __future__ import annotations
 
 import importlib
-import logging
 import pkgutil
 from collections.abc import Callable
 from pathlib import Path
@@ -23,8 +22,6 @@ from gz.sim.sdf.description import Model, Plugin
 if TYPE_CHECKING:
     from gz.sim.world import World
     from gz.transport import Node
-
-LOG = logging.getLogger("gz.sim")
 
 
 class UpdateInfo:
@@ -116,11 +113,6 @@ def systems() -> dict[str, type[System]]:
 BUILT_IN = {"Physics"}
 """Systems whose work the world itself does."""
 
-QUIET = {"UserCommands", "SceneBroadcaster"}
-"""Systems every Gazebo world names; when their file is not in this folder that is worth an informative line
-only.
-"""
-
 OTHER_GAZEBO_SYSTEMS = frozenset(
     [
         "AckermannSteering",
@@ -208,14 +200,14 @@ def system_name(plugin: Plugin) -> str:
     """
     if plugin.name:
         last = plugin.name.rsplit("::", 1)[-1]
-        if last in BUILT_IN | QUIET | OTHER_GAZEBO_SYSTEMS or last in systems():
+        if last in BUILT_IN | OTHER_GAZEBO_SYSTEMS or last in systems():
             return last
     filename = plugin.filename.rsplit("/", 1)[-1].removeprefix("lib").removesuffix(".so")
     for prefix in ("ignition-gazebo", "gz-sim"):
         if filename.startswith(prefix) and filename.endswith("-system"):
             middle = filename[len(prefix) : -len("-system")].lstrip("0123456789").strip("-")
             word = middle.replace("-", "").lower()
-            for name in (*systems(), *BUILT_IN, *QUIET, *OTHER_GAZEBO_SYSTEMS):
+            for name in (*systems(), *BUILT_IN, *OTHER_GAZEBO_SYSTEMS):
                 if name.lower() == word:
                     return name
     return plugin.name.rsplit("::", 1)[-1] or filename
@@ -232,15 +224,13 @@ def find_system(plugin: Plugin, diagnostics: Diagnostics) -> type[System] | None
     classic = plugin.filename.rsplit("/", 1)[-1].removesuffix(".so")
     if name in BUILT_IN:
         return None
-    if name in QUIET:
-        LOG.info("%s: system %s is named but does nothing here", where, name)
-    elif classic.startswith("libgazebo_"):
+    if classic.startswith("libgazebo_"):
         instead = _CLASSIC.get(classic, "the gz-sim system of the same purpose")
         diagnostics.warn(where, f"plugin '{plugin.filename}' is of Gazebo Classic and is ignored; use {instead}")
     elif name in OTHER_GAZEBO_SYSTEMS:
         diagnostics.warn(where, f"system '{name}' exists in Gazebo but not in this simulator, it is ignored")
     else:
-        hint = nearest(name, {*systems(), *BUILT_IN, *QUIET}, listing="systems that run here are")
+        hint = nearest(name, {*systems(), *BUILT_IN}, listing="systems that run here are")
         diagnostics.warn(where, f"no system is called '{plugin.name or plugin.filename}', it is ignored; {hint}")
     return None
 
