@@ -28,15 +28,18 @@ INSIDE = """
     <light name="lamp" type="spot"><pose>0.2 0 0 0 0 0</pose><diffuse>1 0 0 1</diffuse>
       <spot><inner_angle>0.1</inner_angle><outer_angle>0.5</outer_angle></spot></light></link>
   <link name="wheel"><pose>0 1 0 1.5707963267948966 0 0</pose>
-    <visual name="tyre"><geometry><cylinder><radius>0.2</radius><length>0.1</length></cylinder></geometry></visual></link>
+    <visual name="tyre"><geometry><cylinder><radius>0.2</radius><length>0.1</length></cylinder></geometry></visual>
+  </link>
   <joint name="axle" type="revolute"><parent>base</parent><child>wheel</child>
     <axis><xyz>0 0 1</xyz><limit><lower>-1</lower><upper>2</upper></limit>
       <dynamics><damping>0.3</damping></dynamics></axis></joint>
   <model name="arm"><pose>0 0 1 0 0 0</pose>
     <link name="hand"><pose>0.5 0 0 0 0 0</pose>
-      <visual name="palm"><geometry><capsule><radius>0.1</radius><length>0.4</length></capsule></geometry></visual></link>
+      <visual name="palm"><geometry><capsule><radius>0.1</radius><length>0.4</length></capsule></geometry></visual>
+    </link>
     <link name="finger"><pose>0.8 0 0 0 0 0</pose></link>
-    <joint name="knuckle" type="revolute"><parent>hand</parent><child>finger</child><axis><xyz>0 1 0</xyz></axis></joint>
+    <joint name="knuckle" type="revolute"><parent>hand</parent><child>finger</child>
+      <axis><xyz>0 1 0</xyz></axis></joint>
   </model>
   <joint name="shoulder" type="fixed"><parent>base</parent><child>arm::hand</child></joint>
 </model>

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -88,6 +89,20 @@ def test_poses_follow_what_moves_and_chain_to_the_truth(world: World) -> None:
     assert not found(graph, "robot::wheel").pose.is_close(Pose.from_rpy((0, 1, 0), (math.pi / 2, 0, 0)), 1e-3)
 
 
+def test_a_static_model_inside_a_moving_one_stays_where_it_is(load_text: Callable[..., World]) -> None:
+    world = load_text(
+        "<model name='m'><pose>3 0 5 0 0 0</pose><link name='a'/>"
+        "<model name='n'><pose>1 0 0 0 0 0</pose><static>true</static><link name='b'/></model></model>"
+    )
+    world.step(300)
+    graph = SceneGraph(world)
+    graph.look()
+    inside = found(graph, "m::n")
+    assert found(graph, "m").pose.position[2] < 4.9
+    assert (found(graph, "m").pose * inside.pose).is_close(Pose((4, 0, 5)), 1e-9)
+    assert inside.children[0].static
+
+
 def test_a_graph_of_one_model(world: World) -> None:
     graph = SceneGraph(world, [world.description.models[1]])
     assert [vertex.name for vertex in graph.root.children] == ["robot"]
@@ -102,7 +117,7 @@ def test_a_model_held_by_the_world_stands_where_it_is_set_down(load_world_fixed:
 
 
 @pytest.fixture
-def load_world_fixed(load_text) -> World:  # type: ignore[no-untyped-def]
+def load_world_fixed(load_text: Callable[..., World]) -> World:
     return load_text(
         "<model name='post'><pose>3 0 0 0 0 0</pose><link name='pole'><pose>0 0 1 0 0 0</pose></link>"
         "<joint name='fix' type='fixed'><parent>world</parent><child>pole</child></joint></model>"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import threading
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -86,7 +87,7 @@ def test_poses_of_everything_sixty_times_a_second(ear: Callable[..., Ear]) -> No
     assert [pose.name for pose in messages[0].pose] == ["floor", "ball", "slab", "body", "look", "skin", "sun"]
     times = stamps(messages)
     assert times[0] == 1_000_000
-    gaps = {later - earlier for earlier, later in zip(times[1:], times[2:], strict=False)}
+    gaps = {later - earlier for earlier, later in itertools.pairwise(times[1:])}
     assert gaps == {16_000_000, 17_000_000}
 
 
