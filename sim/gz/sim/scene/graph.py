@@ -170,20 +170,16 @@ class SceneGraph:
     def _let_move(self, vertex: Vertex, model: Model, link_name: str, described: Any) -> None:
         """Note which body carries a frame of a model, and where the frame stands on it."""
         link = model.link(link_name)
-        if model.static:
+        if model.static or link is None:
+            return
+        body = mujoco.mj_name2id(self._world.model, mujoco.mjtObj.mjOBJ_BODY, scoped(model, link.name))
+        if body < 0:  # part of the world itself
             return
         place = IDENTITY if described is model else described.pose
-        body = 0
-        if link is not None:
-            body = mujoco.mj_name2id(self._world.model, mujoco.mjtObj.mjOBJ_BODY, scoped(model, link.name))
-        if link is None or body <= 0:  # held by the world
-            body, offset = 0, model.pose * place
-        else:
-            offset = IDENTITY if described is link else link.pose.inverse() * place
         vertex.moves = True
         self.movers.append(vertex)
         self._bodies.append(body)
-        self._offsets.append(offset)
+        self._offsets.append(IDENTITY if described is link else link.pose.inverse() * place)
 
 
 def _own(name: str) -> str:
