@@ -11,11 +11,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
-from tests.conformance.random_robots import robots
 
 from gz.sim.errors import Diagnostics
 from gz.sim.pose import Pose, matrix
 from gz.sim.sdf.reader import read_model
+from tests.conformance.random_robots import robots
 
 NEEDS_CLIENT = False
 SOURCE = Path(__file__).with_name("sdformat_reader.cc")

@@ -187,11 +187,11 @@ def _model_file(path: Path, uri: str) -> Path:
 
 
 def read_text(path: Path) -> str:
-    """Return the text of an SDF or URDF file, whatever its encoding; a `.xacro` file is expanded first.
+    """Return the text of an SDF or URDF file, whatever its encoding; raise `SdfError` when it cannot be read.
 
-    Raises `SdfError` when it cannot be read.
+    A xacro file (`.xacro` is among its endings: `robot.urdf.xacro`, `robot.xacro.urdf`) is expanded first.
     """
-    if path.suffix == ".xacro":
+    if ".xacro" in path.suffixes:
         from gz.sim.sdf.urdf.xacro_file import expand  # few worlds need it
 
         return expand(path)
