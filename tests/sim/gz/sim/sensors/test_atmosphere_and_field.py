@@ -1,4 +1,4 @@
-"""Altimeter, air pressure, magnetometer: against tables of the standard atmosphere and plain geometry."""
+"""Altimeter, air pressure, air speed, magnetometer: against tables of the standard atmosphere and plain geometry."""
 
 from __future__ import annotations
 
@@ -98,6 +98,26 @@ def test_reference_altitude_has_no_effect_and_says_so(listen: Listen) -> None:
     world.step(1)
     assert heard[0].pressure == 101325.0 and heard[0].variance == 0.0
     assert len(world.warnings) == 1 and "<reference_altitude> has no effect" in world.warnings[0]
+
+
+@pytest.mark.parametrize(("speed", "height", "density"), [(20, 0, 1.225), (-20, 0, 1.225), (30, 2000, 1.0066)])
+def test_air_speed_is_the_dynamic_pressure_from_ahead(
+    listen: Listen, speed: float, height: float, density: float
+) -> None:
+    world = sensor_world(model("air_speed", pose=f"0 0 {height - 0.25} 0 0 2"), "AirSpeed")
+    heard = listen(world, topic("air_speed"), "gz.msgs.AirSpeed")
+    world.data.qvel[:] = (speed * np.cos(2), speed * np.sin(2), 0, 0, 0, 0)
+    world.step(1)
+    assert heard[0].diff_pressure == pytest.approx(0.5 * density * speed * abs(speed), rel=3e-4)
+    assert heard[0].temperature == pytest.approx(288.15 - 0.0065 * height, abs=1e-3)
+
+
+def test_air_speed_noise_is_in_hectopascals(listen: Listen) -> None:
+    noisy = f"<air_speed><pressure>{GAUSSIAN.format(0.02)}</pressure></air_speed>"
+    world = sensor_world(model("air_speed", noisy, extra="<static>1</static>"), "AirSpeed")
+    heard = listen(world, topic("air_speed"), "gz.msgs.AirSpeed")
+    world.step(2000)
+    assert np.std([message.diff_pressure for message in heard]) == pytest.approx(2, rel=0.06)
 
 
 @settings(max_examples=15, deadline=None)

@@ -1,0 +1,46 @@
+"""Air speed (a pitot tube): the dynamic pressure of the air that comes from ahead, as `gz.msgs.AirSpeed`.
+
+The AirSpeed system runs it. The air stands still: wind is not simulated.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from gz.sim.sdf.element import Element
+from gz.sim.sensors.air_pressure import HIGHEST, LAPSE_RATE, SEA_LEVEL_TEMPERATURE
+from gz.sim.sensors.noise import Noise
+from gz.sim.sensors.registry import sensor_type
+from gz.sim.sensors.site_sensor import SiteSensor, noise_at
+
+SEA_LEVEL_DENSITY = 1.225
+"""kg/m^3."""
+DENSITY_EXPONENT = 4.256
+"""How the density of the standard atmosphere falls with its temperature."""
+
+
+@sensor_type("air_speed")
+class AirSpeed(SiteSensor):
+    """Measures along the sensor's x axis."""
+
+    runs_in = "AirSpeed"
+    suffix = "air_speed"
+    message_type = "gz.msgs.AirSpeed"
+
+    def read_noises(self, element: Element) -> Sequence[tuple[str, Noise]]:
+        """Return the noise of the pressure, in hPa as in Gazebo."""
+        return [("pressure", noise_at(element, "air_speed/pressure"))]
+
+    def fill(self, message: Any) -> None:
+        """Measure: rho v |v| / 2, in Pa, and the temperature of the air in K."""
+        height = min(float(self.motion.position()[2]), HIGHEST)
+        temperature = SEA_LEVEL_TEMPERATURE - LAPSE_RATE * height
+        density = SEA_LEVEL_DENSITY * math.pow(temperature / SEA_LEVEL_TEMPERATURE, DENSITY_EXPONENT)
+        ahead = float(self.motion.velocity(local=True)[0][0])
+        hectopascals = 0.005 * density * ahead * abs(ahead)
+        message.diff_pressure = 100.0 * float(self.noise.apply(np.array((hectopascals,)))[0])
+        message.temperature = temperature

@@ -1,0 +1,109 @@
+"""Logical camera: which models are in view, by name and pose, as `gz.msgs.LogicalCameraImage`.
+
+The LogicalCamera system runs it. A model is in view when its origin is inside the frustum that opens along the
+sensor's x axis; nothing hides anything. The frustum itself is told on `<topic>/frustum`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+from gz.sim.pose import Pose, Vector
+from gz.sim.sdf.description import Sensor
+from gz.sim.sdf.element import Element
+from gz.sim.sensors.noise import Noise
+from gz.sim.sensors.registry import sensor_type
+from gz.sim.sensors.site_sensor import SiteSensor
+
+if TYPE_CHECKING:
+    from gz.sim.world import World
+    from gz.transport import Node
+
+
+@sensor_type("logical_camera")
+class LogicalCamera(SiteSensor):
+    """Sees models, also nested ones and the one it is mounted on, in the order of their names."""
+
+    runs_in = "LogicalCamera"
+    suffix = "logical_camera"
+    message_type = "gz.msgs.LogicalCameraImage"
+
+    def __init__(self, world: World, description: Sensor) -> None:
+        """Read `<logical_camera>`; raise `SdfError` when it is missing or its frustum is impossible."""
+        super().__init__(world, description)
+        camera = description.element.find("logical_camera")
+        if camera is None:
+            raise description.element.error(f"sensor '{description.name}' needs a <logical_camera> element")
+        self.near, self.far = camera.number("near", 0.0), camera.number("far", 1.0)
+        self.horizontal_fov = camera.number("horizontal_fov", 1.0)
+        """Angle of view (rad) from side to side."""
+        self.aspect_ratio = camera.number("aspect_ratio", 1.0)
+        """Width divided by height."""
+        if not (0.0 <= self.near < self.far < math.inf):
+            raise camera.error(f"<logical_camera> needs 0 <= near < far, got near {self.near} and far {self.far}")
+        if not (0.0 < self.horizontal_fov < math.pi and 0.0 < self.aspect_ratio < math.inf):
+            raise camera.error(
+                "<logical_camera> needs a <horizontal_fov> between 0 and pi and an <aspect_ratio> above 0, "
+                f"got {self.horizontal_fov} and {self.aspect_ratio}"
+            )
+        self._frustum: Any = None
+
+    def read_noises(self, element: Element) -> Sequence[tuple[str, Noise]]:
+        """Return nothing: what it sees is exact."""
+        return []
+
+    def connect(self, node: Node) -> None:
+        """Advertise what is seen, and the frustum."""
+        from gz.msgs.logical_camera_sensor_pb2 import LogicalCameraSensor
+
+        super().connect(node)
+        self._frustum_type = LogicalCameraSensor
+        self._frustum = node.advertise(f"{self.topic}/frustum", LogicalCameraSensor)
+
+    def has_connections(self) -> bool:
+        """Tell whether anybody listens to either topic."""
+        return super().has_connections() or (self._frustum is not None and self._frustum.has_connections())
+
+    def update(self, now_ns: int) -> None:
+        """Publish what is seen, and the frustum."""
+        super().update(now_ns)
+        if self._frustum.has_connections():
+            message = self._frustum_type(near_clip=self.near, far_clip=self.far)
+            message.horizontal_fov, message.aspect_ratio = self.horizontal_fov, self.aspect_ratio
+            self.fill_header(message.header, now_ns)
+            del message.header.data[1]
+            self._frustum.publish(message)
+
+    def contains(self, point: Vector) -> bool:
+        """Tell whether a point (3,) in the sensor's frame (m) is inside the frustum or on its surface."""
+        ahead, left, up = (float(value) for value in point)
+        across = math.tan(self.horizontal_fov / 2.0) * ahead
+        return self.near <= ahead <= self.far and abs(left) <= across and abs(up) <= across / self.aspect_ratio
+
+    def fill(self, message: Any) -> None:
+        """Look."""
+        here = Pose(self.motion.position(), self.motion.quaternion())
+        _set(message.pose, here)
+        seen = {name: here.inverse() * pose for name, pose in self._models()}
+        for name in sorted(seen):
+            if self.contains(seen[name].position):
+                model = message.model.add(name=name)
+                _set(model.pose, seen[name])
+
+    def _models(self) -> Iterator[tuple[str, Pose]]:
+        """Yield the name (without scope) and the pose in the world of every model."""
+        for model in self.world.description.models:
+            yield model.name, self.world.pose(model.name)
+            for nested in model.nested:
+                link = model.link(nested.canonical_link)
+                if link is not None:
+                    now = self.world.link_pose(model.name, link.name)
+                    yield nested.name.rpartition("::")[2], now * link.pose.inverse() * nested.pose
+
+
+def _set(into: Any, pose: Pose) -> None:
+    into.position.x, into.position.y, into.position.z = pose.position.tolist()
+    turn = into.orientation
+    turn.w, turn.x, turn.y, turn.z = pose.quaternion.tolist()

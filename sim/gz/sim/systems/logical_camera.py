@@ -1,0 +1,14 @@
+"""LogicalCamera: runs the logical cameras of the world; a plugin of the world.
+
+What is common to all systems that run sensors is in `gz.sim.systems.sensor_system`.
+"""
+
+from __future__ import annotations
+
+from gz.sim.systems.registry import system
+from gz.sim.systems.sensor_system import SensorSystem
+
+
+@system("LogicalCamera", "gz-sim-logical-camera-system")
+class LogicalCamera(SensorSystem):
+    """Runs every sensor of type logical_camera."""
