@@ -1,11 +1,8 @@
-"""The world as a library: time, truth, geometry, and the same bytes in every process."""
+"""The world as a library: time, truth, geometry."""
 
 from __future__ import annotations
 
 import math
-import os
-import subprocess
-import sys
 from collections.abc import Callable
 
 import numpy as np
@@ -121,53 +118,6 @@ def test_a_world_is_attached_to_one_node() -> None:
         world.attach(one)
         with pytest.raises(SimError, match="already attached"):
             world.attach(two)
-
-
-RUN = """
-import hashlib, sys
-from gz.msgs.laserscan_pb2 import LaserScan
-from gz.msgs.odometry_pb2 import Odometry
-from gz.msgs.twist_pb2 import Twist
-from gz.sim.world import World
-from gz.transport import Node, NodeOptions, Scope
-digest = hashlib.sha256()
-with Node(NodeOptions(scope=Scope.PROCESS)) as node:
-    world = World.load("lidar_room.sdf", seed=int(sys.argv[1]), node=node)
-    node.subscribe(LaserScan, "/lidar/scan", lambda m: digest.update(m.SerializeToString(deterministic=True)))
-    node.subscribe(Odometry, "/model/robot/odometry", lambda m:
-        digest.update(m.SerializeToString(deterministic=True)))
-    publisher = node.advertise("/model/robot/cmd_vel", Twist)
-    for tick in range(200):
-        command = Twist()
-        command.linear.x, command.angular.z = 0.5 - tick * 0.002, (tick % 7) * 0.1
-        publisher.publish(command)
-        world.step(10)
-        pose, velocity = world.pose("robot"), world.velocity("robot")
-        digest.update(pose.position.tobytes() + pose.quaternion.tobytes() + velocity.linear.tobytes())
-    digest.update(world.data.qpos.tobytes() + world.data.qvel.tobytes())
-print(digest.hexdigest())
-"""
-
-
-def run_in_a_process(seed: int) -> str:
-    environment = {**os.environ, "PYTHONHASHSEED": "random"}
-    done = subprocess.run(
-        [sys.executable, "-c", RUN, str(seed)],
-        capture_output=True,
-        text=True,
-        timeout=60,
-        env=environment,
-        check=True,
-    )
-    assert done.stderr == ""
-    return done.stdout.strip()
-
-
-def test_same_seed_and_commands_give_the_same_bytes_in_two_processes() -> None:
-    first = run_in_a_process(7)
-    assert len(first) == 64
-    assert run_in_a_process(7) == first
-    assert run_in_a_process(8) != first
 
 
 def test_commands_from_another_thread_do_not_disturb_stepping() -> None:
