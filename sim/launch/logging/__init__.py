@@ -27,12 +27,15 @@ class LaunchConfig:
     """Level, log folder, screen and log file: one of them, `launch_config`, for the whole process."""
 
     def __init__(self) -> None:
+        self._log_file: TextIO | None = None
         self._reset()
 
     def _reset(self) -> None:
+        if self._log_file is not None:
+            self._log_file.close()
         self._level = logging.INFO
         self._log_dir: str | None = None
-        self._log_file: TextIO | None = None
+        self._log_file = None
         self._announced = False
         self._screen_is_gone = False
 
@@ -84,15 +87,14 @@ class LaunchConfig:
         try:
             sys.stdout.write(text)
             sys.stdout.flush()
+        except UnicodeEncodeError:
+            encoding = sys.stdout.encoding
+            self.write_to_screen(text.encode(encoding, "replace").decode(encoding))
         except (OSError, ValueError):
             self._screen_is_gone = True
             with contextlib.suppress(OSError, ValueError):
                 # Whatever is buffered would fail again, and loudly, when Python exits.
                 os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        except UnicodeEncodeError:
-            encoding = sys.stdout.encoding
-            sys.stdout.write(text.encode(encoding, "replace").decode(encoding))
-            sys.stdout.flush()
 
     def write_to_log(self, text: str) -> None:
         """Write whole lines to launch.log, if there can be one."""
@@ -152,6 +154,14 @@ class _Handler(logging.Handler):
         launch_config.write_to_log(LOG_FORMAT.format(record, message) + "\n")
 
 
+class _Logger(logging.Logger):
+    """A logger that is not among those of `logging`, whose cache of levels would therefore not be kept up to date."""
+
+    def isEnabledFor(self, level: int) -> bool:
+        """Return whether a record of this level is logged."""
+        return level >= self.level
+
+
 _loggers: dict[str, logging.Logger] = {}
 _handler = _Handler()
 launch_config = LaunchConfig()
@@ -160,7 +170,7 @@ launch_config = LaunchConfig()
 def get_logger(name: str = "launch") -> logging.Logger:
     """Return the logger of this name. It is apart from the loggers of `logging`, whatever the name."""
     if name not in _loggers:
-        logger = logging.Logger(name, launch_config.level)
+        logger = _Logger(name, launch_config.level)
         logger.addHandler(_handler)
         _loggers[name] = logger
     return _loggers[name]

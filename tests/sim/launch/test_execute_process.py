@@ -1,0 +1,385 @@
+"""ExecuteProcess: what is started, what is printed, how it ends."""
+
+import contextlib
+import os
+import signal
+import sys
+
+import psutil
+import pytest
+
+from launch import LaunchDescription, LaunchService
+from launch.actions import (
+    EmitEvent,
+    ExecuteLocal,
+    ExecuteProcess,
+    LogInfo,
+    OpaqueFunction,
+    RegisterEventHandler,
+    Shutdown,
+)
+from launch.descriptions import Executable
+from launch.event_handlers import OnProcessExit, OnProcessIO, OnProcessStart
+from launch.events import matches_action
+from launch.events.process import (
+    ProcessStdin,
+    ShutdownProcess,
+    SignalProcess,
+    matches_executable,
+    matches_name,
+    matches_pid,
+)
+from launch.substitutions import LaunchConfiguration, LocalSubstitution
+
+
+def sh(script, *words, **options):
+    return ExecuteProcess(cmd=["sh", "-c", script, "sh", *words], **{"output": "screen", **options})
+
+
+def when_printed(action, word, *entities):
+    """Answers a process that prints a word, once."""
+    seen = []
+
+    def look(event):
+        seen.append(event.text)
+        if word.encode() in b"".join(seen) and not seen[0] == b"done":
+            seen[:] = [b"done"]
+            return list(entities)
+        return None
+
+    return RegisterEventHandler(OnProcessIO(target_action=action, on_stdout=look))
+
+
+def test_the_lines_of_a_life(run):
+    result = run(ExecuteProcess(cmd=["printf", "a\\nb"], output="screen"), LogInfo(msg="visited"))
+    pid = result.lines[1].partition("pid [")[2].rstrip("]")
+    assert result.lines == [
+        "[INFO] [launch.user]: visited",
+        f"[INFO] [printf-1]: process started with pid [{pid}]",
+        "[printf-1] a",
+        "[printf-1] b",
+        f"[INFO] [printf-1]: process has finished cleanly [pid {pid}]",
+    ]
+    assert result.code == 0
+    first, second = result.text.splitlines()[:2]
+    assert first.startswith("[INFO] [launch]: All log files can be found below ")
+    assert second == "[INFO] [launch]: Default logging verbosity is set to INFO"
+
+
+@pytest.mark.parametrize(("end", "code"), [("exit 3", 3), ("kill -9 $$", -9)])
+def test_a_death_is_told_and_is_no_failure_of_the_launch(run, end, code):
+    action = sh(end)
+    result = run(action)
+    pid = action.process_details["pid"]
+    assert result.code == 0
+    assert result.lines[-1] == (
+        f"[ERROR] [sh-1]: process has died [pid {pid}, exit code {code}, cmd 'sh -c {end} sh']."
+    )
+    assert action.return_code == code
+
+
+def test_words_stay_apart_and_substitutions_are_performed(run):
+    words = ["a b", "", LaunchConfiguration("x"), ["c", LaunchConfiguration("x")], "$HOME", "*"]
+    result = run(sh('for word; do echo "<$word>"; done', *words), arguments={"x": "'1'"})
+    assert result.printed_by("sh") == ["<a b>", "<>", "<'1'>", "<c'1'>", "<$HOME>", "<*>"]
+
+
+def test_a_shell_gets_the_words_joined(run):
+    result = run(ExecuteProcess(cmd=["echo", "$WHERE", "|", "cat"], shell=True, output="screen", name="piped",
+                                additional_env={"WHERE": ["he", "re"]}))  # fmt: skip
+    assert result.printed_by("piped") == ["here"]
+    assert run(ExecuteProcess(cmd="echo a; echo b", shell=True, output="screen", name="x")).printed_by("x") == [
+        "a",
+        "b",
+    ]
+
+
+def test_folder_and_environment(run, tmp_path, monkeypatch):
+    monkeypatch.setenv("INHERITED", "yes")
+    result = run(
+        sh("pwd", cwd=str(tmp_path)),
+        sh('echo "$INHERITED$ADDED"', additional_env={"ADDED": "too"}),
+        sh('echo "$INHERITED$ADDED$ONLY"', env={"ONLY": "this", "PATH": os.environ["PATH"]}),
+    )
+    assert sorted(result.printed_by("sh")) == sorted([str(tmp_path), "yestoo", "this"])
+
+
+def test_labels_count_all_processes_of_a_launch(run):
+    result = run(sh("echo a"), ExecuteProcess(cmd=["echo", "b"], output="screen", name="talker"))
+    assert {line.partition("]")[0] for line in result.lines if line.startswith(("[sh", "[talker"))} == {
+        "[sh-1",
+        "[talker-2",
+    }
+
+
+def test_output_is_printed_before_the_end_is_told(run):
+    numbers = "\n".join(map(str, range(20000)))
+    result = run(sh("seq 0 19999; echo last >&2"))
+    assert "\n".join(line for line in result.printed_by("sh") if line != "last") == numbers
+    assert result.lines[-1].startswith("[INFO] [sh-1]: process has finished cleanly")
+
+
+def test_only_stderr_reaches_the_screen_by_default(run, log_folder):
+    result = run(ExecuteProcess(cmd=["sh", "-c", "echo out; echo err >&2"]))
+    assert result.printed_by("sh") == ["err"]
+    (log,) = (path.read_text() for path in log_folder.glob("*-*/launch.log"))
+    assert "[sh-1] out\n" in log and "[sh-1] err\n" in log
+
+
+def test_a_format_for_its_lines(run):
+    result = run(sh("echo hello", output_format="{this.process_description.final_name} says {line}"))
+    assert "sh-1 says hello" in result.lines
+
+
+def test_a_terminal_is_emulated_when_asked(run):
+    script = "test -t 1 && test -t 2 && echo terminal || echo pipe"
+    assert run(sh(script)).printed_by("sh") == ["pipe"]
+    assert run(sh(script, emulate_tty=True)).printed_by("sh") == ["terminal"]
+    assert run(sh(script), arguments={"emulate_tty": "true"}).printed_by("sh") == ["terminal"]
+
+
+def test_output_can_be_kept(run):
+    action = sh("echo out; echo err >&2", cached_output=True)
+    run(action)
+    assert (action.get_stdout(), action.get_stderr()) == ("out\n", "err\n")
+
+
+def test_a_prefix_goes_before_the_command(run):
+    result = run(sh('echo "$A"', prefix="env 'A=b c'"))
+    assert result.printed_by("env") == ["b c"]
+    result = run(sh('echo "$A"'), ExecuteProcess(cmd=["echo", "plain"], output="screen"),
+                 arguments={"launch-prefix": "env A=x", "launch-prefix-filter": "sh$"})  # fmt: skip
+    assert result.printed_by("env") == ["x"]
+    assert result.printed_by("echo") == ["plain"]
+
+
+def test_its_command_is_told_when_asked(run, tmp_path):
+    result = run(ExecuteProcess(cmd=["true"], log_cmd=True, cwd=str(tmp_path), additional_env={"A": "1"}))
+    assert result.lines[0] == f"[INFO] [true-1]: process details: cmd='true', cwd='{tmp_path}', custom_env?=True"
+
+
+def test_its_end_is_answered(run):
+    action = sh("exit 3", on_exit=[LogInfo(msg=["ended with ", LocalSubstitution("event.returncode")])])
+    assert "[INFO] [launch.user]: ended with 3" in run(action).lines
+    seen = []
+    run(sh("exit 4", on_exit=lambda event, context: seen.append((event.returncode, event.process_name, event.cmd))))
+    assert seen == [(4, "sh-1", ["sh", "-c", "exit 4", "sh"])]
+
+
+def test_a_required_process(run):
+    result = run(sh("exit 0", on_exit=Shutdown(reason="over")), sh("exec sleep 1000"))
+    assert "[INFO] [launch]: process[sh-1] was required: shutting down launched system" in result.lines
+    assert "[INFO] [sh-2]: sending signal 'SIGINT' to process[sh-2]" in result.lines
+    assert result.code == 0
+
+
+def test_event_handlers_see_start_output_and_end(run):
+    seen = []
+    action = sh("echo hello")
+    other = sh("true")
+
+    def note(what):
+        return lambda event, context: seen.append((what, event.action is action, event.pid))
+
+    result = run(
+        RegisterEventHandler(OnProcessStart(target_action=action, on_start=note("start"))),
+        RegisterEventHandler(OnProcessExit(target_action=lambda each: each is action, on_exit=note("exit"))),
+        RegisterEventHandler(OnProcessIO(target_action=action, on_stdout=lambda event: seen.append(event.text))),
+        action,
+        other,
+    )
+    assert result.code == 0
+    pid = action.process_details["pid"]
+    assert seen == [("start", True, pid), b"hello\n", ("exit", True, pid)]
+
+
+def test_respawn(run, tmp_path):
+    result = run(sh(f"echo x >> {tmp_path}/runs; exit 1", respawn=True, respawn_delay=0.01, respawn_max_retries=2))
+    assert (tmp_path / "runs").read_text() == "x\nx\nx\n"
+    assert sum("process has died" in line for line in result.lines) == 3
+    assert {line.partition(":")[0] for line in result.lines} == {"[INFO] [sh-1]", "[ERROR] [sh-1]"}
+
+
+def test_a_shutdown_ends_respawning_even_while_it_waits(run):
+    action = sh("exit 1", respawn=True, respawn_delay=1000.0)
+    result = run(action, RegisterEventHandler(OnProcessExit(target_action=action, on_exit=[Shutdown()])))
+    assert result.code == 0
+    assert sum("process started" in line for line in result.lines) == 1
+
+
+def stubborn(*ignored, **options):
+    handlers = "".join(f"signal.signal(signal.{name}, signal.SIG_IGN)\n" for name in ignored)
+    code = f"import signal\n{handlers}print('up', flush=True)\nwhile True: signal.pause()"
+    return ExecuteProcess(cmd=[sys.executable, "-S", "-c", code], name="stubborn", output="screen", **options)
+
+
+def test_who_ignores_sigint_gets_sigterm(run):
+    action = stubborn("SIGINT", sigterm_timeout="0.05")
+    result = run(action, when_printed(action, "up", Shutdown()))
+    assert action.return_code == -signal.SIGTERM
+    said = [line for line in result.lines if "signal 'SIG" in line or "escalating" in line]
+    assert said == [
+        "[INFO] [stubborn-1]: sending signal 'SIGINT' to process[stubborn-1]",
+        "[ERROR] [stubborn-1]: process[stubborn-1] failed to terminate '0.05' seconds after receiving 'SIGINT', "
+        "escalating to 'SIGTERM'",
+        "[INFO] [stubborn-1]: sending signal 'SIGTERM' to process[stubborn-1]",
+    ]
+
+
+def test_who_ignores_both_gets_sigkill(run):
+    action = stubborn("SIGINT", "SIGTERM")
+    result = run(
+        action, when_printed(action, "up", Shutdown()), arguments={"sigterm_timeout": "0.05", "sigkill_timeout": "0.1"}
+    )
+    assert action.return_code == -signal.SIGKILL
+    assert "seconds after receiving 'SIGTERM', escalating to 'SIGKILL'" in result.text
+    assert "'0.1' seconds" in result.text
+
+
+def test_a_time_out_that_is_no_number(run):
+    result = run(sh("true"), arguments={"sigterm_timeout": "soon"})
+    assert result.code == 1
+    assert "the time-out 'soon' is no number of seconds" in result.lines[-1]
+
+
+def test_all_that_a_shell_has_started_ends_with_it(run):
+    """The shell's background job ignores SIGINT, as POSIX wants it, and is no child of ours."""
+    action = ExecuteProcess(
+        cmd="sleep 1000 & echo $! up; (sleep 1001 | cat); true", shell=True, output="screen", name="job"
+    )
+    result = run(action, when_printed(action, "up", Shutdown()))
+    (line,) = result.printed_by("job")
+    with contextlib.suppress(psutil.NoSuchProcess):  # whoever is its parent now may not have taken notice
+        assert psutil.Process(int(line.split()[0])).status() == psutil.STATUS_ZOMBIE
+    assert result.code == 0
+
+
+def test_what_is_left_in_the_background_is_waited_for(run):
+    action = ExecuteProcess(cmd="(sleep 0.1; echo late) & echo early", shell=True, output="screen", name="job")
+    result = run(action)
+    assert result.printed_by("job") == ["early", "late"]
+    assert any("has left processes in the background" in line for line in result.lines)
+
+
+def test_old_kernels_have_no_pidfd(run, monkeypatch):
+    def refuse(pid):
+        raise PermissionError
+
+    monkeypatch.setattr(os, "pidfd_open", refuse)
+    assert run(sh("echo a; exit 3")).printed_by("sh") == ["a"]
+
+
+def test_signals_and_input_on_demand(run):
+    listener = "import signal, sys\nsignal.signal(signal.SIGUSR1, lambda *_: print('heard', flush=True))\n" \
+               "print('up', flush=True)\nprint('read', sys.stdin.readline().strip(), flush=True)\nsignal.pause()"  # fmt: skip
+    action = ExecuteProcess(cmd=[sys.executable, "-S", "-c", listener], name="listener", output="screen")
+    result = run(
+        action,
+        when_printed(action, "up", EmitEvent(event=SignalProcess(signal_number="SIGUSR1", process_matcher=matches_name("listener")))),
+        when_printed(action, "heard", OpaqueFunction(function=lambda context: EmitEvent(event=ProcessStdin(text=b"words\n", action=action, **action.process_details)))),
+        when_printed(action, "read", EmitEvent(event=ShutdownProcess(process_matcher=matches_executable(sys.executable)))),
+    )  # fmt: skip
+    assert result.printed_by("listener")[:3] == ["up", "heard", "read words"]
+    assert "[INFO] [listener-1]: sending signal 'SIGUSR1' to process[listener-1]" in result.lines
+    assert result.code == 0
+
+
+def test_matchers(run):
+    action = sh("true")
+    run(action)
+    pid = action.process_details["pid"]
+    assert matches_pid(pid)(action) and not matches_pid(pid + 1)(action)
+    assert matches_name("sh")(action) and matches_name("sh-1")(action) and not matches_name("s")(action)
+    assert not matches_name("sh")(LogInfo(msg=""))
+    event = type("Event", (), {"action": action})()
+    assert matches_action(action)(event) and not matches_action(LogInfo(msg=""))(event)
+
+
+def test_fifty_at_once(run):
+    ready = []
+
+    def count(event):
+        ready.append(event)
+        return Shutdown() if len(ready) == 50 else None
+
+    result = run(
+        RegisterEventHandler(OnProcessIO(on_stdout=count)),
+        *[ExecuteProcess(cmd=["sh", "-c", "echo up; exec sleep 1000"]) for _ in range(50)],
+    )
+    assert result.code == 0
+    assert sum("process has died" in line for line in result.lines) == 50
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"cmd": ["no-such-program"]}, "there is no program 'no-such-program' to be started"),
+        ({"cmd": ["slep", "1"]}, "there is no program 'slep' to be started; did you mean 'sleep'?"),
+        ({"cmd": ["true"], "cwd": "/no/such/folder"}, "in the folder '/no/such/folder', which does not exist"),
+        ({"cmd": ["{}/text"]}, "not executable"),
+        ({"cmd": ["{}/program"]}, "its first line must be #!"),
+        ({"cmd": []}, "the command is empty"),
+        ({"cmd": ["true"], "prefix": "'"}, "cannot be split"),
+        ({"cmd": ["true"], "additional_env": {"A=B": "1"}}, "cannot be set"),
+        ({"cmd": ["a\0b"]}, "null byte"),
+    ],
+)
+def test_what_cannot_be_started_ends_the_launch(run, tmp_path, options, words):
+    (tmp_path / "text").touch()
+    (tmp_path / "program").write_text("text")
+    (tmp_path / "program").chmod(0o755)
+    options = {**options, "cmd": [word.format(tmp_path) for word in options["cmd"]]}
+    result = run(sh("exec sleep 1000"), ExecuteProcess(**options))
+    assert result.code == 1
+    (said,) = (line for line in result.lines if "Caught exception in launch" in line)
+    assert words in said
+    assert f"{__file__}:" in said, "the place where the action was made"
+    assert "Traceback" not in result.text
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"cmd": "ls -l"}, r"cmd=\['ls', '-l'\], or add shell=True"),
+        ({"cmd": ["ls"], "outptu": "screen"}, "ExecuteProcess has no argument 'outptu'; did you mean 'output'"),
+        ({"cmd": ["ls"], "condition": True}, "IfCondition"),
+        ({"cmd": [3]}, "3 is of type int"),
+        ({"cmd": ["ls"], "on_exit": 3}, "on_exit is 3"),
+        ({"cmd": ["ls"], "on_exit": ["a"]}, "on_exit holds 'a' of type str"),
+    ],
+)
+def test_arguments_that_make_no_sense(options, words):
+    with pytest.raises(Exception, match=words):
+        ExecuteProcess(**options)
+
+
+def test_an_action_is_executed_once_only(run):
+    action = sh("true")
+    result = run(action, action)
+    assert result.code == 1
+    assert "an action can only be executed once, make another one" in result.text
+
+
+def test_a_description_can_be_executed(run):
+    result = run(ExecuteLocal(process_description=Executable(cmd=["echo"], arguments=["a"]), output="screen"))
+    assert result.printed_by("echo") == ["a"]
+
+
+def test_signals_that_the_parent_ignores_or_blocks_are_heard_by_children(run):
+    before = signal.signal(signal.SIGTERM, signal.SIG_IGN), signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGUSR1])
+    try:
+        result = run(sh("grep -E '^Sig(Blk|Ign)' /proc/self/status"))
+    finally:
+        signal.signal(signal.SIGTERM, before[0])
+        signal.pthread_sigmask(signal.SIG_SETMASK, before[1])
+    ignored = next(line for line in result.printed_by("sh") if line.startswith("SigIgn"))
+    assert not int(ignored.split()[1], 16) & (1 << (signal.SIGTERM - 1))
+
+
+def test_descriptors_are_given_back():
+    service = LaunchService()
+    service.include_launch_description(LaunchDescription([sh("echo x") for _ in range(5)]))
+    before = len(os.listdir("/proc/self/fd"))  # noqa: PTH208
+    service.run()
+    # launch.log stays open.
+    assert len(os.listdir("/proc/self/fd")) <= before + 1  # noqa: PTH208
