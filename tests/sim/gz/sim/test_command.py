@@ -139,6 +139,9 @@ def test_errors_are_one_sentence(start: Callable[..., subprocess.Popen[str]], tm
         (["--iterations", "-5", "empty.sdf"], "zero or more"),
         (["empty.sdf", "other.sdf"], "second file 'other.sdf'"),
         (["-g"], "use -s"),
+        (["--playback", "log"], "gz log -i"),
+        (["--initial-sim-time", "-3", "empty.sdf"], "zero or more"),
+        (["--record-pth", "x", "empty.sdf"], "did you mean '--record-path'"),
         ([], "which world"),
     ],
 )
@@ -164,3 +167,53 @@ def test_warnings_have_a_place_and_verbosity_hides_them(
     code, err = run_to_end(start, "-r", str(world), "--iterations", "1")
     assert code == 0 and err.startswith(f"[Wrn] {world}:2: ") and "did you mean 'model'" in err
     assert run_to_end(start, "-r", "-v", "0", str(world), "--iterations", "1") == (0, "")
+
+
+def test_time_starts_where_it_is_told_and_recordings_are_readable(
+    start: Callable[..., subprocess.Popen[str]], tmp_path: Path
+) -> None:
+    from gz.sim.tlog import Log
+
+    folder = tmp_path / "log"
+    arguments = ["--initial-sim-time", "100", "--iterations", "300", "-z", "100000", "--record-path", str(folder)]
+    assert run_to_end(start, "empty.sdf", "-r", "-s", *arguments) == (0, "")
+    summary = {each.topic: each for each in Log(folder).topics()}
+    poses = summary["/world/empty/pose/info"]
+    assert poses.count > 10 and 100.0e9 < poses.first_ns <= poses.last_ns <= 100.3e9
+
+
+def test_strict_refuses_what_would_be_warned_about(start: Callable[..., subprocess.Popen[str]], tmp_path: Path) -> None:
+    world = tmp_path / "w.sdf"
+    world.write_text("<sdf version='1.9'><world name='w'>\n<modle name='m'/></world></sdf>")
+    process = start("-r", "--strict", str(world), "--iterations", "1")
+    _, err = process.communicate(timeout=DEADLINE)
+    assert process.returncode == 1 and "strict loading refuses" in err and "did you mean 'model'" in err
+
+
+def test_a_paused_world_serves_another_process(start: Callable[..., subprocess.Popen[str]]) -> None:
+    """As `ros_gz_sim create` and `gz service` do it: create, look, let go, stop the server."""
+    from gz.msgs.boolean_pb2 import Boolean
+    from gz.msgs.empty_pb2 import Empty
+    from gz.msgs.entity_factory_pb2 import EntityFactory
+    from gz.msgs.entity_pb2 import Entity
+    from gz.msgs.sdf_generator_config_pb2 import SdfGeneratorConfig
+    from gz.msgs.server_control_pb2 import ServerControl
+    from gz.msgs.stringmsg_pb2 import StringMsg
+    from gz.msgs.stringmsg_v_pb2 import StringMsg_V
+
+    process = start("empty.sdf", "-s", "-v", "0")
+    wait = DEADLINE * 1000
+    with Node() as node:
+        assert list(node.request("/gazebo/worlds", None, Empty, StringMsg_V, wait)[1].data) == ["empty"]
+        text = "<sdf version='1.10'><model name='box'><pose>0 0 4 0 0 0</pose><link name='l'/></model></sdf>"
+        request = EntityFactory(sdf=text)
+        assert node.request("/world/empty/create/blocking", request, EntityFactory, Boolean, wait)[1].data
+        answer = node.request(
+            "/world/empty/generate_world_sdf", SdfGeneratorConfig(), SdfGeneratorConfig, StringMsg, wait
+        )
+        assert '<pose rotation_format="quat_xyzw">0 0 4 ' in answer[1].data
+        gone = Entity(name="box", type=Entity.MODEL)
+        assert node.request("/world/empty/remove/blocking", gone, Entity, Boolean, wait)[1].data
+        assert not node.request("/world/empty/remove/blocking", gone, Entity, Boolean, wait)[1].data
+        assert node.request("/server_control", ServerControl(stop=True), ServerControl, Boolean, wait)[1].data
+    assert process.wait(DEADLINE) == 0
