@@ -38,14 +38,14 @@ def sh(script, *words, **options):
 
 def when_printed(action, word, *entities):
     """Answers a process that prints a word, once."""
-    seen = []
+    seen, answered = [], []
 
     def look(event):
         seen.append(event.text)
-        if word.encode() in b"".join(seen) and not seen[0] == b"done":
-            seen[:] = [b"done"]
-            return list(entities)
-        return None
+        if word.encode() not in b"".join(seen) or answered:
+            return None
+        answered.append(True)
+        return list(entities)
 
     return RegisterEventHandler(OnProcessIO(target_action=action, on_stdout=look))
 
@@ -269,16 +269,30 @@ def test_old_kernels_have_no_pidfd(run, monkeypatch):
     assert run(sh("echo a; exit 3")).printed_by("sh") == ["a"]
 
 
+LISTENER = """\
+import os, signal, sys
+signal.signal(signal.SIGUSR1, lambda *_: os.write(1, b"heard\\n"))
+os.write(1, b"up\\n")
+line = sys.stdin.readline()
+os.write(1, b"read " + line.encode())
+signal.pause()
+"""
+
+
 def test_signals_and_input_on_demand(run):
-    listener = "import signal, sys\nsignal.signal(signal.SIGUSR1, lambda *_: print('heard', flush=True))\n" \
-               "print('up', flush=True)\nprint('read', sys.stdin.readline().strip(), flush=True)\nsignal.pause()"  # fmt: skip
-    action = ExecuteProcess(cmd=[sys.executable, "-S", "-c", listener], name="listener", output="screen")
+    action = ExecuteProcess(cmd=[sys.executable, "-S", "-c", LISTENER], name="listener", output="screen")
+    poke = SignalProcess(signal_number="SIGUSR1", process_matcher=matches_name("listener"))
+    end = ShutdownProcess(process_matcher=matches_executable(sys.executable))
+
+    def talk(context):
+        return EmitEvent(event=ProcessStdin(text=b"words\n", action=action, **action.process_details))
+
     result = run(
         action,
-        when_printed(action, "up", EmitEvent(event=SignalProcess(signal_number="SIGUSR1", process_matcher=matches_name("listener")))),
-        when_printed(action, "heard", OpaqueFunction(function=lambda context: EmitEvent(event=ProcessStdin(text=b"words\n", action=action, **action.process_details)))),
-        when_printed(action, "read", EmitEvent(event=ShutdownProcess(process_matcher=matches_executable(sys.executable)))),
-    )  # fmt: skip
+        when_printed(action, "up", EmitEvent(event=poke)),
+        when_printed(action, "heard", OpaqueFunction(function=talk)),
+        when_printed(action, "read", EmitEvent(event=end)),
+    )
     assert result.printed_by("listener")[:3] == ["up", "heard", "read words"]
     assert "[INFO] [listener-1]: sending signal 'SIGUSR1' to process[listener-1]" in result.lines
     assert result.code == 0
