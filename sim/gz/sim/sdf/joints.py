@@ -60,8 +60,6 @@ def _joint(element: Element, scope: Scope, places: Mapping[str, Pose], version: 
         joint.axis2 = _axis(element, "axis2", scope, places[child], pose, version)
     if kind == "continuous" and joint.axis is not None:
         joint.axis.lower, joint.axis.upper = -UNLIMITED, UNLIMITED
-    if kind == "universal":
-        _check_cross(joint)
     if kind == "screw":
         joint.thread_pitch = _thread_pitch(element)
     if kind == "gearbox":
@@ -105,12 +103,6 @@ def _thread_pitch(element: Element) -> float:
     if not abs(pitch) < 1e6:
         raise element.error(f"the thread pitch of joint '{element.name}' must be finite and not zero")
     return pitch
-
-
-def _check_cross(joint: Joint) -> None:
-    assert joint.axis is not None and joint.axis2 is not None
-    if abs(float(np.dot(joint.axis.direction, joint.axis2.direction))) > 0.99:
-        raise joint.element.error(f"the two axes of universal joint '{joint.name}' must not be parallel")
 
 
 def _axis(joint: Element, tag: str, scope: Scope, link_pose: Pose, pose: Pose, version: tuple[int, int]) -> Axis:
