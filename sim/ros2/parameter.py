@@ -84,8 +84,9 @@ class NodeParameters:
 
     def not_set(self, name: str, known: Iterable[str] | None = None) -> CommandError:
         """The error for a parameter that does not exist, with the nearest one that does."""
-        others = [other for other in (self.names() if known is None else known) if other != name]
-        return CommandError("Parameter not set" + did_you_mean(name, others))
+        names = set(self.names() if known is None else known)
+        # One that is declared, but without a value, has the right name.
+        return CommandError("Parameter not set" + ("" if name in names else did_you_mean(name, names)))
 
 
 def python_value(value: ParameterValue) -> Any:

@@ -2,6 +2,7 @@
 
 import os
 import random
+import signal
 import socket
 import subprocess
 import sys
@@ -39,16 +40,23 @@ def ros_domain(tmp_path_factory):
 class Command:
     """A running `ros2 …` in a session of its own whose lines are read as they come."""
 
-    def __init__(self, *arguments, command=(sys.executable, "-m", "ros2"), environment=None, **options):
+    def __init__(
+        self, *arguments, command=(sys.executable, "-m", "ros2"), environment=None, stdin_text=None, **options
+    ):
+        if stdin_text is not None:
+            options["stdin"] = subprocess.PIPE
         options = {"stdin": subprocess.DEVNULL, "start_new_session": True, **options}
         self.process = subprocess.Popen(
             [*command, *arguments],
-            env={**os.environ, **(environment or {})},
+            env={**os.environ, "PYTHONFAULTHANDLER": "1", **(environment or {})},
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
             **options,
         )
+        if stdin_text is not None:
+            self.process.stdin.write(stdin_text)
+            self.process.stdin.close()
         self._changed = threading.Condition()
         self._lines = {"stdout": [], "stderr": []}
         self._readers = [threading.Thread(target=self._read, args=(name,)) for name in self._lines]
@@ -62,15 +70,19 @@ class Command:
                     self._lines[name].append(line)
                     self._changed.notify_all()
 
-    def wait_for(self, words, stream="stdout"):
+    def wait_for(self, words, stream="stdout", times=1):
         lines = self._lines[stream]
         with self._changed:
-            found = self._changed.wait_for(lambda: any(words in line for line in lines), DEADLINE)
+            found = self._changed.wait_for(lambda: sum(words in line for line in lines) >= times, DEADLINE)
             assert found, f"no {words!r} in {self._lines}"
 
     def wait(self):
         """(exit code, stdout, stderr) at its end."""
-        code = self.process.wait(DEADLINE)
+        try:
+            code = self.process.wait(DEADLINE)
+        except subprocess.TimeoutExpired:
+            self.process.send_signal(signal.SIGABRT)  # it says where it hangs
+            code = self.process.wait(DEADLINE)
         for reader in self._readers:
             reader.join(DEADLINE)
         return code, "".join(self._lines["stdout"]), "".join(self._lines["stderr"])
@@ -121,6 +133,62 @@ def workspace(tmp_path):
         return {"AMENT_PREFIX_PATH": str(tmp_path / "install")}
 
     return add
+
+
+@pytest.fixture(scope="session")
+def robot(ros_domain):
+    """The node /robot/driver, which spins: parameters of every kind, a service, a publisher, a subscription.
+
+    The node /robot/idle does not, and so its service /robot/silent does not answer.
+    """
+    import rclpy
+    from geometry_msgs.msg import Twist
+    from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
+    from rclpy.executors import SingleThreadedExecutor
+    from rclpy.parameter import Parameter
+    from std_msgs.msg import Header
+    from std_srvs.srv import SetBool, Trigger
+
+    context = rclpy.Context()
+    rclpy.init(context=context, domain_id=ros_domain)
+    node = rclpy.create_node("driver", namespace="/robot", context=context)
+    speed = FloatingPointRange(from_value=0.0, to_value=3.0, step=0.5)
+    declare = node.declare_parameter
+    declare("speed", 1.5, ParameterDescriptor(description="how fast", floating_point_range=[speed]))
+    declare("count", 3, ParameterDescriptor(integer_range=[IntegerRange(from_value=0, to_value=9)]))
+    declare("frame.id", "base", ParameterDescriptor(additional_constraints="a frame of the robot"))
+    declare("frame.parent", "odom")
+    declare("armed", True)
+    declare("bytes", [b"a", b"\x01"])
+    declare("flags", [True, False])
+    declare("ports", [1, 2])
+    declare("gains", [1.0, 0.5])
+    declare("joints", ["left", "right"])
+    declare("serial", 7, ParameterDescriptor(read_only=True))
+    declare("free", 5, ParameterDescriptor(dynamic_typing=True))
+    declare("gone", 5, ParameterDescriptor(dynamic_typing=True))
+    declare("unset", Parameter.Type.INTEGER)
+    node.create_subscription(Twist, "cmd_vel", lambda message: None, 10)
+    stamped = node.create_publisher(Header, "/stamped", 10)
+
+    def enable(request, response):
+        response.success, response.message = request.data, "as you wish"
+        return response
+
+    node.create_service(SetBool, "enable", enable)
+    idle = rclpy.create_node("idle", namespace="/robot", context=context, start_parameter_services=False)
+    idle.create_service(Trigger, "silent", lambda request, response: response)  # nobody spins it
+    node.create_timer(0.1, lambda: stamped.publish(Header(stamp=node.get_clock().now().to_msg())))
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    thread = threading.Thread(target=executor.spin)
+    thread.start()
+    yield node
+    executor.shutdown()
+    thread.join(DEADLINE)
+    node.destroy_node()
+    idle.destroy_node()
+    context.try_shutdown()
 
 
 @pytest.fixture(scope="session")

@@ -191,5 +191,5 @@ def test_nothing_is_no_document():
 
 
 def test_one_line_is_one_line():
-    assert "\n" not in to_line(String(data="a\nb"))
+    assert to_line(String(data="a\nb")) == '{data: "a\\nb"}'
     assert yaml.safe_load(to_line(LaserScan(ranges=[1.0] * 300)))["ranges"] == [1.0] * 300
