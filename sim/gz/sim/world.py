@@ -19,8 +19,8 @@ from gz.sim.editing import Editing
 from gz.sim.entities import Entities
 from gz.sim.errors import LOG, Diagnostics, SimError
 from gz.sim.physics.builder import build_spec
+from gz.sim.physics.compiler import compile_world
 from gz.sim.physics.instability import UNSTABLE, why_unstable
-from gz.sim.physics.refusal import refusal
 from gz.sim.physics.state import copy_state
 from gz.sim.requests import Requests
 from gz.sim.sdf.description import Plugin, WorldDescription
@@ -168,12 +168,7 @@ class World(Truth, Editing):
         """Make MuJoCo's model and its state at time zero; nothing is replaced when MuJoCo refuses."""
         spec = build_spec(self.description, self._manager.servos, self.diagnostics)
         mujoco.set_mju_user_warning(lambda text: LOG.warning("physics: %s", text))
-        try:
-            model = spec.compile()
-            data = mujoco.MjData(model)
-        except (ValueError, mujoco.FatalError) as error:
-            raise refusal(self.description, error) from None
-        self.model, self.data = model, data
+        self.model, self.data = compile_world(spec, self.description, self.diagnostics)
         mujoco.mj_forward(self.model, self.data)
         self._refreshed = -1
         self._find_canonical_links()

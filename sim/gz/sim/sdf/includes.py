@@ -95,7 +95,7 @@ class Includes:
             return None
         real = path.resolve()
         if real in chain:
-            names = " -> ".join(each.name for each in (*chain[chain.index(real) :], real))
+            names = " -> ".join(f"{each.parent.name}/{each.name}" for each in (*chain[chain.index(real) :], real))
             raise child.error(f"'{uri}' is included inside itself: {names}")
         root = self._root(path)
         found = self._entity(root, child, uri, path)

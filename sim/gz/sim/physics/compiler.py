@@ -1,14 +1,17 @@
-"""What MuJoCo says when it refuses a world, as a sentence about the file that was loaded.
+"""A spec becomes a MuJoCo model; what MuJoCo has to say against it becomes a sentence about the file that was loaded.
 
-Called where a spec is compiled. MuJoCo names its own element (`Element name 'robot::wheel'`); the builder's names lead
-back to the link, joint, collision or visual, and to its line.
+Called by `World`. MuJoCo names its own element (`Element name 'robot::wheel'`); the builder's names lead back to the
+link, joint, collision or visual, and to its line.
 """
 
 from __future__ import annotations
 
 import re
+import warnings
 
-from gz.sim.errors import SdfError
+import mujoco
+
+from gz.sim.errors import Diagnostics, SdfError
 from gz.sim.sdf.description import Model, WorldDescription
 from gz.sim.sdf.element import Element
 
@@ -16,7 +19,24 @@ _NAMED = re.compile(r"Element name '([^']*)'")
 _TAIL = re.compile(r"\s*Element (name|id).*", re.DOTALL)
 
 
-def refusal(world: WorldDescription, error: Exception) -> SdfError:
+def compile_world(
+    spec: mujoco.MjSpec, world: WorldDescription, diagnostics: Diagnostics
+) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    """Return the model and its data at time zero; raises `SdfError` naming the part that MuJoCo refuses."""
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        try:
+            model = spec.compile()
+            data = mujoco.MjData(model)
+        except (ValueError, mujoco.FatalError) as error:
+            raise _refusal(world, error) from None
+    for warning in said:
+        text = " ".join(str(warning.message).split()).partition(" Time =")[0]
+        diagnostics.warn(world.element.where, f"the physics engine warns: {text}")
+    return model, data
+
+
+def _refusal(world: WorldDescription, error: Exception) -> SdfError:
     """Return the error that says which part of the world MuJoCo refuses, and why."""
     text = str(error)
     named = _NAMED.search(text)

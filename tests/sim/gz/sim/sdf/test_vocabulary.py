@@ -1,0 +1,56 @@
+"""The words of SDF: none that is valid is called unknown, typos in elements and attributes find the right word."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from gz.sim.errors import Diagnostics
+from gz.sim.sdf.element import parse
+from gz.sim.sdf.vocabulary import ATTRIBUTES, CHILDREN, check
+
+
+def warnings(text: str) -> list[str]:
+    diagnostics = Diagnostics()
+    check(parse(text, "f"), diagnostics)
+    return diagnostics.warnings
+
+
+def test_every_known_word_is_accepted_wherever_it_can_stand() -> None:
+    for parent, children in CHILDREN.items():
+        attributes = " ".join(f"{name}='x'" for name in ATTRIBUTES.get(parent, ()))
+        assert warnings(f"<{parent} {attributes}>{''.join(f'<{child}/>' for child in children)}</{parent}>") == []
+
+
+def test_parents_are_children_of_something() -> None:
+    below = {child for children in CHILDREN.values() for child in children}
+    assert set(CHILDREN) - below == {"sdf"}
+    assert set(ATTRIBUTES) - below - {"plugin", "sdf"} <= {"normal_map", "angular", "position", "collision_state"}
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("<link><colision/></link>", "<link> has no element <colision>, it is ignored; did you mean 'collision'?"),
+        ("<pose relativ_to='x'/>", "<pose> has no attribute 'relativ_to', it is ignored; did you mean 'relative_to'?"),
+        ("<include marge='1'/>", "did you mean 'merge'?"),
+        ("<joint typ='x'/>", "did you mean 'type'?"),
+        ("<inertial><mas/></inertial>", "did you mean 'mass'?"),
+    ],
+)
+def test_typos_find_the_word_that_was_meant(text: str, expected: str) -> None:
+    found = warnings(text)
+    assert len(found) == 1 and found[0].startswith("f:1: ") and expected in found[0]
+
+
+def test_words_of_others_pass() -> None:
+    assert warnings("<world><gz:policies x='1'/><plugin a='1'><b/></plugin><gui c='1'><d/></gui></world>") == []
+    assert warnings("<sdf version='1.9' xmlns:gz='http://x'><model name='m' drake:y='1'/></sdf>") == []
+
+
+def test_ten_thousand_typos_are_a_hundred_warnings() -> None:
+    chance = random.Random(1)
+    words = "".join(f"<{''.join(chance.choices('abcdefgh', k=8))}/>" for _ in range(10_000))
+    found = warnings(f"<world>{words}</world>")
+    assert len(found) == 101 and "more than 100 words" in found[-1]
