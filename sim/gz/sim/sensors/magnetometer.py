@@ -1,6 +1,8 @@
-"""Magnetometer: the magnetic field of the world along the sensor's own axes, as `gz.msgs.Magnetometer`.
+"""Magnetometer: the magnetic field along the sensor's own axes, as `gz.msgs.Magnetometer`.
 
-The Magnetometer system runs it. The field is `<magnetic_field>` of the world, the same everywhere.
+The Magnetometer system runs it. In a world without `<spherical_coordinates>` the field is its `<magnetic_field>`, the
+same everywhere, in tesla. In a world that lies on the earth it is the earth's at that place; Gazebo then writes gauss
+into `field_tesla`, and takes north, east, down for the world's x, y, z, unless the system is told otherwise.
 """
 
 from __future__ import annotations
@@ -10,26 +12,44 @@ from typing import Any
 
 import numpy as np
 
+from gz.sim.magnetic_field import earth_field
+from gz.sim.pose import Vector
 from gz.sim.sdf.element import Element
 from gz.sim.sensors.noise import Noise
 from gz.sim.sensors.registry import sensor_type
 from gz.sim.sensors.site_sensor import SiteSensor, noise_at
 
+GAUSS = 1e4
+"""Gauss in a tesla."""
+
 
 @sensor_type("magnetometer")
 class Magnetometer(SiteSensor):
-    """Measures in tesla."""
+    """A compass of three axes."""
 
     runs_in = "Magnetometer"
     suffix = "magnetometer"
     message_type = "gz.msgs.Magnetometer"
+    use_units_gauss = True
+    """Whether the earth's field is in gauss; set by the system."""
+    use_earth_frame_ned = True
+    """Whether the earth's field is along north, east, down, and not east, north, up; set by the system."""
 
     def read_noises(self, element: Element) -> Sequence[tuple[str, Noise]]:
-        """Return the noise of each axis (T)."""
+        """Return the noise of each axis, in the unit of the field."""
         return [(axis, noise_at(element, f"magnetometer/{axis}")) for axis in "xyz"]
+
+    def world_field(self) -> Vector:
+        """Return the field (3,) along the world's axes."""
+        coordinates = self.world.description.spherical_coordinates
+        if coordinates is None or coordinates.surface_model != "EARTH_WGS84":
+            return np.array(self.world.description.magnetic_field)
+        latitude, longitude, _ = coordinates.spherical(self.motion.position())
+        north, east, down = earth_field(latitude, longitude)
+        field = np.array((north, east, down) if self.use_earth_frame_ned else (east, north, -down))
+        return field * GAUSS if self.use_units_gauss else field
 
     def fill(self, message: Any) -> None:
         """Measure."""
-        field = self.motion.rotation().T @ np.array(self.world.description.magnetic_field)
         into = message.field_tesla
-        into.x, into.y, into.z = self.noise.apply(field).tolist()
+        into.x, into.y, into.z = self.noise.apply(self.motion.rotation().T @ self.world_field()).tolist()

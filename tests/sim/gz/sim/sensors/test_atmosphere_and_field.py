@@ -151,6 +151,33 @@ def test_magnetometer_message_and_noise(listen: Listen) -> None:
     assert values.std(axis=0) == pytest.approx((1e-6, 0, 0), rel=0.06, abs=1e-12)
 
 
+ON_EARTH = (
+    "<spherical_coordinates><latitude_deg>50</latitude_deg><longitude_deg>10</longitude_deg></spherical_coordinates>"
+)
+NORTH, EAST, DOWN = 20072e-9, 1347e-9, 44690e-9
+
+
+@pytest.mark.parametrize(
+    ("parameters", "expected"),
+    [
+        ("", (NORTH * 1e4, EAST * 1e4, DOWN * 1e4)),
+        ("<use_units_gauss>0</use_units_gauss>", (NORTH, EAST, DOWN)),
+        ("<use_units_gauss>0</use_units_gauss><use_earth_frame_ned>0</use_earth_frame_ned>", (EAST, NORTH, -DOWN)),
+    ],
+)
+def test_on_earth_the_field_is_that_of_the_place(
+    listen: Listen, parameters: str, expected: tuple[float, float, float]
+) -> None:
+    plugin = (
+        f"<plugin filename='gz-sim-magnetometer-system' name='gz::sim::systems::Magnetometer'>{parameters}</plugin>"
+    )
+    world = sensor_world(ON_EARTH + plugin + model("magnetometer", extra="<static>1</static>"))
+    heard = listen(world, topic("magnetometer"), "gz.msgs.Magnetometer")
+    world.step(1)
+    field = heard[0].field_tesla
+    assert (field.x, field.y, field.z) == pytest.approx(expected, rel=2e-3)
+
+
 def test_a_field_that_is_not_finite_is_refused() -> None:
     with pytest.raises(SdfError, match="<magnetic_field> must be finite"):
         sensor_world("<magnetic_field>0 inf 0</magnetic_field>", "Magnetometer")
