@@ -39,7 +39,7 @@ def rows() -> Iterator[Row]:
         wall = time.monotonic() - began
         yield Row(
             f"robot of {robot.name}, 10 minutes of random commands",
-            f"{lasting.distance:.0f} m, tilt {math.degrees(lasting.tilt):.2f} deg, height {lasting.bounce * 1e3:.2f} mm",
+            f"{lasting.distance:.0f} m, tilt {math.degrees(lasting.tilt):.2f} deg, z {lasting.bounce * 1e3:.2f} mm",
             f"wheel odometry off by {lasting.odometry_error:.2%} of the way",
             f"{600.0 / wall:.0f} x real time",
             f"no warnings ({lasting.warnings})",
@@ -54,7 +54,8 @@ def _costs() -> Iterator[Row]:
     drive_of(bare).command(0.5, 0.1)
     bare.step(500)
     alone = _rate(lambda: mujoco.mj_step(bare.model, bare.data, nstep=STEPS))
-    with Node(NodeOptions(scope=Scope.PROCESS)) as node, Node(NodeOptions(scope=Scope.PROCESS)) as other:
+    apart = (NodeOptions(partition, scope=Scope.PROCESS) for partition in ("silent", "heard"))
+    with Node(next(apart)) as node, Node(next(apart)) as other:
         silent, heard = robot.world(plugins=REPORTS + PUSHED), robot.world(plugins=REPORTS + PUSHED)
         silent.attach(node)
         heard.attach(other)

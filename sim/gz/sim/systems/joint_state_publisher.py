@@ -48,7 +48,7 @@ class JointStatePublisher(System):
             for place, axis in zip(("axis1", "axis2"), find_axes(self.world.model, prefix + joint.name), strict=False):
                 self._axes.append((index, place, axis))
         if self._publisher is not None:
-            self._make_template()
+            self._prepare()
 
     def start(self) -> None:
         """Nothing was published yet."""
@@ -60,7 +60,7 @@ class JointStatePublisher(System):
 
         self._type = ModelMessage
         self._publisher = node.advertise(self.topic, ModelMessage)
-        self._make_template()
+        self._prepare()
 
     def post_update(self, info: UpdateInfo) -> None:
         """Publish when due and somebody listens."""
@@ -76,8 +76,7 @@ class JointStatePublisher(System):
             self._publish(info.sim_time_ns)
 
     def _publish(self, now_ns: int) -> None:
-        message = self._type()
-        message.CopyFrom(self._template)
+        message = self._message  # Publishing puts it into bytes at once, so that one message serves for all.
         message.header.stamp.sec, message.header.stamp.nsec = divmod(now_ns, 1_000_000_000)
         _fill_pose(message.pose, self.scope.pose())
         data = self.world.data
@@ -89,7 +88,7 @@ class JointStatePublisher(System):
             filled.force = axis.read_force(data)
         self._publisher.publish(message)
 
-    def _make_template(self) -> None:
+    def _prepare(self) -> None:
         """Prepare what is the same in every message."""
         scope = self.scope
         message = self._type(name=scope.name, id=self.world.entities.number("model", *scope.path))
@@ -102,7 +101,7 @@ class JointStatePublisher(System):
                 made.axis1.SetInParent()
                 if joint.axis is not None:
                     _fill_axis(made.axis1, joint, joint.axis)
-        self._template = message
+        self._message = message
 
 
 def _fill_axis(message: Any, joint: Joint, axis: Axis) -> None:

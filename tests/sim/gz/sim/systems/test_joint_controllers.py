@@ -287,7 +287,9 @@ def test_a_trajectory_is_followed_point_by_point(node: Node) -> None:
     made.step(1490)
     assert (angle(made), angle(made, "elbow")) == pytest.approx((-0.2, 0.5), abs=5e-3)
     assert progress == [0.5]
-    made.step(1500)
+    made.step(15)
+    assert progress == [0.5, 1.0]
+    made.step(1485)
     assert (angle(made), angle(made, "elbow")) == pytest.approx((0.4, -0.3), abs=5e-3)
     assert progress == [0.5, 1.0]
     made.reset()

@@ -49,7 +49,6 @@ def test_position_velocity_and_force_of_every_joint_after_every_step(node: Node)
     assert (elbow.axis1.limit_lower, elbow.axis1.limit_upper, elbow.axis1.damping) == (-1.0, 2.0, 0.4)
     assert (shoulder.axis1.limit_lower, shoulder.axis1.limit_upper) == (-math.inf, math.inf)
     assert (shoulder.axis1.xyz.x, shoulder.axis1.xyz.y, shoulder.axis1.xyz.z) == (0.0, 1.0, 0.0)
-    # Messages that were handed out do not change any more.
     assert heard[0].joint[2].axis1.position < heard[-1].joint[2].axis1.position
 
 
@@ -120,5 +119,5 @@ def test_nothing_is_made_while_nobody_listens(node: Node) -> None:
     made = world(arm(publisher()))
     made.attach(node)
     system = made.systems[-1]
-    system._template = None  # type: ignore[attr-defined]  # whoever makes a message now fails
+    system._message = None  # type: ignore[attr-defined]  # whoever makes a message now fails
     made.step(10)

@@ -50,6 +50,11 @@ TOPICS: dict[str, Any] = {
 SPAWNED = "<sdf version='1.10'><model name='{}'><pose>20 {} 5 0 0 0</pose><link name='l'/></model></sdf>"
 
 
+def apart(partition: str) -> NodeOptions:
+    """Options of nodes that do not hear those of other worlds in this process."""
+    return NodeOptions(partition, scope=Scope.PROCESS)
+
+
 class Session:
     """A world on a node, and all it said, in order."""
 
@@ -79,7 +84,7 @@ class Session:
 
 
 def test_the_same_bytes_in_another_world_and_after_a_reset() -> None:
-    with Node(NodeOptions(scope=Scope.PROCESS)) as one, Node(NodeOptions(scope=Scope.PROCESS)) as two:
+    with Node(apart("one")) as one, Node(apart("two")) as two:
         first = Session(one, world(EVERYTHING, seed=5))
         said = first.run()
         assert {topic for topic, _ in said} == set(TOPICS)
@@ -89,14 +94,14 @@ def test_the_same_bytes_in_another_world_and_after_a_reset() -> None:
 
 
 def test_another_seed_changes_the_noise_and_nothing_else(node: Node) -> None:
-    with Node(NodeOptions(scope=Scope.PROCESS)) as other:
+    with Node(apart("other")) as other:
         said, others = Session(node, world(EVERYTHING, seed=5)).run(), Session(other, world(EVERYTHING, seed=6)).run()
     changed = {topic for (topic, one), (_, two) in zip(said, others, strict=True) if one != two}
     assert changed == {"/model/box/odometry", "/model/box/odometry_with_covariance"}
 
 
 def test_what_comes_and_goes_in_between_changes_nothing() -> None:
-    with Node(NodeOptions(scope=Scope.PROCESS)) as one, Node(NodeOptions(scope=Scope.PROCESS)) as two:
+    with Node(apart("one")) as one, Node(apart("two")) as two:
         calm, disturbed = Session(one, world(EVERYTHING)), Session(two, world(EVERYTHING))
         said = calm.run()
         step, visitors = disturbed.world.step, itertools.count(1)

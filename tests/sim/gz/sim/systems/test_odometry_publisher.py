@@ -13,8 +13,8 @@ from gz.msgs.pose_v_pb2 import Pose_V
 
 from gz.sim.errors import SdfError
 from gz.sim.world import World
-from gz.transport import Node
-from tests.sim.gz.sim.systems.motion_world import arm, link, plugin, world
+from gz.transport import Node, NodeOptions, Scope
+from tests.sim.gz.sim.systems.motion_world import arm, joint, link, plugin, world
 
 
 def box(inside: str = "", velocity: str = "", pose: str = "3 -1 2 0 0 0.5") -> str:
@@ -80,6 +80,39 @@ def test_who_comes_late_hears_the_same(node: Node) -> None:
     assert [each.SerializeToString(deterministic=True) for each in second] == [
         each.SerializeToString(deterministic=True) for each in first[-3:]
     ]
+
+
+def test_two_dimensions_leave_out_what_is_not_in_the_plane(node: Node) -> None:
+    made = world(box(pose="0 0 5 0.3 -0.4 1"))
+    heard = listen(node, made)
+    made.data.qvel[:] = (1.0, 0.0, 0.5, 0.3, 0.2, 0.6)
+    made.step(100)
+    twist = heard[-1].twist
+    assert (twist.linear.z, twist.angular.x, twist.angular.y) == (0.0, 0.0, 0.0)
+    assert abs(twist.linear.x) > 0.1 and abs(twist.angular.z) > 0.1
+
+
+def test_a_held_model_is_right_also_for_who_comes_back() -> None:
+    """It is not looked at while nobody listens; what was seen before must not count as the step before."""
+    table = f"""<model name='box'>{link("l", "0 0 1 0 0 0")}
+      {joint("turn", "revolute", "world", "l", "<xyz>0 0 1</xyz>")}{plugin("OdometryPublisher", "<xyz_offset>1 0 0</xyz_offset>")}</model>"""
+    made = world(table, gravity="0 0 0")
+    made.data.qvel[:] = 0.5
+    options = NodeOptions("turntable", scope=Scope.PROCESS)
+    with Node(options) as always:
+        made.attach(always)
+        for _ in range(2):
+            with Node(options) as listener:
+                heard: list[Any] = []
+                listener.subscribe(Odometry, "/model/box/odometry", heard.append)
+                made.step(100)
+                assert [each.twist.linear.y for each in heard] == pytest.approx([0.5] * 5, rel=1e-3)
+            made.step(514)
+            with Node(options) as listener:
+                listener.subscribe(Odometry, "/model/box/odometry", heard.append)
+                made.step(6)
+                assert heard[-1].twist.linear.y == pytest.approx(0.5, rel=1e-3)
+                assert heard[-1].twist.angular.z == pytest.approx(0.5, rel=1e-3)
 
 
 def test_three_dimensions_follow_a_tumbling_body(node: Node) -> None:

@@ -42,6 +42,15 @@ def test_a_model_moves_along_its_own_axes_and_turns(node: Node) -> None:
     assert pose.position == pytest.approx(expected, abs=2e-3)
 
 
+def test_the_axes_are_those_of_the_model_however_its_link_stands() -> None:
+    tilted = f"""<model name='box'><pose>0 0 5 0 0 0</pose>{link("l", "0 0 0 1.2 0 0.4")}
+      {plugin("VelocityControl", "<initial_angular>0 0 1</initial_angular>")}</model>"""
+    made = world(tilted, gravity="0 0 0")
+    made.step(1000)
+    assert made.pose("box").yaw() == pytest.approx(1.0, rel=2e-3)
+    assert made.velocity("box").angular == pytest.approx((0, 0, 1), abs=5e-3)
+
+
 def test_a_command_acts_one_step_later_and_holds() -> None:
     made = world(box(), gravity="0 0 0")
     control(made).command((1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
