@@ -77,13 +77,15 @@ class SceneBroadcaster(System):
         self._dynamic_hertz = _rate(plugin.element, "dynamic_pose_hertz")
         self._state_hertz = _rate(plugin.element, "state_hertz")
         self._graph: SceneGraph | None = None
+        self._stale = True
+        """Whether what came and went since has still to be told."""
         self._sent: dict[tuple[str, str], list[int]] = {}
         """What the outside knows of: kind and name -> its number and those of the models and lights inside it."""
         self._node: Node | None = None
 
     def bind(self) -> None:
         """Something may have come or gone: what was known of the world is out of date."""
-        self._graph = None
+        self._graph, self._stale = None, True
 
     def start(self) -> None:
         """Begin the schedules anew; everything that is there is new, once what is no more has been taken back."""
@@ -95,7 +97,7 @@ class SceneBroadcaster(System):
         if self._node is not None:
             self._announce(self._outline(self._current_graph()), removals_only=True)
         self._sent = {}
-        self._graph = None
+        self._graph, self._stale = None, True
 
     def connect(self, node: Node) -> None:
         """Advertise the topics and offer the services."""
@@ -125,7 +127,7 @@ class SceneBroadcaster(System):
         """Publish what is due."""
         if self._node is None:
             return
-        if self._graph is None:
+        if self._stale:
             self._renew()
         now_ns = info.sim_time_ns
         if now_ns < self._next_ns:
@@ -139,7 +141,7 @@ class SceneBroadcaster(System):
         """Publish everything."""
         if self._node is None:
             return
-        if self._graph is None:
+        if self._stale:
             self._renew()
         self._publish(info.sim_time_ns, True, True, True)
 
@@ -188,7 +190,7 @@ class SceneBroadcaster(System):
         self._state_known = False
         outline = self._outline(graph)
         self._announce(outline)
-        self._sent = outline
+        self._sent, self._stale = outline, False
 
     @staticmethod
     def _outline(graph: SceneGraph) -> dict[tuple[str, str], list[int]]:

@@ -157,6 +157,18 @@ def test_what_comes_and_goes_is_told(ear: Callable[..., Ear]) -> None:
     assert {"late", "sun"}.isdisjoint(by_name(made.heard["pose/info"][-1]))
 
 
+def test_who_asks_between_two_steps_takes_nothing_from_those_who_listen(ear: Callable[..., Ear]) -> None:
+    made = ear()
+    made.call("scene/info", Scene)
+    made.world.step(1)
+    assert [len(made.heard[topic]) for topic in ("scene/info", "pose/info")] == [1, 1]
+    made.world.remove("ball")
+    made.call("scene/graph", StringMsg)
+    made.world.step(20)
+    assert len(made.heard["scene/deletion"]) == 1
+    assert "ball" not in by_name(made.heard["pose/info"][-1])
+
+
 def test_a_rewound_world_begins_with_the_same_bytes(ear: Callable[..., Ear]) -> None:
     made = ear()
 
