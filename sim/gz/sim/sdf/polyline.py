@@ -45,9 +45,11 @@ def read_polyline(shapes: Sequence[Element]) -> Geometry | None:
         raise shapes[0].error(f"<polyline> has more than {_MOST_POINTS} points; use a mesh")
     polygons: list[list[Point]] = []
     for outline, holes in _nested(outlines):
-        polygons.extend(_triangulated(_bridged(outline, holes)))
-    if not polygons:
-        return None
+        cut = _triangulated(_bridged(outline, holes))
+        whole = _area(outline) + sum(map(_area, holes))
+        if abs(sum(map(_area, cut)) - whole) > 1e-6 * _area(outline):
+            return None
+        polygons.extend(cut)
     mesh = _extruded(outlines, polygons, height)
     low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
     return Geometry("polyline", (float(high[0] - low[0]), float(high[1] - low[1]), height), mesh=mesh)
