@@ -76,14 +76,14 @@ _SCRIPT_COLOURS: dict[str, tuple[float, ...]] = {
 
 
 def read_colour(visual: Element, diagnostics: Diagnostics) -> Rgba:
-    """Return the colour of a `<visual>`: diffuse, else ambient, else its Gazebo script, else grey."""
+    """Return the colour of a `<visual>`: its Gazebo script if that is known, else diffuse, else ambient, else grey."""
     transparency = min(1.0, max(0.0, visual.number("transparency", 0.0)))
     material = visual.find("material")
     red, green, blue, alpha = GREY
     if material is not None:
         stated = material.find("diffuse") or material.find("ambient")
         script = material.find("script")
-        if stated is not None and stated.text:
+        if stated is not None and stated.text and not _is_known(script):
             words = stated.text.split()
             values = [_unit(value) for value in stated.floats(4 if len(words) == 4 else 3)]
             red, green, blue = values[:3]
@@ -98,6 +98,12 @@ def read_colour(visual: Element, diagnostics: Diagnostics) -> Rgba:
 
 def _unit(value: float) -> float:
     return min(1.0, max(0.0, value))
+
+
+def _is_known(script: Element | None) -> bool:
+    """Tell whether a script is one of Gazebo's own, whose colours count more than those beside it."""
+    name = script.text_of("name", script.text) if script is not None else ""
+    return name.startswith("Gazebo/") and name.rsplit("/", 1)[-1].lower() in _SCRIPT_COLOURS
 
 
 def _script_colour(script: Element, diagnostics: Diagnostics) -> Rgba:

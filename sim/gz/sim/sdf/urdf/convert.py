@@ -25,6 +25,7 @@ from gz.sim.sdf.urdf.making import make, place, set_value, write
 from gz.sim.sdf.urdf.robot import WORLD, Robot, UrdfJoint, UrdfShape, numbers, origin_of, read_robot
 
 SDF_VERSION = "1.11"
+_BALL = 0.01  # [m]
 
 
 def sdf_of_robot(element: Element, diagnostics: Diagnostics) -> Element:
@@ -93,6 +94,13 @@ def _link(body: Body, tags: GazeboTags, diagnostics: Diagnostics) -> Element:
     assert inertial is not None
     element = make(body.head.element, "link", attributes={"name": body.name})
     source = inertial.element
+    if not any(inertial.moments):
+        diagnostics.warn(
+            source.where,
+            f"link '{body.name}' has a mass but no moment of inertia; that of a ball of 1 cm radius is used",
+        )
+        ball = 0.4 * inertial.mass * _BALL**2
+        inertial.moments = (ball, ball, ball, 0.0, 0.0, 0.0)
     ixx, iyy, izz, ixy, ixz, iyz = inertial.moments
     tensor = {"ixx": ixx, "ixy": ixy, "ixz": ixz, "iyy": iyy, "iyz": iyz, "izz": izz}
     moments = [make(source, word, write([value])) for word, value in tensor.items()]
@@ -131,7 +139,6 @@ def _shape_name(body: str, own: str, kind: str, number: int) -> str:
 
 def _shape(shape: UrdfShape, name: str, pose: Pose) -> Element:
     geometry = shape.geometry
-    assert geometry is not None
     kind = geometry.tag
     parts: list[Element]
     if kind == "box":

@@ -44,14 +44,14 @@ class UrdfInertial:
 
 @dataclass(eq=False)
 class UrdfShape:
-    """A `<visual>` or `<collision>`: its own `name` (often empty), its pose in the link, its `<geometry>` child.
+    """A `<visual>` or `<collision>`: its own `name` (often empty), its pose in the link, the shape in its `<geometry>`.
 
     `colour` (r, g, b, a; each 0..1) is that of a visual's material, None when it has none.
     """
 
     name: str
     pose: Pose
-    geometry: Element | None
+    geometry: Element
     element: Element
     colour: tuple[float, float, float, float] | None = None
 
@@ -203,11 +203,15 @@ def _link(element: Element, colours: dict[str, Colour | None], diagnostics: Diag
     inertial = element.find("inertial")
     if inertial is not None:
         link.inertial = _inertial(inertial)
-    for child in element.all("visual"):
-        shape = _shape(child)
-        shape.colour = _visual_colour(child, colours, diagnostics)
-        link.visuals.append(shape)
-    link.collisions.extend(map(_shape, element.all("collision")))
+    for child in element.all("visual", "collision"):
+        shape = _shape(child, diagnostics)
+        if shape is None:
+            continue
+        if child.tag == "collision":
+            link.collisions.append(shape)
+        else:
+            shape.colour = _visual_colour(child, colours, diagnostics)
+            link.visuals.append(shape)
     return link
 
 
@@ -219,14 +223,13 @@ def _inertial(element: Element) -> UrdfInertial:
     return UrdfInertial(numbers(mass, "value", 1)[0], (ixx, iyy, izz, ixy, ixz, iyz), origin_of(element), element)
 
 
-def _shape(element: Element) -> UrdfShape:
+def _shape(element: Element, diagnostics: Diagnostics) -> UrdfShape | None:
     holder = element.find("geometry")
-    if holder is None:
-        raise element.error(f"<{element.tag}> needs a <geometry>")
-    shape = next((child for child in holder.children if child.tag in _WORDS["geometry"]), None)
+    shape = next((child for child in holder.children if child.tag in _WORDS["geometry"]), None) if holder else None
     if shape is None:
         kinds = ", ".join(f"<{kind}>" for kind in sorted(_WORDS["geometry"]))
-        raise holder.error(f"<geometry> needs one of {kinds}")
+        diagnostics.warn(element.where, f"<{element.tag}> has no <geometry> with one of {kinds}; it is left out")
+        return None
     return UrdfShape(element.name, origin_of(element), shape, element)
 
 
