@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 import pytest
 from gz.msgs.double_pb2 import Double
 from gz.msgs.empty_pb2 import Empty
@@ -169,3 +171,19 @@ def test_moving_sensors_find_their_place_again(listen: Listen) -> None:
     # Falling from rest for 0.2 s, counted from where it began.
     assert heard[-1].vertical_position == pytest.approx(-0.5 * 9.8 * 0.2**2, rel=0.01)
     assert heard[-1].vertical_velocity == pytest.approx(-9.8 * 0.2, rel=1e-6)
+
+
+def test_random_numbers_are_those_of_a_generator_made_anew() -> None:
+    world = sensor_world(altimeter(), "Altimeter", seed=5)
+    (sensor,) = sensors_of(world)
+    for update in (0, 1, 70):
+        sensor.updates = update
+        key = hashlib.sha256(f"5/m::l::s/noise/{update}".encode()).digest()[:16]
+        fresh = np.random.Generator(np.random.Philox(key=int.from_bytes(key, "little")))
+        drawn = sensor.random()
+        assert drawn.standard_normal(5).tolist() == fresh.standard_normal(5).tolist()
+        assert drawn.integers(9, size=3, dtype=np.int32).tolist() == fresh.integers(9, size=3, dtype=np.int32).tolist()
+    # Generators of two purposes do not disturb each other.
+    noise, bias = sensor.random(), sensor.random("bias")
+    first = noise.random()
+    assert sensor.random().random() == first != bias.random()
