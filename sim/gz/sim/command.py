@@ -128,7 +128,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     """
     stop = threading.Event()
     for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda _number, _frame: stop.set())
+        # Set from a thread of its own: the handler may have interrupted a wait that holds the event's lock.
+        signal.signal(number, lambda _number, _frame: threading.Thread(target=stop.set, daemon=True).start())
     arguments = _parser().parse_args(sys.argv[2:] if argv is None else list(argv))
     _set_up_logging(arguments.verbose)
     if arguments.version:

@@ -35,9 +35,8 @@ def copy_state(old_model: mujoco.MjModel, old: mujoco.MjData, model: mujoco.MjMo
         data.eq_active[now] = old.eq_active[before]
     data.time = old.time
     mujoco.mj_forward(model, data)
-    # Computing has overwritten where the solver starts from.
-    for name in ("qacc_warmstart", "qacc"):
-        _copy_velocities(name, old_model, old, model, data)
+    # What is measured next is the acceleration of the last step, which computing has overwritten.
+    _copy_velocities("qacc", old_model, old, model, data)
 
 
 def _copy_velocities(
