@@ -18,6 +18,7 @@ from gz.sim.pose import Vector, rotate
 from gz.sim.sdf.description import Model, Plugin
 from gz.sim.sdf.element import Element
 from gz.sim.systems.model_scope import ModelScope
+from gz.sim.systems.odometry_reports import OdometryReports
 from gz.sim.systems.registry import System, UpdateInfo, system
 from gz.sim.systems.speed_limiter import SpeedLimiter
 from gz.sim.systems.topics import valid_topic
@@ -51,12 +52,8 @@ class DiffDrive(System):
             "right_joint",
             "wheel_separation",
             "wheel_radius",
-            "odom_publish_frequency",
             "topic",
-            "odom_topic",
-            "tf_topic",
-            "frame_id",
-            "child_frame_id",
+            *OdometryReports.parameters,
         ]
     )
 
@@ -83,16 +80,10 @@ class DiffDrive(System):
         self._limit_linear = SpeedLimiter.from_sdf(element, "linear")
         self._limit_angular = SpeedLimiter.from_sdf(element, "angular")
         self._limited = not (self._limit_linear.unlimited and self._limit_angular.unlimited)
-        frequency = element.number("odom_publish_frequency", 50.0)
-        self._odometry_period_ns = int(1e9 / frequency) if frequency > 0.0 and math.isfinite(frequency) else 0
         name = scope.name
         self.command_topic = valid_topic(element.text_of("topic"), f"/model/{name}/cmd_vel")
         self.enable_topic = valid_topic(f"/model/{name}/enable")
-        self.odometry_topic = valid_topic(element.text_of("odom_topic"), f"/model/{name}/odometry")
-        self.tf_topic = valid_topic(element.text_of("tf_topic"), f"/model/{name}/tf")
-        self.frame_id = element.text_of("frame_id", f"{name}/odom")
-        base = scope.own_name(scope.canonical_link).replace("::", "/")
-        self.child_frame_id = element.text_of("child_frame_id", f"{name}/{base}")
+        self._reports = OdometryReports(scope, element)
         self._model = model
         self._sides = [_joints(model, plugin, side) for side in ("left_joint", "right_joint")]
         for side in self._sides:
@@ -107,8 +98,11 @@ class DiffDrive(System):
                 world.diagnostics.warn(element.where, text)
                 break
         self._odometry = WheelOdometry(separation, radius)
-        self._publisher: Any = None
-        self._tf_publisher: Any = None
+
+    @property
+    def reports(self) -> OdometryReports:
+        """Topics and frames of the odometry."""
+        return self._reports
 
     def bind(self) -> None:
         """Find the wheels."""
@@ -119,7 +113,7 @@ class DiffDrive(System):
     def start(self) -> None:
         """Stand still, enabled, at the origin of the odometry."""
         self._started = False
-        self._last_published_ns = 0
+        self._reports.start()
         self._target = (0.0, 0.0)
         self._last = (0.0, 0.0)
         self._before_last = (0.0, 0.0)
@@ -130,15 +124,11 @@ class DiffDrive(System):
     def connect(self, node: Node) -> None:
         """Subscribe to commands, advertise odometry."""
         from gz.msgs.boolean_pb2 import Boolean
-        from gz.msgs.odometry_pb2 import Odometry
-        from gz.msgs.pose_v_pb2 import Pose_V
         from gz.msgs.twist_pb2 import Twist
 
-        self._odometry_type, self._pose_v_type = Odometry, Pose_V
         node.subscribe(Twist, self.command_topic, self._on_command)
         node.subscribe(Boolean, self.enable_topic, self._on_enable)
-        self._publisher = node.advertise(self.odometry_topic, Odometry)
-        self._tf_publisher = node.advertise(self.tf_topic, Pose_V)
+        self._reports.connect(node)
 
     def command(self, linear: float, angular: float) -> bool:
         """Set the wanted forward speed (m/s) and turning speed (rad/s); return False when it was refused.
@@ -205,40 +195,11 @@ class DiffDrive(System):
             self._odometry.reset(0.0, 0.0)
             self._started = True
             return
-        self._odometry.update(left, right, info.dt)
-        if info.sim_time_ns - self._last_published_ns >= self._odometry_period_ns:
-            self._last_published_ns = info.sim_time_ns
-            self._publish(info.sim_time_ns)
-
-    def _publish(self, now_ns: int) -> None:
         odometry = self._odometry
-        if self._publisher is not None and self._publisher.has_connections():
-            message = self._odometry_type()
-            self._fill_header(message.header, now_ns)
-            self._fill_pose(message.pose)
-            message.twist.linear.x = odometry.linear
-            message.twist.angular.z = odometry.angular
-            self._publisher.publish(message)
-        if self._tf_publisher is not None and self._tf_publisher.has_connections():
-            message = self._pose_v_type()
-            pose = message.pose.add()
-            self._fill_header(pose.header, now_ns)
-            self._fill_pose(pose)
-            self._tf_publisher.publish(message)
-
-    def _fill_header(self, header: Any, now_ns: int) -> None:
-        header.stamp.sec, header.stamp.nsec = divmod(now_ns, 1_000_000_000)
-        for key, value in (("frame_id", self.frame_id), ("child_frame_id", self.child_frame_id)):
-            entry = header.data.add()
-            entry.key = key
-            entry.value.append(value)
-
-    def _fill_pose(self, pose: Any) -> None:
-        pose.position.x = self._odometry.x
-        pose.position.y = self._odometry.y
-        half = self._odometry.heading / 2.0
-        pose.orientation.z = math.sin(half)
-        pose.orientation.w = math.cos(half)
+        odometry.update(left, right, info.dt)
+        if self._reports.due(info.sim_time_ns):
+            pose = (odometry.x, odometry.y, odometry.heading)
+            self._reports.publish(info.sim_time_ns, pose, odometry.linear, odometry.angular)
 
 
 def _joints(model: Model, plugin: Plugin, side: str) -> list[str]:

@@ -19,6 +19,7 @@ import numpy as np
 from gz.sim.pose import Pose, Vector, multiply, rotate
 from gz.sim.sdf.description import Model, Plugin
 from gz.sim.systems.model_scope import ModelScope
+from gz.sim.systems.odometry_reports import fill_odometry_header
 from gz.sim.systems.registry import System, UpdateInfo, system
 from gz.sim.systems.topics import valid_topic
 
@@ -129,7 +130,7 @@ class OdometryPublisher(System):
             return
         odometry_type, covariance_type, pose_v_type = self._types
         message = odometry_type()
-        _fill_header(message.header, info.sim_time_ns, self.frame_id, self.child_frame_id)
+        fill_odometry_header(message.header, info.sim_time_ns, self.frame_id, self.child_frame_id)
         x, y, z = pose.position.tolist()
         message.pose.position.x, message.pose.position.y = x, y
         if self.dimensions == 3:
@@ -198,11 +199,3 @@ class OdometryPublisher(System):
         text = f"{self.world.seed}/{self.scope.full_name}/OdometryPublisher/{self._published}"
         key = int.from_bytes(hashlib.sha256(text.encode()).digest()[:16], "little")
         return np.random.Generator(np.random.Philox(key=key))
-
-
-def _fill_header(header: Any, now_ns: int, frame_id: str, child_frame_id: str) -> None:
-    header.stamp.sec, header.stamp.nsec = divmod(now_ns, 1_000_000_000)
-    for key, value in (("frame_id", frame_id), ("child_frame_id", child_frame_id)):
-        entry = header.data.add()
-        entry.key = key
-        entry.value.append(value)

@@ -183,8 +183,8 @@ def test_acceleration_limits_and_own_topics() -> None:
 
     world = robot_world(change)
     drive = drive_of(world)
-    assert (drive.command_topic, drive.odometry_topic, drive.tf_topic) == ("/my_cmd", "/o", "/t")
-    assert (drive.frame_id, drive.child_frame_id) == ("odom", "base")
+    assert (drive.command_topic, drive.reports.odometry_topic, drive.reports.tf_topic) == ("/my_cmd", "/o", "/t")
+    assert (drive.reports.frame_id, drive.reports.child_frame_id) == ("odom", "base")
     drive.command(0.5, 0.0)
     world.step(500)
     assert world.velocity("two_wheel_robot").linear[0] == pytest.approx(0.25, abs=0.01)

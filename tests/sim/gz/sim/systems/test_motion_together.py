@@ -166,7 +166,7 @@ def test_a_robot_inside_another_model_has_the_topics_of_its_own_name(node: Node)
     made = world(f"{ground}<model name='outer' canonical_link='inner::base'>{inner}</model>")
     drive = next(system for system in made.systems if isinstance(system, DiffDrive))
     assert drive.command_topic == "/model/inner/cmd_vel"
-    assert (drive.frame_id, drive.child_frame_id) == ("inner/odom", "inner/base")
+    assert (drive.reports.frame_id, drive.reports.child_frame_id) == ("inner/odom", "inner/base")
     made.attach(node)
     command = Twist()
     command.linear.x, command.angular.z = 0.3, 0.2

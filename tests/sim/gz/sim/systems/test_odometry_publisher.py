@@ -94,8 +94,9 @@ def test_two_dimensions_leave_out_what_is_not_in_the_plane(node: Node) -> None:
 
 def test_a_held_model_is_right_also_for_who_comes_back() -> None:
     """It is not looked at while nobody listens; what was seen before must not count as the step before."""
-    table = f"""<model name='box'>{link("l", "0 0 1 0 0 0")}
-      {joint("turn", "revolute", "world", "l", "<xyz>0 0 1</xyz>")}{plugin("OdometryPublisher", "<xyz_offset>1 0 0</xyz_offset>")}</model>"""
+    hinge = joint("turn", "revolute", "world", "l", "<xyz>0 0 1</xyz>")
+    reports = plugin("OdometryPublisher", "<xyz_offset>1 0 0</xyz_offset>")
+    table = f"<model name='box'>{link('l', '0 0 1 0 0 0')}{hinge}{reports}</model>"
     made = world(table, gravity="0 0 0")
     made.data.qvel[:] = 0.5
     options = NodeOptions("turntable", scope=Scope.PROCESS)
