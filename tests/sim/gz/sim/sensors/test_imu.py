@@ -185,6 +185,15 @@ def test_named_frames(name: str) -> None:
     assert pytest.approx(np.array(FRAMES[name]), abs=1e-9) == matrix(sensor.orientation()).T
 
 
+def test_the_heading_of_the_world_turns_the_named_frames() -> None:
+    """By +heading, as Gazebo does."""
+    place = "<spherical_coordinates><heading_deg>30</heading_deg></spherical_coordinates>"
+    world = sensor_world(place + model(reference("<localization>ENU</localization>")), "Imu")
+    (sensor,) = sensors_of(world)
+    assert isinstance(sensor, Imu)
+    assert matrix(sensor.orientation()) == pytest.approx(matrix(quaternion_from_rpy(0, 0, -math.pi / 6)))
+
+
 def test_a_frame_without_localization_is_custom() -> None:
     world = sensor_world(model(reference("<custom_rpy>0 0 0.5</custom_rpy>"), pose="0 0 1 0 0 2"), "Imu")
     (sensor,) = sensors_of(world)
