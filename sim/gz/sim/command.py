@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 if TYPE_CHECKING:
     from gz.sim.sdf.description import Plugin
+    from gz.transport import Node
 
 _LEVELS = {0: logging.CRITICAL + 1, 1: logging.WARNING, 2: logging.WARNING, 3: logging.INFO, 4: logging.DEBUG}
 _PREFIXES = {logging.WARNING: "[Wrn]", logging.INFO: "[Msg]", logging.DEBUG: "[Dbg]"}
@@ -171,6 +172,22 @@ def _recorder(arguments: argparse.Namespace) -> list[Plugin]:
     return [Plugin(element.attributes["name"], element.attributes["filename"], element)]
 
 
+def _look_for_others(node: Node) -> None:
+    """Say so when another simulator tells another time to the same listeners; takes a second, in its own thread."""
+    from gz.sim.errors import LOG
+
+    try:
+        others = len(node.topic_info("/clock")[0]) - 1
+    except RuntimeError:  # the simulation has ended meanwhile
+        return
+    if others > 0:
+        LOG.warning(
+            "another simulator publishes /clock in partition '%s' too, so nodes see time jump to and fro; end it, or "
+            "give one of the two another GZ_PARTITION",
+            node.options.partition,
+        )
+
+
 def _simulate(arguments: argparse.Namespace, stop: threading.Event) -> int:
     # These load MuJoCo and the transport; help and usage errors do not wait for them.
     from gz.sim.errors import LOG, SimError
@@ -199,6 +216,7 @@ def _simulate(arguments: argparse.Namespace, stop: threading.Event) -> int:
         try:
             server = Server(world, node)
             server.paused = not arguments.run
+            threading.Thread(target=_look_for_others, args=(node,), daemon=True).start()
             LOG.info("world '%s' is loaded with models %s", world.name, world.model_names(static=True))
             if server.paused:
                 LOG.warning("world '%s' is paused; start it with -r to let time run", world.name)

@@ -217,3 +217,17 @@ def test_a_paused_world_serves_another_process(start: Callable[..., subprocess.P
         assert not node.request("/world/empty/remove/blocking", gone, Entity, Boolean, wait)[1].data
         assert node.request("/server_control", ServerControl(stop=True), ServerControl, Boolean, wait)[1].data
     assert process.wait(DEADLINE) == 0
+
+
+def test_a_second_simulator_that_tells_another_time_says_so(start: Callable[..., subprocess.Popen[str]]) -> None:
+    with Node() as node:
+        clock = Heard(node, Clock, "/clock")
+        first = start("empty.sdf", "-r", "-s")
+        clock.wait(lambda message: True)
+        second = start("empty.sdf", "-r", "-s")
+        assert second.stderr is not None
+        line = second.stderr.readline()
+    assert "another simulator publishes /clock" in line and "GZ_PARTITION" in line
+    for process in (first, second):
+        process.send_signal(signal.SIGINT)
+        assert process.wait(DEADLINE) == 0
