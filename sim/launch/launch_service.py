@@ -11,6 +11,7 @@ ends when the launch was shut down and nothing is left; it shuts itself down whe
 from __future__ import annotations
 
 import asyncio
+import concurrent.futures
 import signal
 import threading
 import traceback
@@ -89,13 +90,18 @@ class LaunchService:
 
     def _run_in_thread(self, work: Coroutine[None, None, int]) -> int:
         """Run beside an event loop that waits meanwhile, as in a notebook."""
-        result: list[int] = []
-        thread = threading.Thread(target=lambda: result.append(asyncio.run(work)), name="launch")
-        thread.start()
+        outcome: concurrent.futures.Future[int] = concurrent.futures.Future()
+
+        def run() -> None:
+            try:
+                outcome.set_result(asyncio.run(work))
+            except BaseException as error:
+                outcome.set_exception(error)
+
+        threading.Thread(target=run, name="launch").start()
         while True:
             try:
-                thread.join()
-                return result[0] if result else 1
+                return outcome.result()
             except KeyboardInterrupt:
                 self._interrupt_soon(signal.SIGINT)
 

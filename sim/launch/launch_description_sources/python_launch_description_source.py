@@ -44,7 +44,10 @@ def load_python_launch_file_as_module(python_launch_file_path: str) -> ModuleTyp
     module.__file__ = str(path)
     try:
         code = compile(source, str(path), "exec")
-    except ValueError as error:  # null bytes
+    except (SyntaxError, ValueError) as error:
+        if isinstance(error, SyntaxError) and error.filename:
+            raise
+        # Null bytes, for example.
         raise InvalidPythonLaunchFileError(f"{path}: this is no Python file: {error}") from None
     exec(code, module.__dict__)
     return module
