@@ -28,6 +28,11 @@ APPLIED = "applied"
 FASTEST = 1e4
 """No joint is asked to move faster than this (rad/s or m/s), whatever its limits say."""
 
+MAX_WHEEL_SPEED = 200.0
+"""Fastest a driven wheel is ever asked to turn (rad/s); beyond any real wheel, and beyond it no step of 1 ms is
+exact.
+"""
+
 _SUFFIX = {WHEEL: "", VELOCITY: "", FORCE: "#force", APPLIED: "#applied"}
 
 
@@ -122,4 +127,4 @@ def find_drive(mj_model: mujoco.MjModel, model: Model, servo: JointServo) -> Dri
     joint = model.joint(servo.joint)
     stated = (joint.axis2 if servo.axis else joint.axis) if joint is not None else None
     fastest = stated.velocity if stated is not None and stated.velocity > 0.0 else math.inf
-    return Drive(control, axis, min(fastest, FASTEST))
+    return Drive(control, axis, min(fastest, MAX_WHEEL_SPEED if servo.kind == WHEEL else FASTEST))

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gz.sim.errors import nearest
-from gz.sim.physics.servos import WHEEL, JointServo
+from gz.sim.physics.servos import MAX_WHEEL_SPEED, WHEEL, JointServo
 from gz.sim.pose import Vector, rotate
 from gz.sim.sdf.description import Model, Plugin
 from gz.sim.sdf.element import Element
@@ -27,11 +27,6 @@ from gz.sim.systems.wheel_odometry import WheelOdometry
 if TYPE_CHECKING:
     from gz.sim.world import World
     from gz.transport import Node
-
-MAX_WHEEL_SPEED = 200.0
-"""Fastest a wheel is ever asked to turn (rad/s); beyond any real wheel, and beyond it no step of 1 ms is
-exact.
-"""
 
 _LIMITS = [
     f"{bound}_{axis}{quantity}"

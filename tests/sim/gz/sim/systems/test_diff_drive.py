@@ -14,8 +14,9 @@ from gz.msgs.pose_v_pb2 import Pose_V
 from gz.msgs.twist_pb2 import Twist
 
 from gz.sim.errors import SdfError
+from gz.sim.physics.servos import MAX_WHEEL_SPEED
 from gz.sim.sdf.resources import BUILT_IN_MODELS, BUILT_IN_WORLDS
-from gz.sim.systems.diff_drive import MAX_WHEEL_SPEED, DiffDrive
+from gz.sim.systems.diff_drive import DiffDrive
 from gz.sim.world import World
 from gz.transport import Node
 
