@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 LOG = logging.getLogger("gz.sim")
 _MOST_NAMES = 5000  # comparing one name with more takes seconds
 _MOST_WARNINGS = 1000
+_LONGEST = 1000  # characters of one sentence
 
 
 class SimError(Exception):
@@ -29,6 +30,12 @@ class ResourceError(SdfError, FileNotFoundError):
 
     def __str__(self) -> str:
         return str(self.args[0]) if self.args else ""
+
+
+def one_line(sentence: str) -> str:
+    """Return the sentence without line breaks; what it quotes from a file may have them, and may be very long."""
+    words = " ".join(sentence.split())
+    return words if len(words) <= _LONGEST else f"{words[: _LONGEST // 2]} ... {words[-_LONGEST // 2 :]}"
 
 
 def nearest(name: str, known: Iterable[str], *, listing: str = "known names are") -> str:
@@ -62,7 +69,7 @@ class Diagnostics:
 
     def warn(self, where: str, sentence: str) -> None:
         """Report `sentence` about the place `where` (`file:line`, or empty for the whole world)."""
-        text = f"{where}: {sentence}" if where else sentence
+        text = f"{where}: {one_line(sentence)}" if where else one_line(sentence)
         if text in self._known or len(self._known) > _MOST_WARNINGS:
             return
         self._known.add(text)

@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gz.sim.errors import SdfError
+from gz.sim.errors import SdfError, one_line
 from gz.sim.pose import Pose
 
 DEEPEST = 200
@@ -61,7 +61,7 @@ class Element:
 
     def error(self, sentence: str) -> SdfError:
         """Make (not raise) the error that says `sentence` about this element."""
-        return SdfError(f"{self.where}: {sentence}")
+        return SdfError(f"{self.where}: {one_line(sentence)}")
 
     def find(self, tag: str) -> Element | None:
         """Return the first child called `tag`; `a/b` goes down two levels."""

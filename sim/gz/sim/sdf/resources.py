@@ -158,14 +158,14 @@ def _path_hint(path: str, relative_to: Path | None) -> str:
     name = path.split("/")[0]
     for folder in (relative_to, *relative_to.resolve().parents) if relative_to is not None else ():
         for each in (folder, folder / name):
-            if name and each.name == name and each.is_dir():
+            if name and each.name == name and _exists(each) and each.is_dir():
                 return f"there is {each}: add {each.parent} to GZ_SIM_RESOURCE_PATH"
     return ""
 
 
 def _model_file(path: Path, uri: str) -> Path:
     """Return `path` itself when it is a file, else the file of highest SDF version named by its model.config."""
-    if path.is_file():
+    if _is_file(path):
         return path
     config = next((path / name for name in ("model.config", "manifest.xml") if _is_file(path / name)), None)
     if config is None:
