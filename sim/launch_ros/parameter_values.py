@@ -166,7 +166,7 @@ def flattened(context: LaunchContext, parameters: Mapping[Any, Any], prefix: str
 
 
 def as_argument(value: Value) -> str:
-    """Return a value in one line of YAML, for `-p name:=value`."""
+    """Return a value as YAML in flow style, for `-p name:=value`."""
     text = yaml.safe_dump(value, default_flow_style=True, width=float("inf"), allow_unicode=True)
     return text.removesuffix("...\n").strip()
 

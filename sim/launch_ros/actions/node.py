@@ -58,6 +58,9 @@ class Node(ExecuteProcess):
         arguments: Iterable[SomeSubstitutionsType] | None = None,
         **kwargs: Any,
     ) -> None:
+        for old in kwargs:
+            if old in ("node_name", "node_namespace", "node_executable"):
+                raise TypeError(f"Node has no argument '{old}' any more; did you mean '{old.removeprefix('node_')}'?")
         program = executable if package is None else ExecutableInPackage(executable, package)
         super().__init__(cmd=[program, *_listed("arguments", arguments)], name=exec_name, **kwargs)
         self.__package = None if package is None else normalize_to_list_of_substitutions(package)

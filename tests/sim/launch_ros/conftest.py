@@ -1,0 +1,83 @@
+"""Nodes of a package of the test's own, and what they are started with."""
+
+import json
+import sys
+
+import pytest
+
+import launch.logging
+from launch import LaunchDescription, LaunchService
+
+DEADLINE = 30.0
+# Writes its words, and what is in its parameter files, as one line of JSON.
+TELL = f"""\
+#!{sys.executable} -S
+import json, sys
+words = sys.argv[1:]
+files = [open(words[i + 1]).read() for i, word in enumerate(words) if word == "--params-file"]
+print(json.dumps([words, files]))
+"""
+
+
+@pytest.fixture(autouse=True)
+def log_folder(tmp_path, monkeypatch):
+    monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "ros_log"))
+    launch.logging.reset()
+    yield
+    launch.logging.reset()
+
+
+@pytest.fixture
+def package(tmp_path, monkeypatch):
+    """The prefix of the package my_robot with the executable `tell`; temporary files go to its folder `temporary`."""
+    prefix = tmp_path / "install"
+    index = prefix / "share/ament_index/resource_index/packages"
+    index.mkdir(parents=True)
+    (index / "my_robot").touch()
+    (prefix / "share/my_robot").mkdir()
+    (prefix / "lib/my_robot").mkdir(parents=True)
+    (prefix / "lib/my_robot/tell").write_text(TELL)
+    (prefix / "lib/my_robot/tell").chmod(0o755)
+    (tmp_path / "temporary").mkdir()
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "temporary"))
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(prefix))
+    return prefix
+
+
+class Told:
+    """A run: its exit code, its output, the words of each `tell` and the texts of its parameter files."""
+
+    def __init__(self, code, text):
+        self.code = code
+        self.text = text
+        told = [json.loads(line.partition("] ")[2]) for line in text.splitlines() if line.startswith("[tell-")]
+        self.words = [words for words, _ in told]
+        self.files = [files for _, files in told]
+
+
+@pytest.fixture
+def tell(package, tmp_path, capsys):
+    """Run actions to the end. No temporary file may be left."""
+
+    def run(*entities, **configurations):
+        launch.logging.reset()
+        service = LaunchService()
+        service.context.launch_configurations.update(configurations)
+        service.include_launch_description(LaunchDescription(list(entities)))
+        code = service.run()
+        assert list((tmp_path / "temporary").iterdir()) == []
+        return Told(code, capsys.readouterr().out)
+
+    return run
+
+
+@pytest.fixture
+def performed():
+    """The text of a substitution, with these launch configurations."""
+
+    def perform(substitution, **configurations):
+        context = launch.LaunchContext()
+        context.launch_configurations.update(configurations)
+        return context.perform_substitution(substitution)
+
+    return perform
