@@ -79,6 +79,8 @@ class SceneBroadcaster(System):
         self._graph: SceneGraph | None = None
         self._stale = True
         """Whether what came and went since has still to be told."""
+        self._pose_vectors: tuple[PoseVector, PoseVector] | None = None
+        """What goes out on pose/info and dynamic_pose/info, once somebody listens."""
         self._sent: dict[tuple[str, str], list[int]] = {}
         """What the outside knows of: kind and name -> its number and those of the models and lights inside it."""
         self._node: Node | None = None
@@ -149,13 +151,26 @@ class SceneBroadcaster(System):
         every = every and self._all_publisher.has_connections()
         dynamic = dynamic and self._dynamic_publisher.has_connections()
         if every or dynamic:
+            all_poses, dynamic_poses = self._pose_vectors or self._make_pose_vectors()
             positions, quaternions = (array.tolist() for array in self._current_graph().poses())
             if every:
-                self._all_publisher.publish(self._all_poses.at(now_ns, positions, quaternions))
+                self._all_publisher.publish(all_poses.at(now_ns, positions, quaternions))
             if dynamic:
-                self._dynamic_publisher.publish(self._dynamic_poses.at(now_ns, positions, quaternions))
+                self._dynamic_publisher.publish(dynamic_poses.at(now_ns, positions, quaternions))
         if state:
             self._publish_state()
+
+    def _make_pose_vectors(self) -> tuple[PoseVector, PoseVector]:
+        graph = self._current_graph()
+        listed = list(graph)
+        by_kind = [vertex for kind in KINDS for vertex in listed if vertex.kind == kind]
+        moving = [vertex for vertex in by_kind if vertex.moves]
+        made = (
+            PoseVector(self._pose_v(), by_kind, graph.movers),
+            PoseVector(self._pose_v(), moving, graph.movers),
+        )
+        self._pose_vectors = made
+        return made
 
     def _publish_state(self) -> None:
         """Publish the whole state to those who begin to listen and after every change, else what moves."""
@@ -180,15 +195,9 @@ class SceneBroadcaster(System):
 
     def _renew(self) -> None:
         """Make the graph of what there is now, and say what came and what went."""
-        graph = self._current_graph()
-        graph.look()
-        listed = list(graph)
-        by_kind = [vertex for kind in KINDS for vertex in listed if vertex.kind == kind]
-        moving = [vertex for vertex in by_kind if vertex.moves]
-        self._all_poses = PoseVector(self._pose_v(), by_kind, graph.movers)
-        self._dynamic_poses = PoseVector(self._pose_v(), moving, graph.movers)
+        self._pose_vectors = None
         self._state_known = False
-        outline = self._outline(graph)
+        outline = self._outline(self._current_graph())
         self._announce(outline)
         self._sent, self._stale = outline, False
 

@@ -123,6 +123,18 @@ def test_an_axis_is_given_in_the_frame_of_the_joint(load_text: Callable[..., Wor
     assert vector(joint.axis1.xyz) == pytest.approx((1, 0, 0))
 
 
+def test_joints_between_models_stand_in_the_scene(load_text: Callable[..., World]) -> None:
+    world = load_text(
+        "<model name='a'><link name='l'/></model><model name='b'><pose>1 0 0 0 0 0</pose><link name='l'/></model>"
+        "<joint name='tie' type='ball'><parent>a</parent><child>b</child></joint>"
+    )
+    scene = scene_message(world)
+    (tie,) = scene.joint
+    assert (tie.type, tie.parent, tie.child) == (Joint.BALL, "a::l", "b::l")
+    assert (tie.parent_id, tie.child_id) == tuple(model.link[0].id for model in scene.model)
+    assert tie.id == world.entities.number("joint", "tie") > 0
+
+
 def test_lights_of_the_world_and_of_links(world: World) -> None:
     (sun,) = scene_message(world).light
     assert (sun.type, sun.id) == (Light.DIRECTIONAL, world.entities.number("light", "sun"))

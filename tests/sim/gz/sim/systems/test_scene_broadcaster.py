@@ -119,7 +119,6 @@ def test_dynamic_poses_are_those_of_what_can_move(ear: Callable[..., Ear]) -> No
 def test_nothing_is_made_when_nobody_listens(ear: Callable[..., Ear], monkeypatch: pytest.MonkeyPatch) -> None:
     made = ear(topics={})
     monkeypatch.setattr("gz.sim.scene.graph.SceneGraph.poses", lambda self: pytest.fail("poses were computed"))
-    monkeypatch.setattr("gz.sim.scene.graph.SceneGraph.look", lambda self: None)
     made.world.step(100)
 
 
