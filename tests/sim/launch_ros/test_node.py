@@ -257,7 +257,7 @@ def test_what_cannot_be_executed_ends_the_launch(tell, package, make, words):
         ({"parameters": [{"a": [1, "b"]}]}, "list of int, str"),
         ({"arguments": "one two"}, "arguments must be a list"),
         ({"remappings": ["a:=b"]}, "remappings holds 'a:=b'"),
-        ({"node_name": "a"}, "Node has no argument 'node_name'; did you mean 'name'"),
+        ({"node_name": "a"}, "Node has no argument 'node_name' any more; did you mean 'name'"),
         ({"outputs": "screen"}, "Node has no argument 'outputs'; did you mean 'output'"),
     ],
 )
@@ -269,9 +269,8 @@ def test_arguments_that_make_no_sense(options, words):
 
 def test_packages_and_what_is_in_them(package, performed):
     assert performed(FindPackageShare("my_robot")) == str(package / "share/my_robot")
-    assert (
-        performed(FindPackageShare(["my_", LaunchConfiguration("x")]) / "a", x="robot") == f"{package}/share/my_robot/a"
-    )
+    inside = FindPackageShare(["my_", LaunchConfiguration("x")]) / "a"
+    assert performed(inside, x="robot") == f"{package}/share/my_robot/a"
     assert performed(FindPackagePrefix("my_robot")) == performed(FindPackage("my_robot")) == str(package)
     tell = package / "lib/my_robot/tell"
     assert performed(ExecutableInPackage(package="my_robot", executable="tell")) == str(tell)
