@@ -218,10 +218,17 @@ class _Builder:
             text = f"model '{model.name}' has {len(touching)} links with collisions, more than {MOST_TOUCHING}"
             raise model.element.error(f"{text}; split it into several models")
         jointed = {frozenset((joint.parent, joint.child)) for joint in model.joints}
+        skeletons = {link.name: self._skeleton(scoped(model, link.name)) for link in touching}
         for one, other in itertools.combinations(touching, 2):
-            apart = not (one.self_collide or other.self_collide) or frozenset((one.name, other.name)) in jointed
-            if apart:
+            touch = one.self_collide or other.self_collide or skeletons[one.name] != skeletons[other.name]
+            if not touch or frozenset((one.name, other.name)) in jointed:
                 self._spec.add_exclude(bodyname1=scoped(model, one.name), bodyname2=scoped(model, other.name))
+
+    def _skeleton(self, link: str) -> str:
+        """Return the (nested) model a link moves with: models inside one model that no joint connects can touch."""
+        while link in self._tree.carried and self._tree.carried[link].parent != "world":
+            link = self._tree.carried[link].parent
+        return link.rpartition("::")[0]
 
     def _add_parts(self, body: mujoco.MjsBody, model: Model, link: Link, base: Pose, *, wheel: bool) -> None:
         name = scoped(model, link.name)

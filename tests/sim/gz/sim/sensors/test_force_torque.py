@@ -136,6 +136,18 @@ def test_scales_weigh_what_lies_on_them(listen: Listen) -> None:
     assert forces[:, 1].mean(axis=0) == pytest.approx((0, -0.2 * 3 * GRAVITY, 0), abs=0.01)
 
 
+def test_models_inside_one_model_lie_on_each_other(listen: Listen) -> None:
+    """A scale and a weight, both nested: no joint connects them, so they touch; links of one of them do not."""
+    ground, scale, weight = SCALE.replace("<model", "\0<model").split("\0")
+    inside = scale.replace("'m'", "'scale'") + weight
+    world = sensor_world(f"{ground}<model name='m'>{inside}</model>", "ForceTorque")
+    world.step(1000)
+    heard = listen(world, TOPIC.replace("/joint/", "/model/scale/joint/"), "gz.msgs.Wrench")
+    world.step(200)
+    forces = np.array([read(message)[0] for message in heard])
+    assert forces.mean(axis=0) == pytest.approx((0, 0, (1 + 3) * GRAVITY), abs=0.01)
+
+
 def test_a_link_without_gravity_weighs_nothing(listen: Listen) -> None:
     light = model(sensor(at="0.1 0 0 0 0 0")).replace("<link name='b'>", "<link name='b'><gravity>0</gravity>")
     force, torque = measured(listen, light)
