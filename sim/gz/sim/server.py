@@ -48,6 +48,7 @@ class Server:
         self._clocks = [node.advertise(topic, Clock) for topic in ("/clock", f"/world/{name}/clock")]
         self._stats = [node.advertise(topic, WorldStatistics) for topic in ("/stats", f"/world/{name}/stats")]
         self._factor = 0.0
+        self._pause_began: int | None = None
         self._on_rewind()
         self._services = WorldServices(self)
 
@@ -144,7 +145,7 @@ class Server:
 
     def _wait_paused(self, stop: threading.Event) -> None:
         """Serve clients at once, and tell the time ten times a second, until unpaused or stopped."""
-        began = beat = time.monotonic_ns()
+        self._pause_began = beat = time.monotonic_ns()
         self._factor = 0.0
         self._tell_paused()
         while self.paused and not (stop.is_set() or self.stopped):
@@ -155,7 +156,8 @@ class Server:
             if asked or now - beat >= STATS_PERIOD_NS:
                 beat = now
                 self._tell_paused()
-        self._pause_ns += time.monotonic_ns() - began
+        self._pause_ns = self._pause_time_ns(time.monotonic_ns())
+        self._pause_began = None
 
     def _tell_paused(self) -> None:
         self._publish_stats()
@@ -167,9 +169,17 @@ class Server:
         self._next_stats_ns = self.world.sim_time_ns + STATS_PERIOD_NS
         self._started = time.monotonic_ns()
         self._pause_ns = 0
+        if self._pause_began is not None:
+            self._pause_began = self._started
+
+    def _pause_time_ns(self, now: int) -> int:
+        """Return how long the world has stood still since it began, at the monotonic time `now`."""
+        return self._pause_ns + (now - self._pause_began if self._pause_began is not None else 0)
 
     def _real_time_ns(self) -> int:
-        return time.monotonic_ns() - self._started
+        """Return how long the world has run since it began; as in Gazebo this stands still in a pause."""
+        now = time.monotonic_ns()
+        return now - self._started - self._pause_time_ns(now)
 
     def _publish_clock(self) -> None:
         listened = [publisher for publisher in self._clocks if publisher.has_connections()]
@@ -190,7 +200,7 @@ class Server:
         _fill_time(message.header.stamp, self.world.sim_time_ns)
         _fill_time(message.sim_time, self.world.sim_time_ns)
         _fill_time(message.real_time, self._real_time_ns())
-        _fill_time(message.pause_time, self._pause_ns)
+        _fill_time(message.pause_time, self._pause_time_ns(time.monotonic_ns()))
         _fill_time(message.step_size, self.world.step_size_ns)
         message.paused = self.paused
         message.stepping = self.control.stepping

@@ -26,6 +26,10 @@ from gz.transport import Node
 DEADLINE = 20
 
 
+def nanoseconds(time: Any) -> int:
+    return time.sec * 10**9 + time.nsec
+
+
 class Running:
     """A server that runs in a thread of its own, and what its statistics say."""
 
@@ -101,7 +105,10 @@ def test_reset_rewinds_and_says_itself_whether_it_pauses(running: Running) -> No
     running.control("pause: true, multi_step: 100")
     running.wait(lambda m: m.paused and m.iterations == 100)
     assert running.control("pause: true, reset: {all: true}")
-    assert running.wait(lambda m: m.paused and m.iterations == 0)
+    again = running.wait(lambda m: m.paused and m.iterations == 0)
+    begun = nanoseconds(again.pause_time)
+    later = running.wait(lambda m: nanoseconds(m.pause_time) > begun + 50_000_000)
+    assert nanoseconds(later.real_time) == 0, "real time stands still in a pause"
     running.control("pause: true, multi_step: 50")
     running.wait(lambda m: m.paused and m.iterations == 50)
     assert running.control("reset: {time_only: true}, multi_step: 0"), "as ros_gz does it: pause is false, so it runs"
