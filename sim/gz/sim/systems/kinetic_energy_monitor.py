@@ -1,0 +1,79 @@
+"""KineticEnergyMonitor: tells when a link loses much of its energy of motion in one step, as in a crash.
+
+MuJoCo's state -> `gz.msgs.Double` with the loss (J) on `/model/M/kinetic_energy`, when it is above
+`<kinetic_energy_threshold>` (7).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import mujoco
+import numpy as np
+
+from gz.sim.sdf.description import Model, Plugin
+from gz.sim.systems.model_scope import ModelScope
+from gz.sim.systems.registry import System, UpdateInfo, system
+from gz.sim.systems.topics import valid_topic
+
+if TYPE_CHECKING:
+    from gz.sim.world import World
+    from gz.transport import Node
+
+
+@system("KineticEnergyMonitor", "gz-sim-kinetic-energy-monitor-system")
+class KineticEnergyMonitor(System):
+    """Watches one link, given by `<link_name>`."""
+
+    parameters = frozenset(("link_name", "kinetic_energy_threshold", "topic"))
+
+    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
+        """Read link, threshold and topic; raise `SdfError` when no link is named."""
+        element = plugin.element
+        self.world = world
+        self.scope = ModelScope(world, model, plugin, self.name)
+        if not element.text_of("link_name"):
+            raise element.error("KineticEnergyMonitor needs a <link_name>, none was found")
+        self.links = self.scope.find_links(element)[:1]
+        self._threshold = element.number("kinetic_energy_threshold", 7.0)
+        self.topic = valid_topic(element.text_of("topic"), f"/model/{self.scope.name}/kinetic_energy")
+        self._publisher: Any = None
+
+    def bind(self) -> None:
+        """Find the body."""
+        self._body = self.scope.body(self.links[0].name) if self.links else -1
+
+    def start(self) -> None:
+        """Nothing is known yet about the energy."""
+        self._before: float | None = None
+
+    def connect(self, node: Node) -> None:
+        """Advertise the loss."""
+        from gz.msgs.double_pb2 import Double
+
+        self._type = Double
+        self._publisher = node.advertise(self.topic, Double)
+
+    def energy(self) -> float:
+        """Return the kinetic energy of the link now (J)."""
+        model, data = self.world.model, self.world.data
+        if self._body <= 0:
+            return 0.0
+        self.world.refresh()
+        mujoco.mj_comPos(model, data)
+        mujoco.mj_comVel(model, data)
+        velocity = np.zeros(6)
+        mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_BODY, self._body, velocity, 1)
+        turning = model.body_inertia[self._body] @ velocity[:3] ** 2
+        moving = model.body_mass[self._body] * (velocity[3:] @ velocity[3:])
+        return float(turning + moving) / 2.0
+
+    def post_update(self, info: UpdateInfo) -> None:
+        """Compare with the step before, while somebody listens."""
+        if self._publisher is None or not self._publisher.has_connections():
+            self._before = None
+            return
+        now, before = self.energy(), self._before
+        self._before = now
+        if before is not None and before - now > self._threshold:
+            self._publisher.publish(self._type(data=before - now))
