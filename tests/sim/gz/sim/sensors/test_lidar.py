@@ -28,8 +28,8 @@ _numbers = itertools.count()
 
 def lidar_of(world: World) -> Lidar:
     sensors = next(system for system in world.systems if isinstance(system, Sensors)).sensors
-    assert isinstance(sensors[0], Lidar)
-    return sensors[0]
+    (lidar,) = (sensor for sensor in sensors if isinstance(sensor, Lidar))
+    return lidar
 
 
 def circle(x: float, y: float, radius: float, angle: float) -> float:
