@@ -30,14 +30,22 @@ _PREFIX, _HOST = 12, 4  # bytes of an endpoint's identifier that name its partic
 
 
 class Participants:
-    """The participants of one domain on this machine, as seen by one node."""
+    """The participants of one domain on this machine, as seen by one node.
 
-    def __init__(self, node: Any, domain: int) -> None:
-        self._node = node
+    To be made before the node: its port is the one this process opens meanwhile. Then `attach`.
+    """
+
+    def __init__(self, domain: int) -> None:
+        self._node: Any = None
+        self._others_of_this_process = set(_own_sockets())
         first = _FIRST_PORT + _PORTS_PER_DOMAIN * domain
         self._range = range(first, first + _PORTS_PER_PARTICIPANT * _PARTICIPANTS, _PORTS_PER_PARTICIPANT)
         self._next_scout = 0.0
         self._own_prefix = b""
+
+    def attach(self, node: Any) -> None:
+        """The node has been made."""
+        self._node = node
 
     def all_known(self) -> bool | None:
         """Whether the node has met everybody; sends a scout now and then if not. None: there is no way to tell."""
@@ -63,7 +71,7 @@ class Participants:
         return {port: inode for port, inode in sockets.items() if port in self._range}
 
     def _own_port(self, ports: dict[int, str]) -> int | None:
-        own = set(_own_sockets())
+        own = set(_own_sockets()) - self._others_of_this_process
         return next((port for port, inode in ports.items() if inode in own), None)
 
     def _known(self) -> set[bytes]:

@@ -68,6 +68,7 @@ class Graph:
                 context=self._context,
                 signal_handler_options=SignalHandlerOptions.NO,
             )
+            self._participants = Participants(self._context.get_domain_id())
             self.node: Any = Node(
                 node_name or f"_ros2cli_{os.getpid()}",
                 context=self._context,
@@ -82,7 +83,7 @@ class Graph:
             raise CommandError(f"ROS did not start: {str(error).splitlines()[0]}") from None
         self._executor: Any = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self.node)
-        self._participants = Participants(self.node, self._context.get_domain_id())
+        self._participants.attach(self.node)
         self._born = time.monotonic()
         self._seen: Any = None
         self._changed = self._born
