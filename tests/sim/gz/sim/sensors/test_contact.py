@@ -69,6 +69,21 @@ def test_the_other_side_feels_the_opposite(listen: Listen) -> None:
     assert pushed == pytest.approx((0, 0, -2 * 9.8), abs=1e-3)
 
 
+def test_a_shape_of_several_parts_is_one_collision(listen: Listen) -> None:
+    corners = ((0, 0), (1, 0), (1, 0.2), (0.2, 0.2), (0.2, 1), (0, 1))
+    points = "".join(f"<point>{x} {y}</point>" for x, y in corners)
+    polyline = f"<geometry><polyline>{points}<height>0.1</height></polyline></geometry>"
+    angle = f"<collision name='c'><pose>-0.3 -0.3 0 0 0 0</pose>{polyline}</collision>"
+    world = sensor_world(GROUND + model(angle + sensor("c"), "0 0 0.05 0 0 0"), "Contact")
+    assert (world.model.geom_group == 3).sum() > 2, "the ground and at least two convex parts"
+    heard = listen(world, TOPIC, "gz.msgs.Contacts")
+    world.step(500)
+    (contact,) = heard[-1].contact
+    assert (contact.collision1.name, contact.collision2.name) == ("m::l::c", "ground_plane::link::collision")
+    pushed = vectors([wrench.body_1_wrench.force for wrench in contact.wrench]).sum(axis=0)
+    assert len(contact.wrench) > 4 and pushed == pytest.approx((0, 0, 2 * 9.8), abs=0.05)
+
+
 def test_friction_is_part_of_the_force(listen: Listen) -> None:
     angle = 0.3
     slope = (
