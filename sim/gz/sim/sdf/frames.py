@@ -37,7 +37,6 @@ class Scope:
     frames: dict[str, _Frame] = field(default_factory=dict)
     nested: dict[str, Scope] = field(default_factory=dict)
     placed: dict[str, Pose] = field(default_factory=dict)
-    _busy: list[str] = field(default_factory=list)
 
     def add(
         self,
@@ -71,27 +70,33 @@ class Scope:
         """Return the pose of frame `name` in this scope's frame; `asker` is blamed when the name is
         unknown.
         """
-        if name == self.own or (name == "__model__" and self.own == "world"):
-            return IDENTITY
-        if "::" in name:
-            outer, _, inner = name.partition("::")
-            if outer not in self.nested:
-                raise self._unknown(outer, asker)
-            return self.pose_of(outer, asker) * self.nested[outer].pose_of(inner, asker)
-        if name in self.placed:
-            return self.placed[name]
-        frame = self.frames.get(name)
-        if frame is None:
-            raise self._unknown(name, asker)
-        if name in self._busy:
-            chain = " -> ".join([*self._busy[self._busy.index(name) :], name])
-            raise frame.element.error(f"the poses of these frames depend on each other in a circle: {chain}")
-        self._busy.append(name)
-        try:
-            pose = self.pose_of(frame.relative_to, frame.element) * frame.pose
-        finally:
-            self._busy.pop()
-        self.placed[name] = pose
+        chain: dict[str, tuple[Pose, Element]] = {}
+        while True:
+            if name == self.own or (name == "__model__" and self.own == "world"):
+                pose = IDENTITY
+                break
+            if name in self.placed:
+                pose = self.placed[name]
+                break
+            if name in chain:
+                names = list(chain)
+                circle = " -> ".join([*names[names.index(name) :], name])
+                raise chain[name][1].error(f"the poses of these frames depend on each other in a circle: {circle}")
+            outer, scoped, inner = name.partition("::")
+            if scoped:
+                if outer not in self.nested:
+                    raise self._unknown(outer, asker)
+                chain[name] = (self.nested[outer].pose_of(inner, asker), asker)
+                name = outer
+                continue
+            frame = self.frames.get(name)
+            if frame is None:
+                raise self._unknown(name, asker)
+            chain[name] = (frame.pose, frame.element)
+            name, asker = frame.relative_to, frame.element
+        for key, (step, _) in reversed(chain.items()):
+            pose = pose * step
+            self.placed[key] = pose
         return pose
 
     def link_behind(self, name: str, asker: Element) -> str:
