@@ -18,10 +18,11 @@ import numpy as np
 from gz.sim.errors import Diagnostics, SimError, nearest
 from gz.sim.physics.builder import scoped
 from gz.sim.pose import Pose, multiply, rotate
-from gz.sim.sdf.description import Collision, Light, Model, Visual, WorldDescription
+from gz.sim.sdf.description import Collision, Light, Model, Visual
 from gz.sim.sdf.reader import read_model
 from gz.sim.spherical_coordinates import SphericalCoordinates
 from gz.sim.system_manager import SystemManager, refuse_inside_step
+from gz.sim.truth import Truth
 
 if TYPE_CHECKING:
     from gz.sim.entities import Entities
@@ -32,22 +33,16 @@ DEEP_M = 0.01
 SPAWNED_FILE = "<spawned>"
 
 
-class Editing:
+class Editing(Truth):
     """The methods of World that change what is in it."""
 
-    description: WorldDescription
     diagnostics: Diagnostics
     entities: Entities
     requests: Requests
-    model: mujoco.MjModel
-    data: mujoco.MjData
-    _models: dict[str, Model]
-    _refreshed: int
     _manager: SystemManager
-    _rebuild: Callable[[], None]
-    pose: Callable[[str], Pose]
-    _model: Callable[[str], Model]
-    name: Any
+
+    def _rebuild(self) -> None:
+        raise NotImplementedError
 
     def _begin_editing(self) -> None:
         """Remember the world as it is now: this is what a reset brings back."""
@@ -212,9 +207,9 @@ class Editing:
         self._refreshed = -1
 
     def _set_link_pose(self, model: Model, link: str, pose: Pose) -> None:
-        found = self._link(model, link)  # type: ignore[attr-defined]
+        found = self._link(model, link)
         body = mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_BODY, scoped(model, link))
-        now = self._link_pose(model, found)  # type: ignore[attr-defined]
+        now = self._link_pose(model, found)
         if body < 0 or not self._move_body(body, pose * now.inverse()):
             raise SimError(
                 f"link '{link}' of model '{model.name}' hangs on a joint or on the world, so it cannot be set "

@@ -28,7 +28,7 @@ from gz.sim.sdf.reader import read_world, read_world_file
 from gz.sim.sdf.resources import find_world
 from gz.sim.system_manager import SystemManager, default_plugins, refuse_inside_step
 from gz.sim.systems.registry import System, UpdateInfo
-from gz.sim.truth import JointAddress, Truth
+from gz.sim.truth import JointAddress
 
 if TYPE_CHECKING:
     from gz.transport import Node
@@ -38,7 +38,7 @@ __all__ = ["JointAddress", "World"]
 SHORTEST_STEP_NS, LONGEST_STEP_NS = 1_000, 100_000_000
 
 
-class World(Truth, Editing):
+class World(Editing):
     """One world: its description, its MuJoCo model and data, its systems and its clock.
 
     It belongs to the thread that steps it; other threads go through `requests`.
