@@ -2,9 +2,9 @@
 
 `from gz.msgs.twist_pb2 import Twist` works as with the official package; `message_class("gz.msgs.Twist")`
 finds a class by the type name that travels with every message. The definitions are the texts in `proto/`, one
-file for each file of gz-msgs 10 (Harmonic), with all its messages and fields; a file is read, with those it imports,
-when a class of it is wanted. `proto/fortress/` holds what was different in Fortress. Nothing else of this project is
-imported from here.
+file for each file of gz-msgs 10 (Harmonic); a file is read, with those it imports, when a class of it is wanted. What
+Fortress has too is compared with it, number by number, in `tests/conformance`; what only Harmonic has is not.
+`proto/fortress/` holds what was different in Fortress. Nothing else of this project is imported from here.
 """
 
 from gz.msgs.pb2_modules import PROTO_MODULES
