@@ -142,11 +142,10 @@ def robot(ros_domain):
     The node /robot/idle does not, and so its service /robot/silent does not answer.
     """
     import rclpy
-    from geometry_msgs.msg import Twist
+    from geometry_msgs.msg import PointStamped, Twist
     from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
     from rclpy.executors import SingleThreadedExecutor
     from rclpy.parameter import Parameter
-    from std_msgs.msg import Header
     from std_srvs.srv import SetBool, Trigger
 
     context = rclpy.Context()
@@ -169,7 +168,7 @@ def robot(ros_domain):
     declare("gone", 5, ParameterDescriptor(dynamic_typing=True))
     declare("unset", Parameter.Type.INTEGER)
     node.create_subscription(Twist, "cmd_vel", lambda message: None, 10)
-    stamped = node.create_publisher(Header, "/stamped", 10)
+    stamped = node.create_publisher(PointStamped, "/stamped", 10)
 
     def enable(request, response):
         response.success, response.message = request.data, "as you wish"
@@ -178,7 +177,13 @@ def robot(ros_domain):
     node.create_service(SetBool, "enable", enable)
     idle = rclpy.create_node("idle", namespace="/robot", context=context, start_parameter_services=False)
     idle.create_service(Trigger, "silent", lambda request, response: response)  # nobody spins it
-    node.create_timer(0.1, lambda: stamped.publish(Header(stamp=node.get_clock().now().to_msg())))
+
+    def publish():
+        point = PointStamped()
+        point.header.stamp = node.get_clock().now().to_msg()
+        stamped.publish(point)
+
+    node.create_timer(0.1, publish)
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
     thread = threading.Thread(target=executor.spin)

@@ -41,7 +41,7 @@ def test_packages_executables_and_interfaces():
 
 def test_names_of_the_live_graph(robot):
     assert offered("topic", "echo", "/stam") == ["/stamped"]
-    assert offered("topic", "pub", "/stamped", "std") == ["std_msgs/msg/Header"]
+    assert offered("topic", "pub", "/stamped", "geo") == ["geometry_msgs/msg/PointStamped"]
     assert offered("node", "info", "/robot/dr") == ["/robot/driver"]
     assert offered("service", "call", "/robot/en") == ["/robot/enable"]
     assert offered("service", "call", "/robot/enable", "") == ["std_srvs/srv/SetBool"]

@@ -117,9 +117,9 @@ def test_what_cannot_be_launched_is_exit_code_1(ros2, package, write, tmp_path, 
 @pytest.mark.parametrize(
     ("entities", "sentence"),
     [
-        ("robot", "{}/robot.launch.py:11: NameError: name 'robot' is not defined"),
+        ("robot", "{}/robot.launch.py:12: NameError: name 'robot' is not defined"),
         ('DeclareLaunchArgument("x")', "Included launch description missing required argument 'x'"),
-        ('Node(package="my_robot", executable="drivr")', "{}/robot.launch.py:11: executable 'drivr' not found"),
+        ('Node(package="my_robot", executable="drivr")', "{}/robot.launch.py:12: executable 'drivr' not found"),
         ('Node(package="my_robt", executable="driver")', "; did you mean 'my_robot'?"),
         ('ExecuteProcess(cmd=["true"]), OpaqueFunction(function=lambda c: 1 / 0)', "ZeroDivisionError"),
     ],
@@ -219,7 +219,7 @@ def test_on_a_terminal_ctrl_c_needs_no_explanation(start, write):
         "-c",
         "import os, pty, sys; sys.exit(os.waitstatus_to_exitcode(pty.spawn(sys.argv[1:])))",
     )
-    command = start(*(sys.executable, "-m", "ros2", "launch", path), command=terminal, stdin=subprocess.PIPE, text=True)
+    command = start(*(sys.executable, "-m", "ros2", "launch", path), command=terminal, stdin=subprocess.PIPE)
     command.wait_for("[sh-1] up")
     command.process.stdin.write("\x03")
     command.process.stdin.flush()

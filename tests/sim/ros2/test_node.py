@@ -43,7 +43,7 @@ def test_info_tells_what_the_node_has_in_this_order(answers):
         "/robot/driver\n"
         "  Subscribers:\n    /robot/cmd_vel: geometry_msgs/msg/Twist\n"
         "  Publishers:\n    /parameter_events: rcl_interfaces/msg/ParameterEvent\n"
-        "    /rosout: rcl_interfaces/msg/Log\n    /stamped: std_msgs/msg/Header\n"
+        "    /rosout: rcl_interfaces/msg/Log\n    /stamped: geometry_msgs/msg/PointStamped\n"
         f"  Service Servers:\n{services}"
         "    /robot/enable: std_srvs/srv/SetBool\n"
         "  Service Clients:\n\n  Action Servers:\n\n  Action Clients:\n\n",
