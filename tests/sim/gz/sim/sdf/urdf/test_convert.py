@@ -65,6 +65,21 @@ def test_what_hangs_on_a_lumped_link_hangs_on_its_body() -> None:
     assert (spin.axis.lower, spin.axis.upper) == (-UNLIMITED, UNLIMITED)
 
 
+def test_lumped_links_are_placed_along_their_chain_and_numbered_by_the_names_of_their_joints() -> None:
+    shape = f"<collision>{BOX}</collision>"
+    quarter = f"<origin xyz='1 0 0' rpy='0 0 {math.pi / 2}'/>"
+    model, _ = read(
+        "".join(f"<link name='{name}'>{MASS.format(1)}{shape}</link>" for name in ("base", "one", "two", "three"))
+        + joint("z", "fixed", "base", "one", quarter) + joint("y", "fixed", "one", "two", "<origin xyz='0 3 0'/>")
+        + joint("a", "fixed", "base", "three")
+    )  # fmt: skip
+    parts = {part.name: part for part in model.links[0].collisions}
+    lumped = "base_fixed_joint_lump__{}_collision_{}"
+    assert list(parts) == ["base_collision", *(lumped.format(*each) for each in (("three", 1), ("one", 2), ("two", 3)))]
+    assert parts[lumped.format("two", 3)].pose.position == pytest.approx((-2, 0, 0))
+    assert parts[lumped.format("two", 3)].pose.yaw() == pytest.approx(math.pi / 2)
+
+
 @pytest.mark.parametrize(("word", "kind"), [("preserveFixedJoint", "fixed"), ("disableFixedJointLumping", "revolute")])
 def test_a_fixed_joint_can_be_kept(word: str, kind: str) -> None:
     model, _ = read(
