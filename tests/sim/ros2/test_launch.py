@@ -5,7 +5,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 import uuid
 from pathlib import Path
 
@@ -320,15 +319,13 @@ def test_simulator_bridge_and_node_drive_a_robot_and_end_together(start, workspa
     command.wait_for("[driver-3] the robot has moved")
     children = psutil.Process(command.process.pid).children(recursive=True)
     assert len(children) == 3
-    interrupted = time.monotonic()
     command.process.send_signal(signal.SIGINT)
     code, text, errors = command.wait()
-    took = time.monotonic() - interrupted
     assert (code, errors) == (0, "")
     assert psutil.wait_procs(children, 0)[1] == []
     for label in ("gazebo-1", "parameter_bridge-2", "driver-3"):
         assert f"[INFO] [{label}]: process has finished cleanly" in text
-    assert took < 2.0
+    assert "escalating" not in text
 
 
 @pytest.mark.skipif(not SEEDS.is_dir(), reason="the textbook's files are not here")

@@ -1,0 +1,88 @@
+"""Where a real launch is installed or sourced, it is the one that is imported; ours is only there for want of it."""
+
+import os
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[3]
+SIM = ROOT / "sim"
+HOOK = "gz_ros2_course_prefix.pth"
+FALLBACK = "gz_ros2_course_fallback"
+
+
+def python(*options, code, **environment):
+    """(stdout, last line of stderr) of a Python that executes some code."""
+    done = subprocess.run(
+        [sys.executable, *options, "-c", code],
+        env={**os.environ, **environment},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    return done.stdout.strip(), done.stderr.strip().rpartition("\n")[2]
+
+
+@pytest.fixture
+def real(tmp_path):
+    """A folder with a package launch that is not ours."""
+    folder = tmp_path / "real"
+    (folder / "launch").mkdir(parents=True)
+    (folder / "launch/__init__.py").write_text("who = 'real'\n")
+    return folder
+
+
+@pytest.fixture
+def installed(tmp_path):
+    """A site-packages folder as the wheel makes it."""
+    site = tmp_path / "site"
+    (site / FALLBACK).mkdir(parents=True)
+    (site / HOOK).write_text((SIM / "prefix" / HOOK).read_text())
+    (site / "prefix").symlink_to(SIM / "prefix")
+    for name in ("launch", "launch_ros"):
+        (site / FALLBACK / name).symlink_to(SIM / name)
+    return site
+
+
+def test_a_sourced_launch_wins(real):
+    assert python(code="import launch; print(launch.who)", PYTHONPATH=str(real)) == ("real", "")
+
+
+def test_a_launch_installed_beside_ours_wins(real, installed):
+    code = f"import site; site.addsitedir({str(installed)!r}); import launch; print(launch.__file__)"
+    assert python("-S", code=code) == (str(installed / FALLBACK / "launch/__init__.py"), "")
+    (real / "launch").rename(installed / "launch")
+    assert python("-S", code=code) == (str(installed / "launch/__init__.py"), "")
+
+
+def test_the_wheel_puts_ours_where_it_is_found_last():
+    wheel = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["hatch"]["build"]["targets"]["wheel"]
+    assert FALLBACK in (SIM / "prefix" / HOOK).read_text().splitlines()
+    for name in ("launch", "launch_ros"):
+        assert f"sim/{name}" in wheel["only-include"]
+        assert wheel["sources"][f"sim/{name}"] == f"{FALLBACK}/{name}"
+
+
+def test_our_launch_ros_does_not_build_on_a_launch_of_others(real):
+    text, error = python(code="import launch_ros", PYTHONPATH=str(real))
+    assert text == ""
+    assert error.startswith(f"ImportError: launch comes from {real / 'launch'}, but no launch_ros stands beside it")
+
+
+def test_a_folder_named_launch_is_no_launch(tmp_path):
+    (tmp_path / "launch").mkdir()
+    (tmp_path / "launch/robot.launch.py").touch()
+    text, _ = python(
+        code=f"import os; os.chdir({str(tmp_path)!r}); import launch; print(launch.LaunchService.__name__)"
+    )
+    assert text == "LaunchService"
+
+
+@pytest.mark.parametrize("package", ["launch", "launch_ros"])
+def test_an_import_loads_nothing_heavy(package):
+    text, _ = python(code=f"import {package}, sys; print({{'rclpy', 'numpy', 'mujoco', 'psutil'}} & set(sys.modules))")
+    assert text == "set()"
