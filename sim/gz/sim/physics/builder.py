@@ -17,7 +17,7 @@ import numpy as np
 from gz.sim.errors import Diagnostics
 from gz.sim.physics import recipe
 from gz.sim.physics.geoms import COLLISION_GROUP, SITE_GROUP, VISUAL_GROUP, VISUAL_SUFFIX, Geoms
-from gz.sim.physics.joints import add_gearbox, add_joint, add_loop, add_mimics, displacement, link_map
+from gz.sim.physics.joints import add_gearbox, add_joint, add_loop, add_mimics, displacement, gears, link_map
 from gz.sim.physics.lights import add_light
 from gz.sim.physics.servos import WHEEL, JointServo, add_servo
 from gz.sim.pose import Pose, multiply
@@ -54,10 +54,13 @@ class _Edge:
 
 @dataclass(eq=False)
 class _Tree:
-    """Which joint carries each link, which joints are left over, which joints have become MuJoCo's."""
+    """Which joint carries each link, which joints are left over, which gearboxes couple which hinges, which joints have
+    become MuJoCo's.
+    """
 
     carried: dict[str, _Edge] = field(default_factory=dict)
     loops: list[_Edge] = field(default_factory=list)
+    geared: list[tuple[_Edge, tuple[str, str, float]]] = field(default_factory=list)
     built: dict[str, Joint] = field(default_factory=dict)
 
 
@@ -84,6 +87,9 @@ class _Builder:
         self._add_bodies()
         for edge in self._tree.loops:
             self._close(edge)
+        for edge, found in self._tree.geared:
+            assert edge.model is not None
+            add_gearbox(spec, edge.model, edge.joint, found, self._step)
         for model in world.models:
             if not model.static:
                 self._finish(model)
@@ -105,15 +111,35 @@ class _Builder:
         return [edge for edge in found if not (self._is_fixed(edge.child) and self._is_fixed(edge.parent))]
 
     def _choose_tree(self) -> None:
-        """The first joint onto a link carries it; others close loops. A gearbox carries what nothing else does."""
+        """The first joint onto a link carries it; others close loops. A gearbox that cannot turn carries what nothing
+        else does, like a fixed joint.
+        """
         carried = self._tree.carried
-        edges = self._edges()
-        for edge in sorted(edges, key=lambda each: each.joint.kind == "gearbox"):
+        for edge in sorted(self._edges(), key=lambda each: each.joint.kind == "gearbox"):
             held = self._is_fixed(edge.child) or self._links[edge.child][1].static
-            if edge.child in carried or held or self._closes_circle(edge) or edge.joint.kind == "gearbox":
+            taken = edge.child in carried or held or self._closes_circle(edge)
+            if edge.joint.kind == "gearbox":
+                turns = self._gear(edge)
+                if turns or taken:
+                    continue
+            if taken:
                 self._tree.loops.append(edge)
             else:
                 carried[edge.child] = edge
+
+    def _gear(self, edge: _Edge) -> bool:
+        """Tell whether a gearbox has its two hinges (they are coupled when all joints are built)."""
+        hinges = [other.joint for other in self._tree.carried.values() if other.model is edge.model]
+        found = None if edge.model is None else gears(edge.model, edge.joint, hinges)
+        if found is None:
+            self._diagnostics.warn(
+                edge.joint.element.where,
+                f"gearbox '{edge.joint.name}' needs revolute joints from its <gearbox_reference_body> to both links; "
+                "it does not turn",
+            )
+            return False
+        self._tree.geared.append((edge, found))
+        return True
 
     def _closes_circle(self, edge: _Edge) -> bool:
         link = edge.parent
@@ -191,12 +217,6 @@ class _Builder:
         body.iquat = multiply(inertial.pose.quaternion, turn)
 
     def _close(self, edge: _Edge) -> None:
-        if edge.joint.kind == "gearbox":
-            fits = edge.model is not None and add_gearbox(
-                self._spec, edge.model, edge.joint, self._tree.built.values(), self._diagnostics, self._step
-            )
-            if fits or edge.child in self._tree.carried:
-                return
         ends = [self._end(edge.child), self._end(edge.parent)]
         add_loop(self._spec, edge.name, edge.joint, ends[0], ends[1], self._diagnostics)
 

@@ -12,7 +12,7 @@ import warnings
 import mujoco
 
 from gz.sim.errors import Diagnostics, SdfError
-from gz.sim.sdf.description import Model, WorldDescription
+from gz.sim.sdf.description import Collision, Light, Model, Sensor, Visual, WorldDescription
 from gz.sim.sdf.element import Element
 
 _NAMED = re.compile(r"Element name '([^']*)'")
@@ -60,7 +60,13 @@ def _part(model: Model, name: str) -> tuple[str, Element]:
     for link in model.links:
         if link.name == name:
             return f"link '{name}' of model '{model.name}'", link.element
-        for part in (*link.collisions, *link.visuals, *link.sensors, *link.lights):
+        parts: list[Collision | Visual | Sensor | Light] = [
+            *link.collisions,
+            *link.visuals,
+            *link.sensors,
+            *link.lights,
+        ]
+        for part in parts:
             if f"{link.name}::{part.name}" == name:
                 return f"<{part.element.tag}> '{part.name}' of link '{link.name}'", part.element
     for joint in model.joints:

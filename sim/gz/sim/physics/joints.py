@@ -108,32 +108,29 @@ def add_mimics(spec: mujoco.MjSpec, model: Model, built: Mapping[str, Joint], st
             _couple(spec, f"{follower}#mimic", follower, other, (start, mimic.multiplier), step)
 
 
-def add_gearbox(
-    spec: mujoco.MjSpec, model: Model, joint: Joint, built: Iterable[Joint], diagnostics: Diagnostics, step: float
-) -> bool:
-    """Couple the two hinges of a gearbox: child angle = -ratio * parent angle, both from the reference body. Return
-    False (after a warning) when the links do not turn on that body.
+def gears(model: Model, joint: Joint, hinges: Iterable[Joint]) -> tuple[str, str, float] | None:
+    """Return the follower and the leader of a gearbox among the `hinges` of the tree (names) and the ratio of their
+    angles: child angle = -gearbox ratio * parent angle, both seen from the reference body. None when its links do not
+    turn on that body.
     """
-    hinges = list(built)
-    ends = []
-    for link, axis in ((joint.parent, joint.axis), (joint.child, joint.axis2)):
-        found = next(
-            (h for h in hinges if h.kind in TURNING and {h.parent, h.child} == {link, joint.gearbox_reference}), None
-        )
+    candidates = list(hinges)
+    ends: list[tuple[str, float]] = []
+    for link, axis in ((joint.child, joint.axis2), (joint.parent, joint.axis)):
+        both = {link, joint.gearbox_reference}
+        found = next((h for h in candidates if h.kind in TURNING and {h.parent, h.child} == both), None)
         if found is None or axis is None or found.axis is None:
-            diagnostics.warn(
-                joint.element.where,
-                f"gearbox '{joint.name}' needs revolute joints from its <gearbox_reference_body> to both links; "
-                "it is left out",
-            )
-            return False
+            return None
         along = float(np.dot(_in_model(model, found.child, found.axis), _in_model(model, joint.child, axis)))
-        ends.append((found, math.copysign(1.0, along) * (1.0 if found.child == link else -1.0)))
-    (first, first_sign), (second, second_sign) = ends
-    line = (0.0, -joint.gearbox_ratio * first_sign * second_sign)
+        ends.append((found.name, math.copysign(1.0, along) * (1.0 if found.child == link else -1.0)))
+    (follower, one), (leader, other) = ends
+    return follower, leader, -joint.gearbox_ratio * one * other
+
+
+def add_gearbox(spec: mujoco.MjSpec, model: Model, joint: Joint, found: tuple[str, str, float], step: float) -> None:
+    """Couple the two hinges that `gears` found."""
+    follower, leader, ratio = found
     name = f"{model.name}::{joint.name}"
-    _couple(spec, name, f"{model.name}::{second.name}", f"{model.name}::{first.name}", line, step)
-    return True
+    _couple(spec, name, f"{model.name}::{follower}", f"{model.name}::{leader}", (0.0, ratio), step)
 
 
 def _in_model(model: Model, link: str, axis: Axis) -> np.ndarray:

@@ -74,6 +74,11 @@ def _warn_of_what_is_missing(element: Element, model: Model, diagnostics: Diagno
         diagnostics.warn(kinematic.where, f"link '{element.name}' is not held kinematic, forces move it; use <static>")
     if element.find("inertial/fluid_added_mass") is not None:
         diagnostics.warn(element.where, f"<fluid_added_mass> of link '{element.name}' is ignored: there are no fluids")
+    decay = element.find("velocity_decay")
+    if decay is not None and (decay.number("linear", 0.0) or decay.number("angular", 0.0)):
+        diagnostics.warn(
+            decay.where, f"<velocity_decay> of link '{element.name}' is ignored: nothing slows it down in air"
+        )
     for part in element.all("projector", "audio_source", "audio_sink", "battery", "particle_emitter"):
         text = f"<{part.tag}> is not simulated here, link '{element.name}' goes without"
         diagnostics.warn(part.where, text)

@@ -132,6 +132,10 @@ def read_friction(collision: Element, diagnostics: Diagnostics) -> float:
     bounce = collision.find("surface/bounce")
     if bounce is not None and bounce.number("restitution_coefficient", 0.0) > 0.0:
         diagnostics.warn(bounce.where, f"<bounce> is not simulated, collision '{collision.name}' does not bounce")
+    contact = collision.find("surface/contact")
+    if contact is not None and contact.flag("collide_without_contact", False):
+        text = f"<collide_without_contact> is not simulated, collision '{collision.name}' pushes what it touches"
+        diagnostics.warn(contact.where, text)
     return min(mu, 1e6)
 
 

@@ -45,6 +45,11 @@ def read_world(text: str, file: str, diagnostics: Diagnostics) -> WorldDescripti
     """Read the world of an SDF text; `file` names it in messages and is where relative includes start."""
     root = read_root(text, file, diagnostics)
     world = root.find("world")
+    if world is None and root.find("model") is not None:
+        raise root.error(
+            "the file holds a model, not a world: name it in the <include><uri> of a world, or create it in a running "
+            "one (service /world/WORLD/create)"
+        )
     if world is None:
         raise root.error("the file has no <world>; a world file reads <sdf version='1.10'><world name='...'>")
     if not world.name:
@@ -99,6 +104,9 @@ class _WorldReader:
         if not all(map(math.isfinite, description.magnetic_field)):
             raise world.error("<magnetic_field> must be finite")
         self._read_physics(world, description)
+        wind = world.find("wind")
+        if wind is not None and any(wind.vector("linear_velocity", (0.0, 0.0, 0.0))):
+            self._diagnostics.warn(wind.where, "<wind> is not simulated here, the air stands still")
         scene = world.find("scene")
         if scene is not None:
             description.ambient = read_rgb(scene, "ambient", description.ambient)

@@ -50,6 +50,21 @@ def test_shapes_rest_on_the_floor(load_text: Load, tmp_path: Path, geometry: str
     assert np.abs(world.pose("m").rpy()) == pytest.approx((0, 0, 0), abs=2e-3)
 
 
+@pytest.mark.parametrize(
+    ("geometry", "share"),
+    [
+        ("<cylinder><radius>0.5</radius><length>1</length></cylinder>", 2 / 3),
+        ("<sphere><radius>0.5</radius></sphere>", 5 / 7),
+    ],
+)
+def test_shapes_roll_down_a_slope_as_their_automatic_inertia_says(load_text: Load, geometry: str, share: float) -> None:
+    slope = FLOOR.replace("<link ", "<pose>0 0 0 0 -0.3 0</pose><link ")
+    world = load_text(slope + body("m", f"0 0 {0.5 / np.cos(0.3)} 1.5707963267948966 0 0", geometry))
+    world.step(1000)
+    travelled = float(np.linalg.norm(world.pose("m").position - (0, 0, 0.5 / np.cos(0.3))))
+    assert travelled == pytest.approx(0.5 * share * 9.8 * np.sin(0.3), rel=0.01)
+
+
 def test_equal_meshes_are_one_asset(load_text: Load, tmp_path: Path) -> None:
     write_stl(tmp_path / "t.stl")
     mesh = f"<mesh><uri>{tmp_path}/t.stl</uri></mesh>"

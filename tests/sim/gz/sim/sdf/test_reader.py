@@ -193,6 +193,74 @@ def test_shapes_that_are_not_built_are_named(load_text: Callable[..., World]) ->
     assert any("<image> geometry is not simulated" in warning for warning in world.warnings)
 
 
+def body(inside: str, link: str = "") -> str:
+    shape = "<geometry><sphere><radius>1</radius></sphere></geometry>"
+    surface = f"<collision name='c'>{shape}<surface>{inside}</surface></collision>" if inside else ""
+    return f"<model name='m'><link name='l'>{surface}{link}</link></model>"
+
+
+@pytest.mark.parametrize(
+    ("inside", "sentence"),
+    [
+        (body("<friction><ode><mu>1</mu><mu2>0.5</mu2></ode></friction>"), "friction is the same in all directions"),
+        (body("<friction><ode><mu>1</mu><mu2>1</mu2><slip1>0.1</slip1></ode></friction>"), "<slip1> 0.1"),
+        (body("<bounce><restitution_coefficient>0.5</restitution_coefficient></bounce>"), "does not bounce"),
+        (body("<contact><collide_without_contact>1</collide_without_contact></contact>"), "pushes what it touches"),
+        (body("", "<kinematic>true</kinematic>"), "not held kinematic"),
+        (body("", "<velocity_decay><linear>0.1</linear></velocity_decay>"), "<velocity_decay>"),
+        (body("", "<particle_emitter name='p' type='box'/>"), "<particle_emitter> is not simulated"),
+        (body("", "<projector name='p'/>"), "<projector> is not simulated"),
+        (body("", "<inertial><fluid_added_mass/></inertial>"), "no fluids"),
+        ("<actor name='a'/>", "<actor> is not simulated"),
+        ("<wind><linear_velocity>1 0 0</linear_velocity></wind>", "<wind> is not simulated"),
+        ("<model name='m'><link name='l'/><gripper name='g'/></model>", "grippers"),
+        ("<light name='x' type='sopt'/>", "did you mean 'spot'"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_carried_is_said_once_and_the_rest_runs(inside: str, sentence: str) -> None:
+    again = inside
+    for one, other in (("'m'", "'n'"), ("'a'", "'b'"), ("'x'", "'y'")):
+        again = again.replace(f"name={one}", f"name={other}")
+    _, warnings = read(inside + again)
+    assert 1 <= len(warnings) <= 2 and sentence in warnings[0] and warnings[0].startswith("f.sdf:3: ")
+
+
+@pytest.mark.parametrize(
+    "inside",
+    [
+        body("<friction><ode><mu>1</mu><mu2>1</mu2><fdir1>0 0 0</fdir1><slip1>0</slip1></ode></friction>"),
+        body("<friction><ode><mu>1</mu><mu2>1</mu2><fdir1>1 0 0</fdir1></ode></friction>"),
+        body("", "<velocity_decay><linear>0</linear></velocity_decay>"),
+        "<wind><linear_velocity>0 0 0</linear_velocity></wind>",
+    ],
+)
+def test_values_that_change_nothing_are_not_mentioned(inside: str) -> None:
+    assert read(inside)[1] == []
+
+
+@pytest.mark.parametrize(
+    ("material", "rgba"),
+    [
+        ("", (0.7, 0.7, 0.7, 1)),
+        ("<material><ambient>0 1 0 1</ambient></material>", (0, 1, 0, 1)),
+        ("<material><ambient>0 1 0 1</ambient><diffuse>1 0 0</diffuse></material>", (1, 0, 0, 1)),
+        ("<material><diffuse>1 2 -1 0.5</diffuse></material><transparency>0.5</transparency>", (1, 1, 0, 0.25)),
+        ("<material><script><name>Gazebo/Blue</name></script></material>", (0, 0, 1, 1)),
+        ("<material><script>Gazebo/RedTransparent</script></material>", (1, 0, 0, 0.5)),
+    ],
+)
+def test_colours(material: str, rgba: tuple[float, ...]) -> None:
+    shape = "<geometry><sphere><radius>1</radius></sphere></geometry>"
+    world, warnings = read(f"<model name='m'><link name='l'><visual name='v'>{shape}{material}</visual></link></model>")
+    assert world.models[0].links[0].visuals[0].rgba == pytest.approx(rgba) and warnings == []  # type: ignore[attr-defined]
+
+
+def test_of_several_physics_profiles_the_default_one_counts() -> None:
+    profile = "<physics name='{}' type='x'{}><max_step_size>{}</max_step_size></physics>"
+    world, _ = read(profile.format("a", "", 0.002) + profile.format("b", " default='true'", 0.004))
+    assert world.step_size_ns == 4_000_000  # type: ignore[attr-defined]
+
+
 @settings(suppress_health_check=[HealthCheck.too_slow], deadline=None, max_examples=150)
 @given(
     st.integers(0, len(ROOM) - 1),
