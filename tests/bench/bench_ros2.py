@@ -10,13 +10,13 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
+from grader.run.domain import Domain
 from tests.bench.row import Row
 
 ROS2 = Path(sys.executable).with_name("ros2")
 RUNS = 15
 NODES = 3
 RATE = 0.02  # s between two messages
-DOMAIN = "97"
 
 
 def whole_run(command: list, wanted: str = "") -> float:
@@ -29,8 +29,12 @@ def whole_run(command: list, wanted: str = "") -> float:
 
 
 def rows() -> Iterator[Row]:
-    with tempfile.TemporaryDirectory() as logs:
-        os.environ |= {"ROS_DOMAIN_ID": DOMAIN, "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", "ROS_LOG_DIR": logs}
+    with tempfile.TemporaryDirectory() as logs, Domain() as domain:
+        os.environ |= {
+            "ROS_DOMAIN_ID": str(domain.id),
+            "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+            "ROS_LOG_DIR": logs,
+        }
         os.environ.setdefault("FASTDDS_BUILTIN_TRANSPORTS", "UDPv4")
         yield from _rows()
 

@@ -60,7 +60,7 @@ def ros_domain(tmp_path_factory):
     numbers = list(range(1, 102))
     random.shuffle(numbers)
     for number in numbers:
-        lock = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        lock = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
         try:
             lock.bind(f"\0gz-ros2-course-domain-{number}")
             break
