@@ -83,13 +83,13 @@ class DiffDrive(System):
         self._sides = [_joints(model, plugin, side) for side in ("left_joint", "right_joint")]
         for side in self._sides:
             if _skids(model, side, radius):
-                text = (
-                    f"DiffDrive of model '{scope.full_name}' has wheels one behind the other, so it must skid to turn; "
+                text = f"DiffDrive of model '{scope.full_name}' has wheels one behind the other: it must skid to turn; "
+                text += (
+                    "tyres grip alike in all directions here (<slip1>, <slip2>, <mu2> do not count), so it turns with "
                 )
                 text += (
-                    "tyres here grip alike in all directions (<slip1>, <slip2> and <mu2> do not count), expect it to "
+                    "a third (as long as wide) to nine tenths of the commanded rate; two wheels and casters give all"
                 )
-                text += "turn with a third of the commanded rate; two driven wheels and casters turn as commanded"
                 world.diagnostics.warn(element.where, text)
                 break
         self._odometry = WheelOdometry(separation, radius)

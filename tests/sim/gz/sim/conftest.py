@@ -39,3 +39,19 @@ def load_text(world_text: Callable[..., str]) -> Callable[..., World]:
 def node() -> Iterator[Node]:
     with Node(NodeOptions(scope=Scope.PROCESS)) as made:
         yield made
+
+
+@pytest.fixture(autouse=True)
+def worlds_are_closed(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Ends what the worlds of a test put on the wire: the worlds of the next one have the same topics."""
+    attached: list[World] = []
+    attach = World.attach
+
+    def note(self: World, node: Node | None) -> None:
+        attached.append(self)
+        attach(self, node)
+
+    monkeypatch.setattr(World, "attach", note)
+    yield
+    for world in attached:
+        world.close()
