@@ -8,8 +8,6 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from launch.errors import LaunchError
 from launch.frontend import parse_substitution
 from launch.launch_context import LaunchContext
@@ -112,6 +110,8 @@ class ParameterFile:
 
     def evaluate(self, context: LaunchContext) -> Path:
         """Return the path of the file to be used, a new one when it holds substitutions."""
+        import yaml
+
         from launch.conditions import evaluate_condition_expression
 
         path = Path(perform_substitutions(context, self.__param_file))
@@ -145,5 +145,5 @@ def write_parameter_file(text: str) -> Path:
     return Path(path)
 
 
-def _one_line(error: yaml.YAMLError) -> str:
+def _one_line(error: Exception) -> str:
     return " ".join(str(error).split())

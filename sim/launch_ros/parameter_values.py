@@ -17,8 +17,6 @@ import os
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, get_args, get_origin
 
-import yaml
-
 from launch.errors import LaunchError
 from launch.launch_context import LaunchContext
 from launch.substitution import Substitution, normalize_to_list_of_substitutions, perform_substitutions
@@ -83,6 +81,8 @@ def _evaluate_item(context: LaunchContext, name: str, item: Any) -> Any:
 
 def from_yaml(name: str, text: str) -> Value:
     """Return what a text means in YAML. Raises ParameterTypeError when that is nothing a parameter can be."""
+    import yaml  # not needed by most launch files, and slow to load
+
     if text == "":
         return ""
     advice = f"; if it is meant as text, wrap it: '{name}': ParameterValue(..., value_type=str)"
@@ -167,11 +167,15 @@ def flattened(context: LaunchContext, parameters: Mapping[Any, Any], prefix: str
 
 def as_argument(value: Value) -> str:
     """Return a value as YAML in flow style, for `-p name:=value`."""
+    import yaml
+
     text = yaml.safe_dump(value, default_flow_style=True, width=float("inf"), allow_unicode=True)
     return text.removesuffix("...\n").strip()
 
 
 def as_file(node: str, parameters: Mapping[str, Value]) -> str:
     """Return the text of a parameter file for the node of this full name, or `/**` for any."""
+    import yaml
+
     content = {node: {"ros__parameters": dict(sorted(parameters.items()))}}
     return yaml.safe_dump(content, default_flow_style=False, width=float("inf"), allow_unicode=True)
