@@ -116,7 +116,7 @@ def check(oracle, folder: Path, text: str) -> None:
 PHASES = (Phase.explicit, Phase.reuse, Phase.generate)
 
 
-@settings(deadline=None, max_examples=150, suppress_health_check=list(HealthCheck), phases=PHASES)
+@settings(deadline=None, max_examples=60, suppress_health_check=list(HealthCheck), phases=PHASES)
 @given(robots())
 def test_random_robots_are_what_gazebo_makes_of_them(oracle, tmp_path, text):
     check(oracle, tmp_path, text)

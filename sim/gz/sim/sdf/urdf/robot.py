@@ -16,6 +16,7 @@ from gz.sim.sdf.element import Element
 
 JOINT_KINDS = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
 WORLD = "world"
+_LARGEST = 1e20  # squares and products of such numbers are still numbers
 
 _WORDS: dict[str, frozenset[str]] = {
     parent: frozenset(words.split())
@@ -145,6 +146,8 @@ def numbers(element: Element, attribute: str, count: int, default: tuple[float, 
         wanted = "a finite number" if count == 1 else f"{count} finite numbers"
         hint = "; run xacro on the file first" if "${" in text or "$(" in text else ""
         raise element.error(f"{attribute} of <{element.tag}> must be {wanted}, got '{text[:80]}'{hint}")
+    if any(abs(value) > _LARGEST for value in values):
+        raise element.error(f"{attribute} of <{element.tag}> must be at most {_LARGEST:g}, got '{text[:80]}'")
     return values
 
 

@@ -26,6 +26,7 @@ FILES = "_files_"
 """Attribute of its root: JSON list of the files."""
 
 _SECONDS = 20.0
+_PLACE = re.compile("([0-9]{1,6}):([0-9]{1,9})")
 _COLOURS = re.compile("\x1b\\[[0-9;]*m")
 
 
@@ -64,12 +65,15 @@ def restore_places(root: Element) -> None:
     """Give every element of an expanded text the file and line it was written at."""
     if FILES not in root.attributes:
         return
-    files = json.loads(root.attributes.pop(FILES))
+    try:
+        files = [str(file) for file in json.loads(root.attributes.pop(FILES))]
+    except (ValueError, TypeError, RecursionError):  # written by hand, it means nothing
+        files = []
     waiting = [(root, root.file, root.line)]
     while waiting:
         element, file, line = waiting.pop()
-        number, _, at = element.attributes.pop(PLACE, "").partition(":")
-        if at:
-            file, line = files[int(number)], int(at)
+        place = _PLACE.fullmatch(element.attributes.pop(PLACE, ""))
+        if place and int(place[1]) < len(files):
+            file, line = files[int(place[1])], int(place[2])
         element.file, element.line = file, line
         waiting.extend((child, file, line) for child in element.children)

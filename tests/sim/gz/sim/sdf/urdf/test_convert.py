@@ -257,6 +257,7 @@ def test_words_urdf_does_not_have_are_named() -> None:
          + joint("b", "fixed", "wheel", "base"), "circle"),
         ("<link name='base'><inertial><mass value='nan'/><inertia ixx='1'/></inertial></link>", "needs the attribute"),
         (BASE.replace("'2'", "'nan'"), "value of <mass> must be a finite number, got 'nan'"),
+        (BASE.replace("'2'", "'1e300'"), "value of <mass> must be at most 1e.20, got '1e300'"),
         (BASE.replace("'2'", "'${m}'"), "got '\\$.m.'; run xacro on the file first"),
         ("<link name='base'><inertial/></link>", "<inertial> needs <mass>"),
         (BASE.replace("</link>", "<visual><geometry><box size='1 1'/></geometry></visual></link>"), "3 finite numbers"),

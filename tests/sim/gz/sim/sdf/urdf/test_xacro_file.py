@@ -65,6 +65,13 @@ def test_every_element_knows_where_it_was_written(robot: Path) -> None:
     assert not any("_" in key[:1] for element in (root, base, left, *left.children) for key in element.attributes)
 
 
+@pytest.mark.parametrize("files", ["", "7", "[", "[1]", '["a"]'])
+def test_marks_written_by_hand_do_no_harm(files: str) -> None:
+    root = parse(f"<robot _files_='{files}' _place_='9:1'><link _place_='0:x'/><link _place_=''/></robot>", "f.urdf")
+    restore_places(root)
+    assert [element.where for element in (root, *root.children)] == ["f.urdf:1"] * 3
+
+
 def test_a_message_about_a_macro_names_the_line_in_the_macro(robot: Path) -> None:
     (robot.parent / "parts.xacro").write_text(PARTS.replace('radius="${r}"', 'radius="${r}m"'))
     with pytest.raises(SdfError, match=r"parts\.xacro:5: radius of <sphere> must be a finite number, got '0\.05m'"):
