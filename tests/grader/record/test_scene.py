@@ -1,0 +1,33 @@
+"""What a world looks like in a recording: surfaces of triangles are drawn as meshes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from grader.record import scene
+from gz.sim.world import World
+
+CONE = (
+    "<sdf version='1.11'><world name='w'><model name='m'><static>1</static><link name='l'><visual name='v'><geometry>"
+    "<cone><radius>0.5</radius><length>2</length></cone></geometry><material><diffuse>1 0 0.5 0.5</diffuse></material>"
+    "</visual></link></model></world></sdf>"
+)
+
+
+def columns(archetype) -> dict[str, list]:
+    return {str(batch.component_descriptor()): batch.as_arrow_array() for batch in archetype.as_component_batches()}
+
+
+@pytest.mark.parametrize(("facets", "corners"), [(scene.FACETS, 3 * 64), (10, 34)])
+def test_a_cone_is_a_mesh_of_its_colour(monkeypatch: pytest.MonkeyPatch, facets: int, corners: int) -> None:
+    monkeypatch.setattr(scene, "FACETS", facets)
+    (shape,) = World.from_string(CONE).geometry()
+    found = columns(scene.surface(shape.vertices, shape.triangles, shape.rgba))
+    named = {key.rsplit(":", 1)[-1]: value for key, value in found.items()}
+    positions = np.array(next(v for k, v in named.items() if k == "vertex_positions").to_pylist())
+    triangles = np.array(next(v for k, v in named.items() if k == "triangle_indices").to_pylist())
+    assert positions.shape == (corners, 3) and triangles.shape == (64, 3)
+    assert positions.min(axis=0) == pytest.approx((-0.5, -0.5, -1)) and positions[:, 2].max() == pytest.approx(1)
+    assert ("vertex_normals" in named) == (facets > 64)
+    assert next(v for k, v in named.items() if k == "albedo_factor").to_pylist() == [0xFF008080]
