@@ -97,7 +97,7 @@ def flyer() -> str:
     plugins += plugin(
         "KineticEnergyMonitor", "<link_name>body</link_name><kinetic_energy_threshold>0.001</kinetic_energy_threshold>"
     )
-    return f"<model name='flyer'><pose>-1 -1 0.2 0 0 0</pose>{LINK.format('body', '0 0 0', sensors)}{plugins}</model>"
+    return f"<model name='flyer'><pose>-1 -1 0.099 0 0 0</pose>{LINK.format('body', '0 0 0', sensors)}{plugins}</model>"
 
 
 def runs_alone(name: str) -> bool:
@@ -213,6 +213,18 @@ def test_the_same_after_things_came_went_and_moved(world: World, node: Node) -> 
     drive(world, node)
     again = tape.take()
     assert {topic: again.get(topic) for topic in first} == first
+
+
+def test_what_comes_later_begins_its_schedules_then(world: World, node: Node) -> None:
+    """No system and no sensor makes up for the time before it came."""
+    world.step(2000)
+    world.spawn(f"<sdf version='1.10'>{flyer()}</sdf>", name="later", pose=Pose((-2.0, -2.0, 0.099)))
+    tape = Tape(world, node)
+    world.step(500)
+    counts = {topic: count for topic, (count, _) in tape.take().items()}
+    late = {topic: count for topic, count in counts.items() if "/later/" in topic}
+    assert len(late) >= 15
+    assert all(abs(count - counts[topic.replace("/later/", "/flyer/")]) <= 1 for topic, count in late.items()), late
 
 
 def test_time_only_leaves_everything_where_it_is(load_text: Load) -> None:
