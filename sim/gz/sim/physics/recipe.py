@@ -24,7 +24,7 @@ gains nothing, softer lets an arm creep.
 """
 
 CONTACT_IMPEDANCE = (0.95, 0.97)
-"""Impedance of a contact that just touches and of one pressed in: so hard that a wheel sinks in by less than 0.2 % of
+"""Impedance of a contact that just touches and of one pressed in: so hard that a wheel sinks in by less than 0.25 % of
 its radius, which is its error in speed (with MuJoCo's default up to 0.7 % at steps of 4 ms).
 """
 
