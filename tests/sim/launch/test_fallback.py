@@ -54,9 +54,9 @@ def test_a_sourced_launch_wins(real):
 
 def test_a_launch_installed_beside_ours_wins(real, installed):
     code = f"import site; site.addsitedir({str(installed)!r}); import launch; print(launch.__file__)"
-    assert python("-S", code=code) == (str(installed / FALLBACK / "launch/__init__.py"), "")
+    assert python("-S", code=code, PYTHONPATH="") == (str(installed / FALLBACK / "launch/__init__.py"), "")
     (real / "launch").rename(installed / "launch")
-    assert python("-S", code=code) == (str(installed / "launch/__init__.py"), "")
+    assert python("-S", code=code, PYTHONPATH="") == (str(installed / "launch/__init__.py"), "")
 
 
 def test_the_wheel_puts_ours_where_it_is_found_last():
