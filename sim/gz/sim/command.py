@@ -2,7 +2,7 @@
 
 Reads the arguments, loads the world, puts it on the wire (`gz.sim.server`) and runs it until SIGINT,
 SIGTERM or the last iteration. Exit codes: 0 ended well, 1 the world cannot be run, 2 the arguments make
-no sense.
+no sense, 3 the simulator itself failed.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import math
 import signal
 import sys
 import threading
+import traceback
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
@@ -148,7 +149,12 @@ def main(argv: Sequence[str] | None = None) -> int:
     if refused:
         sys.stderr.write(f"gz sim: {refused}\n")
         return 2
-    return _simulate(arguments, stop)
+    try:
+        return _simulate(arguments, stop)
+    except Exception as error:  # a fault of ours, not of the world
+        logging.getLogger("gz.sim").debug("%s", traceback.format_exc())
+        sys.stderr.write(f"gz sim: the simulator itself failed ({type(error).__name__}: {error}); -v 4 tells where\n")
+        return 3
 
 
 def _recorder(arguments: argparse.Namespace) -> list[Plugin]:

@@ -49,14 +49,15 @@ class Requests:
     """The work that waits for one world."""
 
     def __init__(self) -> None:
-        self._waiting: deque[Request] = deque()
+        self.waiting: deque[Request] = deque()
+        """The queue; whoever steps looks at it before every step, so it is no more than that."""
         self._arrived = threading.Condition()
         self._owner = threading.get_ident()
         self._inside = False
 
     def __bool__(self) -> bool:
         """Whether something waits."""
-        return bool(self._waiting)
+        return bool(self.waiting)
 
     def enter_step(self) -> None:
         """The calling thread is the stepping thread and is inside a step from now on."""
@@ -79,7 +80,7 @@ class Requests:
             request.run()
             return request
         with self._arrived:
-            self._waiting.append(request)
+            self.waiting.append(request)
             self._arrived.notify_all()
         return request
 
@@ -101,17 +102,17 @@ class Requests:
         return request.result
 
     def serve(self) -> None:
-        """Do all the work that waits; called by the stepping thread between steps. Errors nobody waits for are the
+        """Do the work that waits now; called by the stepping thread between steps. Errors nobody waits for are the
         business of the work itself.
         """
         self._owner = threading.get_ident()
-        while self._waiting:
-            self._waiting.popleft().run()
+        for _ in range(len(self.waiting)):
+            self.waiting.popleft().run()
 
     def wait(self, timeout: float) -> None:
         """Return when work waits, or after `timeout` seconds."""
         with self._arrived:
-            self._arrived.wait_for(lambda: bool(self._waiting), timeout)
+            self._arrived.wait_for(lambda: bool(self.waiting), timeout)
 
 
 def logged(work: Callable[[], Any], about: str) -> Callable[[], bool]:

@@ -202,16 +202,16 @@ class World(Editing):
         Raises `SimError`, naming the body, when the physics came out not finite.
         """
         requests, info, manager, advance = self.requests, self._info, self._manager, mujoco.mj_step
-        done = 0
+        done, waiting = 0, requests.waiting
         while done < n:
-            if requests:
+            if waiting:
                 requests.serve()
             model, data = self.model, self.data
             pre_updates, post_updates = manager.pre_updates, manager.post_updates
             origin_ns, step_ns = self._origin_ns, self.description.step_size_ns
             requests.enter_step()
             try:
-                while done < n and not requests:
+                while True:  # one step at least, however much is asked for
                     done += 1
                     self.iterations = iterations = self.iterations + 1
                     info.iterations = iterations
@@ -222,6 +222,8 @@ class World(Editing):
                     self._refreshed = -1  # A system may have asked for poses before the step.
                     for post_update in post_updates:
                         post_update(info)
+                    if waiting or done >= n:
+                        break
             finally:
                 requests.leave_step()
             if data.warning.number[UNSTABLE].any():

@@ -231,3 +231,16 @@ def test_a_second_simulator_that_tells_another_time_says_so(start: Callable[...,
     for process in (first, second):
         process.send_signal(signal.SIGINT)
         assert process.wait(DEADLINE) == 0
+
+
+def test_a_fault_of_ours_is_one_sentence_and_code_three(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from gz.sim import command
+    from gz.sim.world import World
+
+    monkeypatch.setattr(command.signal, "signal", lambda *_: None)
+    monkeypatch.setattr(World, "step", lambda *_: [][1])
+    assert command.main(["-r", "empty.sdf"]) == 3
+    err = capsys.readouterr().err
+    assert err.startswith("gz sim: the simulator itself failed (IndexError") and err.count("\n") == 1

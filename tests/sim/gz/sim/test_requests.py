@@ -8,7 +8,7 @@ import threading
 import pytest
 
 from gz.sim.errors import SimError
-from gz.sim.requests import Requests, logged
+from gz.sim.requests import Request, Requests, logged
 
 
 def elsewhere(requests: Requests, work: object, patience: float = 20.0) -> tuple[threading.Thread, list[object]]:
@@ -97,3 +97,18 @@ def test_errors_that_nobody_waits_for_are_one_sentence(caplog: pytest.LogCapture
     spoken = [record.getMessage() for record in caplog.records if record.levelno == logging.ERROR]
     assert spoken[0] == "/world/w/create: no such thing"
     assert spoken[1].startswith("/world/w/create: it failed inside the simulator (ZeroDivisionError")
+
+
+def test_a_world_goes_on_however_much_is_asked_for() -> None:
+    from gz.sim.world import World
+
+    world = World.from_string("<sdf version='1.10'><world name='w'/></sdf>")
+    asked: list[int] = []
+
+    def again() -> None:
+        asked.append(world.iterations)
+        world.requests.waiting.append(Request(again))
+
+    world.requests.waiting.append(Request(again))
+    world.step(5)
+    assert world.iterations == 5 and asked == [0, 1, 2, 3, 4]
