@@ -21,7 +21,7 @@ from gz.sim.pose import Pose, multiply, rotate
 from gz.sim.sdf.description import Collision, Light, Model, Visual
 from gz.sim.sdf.reader import read_model
 from gz.sim.spherical_coordinates import SphericalCoordinates
-from gz.sim.system_manager import SystemManager, refuse_inside_step
+from gz.sim.system_manager import SystemManager
 from gz.sim.truth import Truth
 
 if TYPE_CHECKING:
@@ -84,7 +84,7 @@ class Editing(Truth):
         that is taken gets `_0`, `_1`, ... behind it with `allow_renaming`. All else goes on exactly as it was. Raises
         `SimError` (`SdfError` with file and line for a bad text); the world is then as before.
         """
-        refuse_inside_step(self.requests.inside_step, "take in a model")
+        self.requests.refuse_inside_step("take in a model")
         made = read_model(what, file_name, self.diagnostics, name) if isinstance(what, str) else what
         _check_pose(pose, made.name)
         wanted = name or made.name
@@ -155,7 +155,7 @@ class Editing(Truth):
 
         Its systems end and their topics go; all else goes on exactly as it was.
         """
-        refuse_inside_step(self.requests.inside_step, "let go of a model")
+        self.requests.refuse_inside_step("let go of a model")
         light = next((each for each in self.description.lights if each.name == name), None)
         if name in self._models:
             self._forget(self._models[name])
@@ -182,7 +182,7 @@ class Editing(Truth):
         """Move a model, a light or a floating link (`model::link`) to a pose in the world frame, with its velocity
         turned along; raise `SimError` for what is not there or cannot be moved.
         """
-        refuse_inside_step(self.requests.inside_step, "move a model")
+        self.requests.refuse_inside_step("move a model")
         _check_pose(pose, name)
         light = next((each for each in self.description.lights if each.name == name), None)
         if light is not None and name not in self._models:
@@ -234,7 +234,7 @@ class Editing(Truth):
 
     def set_light(self, name: str, **changes: Any) -> None:
         """Change attributes of a light of the world (those of `gz.sim.sdf.description.Light`)."""
-        refuse_inside_step(self.requests.inside_step, "change a light")
+        self.requests.refuse_inside_step("change a light")
         light = next((each for each in self.description.lights if each.name == name), None)
         if light is None:
             known = [each.name for each in self.description.lights]
@@ -250,19 +250,19 @@ class Editing(Truth):
 
     def set_spherical_coordinates(self, coordinates: SphericalCoordinates) -> None:
         """Say where on a planet the world lies."""
-        refuse_inside_step(self.requests.inside_step, "move to another place")
+        self.requests.refuse_inside_step("move to another place")
         self._change(self.description, "spherical_coordinates", coordinates)
         self._rebuild()
 
     def set_colour(self, visual: Visual, rgba: tuple[float, float, float, float]) -> None:
         """Paint a visual; `rgba` each 0..1."""
-        refuse_inside_step(self.requests.inside_step, "change a visual")
+        self.requests.refuse_inside_step("change a visual")
         self._change(visual, "rgba", rgba)
         self._rebuild()
 
     def enable_collisions(self, collisions: list[Collision], enabled: bool) -> None:
         """Let collisions touch again, or touch nothing from now on."""
-        refuse_inside_step(self.requests.inside_step, "change a collision")
+        self.requests.refuse_inside_step("change a collision")
         for collision in collisions:
             if not enabled:
                 self._change(collision, "bitmask", 0)

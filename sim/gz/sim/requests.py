@@ -68,10 +68,10 @@ class Requests:
         """The step is over."""
         self._inside = False
 
-    @property
-    def inside_step(self) -> bool:
-        """Whether a step is going on, so that the world must not be changed."""
-        return self._inside
+    def refuse_inside_step(self, what: str) -> None:
+        """Raise `SimError` when a system asks for a change of the world while it is being stepped."""
+        if self._inside:
+            raise SimError(f"a world cannot {what} in the middle of a step; put the work into world.requests instead")
 
     def put(self, work: Callable[[], Any]) -> Request:
         """Queue work, or do it at once when the caller is the stepping thread between two steps."""

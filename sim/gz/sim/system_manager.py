@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from gz.sim.errors import SimError, nearest
+from gz.sim.errors import nearest
 from gz.sim.physics.servos import JointServo
 from gz.sim.sdf.description import Model, Plugin, Sensor
 from gz.sim.sdf.element import Element
@@ -196,9 +196,3 @@ def default_plugins(world: Element) -> list[Plugin]:
         element = Element("plugin", dict(attributes), file=world.file, line=world.line)
         made.append(Plugin(attributes["name"], filename, element))
     return made
-
-
-def refuse_inside_step(inside: bool, what: str) -> None:
-    """Raise `SimError` when a system asks for a change of the world while it is being stepped."""
-    if inside:
-        raise SimError(f"a world cannot {what} in the middle of a step; put the work into world.requests instead")

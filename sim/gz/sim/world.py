@@ -26,7 +26,7 @@ from gz.sim.requests import Requests
 from gz.sim.sdf.description import Plugin, WorldDescription
 from gz.sim.sdf.reader import read_world, read_world_file
 from gz.sim.sdf.resources import find_world
-from gz.sim.system_manager import SystemManager, default_plugins, refuse_inside_step
+from gz.sim.system_manager import SystemManager, default_plugins
 from gz.sim.systems.registry import System, UpdateInfo
 from gz.sim.truth import JointAddress
 
@@ -242,7 +242,7 @@ class World(Editing):
         What was spawned goes, what was removed or changed comes back as it was. With `time_only` the clock and the
         systems begin anew, and everything stays where it is and moves on.
         """
-        refuse_inside_step(self.requests.inside_step, "be reset")
+        self.requests.refuse_inside_step("be reset")
         self.iterations = 0
         self._origin_ns = self._initial_ns
         if time_only:
@@ -275,7 +275,7 @@ class World(Editing):
 
     def set_physics(self, *, step_size: float | None = None, real_time_factor: float | None = None) -> None:
         """Change the length of a step (s) and the wanted real-time factor while the world runs."""
-        refuse_inside_step(self.requests.inside_step, "change its physics")
+        self.requests.refuse_inside_step("change its physics")
         if step_size is not None:
             step_ns = round(step_size * 1e9) if math.isfinite(step_size) else 0
             if not SHORTEST_STEP_NS <= step_ns <= LONGEST_STEP_NS:

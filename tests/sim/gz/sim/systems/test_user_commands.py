@@ -194,7 +194,6 @@ def test_a_request_of_another_thread_waits_for_the_end_of_a_step(world: World, a
     answers: list[bool] = []
     thread = threading.Thread(target=lambda: answers.append(ask("create/blocking", EntityFactory(sdf=BOX))))
     thread.start()
-    assert not world.requests.inside_step
     while thread.is_alive():
         world.step()
         world.requests.wait(0.01)
