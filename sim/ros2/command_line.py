@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 import ast
+import contextlib
 import difflib
 import importlib
 import os
@@ -25,6 +26,7 @@ from ros2.hand_over import hand_over
 
 COMMANDS = Path(__file__).parent / "command"
 _INTERRUPTED = 2
+_GRAPH = "ros2.graph"  # loaded by verbs that have a node
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -32,11 +34,24 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     0 on success, 1 when the command could not do its work, 2 for wrong usage or after SIGINT or SIGTERM.
     """
+    is_program = arguments is None
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     local_setup.source(os.environ)
     code = hand_over(arguments)
     if code is not None:
         return code
+    code = _explained(arguments)
+    if is_program and _GRAPH in sys.modules:
+        # The node has said goodbye; what is left of DDS can block at exit, and nobody needs it any more.
+        with contextlib.suppress(OSError, ValueError):
+            sys.stdout.flush()
+            sys.stderr.flush()
+        os._exit(code)
+    return code
+
+
+def _explained(arguments: list[str]) -> int:
+    """Run `ros2`; every error is one sentence and an exit code."""
     # A shell's '&' starts programs with SIGINT ignored; an ended node must say so to the others: both signals
     # arrive as KeyboardInterrupt.
     signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -53,6 +68,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # `ros2 topic echo /scan | head`: the reader has seen enough.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
+    except Exception as error:
+        if sys.flags.dev_mode:  # `python -X dev -m ros2 …` shows where
+            raise
+        sentence = str(error).partition("\n")[0]
+        print(f"ros2: internal error: {type(error).__name__}: {sentence}", file=sys.stderr)
+        return 1
 
 
 def found(folder: Path) -> dict[str, Path]:

@@ -135,7 +135,7 @@ def workspace(tmp_path):
     return add
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def robot(ros_domain):
     """The node /robot/driver, which spins: parameters of every kind, a service, a publisher, a subscription.
 

@@ -4,7 +4,7 @@ import sys
 
 import pytest
 
-from ros2.command_line import COMMANDS, found, load
+from ros2.command_line import COMMANDS, found, load, main
 from ros2.hand_over import environment_without_wheels
 
 
@@ -82,6 +82,15 @@ def test_a_ros2cli_of_the_same_python_takes_over(ros2, tmp_path):
     (tmp_path / "ros2cli/cli.py").write_text("def main(*, argv):\n    print('real', argv)\n    return 6\n")
     code, text, _ = ros2("topic", "list", environment={"PYTHONPATH": str(tmp_path)})
     assert (code, text) == (6, "real ['topic', 'list']\n")
+
+
+def test_our_own_fault_is_one_sentence(monkeypatch, capsys):
+    monkeypatch.setattr("signal.signal", lambda number, handler: None)
+    monkeypatch.setattr("ros2.command_line.hand_over", lambda arguments: None)
+    monkeypatch.setattr("sys.stdout.reconfigure", lambda **options: None, raising=False)
+    monkeypatch.setattr("ros2.command_line._run", lambda *arguments: 1 / 0)
+    assert main(["topic"]) == 1
+    assert capsys.readouterr().err == "ros2: internal error: ZeroDivisionError: division by zero\n"
 
 
 def test_only_the_libraries_of_this_environment_are_left_behind():
