@@ -158,6 +158,7 @@ def test_cancelling_its_task_ends_its_processes():
 
 def test_many_runs_in_one_process_do_not_know_of_each_other(capsys, monkeypatch):
     monkeypatch.setenv("COURSE_TEST_PATH", "/a")
+    handler = signal.getsignal(signal.SIGINT)
     for _ in range(3):
         service = started(
             DeclareLaunchArgument("x", default_value="1"),
@@ -169,7 +170,7 @@ def test_many_runs_in_one_process_do_not_know_of_each_other(capsys, monkeypatch)
     lines = capsys.readouterr().out.splitlines()
     assert lines.count("[printenv-1] /a:/b") == 3
     assert os.environ["COURSE_TEST_PATH"] == "/a"
-    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    assert signal.getsignal(signal.SIGINT) is handler
 
 
 def test_one_service_runs_again_but_not_twice_at_once():

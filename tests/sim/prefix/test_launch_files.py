@@ -1,0 +1,120 @@
+"""The launch files in the ament prefix: ros_gz_sim's and ros_gz_bridge's."""
+
+import os
+import signal
+import subprocess
+import sys
+import uuid
+from pathlib import Path
+
+import pytest
+
+from launch import LaunchContext
+from launch.launch_description_sources import get_launch_description_from_python_launch_file
+from launch_ros.substitutions import FindPackageShare
+from prefix import local_setup
+
+SHARE = Path(local_setup.PREFIX) / "share"
+FILES = sorted(SHARE.glob("*/launch/*.launch.py"))
+# As in the packages of these names on a full installation.
+ARGUMENTS = {
+    "gz_sim.launch.py": ["gz_args", "gz_version", "ign_args", "ign_version", "debugger", "on_exit_shutdown"],
+    "ros_gz_bridge.launch.py": [
+        *("bridge_name", "config_file", "container_name", "create_own_container", "namespace", "use_composition"),
+        *("use_respawn", "log_level"),
+    ],
+}
+
+
+@pytest.fixture
+def start(tmp_path):
+    """Run one of the launch files: a process whose output is read line by line, ended with the test."""
+    running = []
+
+    def start(package, file, *arguments):
+        running.append(
+            subprocess.Popen(
+                [sys.executable, "-m", "ros2", "launch", package, file, *arguments],
+                env={
+                    **os.environ,
+                    "GZ_IP": "127.0.0.1",
+                    "GZ_PARTITION": uuid.uuid4().hex,
+                    "ROS_LOG_DIR": str(tmp_path),
+                    "ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF",
+                },
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                text=True,
+                cwd=tmp_path,
+            )
+        )
+        return running[-1]
+
+    yield start
+    for process in running:
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=30)
+
+
+def lines_until(process, words):
+    lines = []
+    for line in process.stdout:
+        lines.append(line)
+        if words in line:
+            return "".join(lines)
+    raise AssertionError(f"no {words!r} in {''.join(lines)}")
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
+def test_every_launch_file_has_described_arguments(path):
+    arguments = get_launch_description_from_python_launch_file(str(path)).get_launch_arguments()
+    assert all(argument.description != "no description given" for argument in arguments)
+    if path.name in ARGUMENTS:
+        assert [argument.name for argument in arguments] == ARGUMENTS[path.name]
+
+
+def test_they_are_found_by_their_package():
+    assert Path(FindPackageShare("ros_gz_sim").perform(LaunchContext())) == SHARE / "ros_gz_sim"
+
+
+def test_gazebo_gets_its_words_as_a_shell_reads_them(start, tmp_path):
+    world = '<sdf version="1.9"><world name="small"><physics type="ode"/></world></sdf>'
+    (tmp_path / "small world.sdf").write_text(world)
+    process = start("ros_gz_sim", "gz_sim.launch.py", "gz_args:=-s -v3 $PWD/'small world.sdf'")
+    said = lines_until(process, "is paused")
+    assert "[gazebo-1] [Msg] world 'small' is loaded" in said
+    process.send_signal(signal.SIGINT)
+    rest, _ = process.communicate(timeout=30)
+    assert process.returncode == 0
+    assert "[INFO] [gazebo-1]: process has finished cleanly" in rest
+
+
+@pytest.mark.parametrize(("value", "ends"), [("true", True), ("false", False)])
+def test_the_end_of_gazebo_may_end_the_launch(start, tmp_path, value, ends):
+    arguments = ["gz_args:=-r -s empty.sdf --iterations 1", f"on_exit_shutdown:={value}"]
+    output, _ = start("ros_gz_sim", "gz_sim.launch.py", *arguments).communicate(timeout=30)
+    assert ("process[gazebo-1] was required: shutting down launched system" in output) is ends
+
+
+def test_old_arguments_work_and_are_told(start):
+    process = start("ros_gz_sim", "gz_sim.launch.py", "ign_args:=-s empty.sdf")
+    assert "'ign_args' is deprecated: use 'gz_args'" in lines_until(process, "is paused")
+
+
+def test_simulator_and_bridge_together(start, tmp_path):
+    (tmp_path / "bridge.yaml").write_text(
+        "- topic_name: /clock\n  ros_type_name: rosgraph_msgs/msg/Clock\n  gz_type_name: gz.msgs.Clock\n"
+        "  direction: GZ_TO_ROS\n"
+    )
+    arguments = ["bridge_name:=my_bridge", "config_file:=bridge.yaml", "namespace:=/ns"]
+    process = start("ros_gz_sim", "ros_gz_sim.launch.py", "world_sdf_file:=lidar_room.sdf", *arguments)
+    assert "[ns.my_bridge]: ready: 1 bridge" in lines_until(process, "ready:")
+
+
+def test_composition_is_refused(start):
+    arguments = ["bridge_name:=a", "config_file:=b", "use_composition:=True"]
+    process = start("ros_gz_bridge", "ros_gz_bridge.launch.py", *arguments)
+    output, _ = process.communicate(timeout=30)
+    assert process.returncode == 1
+    assert "LoadComposableNodes needs a full ROS 2 installation" in output
