@@ -22,6 +22,7 @@ from typing import Any, BinaryIO
 from launch.errors import LaunchError, nearest
 from launch.logging import launch_config, stamp
 
+_LONGEST_LINE = 65536  # bytes; what comes without any newline is cut, not kept for ever
 STREAMS = ("stdout", "stderr")
 _OVERRIDE = "OVERRIDE_LAUNCH_PROCESS_OUTPUT"
 _SINKS = ("screen", "log", "own_log")
@@ -80,6 +81,9 @@ class ProcessOutput:
         self._rest[stream] = rest
         if newline:
             self._write(stream, complete.split(b"\n"))
+        if len(rest) > _LONGEST_LINE:
+            self._rest[stream] = b""
+            self._write(stream, [rest])
 
     def flush(self) -> None:
         """Write what came without a newline at its end."""

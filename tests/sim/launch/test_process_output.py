@@ -98,3 +98,13 @@ def test_files_of_its_own():
         "robot-1-stderr.log": "two\n",
         "robot-1.log": "one\ntwo\nthree\n",
     }
+
+
+def test_output_without_any_newline_is_not_kept_for_ever(capsys):
+    output = ProcessOutput("robot-1", "screen", cached=False, line_format=None)
+    for _ in range(100):
+        output.feed("stdout", b"x" * 10000)
+    seen = capsys.readouterr().out
+    output.close()
+    assert 900_000 < seen.count("x") < 1_000_000
+    assert (seen + capsys.readouterr().out).count("x") == 1_000_000
