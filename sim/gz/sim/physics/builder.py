@@ -29,6 +29,11 @@ DEEPEST = 1000
 """So many links can hang on each other in a row; MuJoCo ends there."""
 MOST_TOUCHING = 2000
 """So many links of one model can have collisions: each pair of them is kept apart by name."""
+_MANY_LINKS = 300
+_WORKSPACE = (1 << 29, 1 << 18)
+"""Bytes of a large world's workspace, and more for each link. MuJoCo's own guess grows with their square: 14 GB
+for 3000 boxes, which use 40 MB.
+"""
 
 
 def build_spec(world: WorldDescription, servos: dict[str, list[JointServo]], diagnostics: Diagnostics) -> mujoco.MjSpec:
@@ -79,6 +84,8 @@ class _Builder:
     def build(self) -> mujoco.MjSpec:
         spec, world = self._spec, self._world
         spec.modelname = world.name
+        if len(self._links) > _MANY_LINKS:
+            spec.memory = _WORKSPACE[0] + _WORKSPACE[1] * len(self._links)
         recipe.apply_options(spec, self._step, world.gravity)
         spec.visual.headlight.ambient = world.ambient
         for light in world.lights:

@@ -64,6 +64,7 @@ def test_a_world_of_thousands_of_models_loads_in_time() -> None:
     began = time.process_time()
     world = World.from_string(f"<sdf version='1.9'><world name='w'>{models}</world></sdf>")
     assert len(world.model_names()) == MANY and time.process_time() - began < 10.0
+    assert world.model.narena < 2 * 1024**3  # what MuJoCo would take by itself is 6 GB
 
 
 def test_a_long_chain_of_frames_is_no_recursion(tmp_path: Path) -> None:
