@@ -26,6 +26,7 @@ from gz.sim.requests import Requests
 from gz.sim.sdf.description import Plugin, WorldDescription
 from gz.sim.sdf.reader import read_world, read_world_file
 from gz.sim.sdf.resources import find_world
+from gz.sim.sensors.renderer import check_engine
 from gz.sim.system_manager import SystemManager, default_plugins
 from gz.sim.systems.registry import System, UpdateInfo
 from gz.sim.truth import JointAddress
@@ -62,8 +63,8 @@ class World(Editing):
         self.description = description
         self.diagnostics = diagnostics
         self.seed = seed
-        self.render_engine = render_engine
-        """What the cameras see with; `gz.sim.sensors` knows the names."""
+        self.render_engine = check_engine(render_engine)
+        """What the cameras see with: `raycast` or `mujoco`."""
         self.node: Node | None = None
         self.iterations = 0
         self.dropped_commands: dict[str, int] = {}

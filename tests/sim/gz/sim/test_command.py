@@ -130,6 +130,8 @@ def test_errors_are_one_sentence(start: Callable[..., subprocess.Popen[str]], tm
     assert code == 1 and err.startswith(f"gz sim: {broken}:3: this is not well-formed XML")
     code, err = run_to_end(start, "-r", "lidar_rom.sdf")
     assert code == 1 and "did you mean 'lidar_room.sdf'" in err
+    code, err = run_to_end(start, "-r", "empty.sdf", "--render-engine", "raycats")
+    assert code == 1 and "did you mean 'raycast'" in err
 
 
 @pytest.mark.parametrize(
