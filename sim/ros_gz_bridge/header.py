@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from builtin_interfaces.msg import Duration as RosDuration
 from builtin_interfaces.msg import Time as RosTime
 from std_msgs.msg import Header as RosHeader
 
@@ -32,6 +33,12 @@ def stamp_to_gz(ros_time: RosTime, gz_time: Any) -> None:
         raise ConversionError(f"the stamp {ros_time.sec} s {ros_time.nanosec} ns does not fit a Gazebo time")
     gz_time.sec = ros_time.sec
     gz_time.nsec = ros_time.nanosec
+
+
+def duration_to_ros(gz_duration: Any) -> RosDuration:
+    """A ``gz.msgs.Duration`` (sec int64, nsec int32) as a ROS duration (sec int32, nanosec uint32)."""
+    time = stamp_to_ros(gz_duration)
+    return RosDuration(sec=time.sec, nanosec=time.nanosec)
 
 
 def frame_to_ros(name: str) -> str:

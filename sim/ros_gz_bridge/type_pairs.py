@@ -1,8 +1,9 @@
-"""Which ROS type becomes which Gazebo type: the table of type pairs.
+"""Which ROS type becomes which Gazebo type: the table of type pairs, and that of services.
 
 ``bridge`` asks this table for the two conversion functions of an entry, ``config`` asks it whether an entry
-can work at all. A pair is declared with ``@type_pair(...)`` in ``convert/<ros package>.py``; the files of
-that folder are found by looking, so a new ROS package is supported by adding one file.
+can work at all. A pair is declared with ``@type_pair(...)`` in ``convert/<ros package>.py`` (or with
+``add_pair``), a service with ``@service_types(...)``; the files of that folder are found by looking, so a new
+ROS package is supported by adding one file. The pairs of a package that is not installed appear once it is.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ import re
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
 import ros_gz_bridge.convert
 from gz.msgs import message_class
@@ -52,7 +53,28 @@ class TypePair:
     fault: Callable[[Any], str | None] | None = None
 
 
+@dataclass(frozen=True)
+class ServiceTypes:
+    """One ROS service type and the Gazebo service behind it: the types of its request and of its reply.
+
+    A Gazebo service is offered to ROS, never the reverse, so the request travels to Gazebo and the reply to
+    ROS. ``request_to_gz`` and ``reply_to_ros`` raise ``ConversionError`` for what does not fit. ``fault`` looks
+    at a ROS request as ``TypePair.fault`` does at a message.
+    """
+
+    ros_type: str
+    gz_request_type: str
+    gz_reply_type: str
+    ros_class: Any
+    gz_request_class: Any
+    gz_reply_class: Any
+    request_to_gz: Callable[[Any], Any]
+    reply_to_ros: Callable[[Any], Any]
+    fault: Callable[[Any], str | None] | None = None
+
+
 _pairs: dict[tuple[str, str], TypePair] = {}
+_services: dict[tuple[str, str, str], ServiceTypes] = {}
 _loaded: set[str] = set()
 _lock = threading.RLock()
 
@@ -82,12 +104,54 @@ def add_pair(
     fault: Callable[[Any], str | None] | None = None,
 ) -> None:
     """Enter a pair in the table. Raises ``ValueError`` if the two types are already paired."""
-    package, _, name = ros_type.split("/")
-    ros_class = getattr(importlib.import_module(f"{package}.msg"), name)
+    ros_class = _ros_class(ros_type)
     with _lock:
         if (ros_type, gz_type) in _pairs:
             raise ValueError(f"the pair {ros_type} = {gz_type} is declared twice")
         _pairs[ros_type, gz_type] = TypePair(ros_type, gz_type, ros_class, message_class(gz_type), to_ros, to_gz, fault)
+
+
+def service_types(ros_type: str, gz_request_type: str, gz_reply_type: str) -> Callable[[type], type]:
+    """Class decorator: declare the static methods ``request_to_gz``, ``reply_to_ros`` (perhaps ``fault``)."""
+
+    def declare(conversions: Any) -> type:
+        add_service(
+            ros_type,
+            gz_request_type,
+            gz_reply_type,
+            request_to_gz=conversions.request_to_gz,
+            reply_to_ros=conversions.reply_to_ros,
+            fault=getattr(conversions, "fault", None),
+        )
+        return cast(type, conversions)
+
+    return declare
+
+
+def add_service(
+    ros_type: str,
+    gz_request_type: str,
+    gz_reply_type: str,
+    *,
+    request_to_gz: Callable[[Any], Any],
+    reply_to_ros: Callable[[Any], Any],
+    fault: Callable[[Any], str | None] | None = None,
+) -> None:
+    """Enter a service in the table. Raises ``ValueError`` if it is there already."""
+    key = (ros_type, gz_request_type, gz_reply_type)
+    ros_class = _ros_class(ros_type)
+    with _lock:
+        if key in _services:
+            raise ValueError(f"the service {ros_type} = {gz_request_type}/{gz_reply_type} is declared twice")
+        _services[key] = ServiceTypes(
+            *key,
+            ros_class,
+            message_class(gz_request_type),
+            message_class(gz_reply_type),
+            request_to_gz,
+            reply_to_ros,
+            fault,
+        )
 
 
 def convertible_packages() -> list[str]:
@@ -107,6 +171,13 @@ def pairs() -> list[TypePair]:
     return [_pairs[key] for key in sorted(_pairs)]
 
 
+def services() -> list[ServiceTypes]:
+    """Every service that can be bridged here, sorted by ROS type."""
+    for package in convertible_packages():
+        _load(package)
+    return [_services[key] for key in sorted(_services)]
+
+
 def canonical_gz_type(gz_type: str) -> str:
     """``gz.msgs.X`` for the older spellings (``ignition.msgs.X``, ``gz_msgs.X``); others unchanged."""
     for prefix in _GZ_PREFIXES:
@@ -122,21 +193,45 @@ def find_pair(ros_type: str, gz_type: str) -> TypePair:
     nearest pair, when there is no such pair.
     """
     gz_type = canonical_gz_type(gz_type)
-    package = ros_type.split("/")[0]
-    if package in convertible_packages():
-        if not _installed(package):
-            raise MissingPackageError(
-                f"the type {ros_type} needs the ROS package {package}, which is not installed "
-                f"(try: pip install ros-{package.replace('_', '-')})"
-            )
-        _load(package)
-        if (pair := _pairs.get((ros_type, gz_type))) is not None:
-            return pair
+    _need_package(ros_type)
+    if (pair := _pairs.get((ros_type, gz_type))) is not None:
+        return pair
     raise UnknownPairError(_explain_unknown(ros_type, gz_type))
+
+
+def find_service(ros_type: str, gz_request_type: str = "", gz_reply_type: str = "") -> ServiceTypes:
+    """The service of exactly these types; a Gazebo type left empty is filled in from the ROS type.
+
+    Raises as ``find_pair`` does.
+    """
+    wanted = (canonical_gz_type(gz_request_type), canonical_gz_type(gz_reply_type))
+    _need_package(ros_type)
+    for service in services():
+        offered = (service.gz_request_type, service.gz_reply_type)
+        if service.ros_type == ros_type and all(w in ("", o) for w, o in zip(wanted, offered, strict=True)):
+            return service
+    raise UnknownPairError(_explain_unknown_service(ros_type, wanted))
+
+
+def _ros_class(ros_type: str) -> Any:
+    package, kind, name = ros_type.split("/")
+    return getattr(importlib.import_module(f"{package}.{kind}"), name)
 
 
 def _installed(package: str) -> bool:
     return importlib.util.find_spec(package) is not None
+
+
+def _need_package(ros_type: str) -> None:
+    """Load the conversions of a type's package. Raises ``MissingPackageError`` if the package is absent."""
+    package = ros_type.split("/")[0]
+    if package in convertible_packages():
+        if not _installed(package):
+            raise MissingPackageError(
+                f"the type {ros_type} needs the ROS package {package}, which is not installed; "
+                f"source a ROS 2 workspace that has it, then start again"
+            )
+        _load(package)
 
 
 def _load(package: str) -> None:
@@ -164,6 +259,23 @@ def _explain_unknown(ros_type: str, gz_type: str) -> str:
     nearest = difflib.get_close_matches(wanted, by_text, n=1, cutoff=0.0)
     pair = by_text[nearest[0]]
     return f"{seen}, nor for {gz_type}; the nearest pair is {pair.ros_type} with {pair.gz_type}"
+
+
+def _explain_unknown_service(ros_type: str, wanted: tuple[str, str]) -> str:
+    known = services()
+    for service in known:
+        if service.ros_type == ros_type:
+            return (
+                f"the service {ros_type} does not go with {' and '.join(filter(None, wanted))}; it takes "
+                f"{service.gz_request_type} and answers {service.gz_reply_type}"
+            )
+    seen = f"no conversion is known for the service {ros_type}"
+    if not known:
+        absent = ", ".join(missing_packages())
+        return f"{seen}; none is known without these ROS packages, which are not installed: {absent}"
+    names = [service.ros_type for service in known]
+    nearest = difflib.get_close_matches(ros_type, names, n=1, cutoff=0.0)
+    return f"{seen}; the nearest is {nearest[0]}"
 
 
 def _either(names: list[str]) -> str:
