@@ -195,6 +195,17 @@ def test_a_joint_of_the_world_to_a_link_that_hangs_already_is_a_constraint(load_
     assert world.pose("other").position == pytest.approx(world.link_pose("arm", "l").position, abs=5e-3)
 
 
+def test_a_loop_is_closed_at_the_place_of_its_joint(load_text: Load) -> None:
+    heavy = link("rod", "1 0 2 0 0.3 0").replace("<gravity>0</gravity>", "")
+    held = HELD + heavy + joint("hang", "ball", "base", "rod", pose="0 0 1 0 0 0")
+    world = load_text(f"<model name='m'>{held}{joint('pin', 'ball', 'world', 'rod', pose='0.5 0 -0.7 0 0 0')}</model>")
+    place = world.link_pose("m", "rod").transform((0.5, 0, -0.7))
+    world.data.qvel[degree(world, "m::hang") :][:3] = (0.5, 0.4, 0.3)
+    world.step(300)
+    assert world.model.neq == 1
+    assert world.link_pose("m", "rod").transform((0.5, 0, -0.7)) == pytest.approx(place, abs=5e-3)
+
+
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
