@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import asyncio
 import collections
+import contextlib
 import itertools
 import os
-from collections.abc import Iterable, MutableMapping
+from collections.abc import Iterable, Iterator, MutableMapping
 from types import SimpleNamespace
 from typing import Any
 
@@ -38,6 +39,8 @@ class LaunchContext:
         self.__first_environment = dict(os.environ)
         self.__environments: list[dict[str, str]] = []
         self.__is_shutdown = False
+        self.__is_uninterrupted = False
+        self._held_signal: int | None = None
         self.process_numbers = itertools.count(1)
 
     @property
@@ -57,6 +60,23 @@ class LaunchContext:
 
     def _set_is_shutdown(self, state: bool) -> None:
         self.__is_shutdown = state
+
+    def _hold_signal(self, number: int) -> None:
+        """Note a signal that comes while something is visited. Raises KeyboardInterrupt: that may never end."""
+        self._held_signal = number
+        if not self.__is_uninterrupted:
+            raise KeyboardInterrupt
+
+    @contextlib.contextmanager
+    def uninterrupted(self) -> Iterator[None]:
+        """Do something whole, such as starting a process: KeyboardInterrupt is raised behind it, not in it."""
+        self.__is_uninterrupted = True
+        try:
+            yield
+        finally:
+            self.__is_uninterrupted = False
+        if self._held_signal is not None:
+            raise KeyboardInterrupt
 
     # Configurations, environment, locals, globals
 

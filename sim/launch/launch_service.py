@@ -40,7 +40,6 @@ class LaunchService:
         self.__is_running = False
         self.__lock = threading.Lock()
         self.__visiting = False
-        self.__held_signal: int | None = None
         self.__loop: asyncio.AbstractEventLoop | None = None
         if debug:
             launch.logging.launch_config.level = "DEBUG"
@@ -168,8 +167,8 @@ class LaunchService:
         except Exception as error:
             self.__context._drop_scopes()
             self._fail(error)
-        if self.__held_signal is not None:
-            number, self.__held_signal = self.__held_signal, None
+        number, self.__context._held_signal = self.__context._held_signal, None
+        if number is not None:
             self._interrupt(number)
 
     def _visit_answers(self, event: Event) -> None:
@@ -213,10 +212,9 @@ class LaunchService:
 
     def _on_signal(self, number: int, frame: FrameType | None) -> None:
         if self.__visiting:
-            # The launch file's own code, or a Command, is running; it may never end.
-            self.__held_signal = number
-            raise KeyboardInterrupt
-        self._interrupt_soon(number)
+            self.__context._hold_signal(number)
+        else:
+            self._interrupt_soon(number)
 
     def _interrupt_soon(self, number: int) -> None:
         loop = self.__loop

@@ -77,24 +77,28 @@ class Command(Substitution):
 
 def _run(words: list[str], context: LaunchContext) -> tuple[int, str, str]:
     """(exit code, stdout, stderr) of a command, which does not outlive an interruption of this function."""
+    process = None
     try:
-        process = subprocess.Popen(
-            words,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            env=dict(context.environment),
-            process_group=0,
-        )
+        with context.uninterrupted():
+            process = subprocess.Popen(
+                words,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                env=dict(context.environment),
+                process_group=0,
+            )
+        output, errors = process.communicate()
     except FileNotFoundError:
         known = nearest_program(words[0], context)
         raise SubstitutionFailure(f"there is no program '{words[0]}' for Command to run{known}") from None
     except OSError as error:
         raise SubstitutionFailure(f"the program '{words[0]}' does not start: {error.strerror}") from None
-    with process:
-        try:
-            output, errors = process.communicate()
-        except BaseException:
-            os.killpg(process.pid, signal.SIGKILL)
-            raise
+    finally:
+        if process is not None:
+            with context.uninterrupted():
+                if process.poll() is None:
+                    os.killpg(process.pid, signal.SIGKILL)
+                with process:  # closes the pipes and takes notice of its end
+                    pass
     return process.returncode, output.decode(errors="replace"), errors.decode(errors="replace")
