@@ -152,6 +152,7 @@ ECHOES = {
     "wrong filter": ["echo", "/count", "std_msgs/msg/Int32", "--filter", "m.data >"],
     "failing filter": ["echo", "/count", "std_msgs/msg/Int32", "--filter", "m.dat > 1"],
     "bad name": ["echo", "/a b"],
+    "other type": ["echo", "/scan", "sensor_msgs/msg/Image", "--timeout", "0.2"],
 }
 
 
@@ -185,6 +186,13 @@ def test_echo_prints_a_message(echoes, echo, pattern):
     code, text, errors = echoes[echo]
     assert (code, errors) == (0, "")
     assert re.fullmatch(pattern, text), text
+
+
+def test_echo_of_another_type_is_told_that_nothing_can_arrive(echoes):
+    sentence = (
+        "The topic /scan has the type sensor_msgs/msg/LaserScan, not sensor_msgs/msg/Image: no message can arrive\n"
+    )
+    assert echoes["other type"] == (0, "", sentence)
 
 
 def test_echo_with_info_prints_two_documents(echoes):

@@ -11,11 +11,11 @@ import yaml
 
 from ros2.errors import CommandError, did_you_mean
 from ros2.graph import Graph, add_graph_options
-from ros2.interface import message_class
+from ros2.interface import message_class, message_type_name
 from ros2.message_text import TextFormat, is_message, to_csv, to_yaml
 from ros2.option_values import seconds, whole_number
 from ros2.qos import add_qos_options, chosen_qos
-from ros2.topic import following_qos, full_name, message_filter, nearest_topic, not_published, only_type
+from ros2.topic import following_qos, full_name, message_filter, nearest_topic, not_published, only_type, warn
 
 _FIRST_PUBLISHER = 1.0  # s to wait for somebody to follow the QoS of, when the type is given
 
@@ -64,6 +64,9 @@ def main(arguments: argparse.Namespace) -> int:
 def _message_class(graph: Graph, name: str, given: Any) -> Any:
     if given is not None:
         graph.wait_for_publisher(name, _FIRST_PUBLISHER)
+        types, own = dict(graph.topics(hidden=True)).get(name, []), message_type_name(given)
+        if types and own not in types:
+            warn(f"The topic {name} has the type {', '.join(types)}, not {own}: no message can arrive")
         return given
     types = graph.wait_for_topic(name)
     if not types:
