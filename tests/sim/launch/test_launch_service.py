@@ -1,12 +1,14 @@
 """LaunchService: its end, its exit code, threads, loops, many runs, handlers, scopes, timers."""
 
 import asyncio
+import contextlib
 import os
 import signal
 import subprocess
 import sys
 import threading
 
+import psutil
 import pytest
 
 import launch.events
@@ -364,6 +366,16 @@ def test_arguments_that_make_no_sense(make, words):
         make()
 
 
+def living_with(name, value):
+    """The processes that have this environment variable."""
+    found = []
+    for process in psutil.process_iter():
+        with contextlib.suppress(psutil.Error):
+            if process.environ().get(name) == value and process.status() != psutil.STATUS_ZOMBIE:
+                found.append(process)
+    return found
+
+
 INTERRUPTED = """\
 import os, signal, sys, threading
 from launch import *
@@ -393,7 +405,7 @@ def test_signals_end_it_whatever_it_does(tmp_path, entities, number, code):
     with subprocess.Popen(
         # As a shell's & does, the parent has SIGINT ignored.
         ["sh", "-c", 'trap "" INT; exec "$@"', "sh", sys.executable, "-c", program],
-        env={**os.environ, "ROS_LOG_DIR": str(tmp_path)},
+        env={**os.environ, "ROS_LOG_DIR": str(tmp_path)},  # which marks all processes of this test
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         stdin=subprocess.DEVNULL,
@@ -408,3 +420,4 @@ def test_signals_end_it_whatever_it_does(tmp_path, entities, number, code):
         assert (process.wait(30), "Traceback" in rest) == (code, False), rest
     wanted = "user interrupted with ctrl-c (SIGINT)" if number == signal.SIGINT else f"received {number.name}"
     assert f"[WARNING] [launch]: {wanted}" in rest
+    assert living_with("ROS_LOG_DIR", str(tmp_path)) == []
