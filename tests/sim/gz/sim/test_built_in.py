@@ -1,0 +1,78 @@
+"""The worlds and models that come with the simulator: all load without a word, run, and stand in its README."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import gz.sim.world
+from gz.sim.sensors.registry import sensor_types
+from gz.sim.systems.registry import systems
+from gz.sim.world import World
+from gz.transport import Node
+
+ROOM = Path(gz.sim.world.__file__).parent
+WORLDS = sorted(path.name for path in (ROOM / "worlds").glob("*.sdf"))
+MODELS = sorted(path.name for path in (ROOM / "models").iterdir())
+README = (ROOM / "README.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", WORLDS)
+def test_a_built_in_world_is_free_of_warnings_and_calm(name: str) -> None:
+    world = World.load(name, strict=True)
+    world.step(1500)
+    assert not world.warnings
+    assert np.isfinite(world.data.qpos).all()
+    speeds = [np.linalg.norm(world.velocity(model).linear) for model in world.model_names() if model != "pendulum"]
+    assert all(speed < 2.0 for speed in speeds), dict(zip(world.model_names(), speeds, strict=False))
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_a_built_in_model_comes_by_its_name(name: str) -> None:
+    text = f"<sdf version='1.10'><world name='w'><include><uri>model://{name}</uri></include></world></sdf>"
+    world = World.from_string(text)
+    assert name in world.model_names(static=True) or any(light.name == name for light in world.description.lights)
+    assert not [warning for warning in world.warnings if "stays silent" not in warning]
+
+
+def test_everything_stands_in_the_readme() -> None:
+    missing = [name for name in (*systems(), *WORLDS) if not re.search(rf"\b{re.escape(name)}\b", README)]
+    aliases = {"depth", "gps", "gpu_ray", "ray", "rgbd", "segmentation"}
+    missing += [kind for kind in sensor_types() if kind not in aliases and f"`{kind}`" not in README]
+    missing += [name for name in MODELS if f"`{name}`" not in README]
+    assert not missing
+
+
+def test_every_sensor_of_the_sensors_world_is_heard(node: Node) -> None:
+    world = World.load("sensors.sdf", node=node)
+    heard: dict[str, int] = {}
+
+    def listen(topic: str) -> None:
+        node.subscribe_raw(topic, lambda data, info: heard.update({topic: heard.get(topic, 0) + 1}))
+
+    mine = [topic for topic in node.topic_list() if not topic.startswith("/world/")]
+    assert len(mine) == 24
+    for topic in mine:
+        listen(topic)
+    world.step(1001)
+    world.close()
+    assert sorted(heard) == sorted(mine)
+    assert heard["/imu"] == 101 and heard["/navsat"] == 2 and heard["/camera/image"] == 11
+
+
+def test_the_cargo_robot_drives_as_it_is_told() -> None:
+    world = World.load("warehouse.sdf")
+    drive: Any = next(system for system in world.systems if system.name == "DiffDrive")
+    drive.command(0.8, 0.0)
+    world.step(3000)
+    velocity = world.velocity("cargo_robot")
+    assert velocity.linear[0] == pytest.approx(0.8, rel=0.005)
+    assert abs(world.pose("cargo_robot").position[1]) < 0.001
+    drive.command(0.0, 0.0)
+    world.step(1500)
+    assert np.linalg.norm(world.velocity("cargo_robot").linear) < 1e-3
+    assert abs(world.pose("cargo_robot").rpy()[1]) < 0.02
