@@ -1,14 +1,10 @@
 """LaunchService: its end, its exit code, threads, loops, many runs, handlers, scopes, timers."""
 
 import asyncio
-import contextlib
 import os
 import signal
-import subprocess
-import sys
 import threading
 
-import psutil
 import pytest
 
 import launch.events
@@ -364,60 +360,3 @@ def test_functions_and_coroutines(run):
 def test_arguments_that_make_no_sense(make, words):
     with pytest.raises(Exception, match=words):
         make()
-
-
-def living_with(name, value):
-    """The processes that have this environment variable."""
-    found = []
-    for process in psutil.process_iter():
-        with contextlib.suppress(psutil.Error):
-            if process.environ().get(name) == value and process.status() != psutil.STATUS_ZOMBIE:
-                found.append(process)
-    return found
-
-
-INTERRUPTED = """\
-import os, signal, sys, threading
-from launch import *
-from launch.actions import *
-from launch.substitutions import *
-{setup}
-service = LaunchService()
-service.include_launch_description(LaunchDescription([{entities}]))
-sys.exit(service.run())
-"""
-
-
-@pytest.mark.parametrize(
-    "entities",
-    [
-        "OpaqueFunction(function=lambda context: forever())",
-        "LogInfo(msg='up'), LogInfo(msg=Command('sleep 1000'))",
-        "ExecuteProcess(cmd=['sh', '-c', 'echo up; exec sleep 1000'], output='screen')",
-    ],
-)
-@pytest.mark.parametrize(
-    ("number", "code"), [(signal.SIGINT, 0), (signal.SIGTERM, 1), (signal.SIGHUP, 1), (signal.SIGQUIT, 1)]
-)
-def test_signals_end_it_whatever_it_does(tmp_path, entities, number, code):
-    setup = "def forever():\n    print('up', flush=True)\n    while True: pass"
-    program = INTERRUPTED.format(setup=setup, entities=entities)
-    with subprocess.Popen(
-        # As a shell's & does, the parent has SIGINT ignored.
-        ["sh", "-c", 'trap "" INT; exec "$@"', "sh", sys.executable, "-c", program],
-        env={**os.environ, "ROS_LOG_DIR": str(tmp_path)},  # which marks all processes of this test
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        stdin=subprocess.DEVNULL,
-        text=True,
-        start_new_session=True,
-    ) as process:
-        for line in process.stdout:
-            if line.rstrip().endswith("up"):
-                break
-        process.send_signal(number)
-        rest = process.stdout.read()  # ends when the last process of the tree has gone
-        assert (process.wait(30), "Traceback" in rest) == (code, False), rest
-    wanted = "user interrupted with ctrl-c (SIGINT)" if number == signal.SIGINT else f"received {number.name}"
-    assert f"[WARNING] [launch]: {wanted}" in rest
-    assert living_with("ROS_LOG_DIR", str(tmp_path)) == []
