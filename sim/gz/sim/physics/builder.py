@@ -29,6 +29,8 @@ DEEPEST = 1000
 """So many links can hang on each other in a row; MuJoCo ends there."""
 MOST_TOUCHING = 2000
 """So many links of one model can have collisions: each pair of them is kept apart by name."""
+MOST_MOVING = 10_000
+"""So many links of a world can move; the time MuJoCo takes to take them in grows with their square (20 s for these)."""
 _MANY_LINKS = 300
 _WORKSPACE = (1 << 29, 1 << 18)
 """Bytes of a large world's workspace, and more for each link. MuJoCo's own guess grows with their square: 14 GB
@@ -84,6 +86,11 @@ class _Builder:
     def build(self) -> mujoco.MjSpec:
         spec, world = self._spec, self._world
         spec.modelname = world.name
+        moving = sum(not model.static for model, _ in self._links.values())
+        if moving > MOST_MOVING:
+            raise world.element.error(
+                f"the world has {moving} links that move, more than {MOST_MOVING}; make some static"
+            )
         if len(self._links) > _MANY_LINKS:
             spec.memory = _WORKSPACE[0] + _WORKSPACE[1] * len(self._links)
         recipe.apply_options(spec, self._step, world.gravity)

@@ -176,3 +176,11 @@ def test_friction_ranks_are_highest_for_the_lowest() -> None:
 def test_what_mujoco_refuses_is_one_sentence(load_text: Load) -> None:
     with pytest.raises(SdfError, match=r"^<string>:\d+: .* refuses link 'l' of model 'm'"):
         load_text("<model name='m'><link name='l'><inertial><mass>1e-300</mass></inertial></link></model>")
+
+
+def test_more_moving_links_than_physics_can_take_are_refused(load_text: Load, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("gz.sim.physics.builder.MOST_MOVING", 3)
+    models = "".join(box(f"m{n}", f"{n} 0 0 0 0 0", 1, n > 2) for n in range(9))
+    assert len(load_text(models).model_names()) == 3
+    with pytest.raises(SdfError, match="the world has 4 links that move, more than 3"):
+        load_text(models + box("one_more", "0 0 9 0 0 0", 1, False))
