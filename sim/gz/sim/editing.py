@@ -173,7 +173,9 @@ class Editing(Truth):
         self.description.models.remove(model)
         scope = f"{model.name}::"
         self.description.joints[:] = [
-            joint for joint in self.description.joints if not (joint.child + " " + joint.parent).count(scope)
+            joint
+            for joint in self.description.joints
+            if not (joint.child.startswith(scope) or joint.parent.startswith(scope))
         ]
         self._models.pop(model.name, None)
         self.entities.remove("model", model.name)
@@ -195,11 +197,14 @@ class Editing(Truth):
             return
         model = self._model(name)
         move = pose * self.pose(name).inverse()
-        held = False
+        held = moved = False
         for part in model.links:
             body = mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_BODY, scoped(model, part.name))
-            if body < 0 or (int(self.model.body_parentid[body]) == 0 and not self._move_body(body, move)):
-                held = True
+            on_world = body < 0 or int(self.model.body_parentid[body]) == 0
+            floats = body >= 0 and on_world and self._move_body(body, move)
+            moved, held = moved or floats, held or (on_world and not floats)
+        if not (moved or held):
+            raise SimError(f"model '{name}' hangs on a joint of the world to another model; move that one")
         if held:
             # What the world holds stands where the description says, not in the state.
             self._change(model, "pose", move * model.pose)

@@ -11,7 +11,7 @@ import copy
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gz.sim.errors import ResourceError
+from gz.sim.errors import LOG, ResourceError
 from gz.sim.pose import Pose
 from gz.sim.sdf.description import Light, Model
 from gz.sim.sdf.element import Element
@@ -21,6 +21,7 @@ from gz.sim.sdf.writer import pose_element, to_xml
 if TYPE_CHECKING:
     from gz.sim.world import World
 
+_FRAMES_CHANGED = (1, 7)
 _ROOTS = ("model", "light", "include")
 
 
@@ -45,6 +46,8 @@ class _Generator:
         written = Element("world", dict(source.attributes) | {"name": description.name})
         models, lights = list(description.models), list(description.lights)
         for child in source.children:
+            if child.tag == "joint" and not any(joint.element is child for joint in description.joints):
+                continue  # one of its models went
             if child.tag not in _ROOTS:
                 written.children.append(self._physics(child) if child.tag == "physics" else _copy(child))
                 continue
@@ -82,6 +85,13 @@ class _Generator:
             made.children = [child for child in made.children if child.tag not in ("name", "placement_frame")]
             made.children.insert(0, Element("name", text=model.name))
             return made
+        if model.version != self._version and min(model.version, self._version) < _FRAMES_CHANGED:
+            LOG.warning(
+                "model '%s' follows the rules of SDF %s but is written into SDF %s; check its frames and joint axes",
+                model.name,
+                ".".join(map(str, model.version)),
+                ".".join(map(str, self._version)),
+            )
         made = _placed(_copy(model.element), pose, self._version)
         made.attributes["name"] = model.name
         made.attributes.pop("placement_frame", None)
@@ -109,6 +119,8 @@ def _came_from(element: Element, name: str, child: Element) -> bool:
     """Whether a model or light is what this child of `<world>` brought."""
     if child.tag != "include":
         return element is child
+    if child.attributes.get("merge", "false").lower() in ("true", "1"):
+        return False  # what it brought is written out
     if child.text_of("name", name) != name:
         return False
     base = Path(child.file).parent if child.file != "<string>" else None

@@ -54,6 +54,7 @@ class ModelReader:
             raise element.error("<model> needs a name attribute")
         static = static or element.flag("static", False)
         model = Model(element.name, Pose(), element, static, element.flag("self_collide", False))
+        model.version = opened.version
         scope = Scope("__model__", element)
         parts: list[Opened] = []
         nested: list[tuple[str, Model]] = []

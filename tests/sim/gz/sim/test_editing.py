@@ -156,6 +156,18 @@ def test_a_model_that_the_world_holds_is_moved_with_its_joints_as_they_are(load_
         world.set_pose("arm::upper", Pose())
 
 
+def test_a_model_that_hangs_on_another_is_not_moved_alone(load_text: Load) -> None:
+    models = "".join(f"<model name='{name}'><link name='l'/></model>" for name in "ab")
+    world = load_text(
+        f"{models}<joint name='j' type='revolute'><parent>a::l</parent><child>b::l</child><axis><xyz>0 0 1</xyz></axis>"
+        "</joint>"
+    )
+    with pytest.raises(SimError, match="hangs on a joint of the world"):
+        world.set_pose("b", Pose((1.0, 0.0, 0.0)))
+    world.set_pose("a", Pose((1.0, 0.0, 0.0)))
+    assert world.pose("b").position[0] == pytest.approx(1.0)
+
+
 def test_names_that_are_taken(load_text: Load) -> None:
     world = load_text("")
     assert world.spawn(box()) == "box"

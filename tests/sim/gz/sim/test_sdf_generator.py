@@ -51,6 +51,32 @@ def test_old_versions_have_their_poses_in_angles(load_text: Load) -> None:
     assert World.from_string(text).pose("m").is_close(world.pose("m"), 1e-12)
 
 
+def test_a_model_of_older_rules_is_warned_about(load_text: Load, caplog: pytest.LogCaptureFixture) -> None:
+    world = load_text("")
+    for version in ("1.9", "1.4"):
+        world.spawn(f"<sdf version='{version}'><model name='m'><link name='l'/></model></sdf>", allow_renaming=True)
+    generate_world(world)
+    assert [record.getMessage().split(" but")[0] for record in caplog.records] == [
+        "model 'm_0' follows the rules of SDF 1.4"
+    ]
+
+
+def test_joints_between_models_go_with_their_models(load_text: Load) -> None:
+    inside = "".join(
+        f"<model name='{name}'><pose>{x} 0 0 0 0 0</pose><link name='l'/></model>"
+        for x, name in enumerate(("a", "aa", "b"))
+    )
+    for name, parent in (("one", "a"), ("two", "aa")):
+        inside += f"<joint name='{name}' type='fixed'><parent>{parent}::l</parent><child>b::l</child></joint>"
+    world = load_text(inside)
+    world.remove("a")
+    assert [joint.name for joint in world.description.joints] == ["two"]
+    again = World.from_string(generate_world(world))
+    assert [joint.name for joint in again.description.joints] == ["two"]
+    world.reset()
+    assert [joint.name for joint in world.description.joints] == ["one", "two"]
+
+
 def test_models_that_other_frames_placed(load_text: Load) -> None:
     inside = (
         "<frame name='f'><pose>1 0 0 0 0 1</pose></frame>"
