@@ -185,7 +185,10 @@ class _Child:
             self.next = self.running + 1
         elif words[0] == "wrong":
             self.faults.append((int(words[1]), words[2]))
-        return words[0] != "end"
+        if words[0] == "end":
+            self.process.wait(DEADLINE)  # it still has its files to clear away
+            return False
+        return True
 
     @staticmethod
     def _end_name(code: int) -> str:
