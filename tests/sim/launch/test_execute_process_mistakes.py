@@ -1,0 +1,55 @@
+"""ExecuteProcess: what is said about processes that cannot be started."""
+
+import pytest
+
+from launch.actions import ExecuteProcess
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"cmd": ["no-such-program"]}, "there is no program 'no-such-program' to be started"),
+        ({"cmd": ["slep", "1"]}, "there is no program 'slep' to be started; did you mean 'sleep'?"),
+        ({"cmd": ["true"], "cwd": "/no/such/folder"}, "in the folder '/no/such/folder', which does not exist"),
+        ({"cmd": ["{}/text"]}, "not executable"),
+        ({"cmd": ["{}/program"]}, "its first line must be #!"),
+        ({"cmd": []}, "the command is empty"),
+        ({"cmd": ["true"], "prefix": "'"}, "cannot be split"),
+        ({"cmd": ["true"], "additional_env": {"A=B": "1"}}, "cannot be set"),
+        ({"cmd": ["a\0b"]}, "null byte"),
+    ],
+)
+def test_what_cannot_be_started_ends_the_launch(run, tmp_path, options, words):
+    (tmp_path / "text").touch()
+    (tmp_path / "program").write_text("text")
+    (tmp_path / "program").chmod(0o755)
+    options = {**options, "cmd": [word.format(tmp_path) for word in options["cmd"]]}
+    result = run(ExecuteProcess(cmd=["sleep", "1000"]), ExecuteProcess(**options))
+    assert result.code == 1
+    (said,) = (line for line in result.lines if "Caught exception in launch" in line)
+    assert words in said
+    assert f"{__file__}:" in said, "the place where the action was made"
+    assert "Traceback" not in result.text
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"cmd": "ls -l"}, r"cmd=\['ls', '-l'\], or add shell=True"),
+        ({"cmd": ["ls"], "outptu": "screen"}, "ExecuteProcess has no argument 'outptu'; did you mean 'output'"),
+        ({"cmd": ["ls"], "condition": True}, "IfCondition"),
+        ({"cmd": [3]}, "3 is of type int"),
+        ({"cmd": ["ls"], "on_exit": 3}, "on_exit is 3"),
+        ({"cmd": ["ls"], "on_exit": ["a"]}, "on_exit holds 'a' of type str"),
+    ],
+)
+def test_arguments_that_make_no_sense(options, words):
+    with pytest.raises(Exception, match=words):
+        ExecuteProcess(**options)
+
+
+def test_an_action_is_executed_once_only(run):
+    action = ExecuteProcess(cmd=["true"])
+    result = run(action, action)
+    assert result.code == 1
+    assert "an action can only be executed once, make another one" in result.text
