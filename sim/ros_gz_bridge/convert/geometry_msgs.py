@@ -1,30 +1,44 @@
 """geometry_msgs: vectors, rotations, poses, transforms, twists and wrenches.
 
 Lengths are metres, angles radians, speeds m/s and rad/s, forces newtons; both sides use the same units, so
-every number is copied. Quaternions are x, y, z, w on both sides.
+every number is copied. Quaternions are x, y, z, w on both sides and copied as they are: one that was never
+filled in stays 0, 0, 0, 0, and its sign is kept.
 """
 
 from __future__ import annotations
 
 import math
+import operator
 from typing import Any
 
+import numpy as np
 from geometry_msgs.msg import (
     Point,
     Pose,
+    PoseArray,
     PoseStamped,
+    PoseWithCovariance,
+    PoseWithCovarianceStamped,
     Quaternion,
     Transform,
     TransformStamped,
     Twist,
     TwistStamped,
+    TwistWithCovariance,
+    TwistWithCovarianceStamped,
     Vector3,
+    Wrench,
+    WrenchStamped,
 )
 from gz.msgs.pose_pb2 import Pose as GzPose
+from gz.msgs.pose_with_covariance_pb2 import PoseWithCovariance as GzPoseWithCovariance
 from gz.msgs.quaternion_pb2 import Quaternion as GzQuaternion
 from gz.msgs.twist_pb2 import Twist as GzTwist
+from gz.msgs.twist_with_covariance_pb2 import TwistWithCovariance as GzTwistWithCovariance
 from gz.msgs.vector3d_pb2 import Vector3d
+from gz.msgs.wrench_pb2 import Wrench as GzWrench
 
+from ros_gz_bridge.fields import HEADER, Each, Fields, Part, add_fields
 from ros_gz_bridge.header import CHILD_FRAME_ID, header_to_gz, header_to_ros, header_value, set_header_value
 from ros_gz_bridge.type_pairs import type_pair
 
@@ -76,6 +90,13 @@ def copy_transform(ros: Transform, gz: Any) -> None:
     copy_xyzw(ros.rotation, gz.orientation)
 
 
+def copy_transform_stamped(ros: TransformStamped, gz: Any) -> None:
+    """Write a stamped ROS transform with both its frames into ``gz`` (a ``gz.msgs.Pose``)."""
+    header_to_gz(ros.header, gz.header)
+    set_header_value(gz.header, CHILD_FRAME_ID, ros.child_frame_id)
+    copy_transform(ros.transform, gz)
+
+
 def twist_to_ros(gz: Any) -> Twist:
     """Linear and angular velocity of a ``gz.msgs.Twist``."""
     return Twist(linear=vector_to_ros(gz.linear), angular=vector_to_ros(gz.angular))
@@ -87,14 +108,20 @@ def copy_twist(ros: Twist, gz: Any) -> None:
     copy_xyz(ros.angular, gz.angular)
 
 
-def twist_fault(twist: Twist, prefix: str = "") -> str | None:
-    """The fields that are not finite (``"linear.x is nan"``), or None: no simulator survives them."""
-    bad = [
-        f"{prefix}{part}.{axis} is {value}"
-        for part in ("linear", "angular")
-        for axis in "xyz"
-        if not math.isfinite(value := getattr(getattr(twist, part), axis))
-    ]
+def not_finite(message: Any, *paths: str) -> str | None:
+    """The numbers that are not finite (``"linear.x is nan"``), or None: no simulator survives them.
+
+    Each path leads to a number of ``message`` or to a message whose numbers are ``x, y, z`` (and ``w``).
+    """
+    bad = []
+    for path in paths:
+        value = operator.attrgetter(path)(message)
+        if not isinstance(value, float):
+            axes = "xyzw" if isinstance(value, Quaternion) else "xyz"
+            numbers = [(f"{path}.{axis}", getattr(value, axis)) for axis in axes]
+        else:
+            numbers = [(path, value)]
+        bad += [f"{name} is {number}" for name, number in numbers if not math.isfinite(number)]
     return ", ".join(bad) or None
 
 
@@ -197,9 +224,7 @@ class TransformStampedPair:
     def to_gz(ros: TransformStamped) -> Any:
         """ROS to Gazebo."""
         gz = GzPose()
-        header_to_gz(ros.header, gz.header)
-        set_header_value(gz.header, CHILD_FRAME_ID, ros.child_frame_id)
-        copy_transform(ros.transform, gz)
+        copy_transform_stamped(ros, gz)
         return gz
 
 
@@ -219,7 +244,7 @@ class TwistPair:
     @staticmethod
     def fault(ros: Twist) -> str | None:
         """What must not reach the simulator."""
-        return twist_fault(ros)
+        return not_finite(ros, "linear", "angular")
 
 
 @type_pair("geometry_msgs/msg/TwistStamped", "gz.msgs.Twist")
@@ -242,4 +267,124 @@ class TwistStampedPair:
     @staticmethod
     def fault(ros: TwistStamped) -> str | None:
         """What must not reach the simulator."""
-        return twist_fault(ros.twist, "twist.")
+        return not_finite(ros, "twist.linear", "twist.angular")
+
+
+def covariance_to_ros(numbers: Any, ros: Any) -> None:
+    """Row-major 6x6 covariance into ``ros.covariance``; a list of another length leaves it zero."""
+    if len(numbers) == 36:
+        ros.covariance = np.array(numbers, dtype=np.float64)
+
+
+def pose_with_covariance_to_ros(gz: Any) -> PoseWithCovariance:
+    """A ``gz.msgs.PoseWithCovariance`` without its header."""
+    ros = PoseWithCovariance(pose=pose_to_ros(gz.pose))
+    covariance_to_ros(gz.covariance.data, ros)
+    return ros
+
+
+def copy_pose_with_covariance(ros: PoseWithCovariance, gz: Any) -> None:
+    """Write into a ``gz.msgs.PoseWithCovariance``."""
+    copy_pose(ros.pose, gz.pose)
+    gz.covariance.data.extend(ros.covariance)
+
+
+def twist_with_covariance_to_ros(gz: Any) -> TwistWithCovariance:
+    """A ``gz.msgs.TwistWithCovariance`` without its header."""
+    ros = TwistWithCovariance(twist=twist_to_ros(gz.twist))
+    covariance_to_ros(gz.covariance.data, ros)
+    return ros
+
+
+def copy_twist_with_covariance(ros: TwistWithCovariance, gz: Any) -> None:
+    """Write into a ``gz.msgs.TwistWithCovariance``."""
+    copy_twist(ros.twist, gz.twist)
+    gz.covariance.data.extend(ros.covariance)
+
+
+@type_pair("geometry_msgs/msg/PoseWithCovarianceStamped", "gz.msgs.PoseWithCovariance")
+class PoseWithCovarianceStampedPair:
+    """A pose with its covariance; Gazebo keeps the header in the pose."""
+
+    @staticmethod
+    def to_ros(gz: Any) -> PoseWithCovarianceStamped:
+        """Gazebo to ROS."""
+        return PoseWithCovarianceStamped(header=header_to_ros(gz.pose.header), pose=pose_with_covariance_to_ros(gz))
+
+    @staticmethod
+    def to_gz(ros: PoseWithCovarianceStamped) -> Any:
+        """ROS to Gazebo."""
+        gz = GzPoseWithCovariance()
+        header_to_gz(ros.header, gz.pose.header)
+        copy_pose_with_covariance(ros.pose, gz)
+        return gz
+
+
+@type_pair("geometry_msgs/msg/TwistWithCovarianceStamped", "gz.msgs.TwistWithCovariance")
+class TwistWithCovarianceStampedPair:
+    """A twist with its covariance; Gazebo keeps the header in the twist."""
+
+    @staticmethod
+    def to_ros(gz: Any) -> TwistWithCovarianceStamped:
+        """Gazebo to ROS."""
+        return TwistWithCovarianceStamped(header=header_to_ros(gz.twist.header), twist=twist_with_covariance_to_ros(gz))
+
+    @staticmethod
+    def to_gz(ros: TwistWithCovarianceStamped) -> Any:
+        """ROS to Gazebo."""
+        gz = GzTwistWithCovariance()
+        header_to_gz(ros.header, gz.twist.header)
+        copy_twist_with_covariance(ros.twist, gz)
+        return gz
+
+    @staticmethod
+    def fault(ros: TwistWithCovarianceStamped) -> str | None:
+        """What must not reach the simulator."""
+        return not_finite(ros, "twist.twist.linear", "twist.twist.angular")
+
+
+VECTOR3 = Part(vector_to_ros, copy_xyz)
+POSE = Part(pose_to_ros, copy_pose)
+WRENCH = Fields(Wrench, force=VECTOR3, torque=VECTOR3)
+"""Force and torque; Gazebo's ``force_offset`` has no place in ROS."""
+
+add_fields(
+    "geometry_msgs/msg/PoseArray",
+    "gz.msgs.Pose_V",
+    Fields(PoseArray, {"poses": "pose"}, header=HEADER, poses=Each(POSE)),
+)
+add_fields(
+    "geometry_msgs/msg/PoseWithCovariance",
+    "gz.msgs.PoseWithCovariance",
+    Part(pose_with_covariance_to_ros, copy_pose_with_covariance),
+)
+add_fields(
+    "geometry_msgs/msg/TwistWithCovariance",
+    "gz.msgs.TwistWithCovariance",
+    Part(twist_with_covariance_to_ros, copy_twist_with_covariance),
+    fault=lambda ros: not_finite(ros, "twist.linear", "twist.angular"),
+)
+add_fields("geometry_msgs/msg/Wrench", "gz.msgs.Wrench", WRENCH, fault=lambda ros: not_finite(ros, "force", "torque"))
+
+
+@type_pair("geometry_msgs/msg/WrenchStamped", "gz.msgs.Wrench")
+class WrenchStampedPair:
+    """A wrench with its header."""
+
+    @staticmethod
+    def to_ros(gz: Any) -> WrenchStamped:
+        """Gazebo to ROS."""
+        return WrenchStamped(header=header_to_ros(gz.header), wrench=WRENCH.to_ros(gz))
+
+    @staticmethod
+    def to_gz(ros: WrenchStamped) -> Any:
+        """ROS to Gazebo."""
+        gz = GzWrench()
+        header_to_gz(ros.header, gz.header)
+        WRENCH.to_gz(ros.wrench, gz)
+        return gz
+
+    @staticmethod
+    def fault(ros: WrenchStamped) -> str | None:
+        """What must not reach the simulator."""
+        return not_finite(ros, "wrench.force", "wrench.torque")

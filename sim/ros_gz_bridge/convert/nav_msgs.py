@@ -8,11 +8,18 @@ from gz.msgs.odometry_pb2 import Odometry as GzOdometry
 from gz.msgs.odometry_with_covariance_pb2 import OdometryWithCovariance
 from nav_msgs.msg import Odometry
 
-from ros_gz_bridge.convert.geometry_msgs import copy_pose, copy_twist, pose_to_ros, twist_to_ros
+from ros_gz_bridge.convert.geometry_msgs import (
+    copy_pose,
+    copy_pose_with_covariance,
+    copy_twist,
+    copy_twist_with_covariance,
+    pose_to_ros,
+    pose_with_covariance_to_ros,
+    twist_to_ros,
+    twist_with_covariance_to_ros,
+)
 from ros_gz_bridge.header import CHILD_FRAME_ID, header_to_gz, header_to_ros, header_value, set_header_value
 from ros_gz_bridge.type_pairs import type_pair
-
-_COVARIANCE = 36
 
 
 def _frames_to_ros(gz: Any) -> Odometry:
@@ -54,11 +61,8 @@ class OdometryWithCovariancePair:
     def to_ros(gz: Any) -> Odometry:
         """Gazebo to ROS."""
         ros = _frames_to_ros(gz)
-        ros.pose.pose = pose_to_ros(gz.pose_with_covariance.pose)
-        ros.twist.twist = twist_to_ros(gz.twist_with_covariance.twist)
-        for part, source in ((ros.pose, gz.pose_with_covariance), (ros.twist, gz.twist_with_covariance)):
-            if len(source.covariance.data) == _COVARIANCE:
-                part.covariance = list(source.covariance.data)
+        ros.pose = pose_with_covariance_to_ros(gz.pose_with_covariance)
+        ros.twist = twist_with_covariance_to_ros(gz.twist_with_covariance)
         return ros
 
     @staticmethod
@@ -66,8 +70,6 @@ class OdometryWithCovariancePair:
         """ROS to Gazebo."""
         gz = OdometryWithCovariance()
         _frames_to_gz(ros, gz)
-        copy_pose(ros.pose.pose, gz.pose_with_covariance.pose)
-        copy_twist(ros.twist.twist, gz.twist_with_covariance.twist)
-        gz.pose_with_covariance.covariance.data.extend(ros.pose.covariance)
-        gz.twist_with_covariance.covariance.data.extend(ros.twist.covariance)
+        copy_pose_with_covariance(ros.pose, gz.pose_with_covariance)
+        copy_twist_with_covariance(ros.twist, gz.twist_with_covariance)
         return gz

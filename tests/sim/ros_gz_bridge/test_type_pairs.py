@@ -42,7 +42,7 @@ def test_an_unknown_pair_names_the_nearest(ros_type, gz_type, words):
 def test_a_file_for_a_package_that_is_absent_is_passed_over(tmp_path, monkeypatch):
     (tmp_path / "absent_msgs.py").write_text("from absent_msgs.msg import Thing\n")
     monkeypatch.setattr(ros_gz_bridge.convert, "__path__", [*ros_gz_bridge.convert.__path__, str(tmp_path)])
-    assert type_pairs.missing_packages() == ["absent_msgs"]
+    assert "absent_msgs" in type_pairs.missing_packages()
     assert type_pairs.pairs()
     with pytest.raises(MissingPackageError, match="needs the ROS package absent_msgs, which is not installed"):
         find_pair("absent_msgs/msg/Thing", "gz.msgs.Thing")

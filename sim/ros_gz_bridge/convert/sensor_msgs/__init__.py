@@ -1,0 +1,8 @@
+"""sensor_msgs: cameras, lidars, and what other sensors, joints, batteries and joysticks report.
+
+SI units and radians on both sides, except latitude and longitude, which are degrees.
+"""
+
+from ros_gz_bridge.convert.sensor_msgs import cameras, lidars, readings
+
+__all__ = ["cameras", "lidars", "readings"]

@@ -1,0 +1,157 @@
+"""LaserScan, Range and PointCloud2. Ranges and points are copied in one piece, never one by one."""
+
+from __future__ import annotations
+
+import math
+from array import array
+from typing import Any
+
+import numpy as np
+from gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
+from gz.msgs.pointcloud_packed_pb2 import PointCloudPacked
+from sensor_msgs.msg import LaserScan, PointCloud2, PointField, Range
+
+from ros_gz_bridge.header import frame_to_ros, header_to_gz, header_to_ros
+from ros_gz_bridge.type_pairs import ConversionError, type_pair
+
+
+@type_pair("sensor_msgs/msg/LaserScan", "gz.msgs.LaserScan")
+class LaserScanPair:
+    """Ranges in metres by angle in radians; no return is infinite on both sides.
+
+    A Gazebo scan may have several layers, one above the other, where ROS has one: the middle layer is taken.
+    Its frame comes from the field ``frame``, not from the header. Times between beams are unknown, so they
+    are 0.
+    """
+
+    @staticmethod
+    def to_ros(gz: Any) -> LaserScan:
+        """Gazebo to ROS."""
+        start = (gz.vertical_count // 2) * gz.count
+        ros = LaserScan(
+            header=_scan_header(gz),
+            angle_min=gz.angle_min,
+            angle_max=gz.angle_max,
+            angle_increment=gz.angle_step,
+            range_min=gz.range_min,
+            range_max=gz.range_max,
+        )
+        if len(gz.ranges) < start + gz.count:
+            raise ConversionError(f"the scan announces {gz.count} beams a layer but carries {len(gz.ranges)} ranges")
+        ros.ranges = _float32s(gz.ranges, start, gz.count)
+        if len(gz.intensities) >= start + gz.count:
+            ros.intensities = _float32s(gz.intensities, start, gz.count)
+        return ros
+
+    @staticmethod
+    def to_gz(ros: LaserScan) -> Any:
+        """ROS to Gazebo."""
+        gz = GzLaserScan(
+            frame=ros.header.frame_id,
+            angle_min=ros.angle_min,
+            angle_max=ros.angle_max,
+            angle_step=ros.angle_increment,
+            range_min=ros.range_min,
+            range_max=ros.range_max,
+            count=len(ros.ranges),
+            ranges=ros.ranges,
+            intensities=ros.intensities,
+        )
+        header_to_gz(ros.header, gz.header)
+        return gz
+
+
+def _scan_header(gz: Any) -> Any:
+    header = header_to_ros(gz.header)
+    header.frame_id = frame_to_ros(gz.frame)
+    return header
+
+
+def _float32s(numbers: Any, start: int, count: int) -> array[float]:
+    """``count`` doubles from ``start`` as an array: ROS takes it as it is, where it checks a list one by one."""
+    with np.errstate(over="ignore"):  # beyond float32 is infinite, as in C
+        return array("f", np.asarray(numbers, dtype=np.float64)[start : start + count].astype(np.float32).tobytes())
+
+
+@type_pair("sensor_msgs/msg/Range", "gz.msgs.LaserScan")
+class RangePair:
+    """The single beam of a lidar as a distance; of several beams the nearest, as a real range finder answers."""
+
+    @staticmethod
+    def to_ros(gz: Any) -> Range:
+        """Gazebo to ROS."""
+        return Range(
+            header=_scan_header(gz),
+            radiation_type=Range.INFRARED,
+            field_of_view=gz.angle_max - gz.angle_min,
+            min_range=gz.range_min,
+            max_range=gz.range_max,
+            range=min((number for number in gz.ranges if not math.isnan(number)), default=math.nan),
+        )
+
+    @staticmethod
+    def to_gz(ros: Range) -> Any:
+        """ROS to Gazebo: one beam, straight ahead in the middle of the field of view."""
+        gz = GzLaserScan(
+            frame=ros.header.frame_id,
+            angle_min=-ros.field_of_view / 2,
+            angle_max=ros.field_of_view / 2,
+            angle_step=ros.field_of_view,
+            range_min=ros.min_range,
+            range_max=ros.max_range,
+            count=1,
+            ranges=[ros.range],
+        )
+        header_to_gz(ros.header, gz.header)
+        return gz
+
+
+@type_pair("sensor_msgs/msg/PointCloud2", "gz.msgs.PointCloudPacked")
+class PointCloud2Pair:
+    """Points as bytes, with the fields that say how to read them."""
+
+    @staticmethod
+    def to_ros(gz: Any) -> PointCloud2:
+        """Gazebo to ROS."""
+        return PointCloud2(
+            header=header_to_ros(gz.header),
+            height=gz.height,
+            width=gz.width,
+            fields=[
+                # Gazebo counts the types of numbers from 0, ROS from 1.
+                PointField(name=field.name, offset=field.offset, datatype=field.datatype + 1, count=field.count)
+                for field in gz.field
+                if _check_type(field.name, field.datatype + 1)
+            ],
+            is_bigendian=gz.is_bigendian,
+            point_step=gz.point_step,
+            row_step=gz.row_step,
+            data=array("B", gz.data),
+            is_dense=gz.is_dense,
+        )
+
+    @staticmethod
+    def to_gz(ros: PointCloud2) -> Any:
+        """ROS to Gazebo."""
+        gz = PointCloudPacked(
+            height=ros.height,
+            width=ros.width,
+            is_bigendian=ros.is_bigendian,
+            point_step=ros.point_step,
+            row_step=ros.row_step,
+            data=bytes(ros.data),
+            is_dense=ros.is_dense,
+        )
+        header_to_gz(ros.header, gz.header)
+        for field in ros.fields:
+            _check_type(field.name, field.datatype)
+            gz.field.add(name=field.name, offset=field.offset, datatype=field.datatype - 1, count=field.count)
+        return gz
+
+
+def _check_type(field: str, datatype: int) -> bool:
+    if not PointField.INT8 <= datatype <= PointField.FLOAT64:
+        raise ConversionError(
+            f"the field {field!r} of the points is of the unknown type number {datatype} (ROS: 1 to 8)"
+        )
+    return True
