@@ -38,7 +38,7 @@ from launch.conditions import (
     LaunchConfigurationNotEquals,
     UnlessCondition,
 )
-from launch.event_handlers import OnExecutionComplete, OnProcessExit, OnShutdown
+from launch.event_handlers import OnExecutionComplete, OnProcessExit, OnProcessIO, OnShutdown
 from launch.substitutions import EnvironmentVariable, LaunchConfiguration, PythonExpression
 
 
@@ -70,8 +70,8 @@ def test_it_can_wait_for_a_shutdown():
     timer = threading.Timer(0.05, service.shutdown)
     timer.start()
     assert service.run(shutdown_when_idle=False) == 0
-    assert not timer.is_alive()
     timer.join()
+    assert timer.finished.is_set()
 
 
 def test_an_exception_ends_it_and_nothing_else_starts(run):
@@ -101,19 +101,24 @@ def test_an_exception_in_an_answer_ends_the_processes_that_run(run):
     assert any("process has died" in line for line in result.lines)
 
 
-@pytest.mark.parametrize("place", ["matcher", "coroutine"])
-def test_an_exception_anywhere_ends_it(run, place):
-    async def fail(context):
-        raise ValueError("that was wrong")
+async def failing_coroutine(context):
+    raise ValueError("that was wrong")
 
-    if place == "coroutine":
-        entities = [OpaqueCoroutine(coroutine=fail)]
-    else:
-        entities = [
-            ExecuteProcess(cmd=["true"]),
-            RegisterEventHandler(OnProcessExit(target_action=lambda action: 1 / 0, on_exit=[])),
-        ]
-    assert run(*entities).code == 1
+
+@pytest.mark.parametrize(
+    "entity",
+    [
+        OpaqueCoroutine(coroutine=failing_coroutine),
+        RegisterEventHandler(OnProcessExit(target_action=lambda action: 1 / 0, on_exit=[])),
+        RegisterEventHandler(OnProcessIO(target_action=lambda action: 1 / 0, on_stdout=print)),
+        RegisterEventHandler(OnProcessIO(on_stdout=lambda event: 1 / 0)),
+    ],
+    ids=["coroutine", "matcher of ends", "matcher of output", "answer to output"],
+)
+def test_an_exception_anywhere_ends_it(run, caplog, entity):
+    result = run(entity, ExecuteProcess(cmd=["echo", "up"]))
+    assert result.code == 1
+    assert caplog.records == [], "the event loop has nothing to complain of"
 
 
 def test_it_runs_in_any_thread(capsys):
