@@ -11,6 +11,8 @@ import pytest
 LISTENER = f"""\
 #!{sys.executable}
 import os, signal, sys
+# The child says "up" perhaps before the parent listens: what comes before waits.
+signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT, signal.SIGTERM])
 child = os.fork()
 who = "parent" if child else "child"
 def heard(number, frame):
@@ -21,6 +23,7 @@ def heard(number, frame):
     os._exit(number)
 signal.signal(signal.SIGINT, heard)
 signal.signal(signal.SIGTERM, heard)
+signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT, signal.SIGTERM])
 if not child:
     os.write(1, b"up\\n")
 while True:
