@@ -115,6 +115,7 @@ def _bridge(node: Node, entries: list[BridgeEntry]) -> int:
     from rclpy.executors import SingleThreadedExecutor
 
     from gz.transport import Node as GzNode
+    from ros_gz_bridge import bridged_topics
     from ros_gz_bridge.bridge import Bridge, BridgeError, HeaderOverrides
 
     parameters = _read_parameters(node)
@@ -138,6 +139,7 @@ def _bridge(node: Node, entries: list[BridgeEntry]) -> int:
             raise _UsageError(error.errors) from None
         for sentence in [*_parameter_advice(node, entries), *_entry_advice(entries)]:
             logger.warning(sentence)
+        bridged_topics.offer(node, entries)
         executor = SingleThreadedExecutor(context=node.context)
         executor.add_node(node)
         spinner = _Spinner(executor)

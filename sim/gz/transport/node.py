@@ -158,18 +158,18 @@ class Node(ServiceCalls):
         The first call in a process waits until every other process had the time to announce itself (about one
         second). A node with scope PROCESS answers at once, for its own process.
         """
-        published, subscribed = self._everybody()
+        published, subscribed = self.publishers_and_subscribers()
         first = {each.topic for each in published}
         return sorted(first) + sorted({each.topic for each in subscribed} - first)
 
     def topic_info(self, topic: str) -> tuple[list[MessagePublisher], list[MessagePublisher]]:
         """(publishers, subscribers) of a topic; waits like topic_list()."""
         plain = naming.split(self._qualified(topic))[1]
-        published, subscribed = self._everybody()
+        published, subscribed = self.publishers_and_subscribers()
         return [each for each in published if each.topic == plain], [each for each in subscribed if each.topic == plain]
 
-    def _everybody(self) -> tuple[list[MessagePublisher], list[MessagePublisher]]:
-        """Every (publisher, subscriber) of this node's partition that it can know of."""
+    def publishers_and_subscribers(self) -> tuple[list[MessagePublisher], list[MessagePublisher]]:
+        """(publishers, subscribers) of all topics of the partition; waits like topic_list(). (Our addition.)"""
         process, address = "", ""
         named_published: list[tuple[str, MessagePublisher]] = []
         named_subscribed: list[tuple[str, MessagePublisher]] = []

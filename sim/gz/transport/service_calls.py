@@ -151,14 +151,15 @@ class ServiceCalls:
         The first call in a process waits until every other process had the time to announce itself (about one
         second). A node with scope PROCESS answers at once, for its own process.
         """
-        return sorted({each.topic for each in self._all_services()})
+        return sorted({each.topic for each in self.service_publishers()})
 
     def service_info(self, service: str) -> list[ServicePublisher]:
         """The providers of a service; waits like service_list()."""
         plain = naming.split(self._qualified(service, "service"))[1]
-        return [each for each in self._all_services() if each.topic == plain]
+        return [each for each in self.service_publishers() if each.topic == plain]
 
-    def _all_services(self) -> list[ServicePublisher]:
+    def service_publishers(self) -> list[ServicePublisher]:
+        """The providers of all services of the partition; waits like service_list(). (Our addition.)"""
         found: list[tuple[str, ServicePublisher]] = []
         process, address = "", ""
         if self._options.scope != Scope.PROCESS:
