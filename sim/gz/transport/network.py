@@ -129,6 +129,10 @@ class Network:
                 self._wake()
             return self._services
 
+    def known_publishers(self, name: str) -> list[MessagePublisher]:
+        """Publishers of other processes on a fully qualified topic, as far as known now."""
+        return [info for _, info in _listed(list(self._discovery.known(name)))]
+
     def known_elsewhere(
         self,
     ) -> tuple[list[tuple[str, MessagePublisher]], list[tuple[str, MessagePublisher]]]:

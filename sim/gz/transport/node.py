@@ -168,6 +168,23 @@ class Node(ServiceCalls):
         published, subscribed = self.publishers_and_subscribers()
         return [each for each in published if each.topic == plain], [each for each in subscribed if each.topic == plain]
 
+    def known_publishers(self, topic: str) -> list[MessagePublisher]:
+        """The publishers of a topic that this process knows of already; never waits, may lack a new one.
+
+        One of a process that was killed goes from the list within about three seconds. (Our addition.)
+        """
+        name = self._qualified(topic)
+        found = [
+            MessagePublisher(each.topic, "", each.type_name, "", each.node_uuid, each.scope)
+            for each in SWITCHBOARD.all_publishers()
+            if each.name == name
+        ]
+        if self._options.scope != Scope.PROCESS:
+            from gz.transport import network
+
+            found += network.joined().known_publishers(name)
+        return found
+
     def publishers_and_subscribers(self) -> tuple[list[MessagePublisher], list[MessagePublisher]]:
         """(publishers, subscribers) of all topics of the partition; waits like topic_list(). (Our addition.)"""
         process, address = "", ""
