@@ -187,6 +187,7 @@ class ExecuteLocal(Action):
         if loop is None:
             raise LaunchError("processes can only be started by a LaunchService that runs")
         if context.is_shutdown:
+            launch.logging.get_logger("launch").info(f"not started, for the launch is shutting down: {self.describe()}")
             return None
         self.prepare(context)
         label = self.__process_description.final_name

@@ -7,6 +7,7 @@ import sys
 import uuid
 from pathlib import Path
 
+import psutil
 import pytest
 
 from launch import LaunchContext
@@ -31,10 +32,10 @@ def start(tmp_path):
     """Run one of the launch files: a process whose output is read line by line, ended with the test."""
     running = []
 
-    def start(package, file, *arguments):
+    def start(*arguments):
         running.append(
             subprocess.Popen(
-                [sys.executable, "-m", "ros2", "launch", package, file, *arguments],
+                [sys.executable, "-m", "ros2", "launch", *arguments],
                 env={
                     **os.environ,
                     "GZ_IP": "127.0.0.1",
@@ -63,6 +64,8 @@ def lines_until(process, words):
         lines.append(line)
         if words in line:
             return "".join(lines)
+        if "process has died" in line:
+            break
     raise AssertionError(f"no {words!r} in {''.join(lines)}")
 
 
@@ -95,6 +98,14 @@ def test_the_end_of_gazebo_may_end_the_launch(start, tmp_path, value, ends):
     arguments = ["gz_args:=-r -s empty.sdf --iterations 1", f"on_exit_shutdown:={value}"]
     output, _ = start("ros_gz_sim", "gz_sim.launch.py", *arguments).communicate(timeout=30)
     assert ("process[gazebo-1] was required: shutting down launched system" in output) is ends
+
+
+def test_gazebo_can_be_started_with_a_prefix(start):
+    prefix = ["--launch-prefix", "env GZ_PARTITION=other"]
+    process = start(*prefix, "ros_gz_sim", "gz_sim.launch.py", "gz_args:=-s empty.sdf")
+    lines_until(process, "is paused")
+    (gazebo,) = psutil.Process(process.pid).children()
+    assert gazebo.environ()["GZ_PARTITION"] == "other"
 
 
 def test_old_arguments_work_and_are_told(start):

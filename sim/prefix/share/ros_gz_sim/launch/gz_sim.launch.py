@@ -16,6 +16,8 @@ def generate_launch_description() -> LaunchDescription:
     # The `gz` of the Python that runs this launch file, whatever PATH says.
     beside = Path(sys.executable).with_name("gz")
     gz = shlex.quote(str(beside)) if os.access(beside, os.X_OK) else "gz"
+    words = [LaunchConfiguration("gz_args"), " ", LaunchConfiguration("ign_args"), " --force-version "]
+    words += [LaunchConfiguration("gz_version")]
     return LaunchDescription(
         [
             DeclareLaunchArgument(
@@ -31,17 +33,14 @@ def generate_launch_description() -> LaunchDescription:
             _deprecated("ign_args", "gz_args"),
             _deprecated("ign_version", "gz_version"),
             ExecuteProcess(
-                cmd=[
-                    # Without exec the shell would stay, and its exit code would hide Gazebo's.
-                    ["exec ", gz, " sim ", LaunchConfiguration("gz_args"), " ", LaunchConfiguration("ign_args")],
-                    "--force-version",
-                    LaunchConfiguration("gz_version"),
-                ],
+                # The shell reads gz_args, then makes way with exec: else its exit code would hide Gazebo's.
+                cmd=["/bin/sh", "-c", ["exec ", gz, " sim ", *words]],
                 name="gazebo",
                 output="screen",
-                shell=True,
                 prefix=IfElseSubstitution(
-                    LaunchConfiguration("debugger"), "x-terminal-emulator -e gdb -ex run --args", ""
+                    LaunchConfiguration("debugger"),
+                    "x-terminal-emulator -e gdb -ex run --args",
+                    LaunchConfiguration("launch-prefix", default=""),
                 ),
                 on_exit=[
                     Shutdown(reason="Gazebo has ended", condition=IfCondition(LaunchConfiguration("on_exit_shutdown")))
