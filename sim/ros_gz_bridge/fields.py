@@ -114,7 +114,7 @@ class Fields(Part):
     default on both sides.
     """
 
-    def __init__(self, ros_class: Any, renamed: Mapping[str, str] | None = None, **kinds: Kind) -> None:
+    def __init__(self, ros_class: Any, renamed: Mapping[str, str] | None = None, /, **kinds: Kind) -> None:
         super().__init__(self._make, self._fill)
         self._ros_class = ros_class
         self._kinds = [(name, (renamed or {}).get(name, name), kind) for name, kind in kinds.items()]

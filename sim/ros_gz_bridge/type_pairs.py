@@ -14,7 +14,7 @@ import importlib.util
 import pkgutil
 import re
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any, cast
 
@@ -193,7 +193,7 @@ def find_pair(ros_type: str, gz_type: str) -> TypePair:
     nearest pair, when there is no such pair.
     """
     gz_type = canonical_gz_type(gz_type)
-    _need_package(ros_type)
+    need_package(ros_type)
     if (pair := _pairs.get((ros_type, gz_type))) is not None:
         return pair
     raise UnknownPairError(_explain_unknown(ros_type, gz_type))
@@ -205,7 +205,7 @@ def find_service(ros_type: str, gz_request_type: str = "", gz_reply_type: str = 
     Raises as ``find_pair`` does.
     """
     wanted = (canonical_gz_type(gz_request_type), canonical_gz_type(gz_reply_type))
-    _need_package(ros_type)
+    need_package(ros_type)
     for service in services():
         offered = (service.gz_request_type, service.gz_reply_type)
         if service.ros_type == ros_type and all(w in ("", o) for w, o in zip(wanted, offered, strict=True)):
@@ -222,8 +222,13 @@ def _installed(package: str) -> bool:
     return importlib.util.find_spec(package) is not None
 
 
-def _need_package(ros_type: str) -> None:
-    """Load the conversions of a type's package. Raises ``MissingPackageError`` if the package is absent."""
+def nearest_type(name: str, known: Iterable[str]) -> str:
+    """The name among ``known`` (not empty) that looks most like ``name``."""
+    return difflib.get_close_matches(name, sorted(set(known)), n=1, cutoff=0.0)[0]
+
+
+def need_package(ros_type: str) -> None:
+    """Load the conversions of a type's ROS package. Raises ``MissingPackageError`` if the package is absent."""
     package = ros_type.split("/")[0]
     if package in convertible_packages():
         if not _installed(package):
@@ -256,8 +261,7 @@ def _explain_unknown(ros_type: str, gz_type: str) -> str:
         return f"{seen}; {gz_type} pairs with {_either(partners)}"
     wanted = f"{ros_type}@{gz_type}"
     by_text = {f"{pair.ros_type}@{pair.gz_type}": pair for pair in known}
-    nearest = difflib.get_close_matches(wanted, by_text, n=1, cutoff=0.0)
-    pair = by_text[nearest[0]]
+    pair = by_text[nearest_type(wanted, by_text)]
     return f"{seen}, nor for {gz_type}; the nearest pair is {pair.ros_type} with {pair.gz_type}"
 
 
@@ -274,8 +278,7 @@ def _explain_unknown_service(ros_type: str, wanted: tuple[str, str]) -> str:
         absent = ", ".join(missing_packages())
         return f"{seen}; none is known without these ROS packages, which are not installed: {absent}"
     names = [service.ros_type for service in known]
-    nearest = difflib.get_close_matches(ros_type, names, n=1, cutoff=0.0)
-    return f"{seen}; the nearest is {nearest[0]}"
+    return f"{seen}; the nearest is {nearest_type(ros_type, names)}"
 
 
 def _either(names: list[str]) -> str:

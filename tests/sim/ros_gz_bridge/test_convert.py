@@ -1,10 +1,9 @@
 """Every pair in the table survives the way there and back, but for what the other side has no words for."""
 
 import math
-import re
+import operator
 from array import array
 
-import numpy as np
 import pytest
 from gz.msgs.image_pb2 import Image as GzImage
 from gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
@@ -14,107 +13,15 @@ from gz.msgs.time_pb2 import Time as GzTime
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rcl_interfaces.msg import ParameterValue
-from sensor_msgs.msg import CameraInfo, Image, JointState, LaserScan, Range
+from sensor_msgs.msg import CameraInfo, Image, JointState, LaserScan, PointCloud2, PointField, Range
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from ros_gz_bridge import type_pairs
 from ros_gz_bridge.header import header_to_ros, set_header_value
 from ros_gz_bridge.type_pairs import ConversionError, find_pair
+from tests.sim.ros_gz_bridge.ros_messages import messages, plain
 
 PAIRS = type_pairs.pairs()
-_SCALARS = {
-    "boolean": st.booleans(),
-    "double": st.floats(),
-    "float": st.floats(width=32),
-    "int32": st.integers(-(2**31), 2**31 - 1),
-    "uint32": st.integers(0, 2**32 - 1),
-    "uint8": st.integers(0, 255),
-    "int8": st.integers(-128, 127),
-    "uint16": st.integers(0, 2**16 - 1),
-    "uint64": st.integers(0, 2**64 - 1),
-    "string": st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\0"), max_size=20),
-}
-
-
-def messages(ros_class):
-    """Any ROS message of a class, built from what the class says of its fields."""
-    if ros_class.__name__ in _SPECIAL:
-        return _SPECIAL[ros_class.__name__]()
-    fields = ros_class.get_fields_and_field_types()
-    return st.builds(ros_class, **{name: _values(ros_class, name, kind) for name, kind in fields.items()})
-
-
-def _values(ros_class, name, kind):
-    if (ros_class.__name__, name) in _LIMITS:
-        return _LIMITS[ros_class.__name__, name]
-    if kind in _SCALARS:
-        return _SCALARS[kind]
-    if listed := re.fullmatch(r"sequence<(.+)>", kind):
-        code = {"float": "f", "double": "d", "int32": "i", "uint8": "B"}.get(listed[1])
-        items = st.lists(_values(ros_class, "", listed[1]), max_size=10)
-        return items if code is None else items.map(lambda numbers: array(code, numbers))
-    if fixed := re.fullmatch(r"(double|float)\[(\d+)\]", kind):
-        size = int(fixed[2])
-        dtype = np.float64 if fixed[1] == "double" else np.float32
-        return st.lists(st.floats(width=32), min_size=size, max_size=size).map(lambda n: np.array(n, dtype=dtype))
-    package, _, class_name = kind.partition("/")
-    module = __import__(f"{package}.msg", fromlist=[class_name])
-    return messages(getattr(module, class_name))
-
-
-_LIMITS = {
-    ("Time", "nanosec"): st.integers(0, 999_999_999),
-    ("Duration", "nanosec"): st.integers(0, 999_999_999),
-    ("PointField", "datatype"): st.integers(1, 8),
-    ("BatteryState", "power_supply_status"): st.integers(0, 4),
-    ("CameraInfo", "distortion_model"): st.sampled_from(["plumb_bob", "rational_polynomial", "equidistant"]),
-}
-
-
-@st.composite
-def images(draw):
-    from ros_gz_bridge.convert.sensor_msgs.cameras import ENCODINGS
-
-    encoding = draw(st.sampled_from(sorted(ENCODINGS)))
-    width, height, padding = draw(st.integers(0, 5)), draw(st.integers(0, 5)), draw(st.integers(0, 3))
-    step = width * ENCODINGS[encoding][1] + padding
-    data = draw(st.binary(min_size=step * height, max_size=step * height))
-    header = draw(messages(type(Image().header)))
-    return Image(header=header, width=width, height=height, step=step, encoding=encoding, data=array("B", data))
-
-
-@st.composite
-def joint_states(draw):
-    joints = draw(st.lists(_SCALARS["string"], max_size=5))
-    numbers = [
-        array("d", draw(st.one_of(st.just([]), st.lists(st.floats(), min_size=len(joints), max_size=len(joints)))))
-        for _ in range(3)
-    ]
-    header = draw(messages(type(JointState().header)))
-    return JointState(header=header, name=joints, position=numbers[0], velocity=numbers[1], effort=numbers[2])
-
-
-@st.composite
-def parameter_values(draw):
-    kind = draw(st.integers(0, 4))
-    field = {1: "bool_value", 2: "integer_value", 3: "double_value", 4: "string_value"}.get(kind)
-    values = {1: st.booleans(), 2: _SCALARS["int32"], 3: st.floats(), 4: _SCALARS["string"]}
-    return ParameterValue(type=kind, **({field: draw(values[kind])} if field else {}))
-
-
-_SPECIAL = {"Image": images, "JointState": joint_states, "ParameterValue": parameter_values}
-
-
-def plain(message):
-    """A message as nested dicts in which nan equals nan."""
-    if hasattr(message, "get_fields_and_field_types"):
-        return {name: plain(getattr(message, name)) for name in message.get_fields_and_field_types()}
-    if isinstance(message, (array, np.ndarray, list, tuple)):
-        return [plain(item) for item in message]
-    if isinstance(message, float):
-        return "nan" if math.isnan(message) else message
-    return message
-
-
 # What a message of Gazebo cannot carry, and so what comes back.
 _REPLACED = {
     "BatteryState": {
@@ -263,3 +170,192 @@ def test_a_twist_is_at_fault_exactly_when_a_number_is_not_finite(numbers):
     assert [part.split(" is ")[0] for part in fault.split(", ")] == bad if bad else fault is None
     stamped = find_pair("geometry_msgs/msg/TwistStamped", "gz.msgs.Twist").fault(TwistStamped(twist=twist))
     assert (stamped is None) == (not bad)
+
+
+def pair_of(ros_type, gz_name):
+    return find_pair(ros_type, f"gz.msgs.{gz_name}")
+
+
+def test_velocities_and_efforts_may_be_missing_from_a_joint_state():
+    pair = pair_of("sensor_msgs/msg/JointState", "Model")
+    gz = pair.to_gz(JointState(name=["a", "b"], position=[1.0, 2.0]))
+    assert [(j.name, j.axis1.position, j.axis1.velocity, j.axis1.force) for j in gz.joint] == [
+        ("a", 1.0, 0.0, 0.0),
+        ("b", 2.0, 0.0, 0.0),
+    ]
+    assert [joint.axis1.velocity for joint in pair.to_gz(JointState(name=["a"], velocity=[3.0])).joint] == [3.0]
+
+
+@pytest.mark.parametrize("field", ["position", "velocity", "effort"])
+def test_a_joint_state_with_numbers_for_other_joints_is_refused(field):
+    ros = JointState(name=["a", "b"], **{field: [1.0]})
+    with pytest.raises(ConversionError, match=f"the state of 2 joints carries 1 numbers for {field}"):
+        pair_of("sensor_msgs/msg/JointState", "Model").to_gz(ros)
+
+
+def test_a_scan_from_a_real_lidar_needs_no_intensities():
+    pair = pair_of("sensor_msgs/msg/LaserScan", "LaserScan")
+    gz = pair.to_gz(LaserScan(ranges=[1.0, 2.0], intensities=[5.0]))
+    assert (list(gz.ranges), list(pair.to_ros(gz).intensities)) == ([1.0, 2.0], [])
+
+
+def test_ranges_beyond_float32_are_infinite():
+    gz = GzLaserScan(count=3, ranges=[1e300, -1e300, math.nan])
+    ros = pair_of("sensor_msgs/msg/LaserScan", "LaserScan").to_ros(gz)
+    assert list(ros.ranges)[:2] == [math.inf, -math.inf] and math.isnan(ros.ranges[2])
+
+
+def test_rows_of_an_image_keep_their_padding():
+    pair = pair_of("sensor_msgs/msg/Image", "Image")
+    gz = GzImage(width=1, height=2, step=4, pixel_format_type="RGB_INT8", data=b"abc-def-")
+    ros = pair.to_ros(gz)
+    assert (ros.step, bytes(ros.data)) == (4, b"abc-def-")
+    assert (pair.to_gz(ros).step, pair.to_gz(ros).data) == (4, b"abc-def-")
+    gz.step, gz.data = 0, b"abcdef"
+    assert pair.to_ros(gz).step == 3
+
+
+def test_big_endian_numbers_of_an_image_are_refused():
+    pair = pair_of("sensor_msgs/msg/Image", "Image")
+    wide = Image(width=1, height=1, step=2, encoding="mono16", is_bigendian=1, data=array("B", b"ab"))
+    with pytest.raises(ConversionError, match="big-endian"):
+        pair.to_gz(wide)
+    assert pair.to_gz(Image(width=1, height=1, step=1, encoding="mono8", is_bigendian=1, data=array("B", b"a"))).data
+
+
+@pytest.mark.parametrize(
+    ("fill", "name", "size", "count"),
+    [
+        (lambda gz, numbers: gz.intrinsics.k.extend(numbers), "K", 9, 10),
+        (lambda gz, numbers: gz.rectification_matrix.extend(numbers), "R", 9, 8),
+        (lambda gz, numbers: gz.projection.p.extend(numbers), "P", 12, 1000),
+    ],
+)
+def test_a_camera_matrix_of_another_size_is_refused(fill, name, size, count):
+    pair = pair_of("sensor_msgs/msg/CameraInfo", "CameraInfo")
+    gz = pair.gz_class()
+    fill(gz, [1.0] * count)
+    with pytest.raises(ConversionError, match=f"the matrix {name} of a camera has {size} numbers, not {count}"):
+        pair.to_ros(gz)
+    gz = pair.gz_class()
+    fill(gz, [2.0] * size)
+    assert list(getattr(pair.to_ros(gz), name.lower())) == [2.0] * size
+
+
+def test_distortion_models_that_are_not_known_are_refused():
+    pair = pair_of("sensor_msgs/msg/CameraInfo", "CameraInfo")
+    assert pair.to_ros(pair.gz_class()).distortion_model == ""
+    with pytest.raises(ConversionError, match="the distortion model 'fisheye' is not Gazebo's"):
+        pair.to_gz(CameraInfo(distortion_model="fisheye"))
+    gz = pair.gz_class()
+    gz.distortion.model = 9
+    with pytest.raises(ConversionError, match="number 9 is unknown"):
+        pair.to_ros(gz)
+
+
+def test_types_of_point_fields_are_matched_by_name():
+    pair = pair_of("sensor_msgs/msg/PointCloud2", "PointCloudPacked")
+    field = pair.gz_class.Field
+    names = ["INT8", "UINT8", "INT16", "UINT16", "INT32", "UINT32", "FLOAT32", "FLOAT64"]
+    gz = pair.gz_class(data=b"points", point_step=3, row_step=6)
+    for name in names:
+        gz.field.add(name=name, datatype=field.DataType.Value(name), count=1)
+    ros = pair.to_ros(gz)
+    assert [getattr(PointField, one.name) == one.datatype for one in ros.fields] == [True] * 8
+    assert isinstance(ros.data, array) and bytes(ros.data) == b"points"
+    assert pair.to_gz(ros).field == gz.field
+    gz.field.add(name="odd", datatype=8)
+    with pytest.raises(ConversionError, match="the field 'odd' of the points is of the unknown type number 9"):
+        pair.to_ros(gz)
+    with pytest.raises(ConversionError, match=r"'odd'.*unknown type number 0"):
+        pair.to_gz(PointCloud2(fields=[PointField(name="odd", datatype=0)]))
+
+
+def test_a_range_is_the_nearest_beam():
+    pair = pair_of("sensor_msgs/msg/Range", "LaserScan")
+    gz = GzLaserScan(frame="a::b", angle_min=-0.1, angle_max=0.2, ranges=[math.inf, math.nan, 2.0, 3.0])
+    ros = pair.to_ros(gz)
+    assert (ros.range, ros.header.frame_id, ros.radiation_type) == (2.0, "a/b", Range.INFRARED)
+    assert ros.field_of_view == pytest.approx(0.3)
+    assert math.isnan(pair.to_ros(GzLaserScan()).range)
+
+
+def test_a_battery_of_gazebo_is_there_and_its_health_unknown():
+    pair = pair_of("sensor_msgs/msg/BatteryState", "BatteryState")
+    ros = pair.to_ros(pair.gz_class(voltage=12.5, percentage=0.5, power_supply_status="FULL"))
+    assert (ros.voltage, ros.percentage, ros.present) == (12.5, 0.5, True)
+    assert ros.power_supply_status == ros.POWER_SUPPLY_STATUS_FULL
+    assert math.isnan(ros.design_capacity) and ros.power_supply_health == ros.POWER_SUPPLY_HEALTH_UNKNOWN
+
+
+def test_a_satellite_fix_takes_the_frame_of_its_own_field():
+    pair = pair_of("sensor_msgs/msg/NavSatFix", "NavSat")
+    gz = pair.gz_class(latitude_deg=47.5, longitude_deg=8.5, altitude=400.0, frame_id="robot::gps")
+    set_header_value(gz.header, "frame_id", "elsewhere")
+    ros = pair.to_ros(gz)
+    assert (ros.latitude, ros.longitude, ros.altitude, ros.header.frame_id) == (47.5, 8.5, 400.0, "robot/gps")
+    assert ros.status.status == ros.status.STATUS_FIX
+    assert pair.to_gz(ros).frame_id == "robot/gps"
+
+
+def test_a_quaternion_is_copied_as_it_is():
+    pair = pair_of("geometry_msgs/msg/Pose", "Pose")
+    unset = pair.to_ros(GzPose()).orientation
+    assert (unset.x, unset.y, unset.z, unset.w) == (0.0, 0.0, 0.0, 0.0)
+    gz = GzPose()
+    gz.orientation.w = -1.0
+    assert pair.to_ros(gz).orientation.w == -1.0
+
+
+@pytest.mark.parametrize("count", [0, 1, 35, 37])
+def test_a_covariance_of_another_size_is_left_zero(count):
+    pair = pair_of("geometry_msgs/msg/PoseWithCovariance", "PoseWithCovariance")
+    gz = pair.gz_class()
+    gz.covariance.data.extend([1.0] * count)
+    assert not pair.to_ros(gz).covariance.any()
+
+
+def test_the_header_of_a_pose_with_covariance_is_in_its_pose():
+    for ros_type, name, part in (("Pose", "PoseWithCovariance", "pose"), ("Twist", "TwistWithCovariance", "twist")):
+        pair = pair_of(f"geometry_msgs/msg/{ros_type}WithCovarianceStamped", name)
+        gz = pair.gz_class()
+        set_header_value(getattr(gz, part).header, "frame_id", "map")
+        assert pair.to_ros(gz).header.frame_id == "map"
+
+
+def test_what_any_and_parameters_do_not_share_is_refused_by_name():
+    pair = pair_of("rcl_interfaces/msg/ParameterValue", "Any")
+    for limit, value in ((2**31 - 1, 2**40), (-(2**31), -(2**40))):
+        assert pair.to_gz(ParameterValue(type=2, integer_value=value)).int_value == limit
+    with pytest.raises(ConversionError, match="cannot hold a parameter of type PARAMETER_DOUBLE_ARRAY"):
+        pair.to_gz(ParameterValue(type=8, double_array_value=[1.0]))
+    with pytest.raises(ConversionError, match="cannot hold a parameter of type number 77"):
+        pair.to_gz(ParameterValue(type=77))
+    with pytest.raises(ConversionError, match=r"cannot hold a gz\.msgs\.Any of type POSE3D"):
+        pair.to_ros(pair.gz_class(type="POSE3D"))
+
+
+@pytest.mark.parametrize(
+    ("ros_type", "gz_name", "path"),
+    [
+        ("geometry_msgs/msg/Wrench", "Wrench", "force.x"),
+        ("geometry_msgs/msg/WrenchStamped", "Wrench", "wrench.torque.z"),
+        ("geometry_msgs/msg/TwistWithCovariance", "TwistWithCovariance", "twist.linear.y"),
+        ("geometry_msgs/msg/TwistWithCovarianceStamped", "TwistWithCovariance", "twist.twist.angular.z"),
+    ],
+)
+def test_commands_that_are_not_finite_are_named(ros_type, gz_name, path):
+    pair = pair_of(ros_type, gz_name)
+    ros = pair.ros_class()
+    assert pair.fault(ros) is None
+    owner, _, axis = path.rpartition(".")
+    setattr(operator.attrgetter(owner)(ros), axis, math.nan)
+    assert pair.fault(ros) == f"{path} is nan"
+
+
+def test_a_trajectory_that_is_not_finite_is_named():
+    pair = pair_of("trajectory_msgs/msg/JointTrajectory", "JointTrajectory")
+    good = JointTrajectoryPoint(positions=[1.0, 2.0])
+    assert pair.fault(JointTrajectory(points=[good])) is None
+    bad = JointTrajectoryPoint(velocities=[0.0, -math.inf])
+    assert pair.fault(JointTrajectory(points=[good, bad])) == "points[1].velocities[1] is -inf"

@@ -1,10 +1,12 @@
 """The table of pairs is found by looking into its folder, and says what is missing."""
 
+import importlib.util
+
 import pytest
 
 import ros_gz_bridge.convert
 from ros_gz_bridge import type_pairs
-from ros_gz_bridge.type_pairs import MissingPackageError, UnknownPairError, canonical_gz_type, find_pair
+from ros_gz_bridge.type_pairs import MissingPackageError, UnknownPairError, canonical_gz_type, find_pair, find_service
 
 
 def test_every_package_of_the_folder_contributes_pairs():
@@ -62,3 +64,31 @@ def test_the_same_pair_cannot_be_declared_twice():
     type_pairs.pairs()
     with pytest.raises(ValueError, match=r"std_msgs/msg/Bool = gz\.msgs\.Boolean is declared twice"):
         type_pairs.add_pair("std_msgs/msg/Bool", "gz.msgs.Boolean", to_ros=lambda gz: gz, to_gz=lambda ros: ros)
+
+
+ABSENT = [
+    ("actuator_msgs/msg/Actuators", "gz.msgs.Actuators"),
+    ("gps_msgs/msg/GPSFix", "gz.msgs.NavSat"),
+    ("marine_acoustic_msgs/msg/Dvl", "gz.msgs.DVLVelocityTracking"),
+    ("ros_gz_interfaces/msg/Contacts", "gz.msgs.Contacts"),
+    ("tf2_msgs/msg/TFMessage", "gz.msgs.Pose_V"),
+    ("vision_msgs/msg/Detection3D", "gz.msgs.AnnotatedOriented3DBox"),
+]
+
+
+@pytest.mark.parametrize(("ros_type", "gz_type"), ABSENT)
+def test_the_package_that_a_pair_needs_is_named(ros_type, gz_type):
+    package = ros_type.split("/")[0]
+    if importlib.util.find_spec(package) is not None:
+        assert find_pair(ros_type, gz_type)
+        return
+    with pytest.raises(MissingPackageError, match=f"{ros_type} needs the ROS package {package}, which is not"):
+        find_pair(ros_type, gz_type)
+
+
+@pytest.mark.skipif(importlib.util.find_spec("ros_gz_interfaces") is not None, reason="ros_gz_interfaces is installed")
+def test_the_package_that_a_service_needs_is_named():
+    with pytest.raises(MissingPackageError, match="needs the ROS package ros_gz_interfaces, which is not installed"):
+        find_service("ros_gz_interfaces/srv/ControlWorld")
+    with pytest.raises(UnknownPairError, match=r"std_srvs/srv/Empty; none.*not installed: .*ros_gz_interfaces"):
+        find_service("std_srvs/srv/Empty")

@@ -1,0 +1,89 @@
+"""The program ``ros2 run ros_gz_bridge bridge_types``: says which ROS type becomes which Gazebo type.
+
+It prints what ``type_pairs`` knows here; pairs of ROS packages that are not installed are counted out, and named
+on the standard error output. Everything known goes to the standard output, one to a line, so that it can be
+searched.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Iterable, Sequence
+
+from ros_gz_bridge.type_pairs import (
+    TypePair,
+    UnknownPairError,
+    canonical_gz_type,
+    missing_packages,
+    nearest_type,
+    need_package,
+    pairs,
+)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Print what was asked for; the exit code is 0, 1 for a type that has no partner, 2 for a wrong call."""
+    parser = argparse.ArgumentParser(
+        prog="bridge_types", description="Says which message types the bridge converts into which."
+    )
+    asked = parser.add_mutually_exclusive_group(required=True)
+    asked.add_argument("--print-pairs", action="store_true", help="every ROS type with its Gazebo type")
+    asked.add_argument("--print-gz", action="store_true", help="every Gazebo type that can be bridged")
+    asked.add_argument("--print-ros", action="store_true", help="every ROS type that can be bridged")
+    asked.add_argument("--get-gz-to-ros", metavar="GZ_TYPE", help="the ROS types of a Gazebo type, all of them")
+    asked.add_argument("--get-ros-to-gz", metavar="ROS_TYPE", help="the Gazebo types of a ROS type, all of them")
+    chosen = parser.parse_args(arguments)
+    try:
+        _print(_answer(chosen))
+    except UnknownPairError as error:
+        print(f"bridge_types: {error}", file=sys.stderr)
+        return 1
+    except BrokenPipeError:  # the reader has seen enough, for instance `head`
+        sys.stderr.close()
+        return 0
+    return 0
+
+
+def _answer(chosen: argparse.Namespace) -> list[str]:
+    """The lines that answer. Raises ``UnknownPairError`` for a type without partner."""
+    known = pairs()
+    if chosen.get_gz_to_ros is not None:
+        return _partners_of_gz(known, canonical_gz_type(chosen.get_gz_to_ros))
+    if chosen.get_ros_to_gz is not None:
+        return _partners_of_ros(known, chosen.get_ros_to_gz)
+    if absent := missing_packages():
+        print(f"bridge_types: left out, as these ROS packages are not installed: {', '.join(absent)}", file=sys.stderr)
+    if chosen.print_pairs:
+        width = max(len(pair.ros_type) for pair in known)
+        return [f"{pair.ros_type:<{width}}  {pair.gz_type}" for pair in known]
+    return sorted({pair.gz_type if chosen.print_gz else pair.ros_type for pair in known})
+
+
+def _partners_of_gz(known: list[TypePair], gz_type: str) -> list[str]:
+    partners = [pair.ros_type for pair in known if pair.gz_type == gz_type]
+    if not partners:
+        hint = nearest_type(gz_type, (pair.gz_type for pair in known))
+        absent = ", ".join(missing_packages())
+        also = f" (a ROS package that is not installed may have one: {absent})" if absent else ""
+        raise UnknownPairError(f"no ROS type is known for {gz_type}{also}; the nearest Gazebo type is {hint}")
+    return partners
+
+
+def _partners_of_ros(known: list[TypePair], ros_type: str) -> list[str]:
+    need_package(ros_type)
+    partners = [pair.gz_type for pair in known if pair.ros_type == ros_type]
+    if not partners:
+        hint = nearest_type(ros_type, (pair.ros_type for pair in known))
+        raise UnknownPairError(f"no Gazebo type is known for {ros_type}; the nearest ROS type is {hint}")
+    return partners
+
+
+def _print(lines: Iterable[str]) -> None:
+    for line in lines:
+        print(line)
+    sys.stdout.flush()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
