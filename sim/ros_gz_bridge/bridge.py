@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import threading
+import time
 from collections.abc import Callable, Iterable
 from typing import Any
 
@@ -20,9 +21,10 @@ from rclpy.timer import Timer
 from gz.transport import AdvertiseMessageOptions, naming
 from gz.transport import Node as GzNode
 from ros_gz_bridge.echo_filter import EchoFilter, GzEcho
-from ros_gz_bridge.entry import BridgeEntry, BridgeError, Direction, EntryStatus, HeaderOverrides
+from ros_gz_bridge.entry import BridgeEntry, BridgeError, Direction, EntryStatus, HeaderOverrides, ServiceEntry
 from ros_gz_bridge.link import GzToRos, RosToGz, Row, error_text, sentence
-from ros_gz_bridge.type_pairs import TypePair, UnknownPairError, find_pair
+from ros_gz_bridge.service_link import ServiceLink
+from ros_gz_bridge.type_pairs import TypePair, UnknownPairError, find_pair, find_service
 
 __all__ = [
     "Bridge",
@@ -31,6 +33,7 @@ __all__ = [
     "Direction",
     "EntryStatus",
     "HeaderOverrides",
+    "ServiceEntry",
     "error_text",
 ]
 
@@ -38,14 +41,16 @@ _ECHO_MARGIN = 16
 
 
 class Bridge:
-    """Bridges ``entries`` between ``ros_node`` and ``gz_node`` until ``close``.
+    """Bridges ``entries`` and ``services`` between ``ros_node`` and ``gz_node`` until ``close``.
 
     Give it a Gazebo node of its own: closing drops every subscription that node has on the bridged topics.
     The ROS node may have other endpoints; it must be spun by its owner for messages from ROS to pass.
     ``publish`` receives each ROS publisher and the message meant for it, and decides when it leaves; by
     default it leaves at once. ``heard`` is shown every message that comes from ROS, before it is judged and
-    converted. ``heartbeat`` (s) is how often lazy entries look for listeners. Raises
-    ``BridgeError`` listing every entry that cannot work, and then leaves nothing behind.
+    converted. ``heartbeat`` (s) is how often lazy entries look for listeners. ``threaded`` gives each topic with heavy
+    messages from other processes a thread of its own; without it everything is bridged in the thread that delivers it.
+    ``monotonic`` (s) paces warnings. Raises ``BridgeError`` listing every entry that cannot work, and then leaves
+    nothing behind.
     """
 
     def __init__(
@@ -58,8 +63,14 @@ class Bridge:
         heard: Callable[[BridgeEntry, Any], None] | None = None,
         overrides: HeaderOverrides | None = None,
         heartbeat: float = 1.0,
+        services: Iterable[ServiceEntry] = (),
+        threaded: bool = False,
+        monotonic: Callable[[], float] = time.monotonic,
     ) -> None:
         self.entries = list(entries)
+        self.services = list(services)
+        self._threaded = threaded
+        self._monotonic = monotonic
         self._ros_node = ros_node
         self._gz_node = gz_node
         self._publish = publish or _publish_now
@@ -69,6 +80,7 @@ class Bridge:
         self._announced: set[tuple[str, str]] = set()
         self._to_ros: list[GzToRos] = []
         self._to_gz: list[RosToGz] = []
+        self._offered: list[ServiceLink] = []
         self._gz_publishers: dict[str, Any] = {}
         self._timer: Timer | None = None
         self._status = [EntryStatus(entry) for entry in self.entries]
@@ -99,6 +111,9 @@ class Bridge:
         if self._timer is not None:
             self._ros_node.destroy_timer(self._timer)
             self._timer = None
+        for service in self._offered:
+            service.close()
+        self.say_unsaid(at_once=True)
         for incoming in self._to_ros:
             incoming.close()
         for outgoing in self._to_gz:
@@ -106,6 +121,11 @@ class Bridge:
         for publisher in self._gz_publishers.values():
             publisher.close()
         self._gz_publishers.clear()
+
+    def say_unsaid(self, at_once: bool = False) -> None:
+        """Warn of lost messages that no warning has counted yet; owners call it now and then."""
+        for link in self._links():
+            link.say_unsaid(at_once)
 
     def _checked(self) -> list[Row]:
         """Every entry with its pair and its topic as ROS names it, after remapping."""
@@ -118,6 +138,11 @@ class Bridge:
                 errors.append(sentence(entry, str(error)))
             except Exception as error:
                 errors.append(sentence(entry, f"cannot bridge {entry.ros_topic}: {error_text(error)}"))
+        for service in self.services:
+            try:
+                find_service(service.ros_type, service.gz_request_type, service.gz_reply_type)
+            except UnknownPairError as error:
+                errors.append(sentence(service, str(error)))
         if errors:
             raise BridgeError(errors)
         return rows
@@ -136,6 +161,11 @@ class Bridge:
                     self._to_gz.append(RosToGz(self, row, own_filter))
             except Exception as error:
                 errors.append(sentence(row.entry, f"cannot bridge {row.entry.ros_topic}: {error_text(error)}"))
+        for service in self.services:
+            try:
+                self._offered.append(ServiceLink(self._ros_node, self._gz_node, service))
+            except Exception as error:
+                errors.append(sentence(service, f"cannot offer {service.name}: {error_text(error)}"))
         if errors:
             raise BridgeError(errors)
         for link in self._links():

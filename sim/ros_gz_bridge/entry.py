@@ -1,7 +1,7 @@
 """What one bridge is: two topic names, two types, a direction and its options; and what became of it.
 
-Entries are made by ``config`` (from YAML or the command line) and taken by ``bridge.Bridge``. Nothing here
-imports ROS, so a file can be checked before any node exists.
+Entries are made by ``config`` (YAML), ``arguments`` (command line) and ``parameters`` (ROS parameters) and taken by
+``bridge.Bridge``. Nothing here imports ROS, so a file can be checked before any node exists.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class BridgeEntry:
     ``publisher_queue`` and ``subscriber_queue`` are depths (messages) on the ROS side; the Gazebo side has no
     queue. ``lazy`` connects the sending side only while somebody listens on the receiving side. ``frame_id``
     replaces ``header.frame_id`` of messages going to ROS. ``source`` says where the entry was written
-    (``bridge.yaml:7``), for messages to people; it takes no part in comparisons.
+    (``bridge.yaml:7``), for messages to people. ``qos_profile`` is a name of ``qos_profile.QOS_PROFILES``.
     """
 
     ros_topic: str
@@ -49,6 +49,7 @@ class BridgeEntry:
     lazy: bool = False
     frame_id: str | None = None
     source: str = ""
+    qos_profile: str | None = None
 
     def __post_init__(self) -> None:
         for name, depth in (
@@ -64,18 +65,38 @@ class BridgeEntry:
         return (self.ros_topic, self.gz_topic, self.ros_type, self.gz_type)
 
 
+@dataclass(frozen=True)
+class ServiceEntry:
+    """One Gazebo service offered as a ROS service of the same name; ``gz_request_type`` may be empty, then it is
+    the one of the ROS type.
+    """
+
+    name: str
+    ros_type: str
+    gz_request_type: str = ""
+    gz_reply_type: str = ""
+    source: str = ""
+    gz_name: str = ""
+
+    @property
+    def gz_service(self) -> str:
+        """The name on the Gazebo side: the same, unless it was expanded."""
+        return self.gz_name or self.name
+
+
 @dataclass
 class EntryStatus:
     """What went through one entry so far, in messages.
 
-    ``dropped`` were refused or could not be converted (``last_error`` says why); ``echoes`` are the bridge's
-    own messages coming back, which are ignored.
+    ``dropped`` were refused or could not be converted (``last_error`` says why); ``skipped`` gave way because they
+    came faster than they could be bridged; ``echoes`` are the bridge's own messages coming back, which are ignored.
     """
 
     entry: BridgeEntry
     ros_to_gz: int = 0
     gz_to_ros: int = 0
     dropped: int = 0
+    skipped: int = 0
     echoes: int = 0
     last_error: str | None = None
 

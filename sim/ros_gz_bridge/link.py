@@ -1,24 +1,27 @@
 """The two ways through one entry of a bridge: from Gazebo to ROS, and from ROS to Gazebo.
 
 ``bridge.Bridge`` makes one of these for each direction of each entry. Each owns its endpoint on the ROS side,
-converts what arrives, counts it, and says once when a run of messages could not be bridged.
+converts what arrives, counts it, and says at most once a second that messages could not be bridged.
 """
 
 from __future__ import annotations
 
 import re
 import time
+from collections import Counter
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from rclpy.exceptions import InvalidHandle
 from rclpy.publisher import Publisher
-from rclpy.qos import QoSPolicyKind, QoSProfile
+from rclpy.qos import QoSPolicyKind
 from rclpy.qos_overriding_options import QoSOverridingOptions
 
-from gz.transport import SubscribeOptions
+from gz.transport import MessageInfo
 from ros_gz_bridge.echo_filter import EchoAwarePublisher, EchoFilter
-from ros_gz_bridge.entry import BridgeEntry, BridgeError, EntryStatus
+from ros_gz_bridge.entry import BridgeEntry, BridgeError, EntryStatus, ServiceEntry
+from ros_gz_bridge.lane import HEAVY_BYTES, Lane
+from ros_gz_bridge.qos_profile import qos
 from ros_gz_bridge.type_pairs import TypePair
 
 if TYPE_CHECKING:
@@ -34,6 +37,9 @@ _PUBLISHER_POLICIES = (
 )
 
 
+_SECONDS_BETWEEN_WARNINGS = 1.0
+
+
 @dataclass(frozen=True)
 class Row:
     """An entry with its counters, its pair and its topic as ROS names it, after remapping."""
@@ -45,7 +51,7 @@ class Row:
 
 
 class Link:
-    """What both directions of an entry share: counting, and one warning for a run of bad messages."""
+    """What both directions of an entry share: counting, and saying what could not be bridged."""
 
     def __init__(self, bridge: Bridge, row: Row) -> None:
         self.entry = row.entry
@@ -56,26 +62,35 @@ class Link:
         self._pair = row.pair
         self._status = row.status
         self._closed = False
-        self._dropping = False
+        self._unsaid: Counter[str] = Counter()
+        self._said_at: float | None = None
 
     def _count(self, field: str) -> None:
         with self._bridge._status_lock:
             setattr(self._status, field, getattr(self._status, field) + 1)
-
-    def _passed(self, field: str) -> None:
-        self._dropping = False
-        self._count(field)
 
     def _drop(self, ros_or_gz_type: str, topic: str, reason: str) -> None:
         fault = f"{ros_or_gz_type} on {topic} was not bridged: {reason}"
         with self._bridge._status_lock:
             self._status.dropped += 1
             self._status.last_error = fault
-        if not self._dropping:
-            self._dropping = True
-            self._bridge._ros_node.get_logger().warning(
-                f"{fault} (said once, until a message passes this bridge again)"
-            )
+            self._unsaid[fault] += 1
+        self.say_unsaid()
+
+    def say_unsaid(self, at_once: bool = False) -> None:
+        """Warn of the messages lost since the last warning; at most once a second unless ``at_once``."""
+        with self._bridge._status_lock:
+            now = self._bridge._monotonic()
+            recently = self._said_at is not None and now - self._said_at < _SECONDS_BETWEEN_WARNINGS
+            if not self._unsaid or (recently and not at_once):
+                return
+            count = self._unsaid.total()
+            (fault, _), *others = self._unsaid.most_common()
+            self._unsaid.clear()
+            self._said_at = now
+        more = f", and for {len(others)} other reasons" if len(others) > 1 else ", and another reason" if others else ""
+        times = f" ({count} messages since the last such line{more})" if count > 1 else ""
+        self._bridge._ros_node.get_logger().warning(f"{fault}{times}")
 
 
 class GzToRos(Link):
@@ -84,10 +99,11 @@ class GzToRos(Link):
     def __init__(self, bridge: Bridge, row: Row, heard_by: tuple[EchoFilter, ...]) -> None:
         super().__init__(bridge, row)
         self.subscribed = False
+        self._lane: Lane | None = None
         self.publisher = bridge._ros_node.create_publisher(
             row.pair.ros_class,
             row.entry.ros_topic,
-            QoSProfile(depth=row.entry.publisher_queue),
+            qos(row.entry.qos_profile, row.entry.publisher_queue),
             qos_overriding_options=QoSOverridingOptions(_PUBLISHER_POLICIES),
             publisher_class=EchoAwarePublisher if heard_by else Publisher,
         )
@@ -104,10 +120,13 @@ class GzToRos(Link):
         self.connected = True
         if not self.subscribed:
             self.subscribed = True
-            if not self._bridge._gz_node.subscribe(
-                self._pair.gz_class, self.entry.gz_topic, self._on_message, SubscribeOptions()
-            ):
-                raise BridgeError([sentence(self.entry, f"cannot subscribe to the Gazebo topic {self.entry.gz_topic}")])
+            gz_node, topic = self._bridge._gz_node, self.entry.gz_topic
+            if self._bridge._threaded:
+                done = gz_node.subscribe_raw(topic, self._on_data, self._pair.gz_type)
+            else:
+                done = gz_node.subscribe(self._pair.gz_class, topic, self._on_message)
+            if not done:
+                raise BridgeError([sentence(self.entry, f"cannot subscribe to the Gazebo topic {topic}")])
 
     def disconnect(self) -> None:
         """Stop listening to Gazebo."""
@@ -120,7 +139,32 @@ class GzToRos(Link):
         self.disconnect()
         if not self._closed:
             self._closed = True
+            if self._lane is not None:
+                self._lane.close()
             self._bridge._ros_node.destroy_publisher(self.publisher)
+
+    def _on_data(self, data: bytes, info: MessageInfo) -> None:
+        """A serialized message: a heavy topic goes into a lane of its own, where it delays no other."""
+        if self._lane is None and len(data) >= HEAVY_BYTES and not info.intra_process:
+            self._lane = Lane(self.gz_topic, self._on_heavy, self.entry.publisher_queue, self._skipped)
+        if self._lane is None or info.intra_process:
+            self._on_message(self._pair.gz_class.FromString(data))
+        else:
+            self._lane.put(data)
+
+    def _on_heavy(self, data: bytes) -> None:
+        try:
+            self._on_message(self._pair.gz_class.FromString(data))
+        except Exception as error:
+            self._drop(self._pair.gz_type, self.entry.gz_topic, error_text(error))
+
+    def _skipped(self) -> None:
+        with self._bridge._status_lock:
+            self._status.skipped += 1
+            self._unsaid[
+                f"{self._pair.gz_type} on {self.entry.gz_topic} was skipped: they come faster than they can be bridged"
+            ] += 1
+        self.say_unsaid()
 
     def _on_message(self, gz: Any) -> None:
         if not self.connected:
@@ -140,7 +184,7 @@ class GzToRos(Link):
             if not self._closed:
                 raise
             return
-        self._passed("gz_to_ros")
+        self._count("gz_to_ros")
 
     def _override_header(self, ros: Any) -> None:
         header = getattr(ros, "header", None)
@@ -176,7 +220,7 @@ class RosToGz(Link):
             self._pair.ros_class,
             self.entry.ros_topic,
             self._on_message if self._echo_filter is None else self._on_message_with_info,
-            QoSProfile(depth=self.entry.subscriber_queue),
+            qos(self.entry.qos_profile, self.entry.subscriber_queue),
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
         )
 
@@ -216,7 +260,7 @@ class RosToGz(Link):
         with self._bridge._gz_echo.publishing(self.gz_topic, gz):
             taken = self._publisher.publish(gz)
         if taken:
-            self._passed("ros_to_gz")
+            self._count("ros_to_gz")
         else:
             self._drop(pair.ros_type, self.entry.ros_topic, f"gz.transport refused it on {self.entry.gz_topic}")
 
@@ -226,6 +270,6 @@ def error_text(error: BaseException) -> str:
     return re.sub(r", at /\S+:\d+", "", " ".join(str(error).split())) or type(error).__name__
 
 
-def sentence(entry: BridgeEntry, text: str) -> str:
+def sentence(entry: BridgeEntry | ServiceEntry, text: str) -> str:
     """``text`` after the place the entry was written, if that is known."""
     return f"{entry.source}: {text}" if entry.source else text

@@ -7,22 +7,22 @@ code 2. Importing this module loads nothing heavy, so that ``main`` can hold bac
 
 from __future__ import annotations
 
-import difflib
 import os
 import signal
 import sys
 import threading
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from rclpy.node import Node
 
-    from ros_gz_bridge.entry import BridgeEntry
+    from ros_gz_bridge.config import Config
+    from ros_gz_bridge.finding import Finding
 
 HELP = """\
-usage: parameter_bridge TOPIC@ROS_TYPE@GZ_TYPE ... [--ros-args ...]
+usage: parameter_bridge TOPIC@ROS_TYPE@GZ_TYPE ... [--compat] [--ros-args ...]
        parameter_bridge --ros-args -p config_file:=FILE
 
 Bridges topics between Gazebo and ROS 2. The mark between the two types is the direction:
@@ -32,24 +32,26 @@ Quote each argument: some shells give [ a meaning of their own.
   parameter_bridge '/cmd_vel@geometry_msgs/msg/Twist]gz.msgs.Twist' \\
                    '/scan@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan'
 
-ROS parameters (after --ros-args, each as -p name:=value):
+A service of Gazebo is offered to ROS with SERVICE@ROS_TYPE or SERVICE@ROS_TYPE@GZ_REQUEST_TYPE@GZ_REPLY_TYPE:
+  parameter_bridge /world/empty/control@ros_gz_interfaces/srv/ControlWorld
+
+  --compat  errors in the configuration are warnings, as far as the original ros_gz_bridge passes over them
+
+ROS parameters (after --ros-args, each as -p name:=value, or in a file after --params-file):
   config_file                         YAML list of bridges; not together with bridges on the command line
+  bridge_names                        more bridges, given as parameters: bridges.NAME.ros_topic_name and so on
   lazy                                true: connect a bridge only while somebody listens (default false)
   subscription_heartbeat              how often lazy bridges look for listeners, in ms (default 1000)
+  expand_gz_topic_names               true: Gazebo names without / and with ~/ get the namespace of the node
   override_frame_id                   frame_id of every message that goes to ROS
   override_timestamps_with_wall_time  true: stamp messages that go to ROS with the system clock
   qos_overrides./TOPIC.publisher.durability and the like, as for any node
 To give a topic another name in ROS: -r /gz/name:=/ros/name
+To check a file without starting anything: ros2 run ros_gz_bridge lint FILE
 """
 
-_DEFAULTS: dict[str, Any] = {
-    "config_file": "",
-    "lazy": False,
-    "subscription_heartbeat": 1000,
-    "override_frame_id": "",
-    "override_timestamps_with_wall_time": False,
-}
-_WORDS = {str: "a text", bool: "true or false", int: "a whole number"}
+_COMPAT = "--compat"
+_SWITCH_S = 0.001
 _STOP_SIGNALS = {signal.SIGINT, signal.SIGTERM}
 
 
@@ -87,65 +89,77 @@ def _run(argv: list[str]) -> int:
     from rclpy.utilities import remove_ros_args
 
     from ros_gz_bridge.bridge import error_text
-    from ros_gz_bridge.config import ConfigError, parse_arguments
 
     context = rclpy.Context()
     try:
-        topics = remove_ros_args(argv)[1:]
-        entries = parse_arguments(topics)
+        texts = remove_ros_args(argv)[1:]
         rclpy.init(args=argv, context=context, signal_handler_options=SignalHandlerOptions.NO)
-    except ConfigError as error:
-        raise _UsageError(error.errors) from None
     except rclpy_implementation.UnknownROSArgsError as error:
         raise _UsageError([f"ROS does not know these arguments after --ros-args: {error}"]) from None
     except Exception as error:
         raise _UsageError([f"ROS did not start: {error_text(error)}"]) from None
     try:
-        node = rclpy.create_node("ros_gz_bridge", context=context, automatically_declare_parameters_from_overrides=True)
         try:
-            return _bridge(node, entries)
+            node = rclpy.create_node(
+                "ros_gz_bridge", context=context, automatically_declare_parameters_from_overrides=True
+            )
+        except Exception as error:
+            raise _UsageError([f"ROS did not start: {error_text(error)}"]) from None
+        try:
+            return _bridge(node, [text for text in texts if text != _COMPAT], compat=_COMPAT in texts)
         finally:
             node.destroy_node()
     finally:
         context.try_shutdown()
 
 
-def _bridge(node: Node, entries: list[BridgeEntry]) -> int:
+def _bridge(node: Node, texts: list[str], compat: bool) -> int:
     """Set the bridges up, wait for a signal, take them down."""
     from rclpy.executors import SingleThreadedExecutor
 
     from gz.transport import Node as GzNode
-    from ros_gz_bridge import bridged_topics
+    from ros_gz_bridge import bridged_topics, parameters
     from ros_gz_bridge.bridge import Bridge, BridgeError, HeaderOverrides
+    from ros_gz_bridge.watch import Watch, Watcher
 
-    parameters = _read_parameters(node)
-    entries = _all_entries(entries, parameters)
+    given = parameters.read_parameters(node)
+    config = _configured(node, texts, given, compat)
     logger = node.get_logger()
+    heartbeat = given.values["subscription_heartbeat"] / 1000
     overrides = HeaderOverrides(
-        frame_id=parameters["override_frame_id"], wall_time=parameters["override_timestamps_with_wall_time"]
+        frame_id=given.values["override_frame_id"], wall_time=given.values["override_timestamps_with_wall_time"]
     )
     with GzNode() as gz_node:
-        for line in _creation_lines(entries):
+        for line in parameters.creation_lines(config):
             logger.info(line)
         try:
             bridge = Bridge(
                 node,
                 gz_node,
-                entries,
+                config.topics,
                 overrides=overrides,
-                heartbeat=parameters["subscription_heartbeat"] / 1000,
+                heartbeat=heartbeat,
+                services=config.services,
+                threaded=True,
             )
         except BridgeError as error:
             raise _UsageError(error.errors) from None
-        for sentence in [*_parameter_advice(node, entries), *_entry_advice(entries)]:
+        for sentence in [*parameters.advice(node, config.topics), *map(str, config.findings)]:
             logger.warning(sentence)
-        bridged_topics.offer(node, entries)
+        bridged_topics.offer(node, config.topics)
+        parameters.declare(node)
+        # A thread that converts an image gives way to the one that has a clock in hand after this time.
+        sys.setswitchinterval(_SWITCH_S)
         executor = SingleThreadedExecutor(context=node.context)
         executor.add_node(node)
         spinner = _Spinner(executor)
         spinner.start()
-        logger.info(f"ready: {len(entries)} bridge{'s' if len(entries) != 1 else ''}")
+        watcher = Watcher(Watch(bridge, gz_node, logger), heartbeat)
+        watcher.start()
+        count = len(config.topics) + len(config.services)
+        logger.info(f"ready: {count} bridge{'s' if count != 1 else ''}")
         signal.sigwait(_STOP_SIGNALS)
+        watcher.stop()
         executor.shutdown(timeout_sec=0.5)
         spinner.join(0.5)
         bridge.close()
@@ -176,94 +190,60 @@ class _Spinner(threading.Thread):
             os.kill(os.getpid(), signal.SIGTERM)
 
 
-def _read_parameters(node: Node) -> dict[str, Any]:
-    values = dict(_DEFAULTS)
-    errors = []
-    for name, default in _DEFAULTS.items():
-        if not node.has_parameter(name):
-            continue
-        value = node.get_parameter(name).value
-        if type(value) is not type(default):
-            errors.append(f"the parameter {name} must be {_WORDS[type(default)]}, not {value!r}")
-        elif name == "subscription_heartbeat" and value <= 0:
-            errors.append(f"the parameter {name} must be a number of ms above 0, not {value}")
-        else:
-            values[name] = value
-    if errors:
-        raise _UsageError(errors)
-    return values
+def _configured(node: Node, texts: list[str], given: Any, compat: bool) -> Config:
+    """The bridges of the command line, of the parameters and of the file; what is left in ``findings`` is advice.
 
+    Raises ``_UsageError`` with every error, unless ``compat`` turns them into warnings.
+    """
+    from ros_gz_bridge.arguments import read_arguments
+    from ros_gz_bridge.checks import check, private_gz_names
+    from ros_gz_bridge.config import read_file
+    from ros_gz_bridge.finding import Finding
 
-def _all_entries(entries: list[BridgeEntry], parameters: dict[str, Any]) -> list[BridgeEntry]:
-    """The bridges of the command line, or those of the file."""
-    from ros_gz_bridge.config import ConfigError, load_yaml
-
-    config_file, lazy = parameters["config_file"], parameters["lazy"]
-    if entries and config_file:
-        raise _UsageError(
-            [
-                f"bridges are given on the command line and in {config_file}, which ros_gz_bridge would then "
-                "not read; put all of them in one place"
-            ]
+    path, lazy = given.values["config_file"], given.values["lazy"]
+    options = [text for text in texts if text.startswith("-")]
+    arguments = [text for text in texts if text not in options]
+    config: Config = given.config
+    config.findings += [Finding("", f"the option {option} is not known (see --help)") for option in options]
+    config.include(read_arguments(arguments, lazy=lazy))
+    if path and arguments:
+        sentence = (
+            f"bridges are given on the command line and in {path}, which ros_gz_bridge would then not read; "
+            "put all of them in one place"
         )
-    if entries:
-        return [replace(entry, lazy=lazy) for entry in entries]
-    if not config_file:
-        raise _UsageError(["nothing to bridge; give bridges as arguments or -p config_file:=FILE (see --help)"])
-    try:
-        entries = load_yaml(config_file, lazy=lazy)
-    except ConfigError as error:
-        raise _UsageError(error.errors) from None
-    if not entries:
-        raise _UsageError([f"{config_file}: the list of bridges is empty"])
-    return entries
+        config.findings.append(Finding("", sentence, tolerated=True))
+    elif path:
+        file = read_file(path, lazy=lazy)
+        if not (file.topics or file.services or file.findings):
+            file.findings.append(Finding(path, "the list of bridges is empty", tolerated=True))
+        config.include(file)
+    if not (config.topics or config.services or config.findings):
+        sentence = "nothing to bridge; give bridges as arguments or -p config_file:=FILE (see --help)"
+        raise _UsageError([sentence])
+    config.findings += [each for each in check(config.topics, config.services) if each not in config.findings]
+    if given.values["expand_gz_topic_names"]:
+        _expand(config, node)
+    else:
+        config.findings += private_gz_names(config.topics, config.services)
+    if compat:
+        config = config.tolerant()
+    errors: list[Finding] = [finding for finding in config.findings if not finding.warning]
+    if errors:
+        raise _UsageError(map(str, errors))
+    return config
 
 
-def _parameter_advice(node: Node, entries: list[BridgeEntry]) -> Iterator[str]:
-    """Parameters that change nothing: unknown names, and QoS overrides of endpoints that do not exist."""
-    endpoints = []
-    for entry in entries:
-        topic = node.resolve_topic_name(entry.ros_topic)
-        if entry.direction.to_ros:
-            endpoints.append(f"qos_overrides.{topic}.publisher.")
-        if entry.direction.to_gz:
-            endpoints.append(f"qos_overrides.{topic}.subscription.")
-    for name in sorted(node.get_parameters_by_prefix("")):
-        if name.startswith("qos_overrides."):
-            if not name.startswith(tuple(endpoints)):
-                nearest = difflib.get_close_matches(name, endpoints, n=1, cutoff=0.0)
-                hint = f"; did you mean {nearest[0]}{name.rpartition('.')[2]}?" if nearest else ""
-                yield f"the parameter {name} names no endpoint of this bridge and changes nothing{hint}"
-        elif name not in _DEFAULTS and name not in _NODE_PARAMETERS:
-            nearest = difflib.get_close_matches(name, _DEFAULTS, n=1)
-            hint = f"; did you mean {nearest[0]}?" if nearest else ""
-            yield f"the parameter {name} is not known here and changes nothing{hint}"
+def _expand(config: Config, node: Node) -> None:
+    """Give the Gazebo names the namespace of the node, as the parameter expand_gz_topic_names asks."""
+    from ros_gz_bridge.names import expand_gz_name
 
-
-_NODE_PARAMETERS = {"use_sim_time", "start_type_description_service"}
-
-
-def _entry_advice(entries: list[BridgeEntry]) -> Iterator[str]:
-    """Bridges that work as written and yet surprise."""
-    from ros_gz_bridge.entry import Direction
-
-    for entry in entries:
-        if entry.ros_type == "rosgraph_msgs/msg/Clock" and entry.direction is not Direction.GZ_TO_ROS:
-            yield (
-                f"{entry.source}: publishes {entry.gz_topic} in Gazebo too, and Gazebo then keeps its "
-                "own clock "
-                "off that topic; bridge a clock from Gazebo to ROS only ([ or direction: GZ_TO_ROS)"
-            )
-
-
-def _creation_lines(entries: list[BridgeEntry]) -> Iterator[str]:
-    """What ros_gz_bridge says for each direction of a bridge."""
-    for entry in entries:
-        gz, ros = f"{entry.gz_topic} ({entry.gz_type})", f"{entry.ros_topic} ({entry.ros_type})"
-        if entry.direction.to_ros:
-            yield f"Creating GZ->ROS Bridge: [{gz} -> {ros}] (Lazy {int(entry.lazy)})"
-        if entry.direction.to_gz:
-            yield f"Creating ROS->GZ Bridge: [{ros} -> {gz}] (Lazy {int(entry.lazy)})"
+    namespace, name = node.get_namespace(), node.get_name()
+    config.topics = [
+        replace(entry, gz_topic=expand_gz_name(entry.gz_topic, namespace, name)) for entry in config.topics
+    ]
+    config.services = [
+        replace(entry, gz_name=expand_gz_name(entry.gz_service, namespace, name)) for entry in config.services
+    ]
 
 
 if __name__ == "__main__":

@@ -32,7 +32,7 @@ def test_where_nothing_is_known_nothing_is_offered(words):
 
 def test_packages_executables_and_interfaces():
     assert offered("run", "ros_gz_b") == ["ros_gz_bridge"]
-    assert offered("run", "--prefix", "gdb", "ros_gz_bridge", "") == ["parameter_bridge"]
+    assert {"lint", "parameter_bridge"} <= set(offered("run", "--prefix", "gdb", "ros_gz_bridge", ""))
     assert offered("interface", "show", "std_msgs/msg/Bo") == ["std_msgs/msg/Bool"]
     assert offered("topic", "pub", "/no_such_topic", "geometry_msgs/msg/Twist", "") == [
         "'{linear: {x: 0.0, y: 0.0, z: 0.0}, angular: {x: 0.0, y: 0.0, z: 0.0}}'"

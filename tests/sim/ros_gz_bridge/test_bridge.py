@@ -14,8 +14,8 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Image, LaserScan
 
 from gz.transport import Node, NodeOptions, Scope
+from ros_gz_bridge.arguments import parse_argument
 from ros_gz_bridge.bridge import Bridge, BridgeEntry, BridgeError, Direction, HeaderOverrides
-from ros_gz_bridge.config import parse_argument
 
 TWIST = ("geometry_msgs/msg/Twist", "gz.msgs.Twist")
 SCAN = ("sensor_msgs/msg/LaserScan", "gz.msgs.LaserScan")
@@ -116,28 +116,38 @@ def test_conversion_to_ros_is_done_before_gz_publish_returns(stage):
     assert (publisher.topic_name, type(message), message.clock.sec) == (stage.topic, Clock, 7)
 
 
-def test_a_command_that_is_not_finite_is_dropped_counted_and_reported_once_a_burst(stage, inbox, eventually, capfd):
-    bridge = stage.bridge(stage.entry(direction=Direction.ROS_TO_GZ))
+def handled(bridge):
+    return bridge.status()[0].dropped + bridge.status()[0].ros_to_gz
+
+
+def test_a_command_that_is_not_finite_is_dropped_counted_and_reported_once_a_second(stage, inbox, eventually, capfd):
+    now = [0.0]
+    bridge = stage.bridge(stage.entry(direction=Direction.ROS_TO_GZ), monotonic=lambda: now[0])
     commands = inbox()
     stage.gz.subscribe(GzTwist, stage.topic, commands)
     publisher = stage.ros_publisher(Twist)
-    bad, good = Twist(), Twist()
-    bad.angular.z = math.nan
-    for burst in (1, 2):
-        for number in range(3):
-            publisher.publish(bad)
-            eventually(
-                lambda wanted=3 * burst - 2 + number: bridge.status()[0].dropped == wanted,
-                "the command is counted",
-            )
-        publisher.publish(good)
-        commands.wait(burst)
+    bad, worse = Twist(), Twist()
+    bad.angular.z, worse.linear.x = math.nan, -math.inf
+    sent = 0
+    for second, messages in enumerate([[bad], [bad, bad, Twist(), bad, worse], [bad]]):
+        for message in messages:
+            now[0] = second * 0.6
+            publisher.publish(message)
+            sent += 1
+            eventually(lambda sent=sent: handled(bridge) == sent, "the command is counted")
+    commands.wait(1)
     (status,) = bridge.status()
-    assert (status.dropped, status.ros_to_gz, len(commands.messages)) == (6, 2, 2)
+    assert (status.dropped, status.ros_to_gz, len(commands.messages)) == (6, 1, 1)
     assert status.last_error.startswith(f"geometry_msgs/msg/Twist on {stage.topic} was not bridged: angular.z is nan")
-    warnings = [line for line in capfd.readouterr().err.splitlines() if "[WARN]" in line]
-    assert len(warnings) == 2
-    assert all(stage.topic in line and "angular.z is nan" in line for line in warnings)
+    bridge.say_unsaid()
+    lines = [line for line in capfd.readouterr().err.splitlines() if "[WARN]" in line]
+    assert [stage.topic in line and "angular.z is nan" in line for line in lines] == [True, True]
+    assert lines[1].endswith("(5 messages since the last such line, and another reason)")
+    publisher.publish(worse)
+    eventually(lambda: bridge.status()[0].dropped == 7, "counted")
+    bridge.close()
+    (last,) = [line for line in capfd.readouterr().err.splitlines() if "[WARN]" in line]
+    assert "linear.x is -inf" in last
 
 
 def test_a_message_that_cannot_be_converted_is_dropped_with_its_reason(stage):

@@ -6,14 +6,8 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from ros_gz_bridge import type_pairs
-from ros_gz_bridge.config import (
-    MAX_BYTES,
-    ConfigError,
-    load_yaml,
-    parse_argument,
-    parse_arguments,
-    parse_yaml,
-)
+from ros_gz_bridge.arguments import parse_argument, parse_arguments
+from ros_gz_bridge.config import MAX_BYTES, ConfigError, load_yaml, parse_yaml
 from ros_gz_bridge.entry import BridgeEntry, Direction
 
 PAIRS = [(pair.ros_type, pair.gz_type) for pair in type_pairs.pairs()]
@@ -230,7 +224,6 @@ def test_no_text_does_worse_than_a_config_error(text):
         (bridge(subscriber_queue="ten"), "b.yaml:5:", "'subscriber_queue' must be a number of messages"),
         (bridge() + "  direction: ROS_TO_GZ\n", "b.yaml:5:", "'direction' is given twice (first in line 4)"),
         (bridge() + bridge(), "b.yaml:5:", "bridges /scan again (first: b.yaml:1)"),
-        ("- service_name: /world/w/control\n", "b.yaml:1:", "'service_name' bridges a service"),
         ("[" * 5000, "b.yaml", "nested too deeply"),
         ("[" + "a, " * 1001 + "]", "b.yaml", "1001 bridges, more than the 1000"),
         (" " * (MAX_BYTES + 1), "b.yaml", "larger than 256 KiB"),
@@ -291,7 +284,10 @@ def test_no_argument_does_worse_than_a_config_error(text):
         ("/a@std_msgs/msg/Bool[gz.msgs.Bool", "std_msgs/msg/Bool pairs with gz.msgs.Boolean"),
         ("/a@std_msgs/Bool@gz.msgs.Boolean", "pairs with std_msgs/msg/Bool"),
         ("/a b@std_msgs/msg/Bool@gz.msgs.Boolean", "not a ROS topic name"),
-        ("/w/control@ros_gz_interfaces/srv/ControlWorld@a@b", "bridges a service"),
+        ("/w/control@no_such/srv/Control@a@b", "no conversion is known for the service no_such/srv/Control"),
+        ("/w/control@no_such/srv/Control[a", "is not a service bridge; expected SERVICE@ROS_TYPE"),
+        ("@no_such/srv/Control", "the service name before the first '@' is missing"),
+        ("/a@std_msgs/msg/Bool@gz_msgs.Boolean", "'gz_msgs.Boolean' is not a Gazebo type; write gz.msgs.Boolean"),
     ],
 )
 def test_each_fault_of_an_argument(text, words):

@@ -214,7 +214,7 @@ GOOD = "/a@std_msgs/msg/Bool@gz.msgs.Boolean"
             "nothing to bridge; give bridges as arguments or -p config_file:=FILE",
         ),
         ([GOOD, "--ros-args", "-p", "lazy:=3"], "the parameter lazy must be true or false, not 3"),
-        ([GOOD, "--ros-args", "-p", "subscription_heartbeat:=0"], "must be a number of ms above 0, not 0"),
+        ([GOOD, "--ros-args", "-p", "subscription_heartbeat:=0"], "must be a number of ms above 0 and up to an hour, not 0"),
         (
             [GOOD, "--ros-args", "-p", "config_file:=x.yaml"],
             "bridges are given on the command line and in x.yaml",

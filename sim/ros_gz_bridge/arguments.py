@@ -1,0 +1,101 @@
+"""Reads bridges from the command line: ``NAME@ROS_TYPE@GZ_TYPE`` and its relatives.
+
+Used by ``parameter_bridge`` and by ``lint``. One name stands for both sides; ROS remapping gives another one to ROS.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from ros_gz_bridge.checks import check
+from ros_gz_bridge.config import Config
+from ros_gz_bridge.entry import BridgeEntry, Direction, ServiceEntry
+from ros_gz_bridge.entry_reader import old_type_warning, service_type_faults, type_faults
+from ros_gz_bridge.finding import Finding, raise_errors
+from ros_gz_bridge.names import gz_name_fault, ros_name_fault
+from ros_gz_bridge.type_pairs import UnknownPairError, canonical_gz_type, find_service, pairs
+
+_MARKS = {"@": Direction.BIDIRECTIONAL, "[": Direction.GZ_TO_ROS, "]": Direction.ROS_TO_GZ}
+_SYNTAX = "TOPIC@ROS_TYPE@GZ_TYPE, with [ (Gazebo to ROS) or ] (ROS to Gazebo) in place of the second @"
+_SERVICE_SYNTAX = "SERVICE@ROS_TYPE or SERVICE@ROS_TYPE@GZ_REQUEST_TYPE@GZ_REPLY_TYPE"
+
+
+def parse_argument(text: str) -> BridgeEntry | ServiceEntry:
+    """The entry written as ``TOPIC@ROS_TYPE@GZ_TYPE`` (or ``[``, ``]``), or as a service. Raises ``ConfigError``."""
+    config = Config()
+    entry = _read(text, config.findings)
+    raise_errors(config.findings)
+    assert entry is not None
+    return entry
+
+
+def parse_arguments(texts: Iterable[str]) -> list[BridgeEntry]:
+    """The topics of several arguments. Raises ``ConfigError`` listing the faults of all of them."""
+    config = read_arguments(texts)
+    raise_errors(config.findings)
+    return config.topics
+
+
+def read_arguments(texts: Iterable[str], *, lazy: bool = False) -> Config:
+    """What several arguments ask for, faults included; raises nothing."""
+    config = Config()
+    for text in texts:
+        config.add(_read(text, config.findings, lazy))
+    config.findings.extend(check(config.topics, config.services))
+    return config
+
+
+def _read(text: str, findings: list[Finding], lazy: bool = False) -> BridgeEntry | ServiceEntry | None:
+    where = f"argument '{text}'" if len(text) <= 200 else f"argument '{text[:200]}...'"
+    if re.search(r"@[^@\[\]]*/srv/", text):
+        entry, faults = _service(text, where)
+        findings.extend(Finding(where, fault) for fault in faults)
+        return None if faults else entry
+    match = re.fullmatch(r"([^@]*)@([^@\[\]]*)(?:([@\[\]])(.*))?", text, re.DOTALL)
+    if match is None:
+        findings.append(Finding(where, f"has no '@'; expected {_SYNTAX}"))
+        return None
+    topic, ros_type, mark, gz_type = match.groups()
+    faults = _name_faults(topic, f"the topic name before the first '@' is missing; expected {_SYNTAX}")
+    if mark is None:
+        faults.append(
+            f"has no direction and no Gazebo type; expected {_SYNTAX}, for instance "
+            f"{topic}@{ros_type}@{_partner(ros_type)}"
+        )
+    else:
+        faults.extend(type_faults(ros_type, gz_type))
+    findings.extend(Finding(where, fault) for fault in faults)
+    if faults or mark is None:
+        return None
+    if warning := old_type_warning(gz_type):
+        findings.append(Finding(where, warning, warning=True))
+    return BridgeEntry(topic, topic, ros_type, canonical_gz_type(gz_type), _MARKS[mark], lazy=lazy, source=where)
+
+
+def _service(text: str, where: str) -> tuple[ServiceEntry | None, list[str]]:
+    match = re.fullmatch(r"([^@]*)@([^@\[\]]*)(?:@([^@\[\]]+)@([^@\[\]]+))?", text, re.DOTALL)
+    if match is None:
+        return None, [f"is not a service bridge; expected {_SERVICE_SYNTAX} (Gazebo's service is offered to ROS)"]
+    name, ros_type, request, reply = (part or "" for part in match.groups())
+    faults = _name_faults(name, f"the service name before the first '@' is missing; expected {_SERVICE_SYNTAX}")
+    faults.extend(service_type_faults(ros_type, request, reply))
+    if not faults:
+        try:
+            types = find_service(ros_type, request, reply)
+            request, reply = types.gz_request_type, types.gz_reply_type
+        except UnknownPairError as error:
+            faults.append(str(error))
+    return ServiceEntry(name, ros_type, request, reply, where), faults
+
+
+def _name_faults(name: str, missing: str) -> list[str]:
+    if not name:
+        return [missing]
+    fault = ros_name_fault(name) or gz_name_fault(name)
+    return [fault] if fault else []
+
+
+def _partner(ros_type: str) -> str:
+    """The Gazebo type usually meant with ``ros_type``, for an example in a sentence."""
+    return next((pair.gz_type for pair in pairs() if pair.ros_type == ros_type), "gz.msgs.StringMsg")

@@ -1,0 +1,246 @@
+"""What is wrong or surprising with bridges that can be read: each check looks at all entries together.
+
+``config`` and ``arguments`` call ``check`` on what they have read, so ``lint`` and a starting ``parameter_bridge`` say
+the same. A check is a function marked with ``@_check``; it yields a ``Finding`` for each entry it has to say something
+about. Where each one comes from: reports of people who waited for messages in vain.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Iterator, Sequence
+
+from ros_gz_bridge.entry import BridgeEntry, Direction, ServiceEntry
+from ros_gz_bridge.finding import Finding
+
+_Check = Callable[[Sequence[BridgeEntry], Sequence[ServiceEntry]], Iterator[Finding]]
+_checks: list[_Check] = []
+
+_CLOCK = "rosgraph_msgs/msg/Clock"
+_TF = "tf2_msgs/msg/TFMessage"
+_PUBLISHED_BY_GAZEBO = {
+    "gz.msgs.BatteryState",
+    "gz.msgs.CameraInfo",
+    "gz.msgs.Clock",
+    "gz.msgs.Contacts",
+    "gz.msgs.FluidPressure",
+    "gz.msgs.IMU",
+    "gz.msgs.Image",
+    "gz.msgs.LaserScan",
+    "gz.msgs.Magnetometer",
+    "gz.msgs.Model",
+    "gz.msgs.NavSat",
+    "gz.msgs.Odometry",
+    "gz.msgs.OdometryWithCovariance",
+    "gz.msgs.PointCloudPacked",
+}
+_COMMANDS = re.compile(r"(^|[/_])cmd_(vel|pos|force|thrust|effort)$|/(enable|joint_trajectory)$")
+_WITHOUT_HEADER = {
+    "builtin_interfaces",
+    "rosgraph_msgs",
+    "std_msgs",
+    "rcl_interfaces",
+    "tf2_msgs",
+}
+_HEADERLESS = {
+    "geometry_msgs/msg/Point",
+    "geometry_msgs/msg/Pose",
+    "geometry_msgs/msg/PoseWithCovariance",
+    "geometry_msgs/msg/Quaternion",
+    "geometry_msgs/msg/Transform",
+    "geometry_msgs/msg/Twist",
+    "geometry_msgs/msg/TwistWithCovariance",
+    "geometry_msgs/msg/Vector3",
+    "geometry_msgs/msg/Wrench",
+}
+
+
+def check(topics: Iterable[BridgeEntry], services: Iterable[ServiceEntry] = ()) -> Iterator[Finding]:
+    """Every finding of every check, in the order of the entries."""
+    topics, services = list(topics), list(services)
+    order = {entry.source: number for number, entry in enumerate([*topics, *services])}
+    found = [finding for look in _checks for finding in look(topics, services)]
+    yield from sorted(found, key=lambda finding: order.get(finding.place, len(order)))
+
+
+def _check(function: _Check) -> _Check:
+    _checks.append(function)
+    return function
+
+
+def _warning(entry: BridgeEntry, sentence: str) -> Finding:
+    return Finding(entry.source, sentence, warning=True)
+
+
+@_check
+def _repeated(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
+    """Two entries that would carry the same message over the same route twice."""
+    seen: dict[tuple[str, ...], BridgeEntry] = {}
+    for entry in topics:
+        for way, used in (("ros", entry.direction.to_ros), ("gz", entry.direction.to_gz)):
+            first = seen.setdefault((way, *entry.same_route), entry) if used else entry
+            if first is not entry:
+                sentence = f"bridges {entry.ros_topic} again (first: {first.source}); keep one"
+                yield Finding(entry.source, sentence, tolerated=True)
+                break
+    names: dict[str, ServiceEntry] = {}
+    for service in services:
+        first_service = names.setdefault(service.name, service)
+        if first_service is not service:
+            yield Finding(service.source, f"offers {service.name} again (first: {first_service.source}); keep one")
+
+
+@_check
+def _two_types_on_one_ros_topic(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
+    """DDS takes one type a topic and process, and never connects endpoints of different types."""
+    first: dict[str, BridgeEntry] = {}
+    for entry in topics:
+        other = first.setdefault(entry.ros_topic, entry)
+        if other.ros_type != entry.ros_type:
+            yield Finding(
+                entry.source,
+                f"{entry.ros_topic} is {entry.ros_type} here and {other.ros_type} in {other.source}; a ROS topic has "
+                "one type, give one of the two another ros_topic_name",
+            )
+
+
+@_check
+def _two_types_on_one_gz_topic(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
+    """A Gazebo publisher has one type; a subscription with another one hears nothing."""
+    first: dict[str, BridgeEntry] = {}
+    for entry in topics:
+        other = first.setdefault(entry.gz_topic, entry)
+        if other.gz_type != entry.gz_type:
+            both_publish = other.direction.to_gz and entry.direction.to_gz
+            yield Finding(
+                entry.source,
+                f"the Gazebo topic {entry.gz_topic} is {entry.gz_type} here and {other.gz_type} in {other.source}; "
+                "messages of one type never reach who expects the other",
+                warning=not both_publish,
+            )
+
+
+@_check
+def _clock_to_gazebo(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
+    """Who else advertises the clock makes Gazebo keep its own off the topic."""
+    for entry in topics:
+        if entry.ros_type == _CLOCK and entry.direction is not Direction.GZ_TO_ROS:
+            yield _warning(
+                entry,
+                f"publishes {entry.gz_topic} in Gazebo too, and Gazebo then keeps its own clock off that topic; "
+                "bridge a clock from Gazebo to ROS only ([ or direction: GZ_TO_ROS)",
+            )
+
+
+@_check
+def _clock_name(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
+    """Nodes with use_sim_time look at one topic only, and two clocks contradict each other."""
+    clocks = [entry for entry in topics if entry.ros_type == _CLOCK and entry.direction.to_ros]
+    on_the_topic = [entry for entry in clocks if entry.ros_topic.strip("/") == "clock"]
+    if clocks and not on_the_topic:
+        yield _warning(
+            clocks[0],
+            f"the clock arrives on {clocks[0].ros_topic}, but nodes with use_sim_time listen to /clock; give it "
+            "ros_topic_name: /clock (on the command line: -r NAME:=/clock)",
+        )
+    for entry in on_the_topic[1:]:
+        first = on_the_topic[0]
+        if first.gz_topic != entry.gz_topic:
+            yield _warning(
+                entry,
+                f"a second clock on {entry.ros_topic} (first: {first.source}); time would jump back and forth",
+            )
+
+
+@_check
+def _against_the_stream(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
+    """A direction in which nothing can come: sensors to Gazebo, commands from Gazebo."""
+    for entry in topics:
+        if entry.ros_type == _CLOCK:
+            continue
+        published = entry.gz_type in _PUBLISHED_BY_GAZEBO
+        if published and entry.direction is Direction.ROS_TO_GZ:
+            yield _warning(
+                entry,
+                f"{entry.gz_type} is what Gazebo publishes, nothing in it listens to that; "
+                "did you mean [ or direction: GZ_TO_ROS?",
+            )
+        elif published and entry.direction is Direction.BIDIRECTIONAL:
+            yield _warning(
+                entry,
+                f"{entry.gz_type} is what Gazebo publishes, nothing in it listens to that; [ or direction: GZ_TO_ROS "
+                "is enough (without a direction a bridge goes both ways)",
+            )
+        elif entry.direction is Direction.GZ_TO_ROS and _COMMANDS.search(entry.gz_topic):
+            yield _warning(
+                entry,
+                f"{entry.gz_topic} is where Gazebo listens for commands, it publishes none; "
+                "did you mean ] or direction: ROS_TO_GZ?",
+            )
+
+
+@_check
+def _poses_without_frames(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
+    """The poses of the scene carry names, but no frames."""
+    for entry in topics:
+        if entry.ros_type == _TF and entry.direction.to_ros and entry.gz_topic.endswith("pose/info"):
+            yield _warning(
+                entry,
+                f"the poses of {entry.gz_topic} carry no frames, so every transform has an empty frame_id; bridge "
+                "/model/NAME/tf (DiffDrive) or /model/NAME/pose (PosePublisher, OdometryPublisher)",
+            )
+
+
+@_check
+def _static_transforms(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
+    """Who joins later must still get them."""
+    for entry in topics:
+        if entry.ros_type != _TF or not entry.direction.to_ros or not entry.ros_topic.endswith("tf_static"):
+            continue
+        if entry.qos_profile is None:
+            yield _warning(
+                entry,
+                f"{entry.ros_topic} is sent once, and who joins later misses it; add -p "
+                f"qos_overrides.{entry.ros_topic}.publisher.durability:=transient_local",
+            )
+        if entry.lazy:
+            yield _warning(entry, f"{entry.ros_topic} is sent once, a lazy bridge connects too late to hear it")
+
+
+@_check
+def _lazy_commands(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
+    """A lazy bridge saves what the sender computes; a command costs nothing and must not be late."""
+    for entry in topics:
+        if entry.lazy and entry.direction is Direction.ROS_TO_GZ:
+            yield _warning(
+                entry,
+                "a lazy bridge to Gazebo saves nothing and loses the commands sent before it connects; "
+                "leave lazy out here",
+            )
+        elif entry.lazy and entry.direction is Direction.BIDIRECTIONAL:
+            yield _warning(
+                entry,
+                "a lazy bridge that goes both ways counts itself as a listener in the original and never rests; "
+                "give it one direction",
+            )
+
+
+@_check
+def _frame_of_nothing(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
+    """frame_id is written into a header; some messages have none."""
+    for entry in topics:
+        package = entry.ros_type.split("/")[0]
+        headerless = entry.ros_type in _HEADERLESS or (
+            package in _WITHOUT_HEADER and entry.ros_type != "std_msgs/msg/Header"
+        )
+        if entry.frame_id and entry.direction.to_ros and headerless:
+            yield _warning(entry, f"'frame_id' changes nothing here: {entry.ros_type} has no header")
+
+
+def private_gz_names(topics: Iterable[BridgeEntry], services: Iterable[ServiceEntry]) -> Iterator[Finding]:
+    """Gazebo knows no ``~``; the bridge expands it if it is told to. For who knows whether it is."""
+    names = [(entry.source, entry.gz_topic) for entry in topics]
+    names += [(entry.source, entry.gz_service) for entry in services]
+    for source, name in names:
+        if name.startswith("~"):
+            yield Finding(source, f"the Gazebo name {name} works only with the parameter expand_gz_topic_names:=true")

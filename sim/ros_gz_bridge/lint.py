@@ -1,0 +1,90 @@
+"""The command ``lint``: says what is wrong with the configuration of a bridge without starting one.
+
+``ros2 run ros_gz_bridge lint bridge.yaml``, or with arguments as ``parameter_bridge`` takes them. The findings are
+those of a starting ``parameter_bridge``, one a line on stdout; the exit code is 2 if there is an error among them,
+else 0.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ros_gz_bridge.config import Config
+
+HELP = """\
+usage: lint [--compat] FILE ...
+       lint [--compat] 'TOPIC@ROS_TYPE@GZ_TYPE' ...
+
+Checks the YAML files (or the arguments) of a bridge between Gazebo and ROS 2 and starts nothing.
+Each finding is one line: FILE:LINE: error: ... or FILE:LINE: warning: ...
+Exit code: 0 without errors (there may be warnings), 2 with errors.
+
+  --compat  what the original ros_gz_bridge passes over is no error, only a warning
+"""
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Check what the command line names; 0 or 2."""
+    arguments = sys.argv[1:] if argv is None else argv
+    if not arguments or {"-h", "--help"} & set(arguments):
+        print(HELP, end="")
+        return 0 if arguments else 2
+    compat = "--compat" in arguments
+    words = [word for word in arguments if word != "--compat"]
+    unknown = [word for word in words if word.startswith("-")]
+    for option in unknown:
+        print(f"lint: the option {option} is not known (see --help)", file=sys.stderr)
+    if unknown or not words:
+        if not words:
+            print("lint: nothing to check; name a YAML file (see --help)", file=sys.stderr)
+        return 2
+    try:
+        return _report(words, compat)
+    except BrokenPipeError:  # the reader, for instance head, has seen enough
+        sys.stderr.close()
+        return 2
+
+
+def _report(words: list[str], compat: bool) -> int:
+    errors = warnings = bridges = 0
+    for config in _read(words):
+        shown = config.tolerant() if compat else config
+        for finding in shown.findings:
+            kind = "warning" if finding.warning else "error"
+            place = f"{finding.place}: " if finding.place else ""
+            print(f"{place}{kind}: {str(finding).removeprefix(place)}")
+            errors += not finding.warning
+            warnings += finding.warning
+        bridges += len(shown.topics) + len(shown.services)
+    print(f"{_number(errors, 'error')}, {_number(warnings, 'warning')}; {_number(bridges, 'bridge')} can be made")
+    return 2 if errors else 0
+
+
+def _read(words: list[str]) -> list[Config]:
+    """What each file holds, and all arguments together."""
+    from ros_gz_bridge.arguments import read_arguments
+    from ros_gz_bridge.checks import private_gz_names
+    from ros_gz_bridge.config import read_file
+    from ros_gz_bridge.finding import Finding
+
+    arguments = [word for word in words if "@" in word and not Path(word[:1000]).exists()]
+    read = [read_file(word) for word in words if word not in arguments]
+    if arguments:
+        read.append(read_arguments(arguments))
+    for config in read:
+        config.findings += [
+            Finding(each.place, each.sentence, warning=True)
+            for each in private_gz_names(config.topics, config.services)
+        ]
+    return read
+
+
+def _number(count: int, what: str) -> str:
+    return f"{count} {what}{'' if count == 1 else 's'}"
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,51 @@
+"""Whether a topic or service name can be used on the ROS side and on the Gazebo side.
+
+``config``, ``arguments`` and ``parameters`` ask here, before any node exists that would refuse the name.
+"""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Iterable
+
+from gz.transport import naming
+
+_ROS_TOKEN = r"(?:[A-Za-z_]|\{\w+\})(?:\w|\{\w+\})*"
+_ROS_NAME = re.compile(rf"(?:~|(?:~/|/)?{_ROS_TOKEN}(?:/{_ROS_TOKEN})*)", re.ASCII)
+_LONGEST = 1000
+
+
+def ros_name_fault(name: str) -> str | None:
+    """What is wrong with a ROS topic or service name, or None. Substitutions (``{node}``) and ``~`` may stand."""
+    if len(name) <= _LONGEST and _ROS_NAME.fullmatch(name) and "__" not in name:
+        return None
+    return (
+        f"'{name}' is not a ROS topic name; use letters, digits, '_' and '/', no part starting with a digit, "
+        "no '//' or '__', and no '/' at the end"
+    )
+
+
+def gz_name_fault(name: str) -> str | None:
+    """What is wrong with a Gazebo topic or service name, or None. ``~/x`` may stand: it can be expanded."""
+    rule = naming.broken_rule(name.removeprefix("~/"), may_be_empty=False)
+    return f"'{name}' is not a Gazebo topic name: it {rule}" if rule else None
+
+
+def expand_gz_name(name: str, namespace: str, node_name: str) -> str:
+    """A Gazebo name within the ROS node: ``/abs`` stays, ``rel`` and ``~/private`` get its namespace.
+
+    As ros_gz_bridge's parameter ``expand_gz_topic_names`` has it.
+    """
+    if name.startswith("/"):
+        return name
+    prefix = namespace.rstrip("/")
+    if name.startswith("~/"):
+        return f"{prefix}/{node_name}/{name[2:]}"
+    return f"{prefix}/{name}"
+
+
+def nearest(word: str, words: Iterable[str], cutoff: float = 0.6) -> str:
+    """The tail of a sentence that points to the closest of ``words``, or nothing."""
+    close = difflib.get_close_matches(word[:200], list(words), n=1, cutoff=cutoff)
+    return f"; did you mean {close[0]}?" if close else ""
