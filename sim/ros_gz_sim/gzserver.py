@@ -1,0 +1,66 @@
+"""The executable `gzserver`: Gazebo's server with the world named by ROS parameters, running.
+
+`gz_server.launch.py` starts it. It reads the parameters and then becomes `gz sim -r -s`, so that signals and the exit
+code are those of the simulator.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ros_gz_bridge.ros_program import UsageError, run
+from ros_gz_sim.flags import Flag, read, usage, with_parameters
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+
+FLAGS = (
+    Flag("world_sdf_file", "World: a path, a name in GZ_SIM_RESOURCE_PATH, or a built-in world"),
+    Flag("world_sdf_string", "SDF text of the world"),
+    Flag("initial_sim_time", "Time the world starts at, s", "number"),
+    Flag("verbosity_level", "How much is said: 0 to 4", "whole"),
+)
+HELP = usage("usage: gzserver --ros-args -p world_sdf_file:=FILE | -p world_sdf_string:=SDF\n", FLAGS)
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Read the parameters and become the simulator; return an exit code only for what makes no sense (2)."""
+    command: list[str] = []
+
+    def decide(node: Node, arguments: list[str]) -> int:
+        command.extend(_command(with_parameters(node, read(arguments, FLAGS), FLAGS)))
+        return 0
+
+    code = run("gzserver", "gzserver", decide, HELP, argv)
+    if command:
+        os.execv(command[0], command)
+    return code
+
+
+def _command(values: dict[str, object]) -> list[str]:
+    file, text = values.get("world_sdf_file"), values.get("world_sdf_string")
+    if bool(file) == bool(text):
+        raise UsageError("say which world: give world_sdf_file or world_sdf_string, one of them")
+    gz = [sys.executable, "-P", "-c", "import sys; from gz.command import main; sys.exit(main())"]
+    command = [*gz, "sim", "-r", "-s", str(file or _in_memory(str(text)))]
+    if "initial_sim_time" in values:
+        command += ["--initial-sim-time", str(values["initial_sim_time"])]
+    if "verbosity_level" in values:
+        command += [f"-v{values['verbosity_level']}"]
+    return command
+
+
+def _in_memory(text: str) -> Path:
+    """Return the path of a file that ends with this process, whatever program it becomes."""
+    descriptor = os.memfd_create("world_sdf_string", 0)
+    with os.fdopen(os.dup(descriptor), "w", encoding="utf-8") as file:
+        file.write(text)
+    os.set_inheritable(descriptor, True)
+    return Path(f"/proc/{os.getpid()}/fd/{descriptor}")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,113 @@
+"""The world of a running `gz sim`, found and asked through Gazebo's services, with one deadline for all of it.
+
+The executables of ros_gz_sim use it. Nothing is asked for twice and nothing waits without end: what does not answer
+in time ends in a `Failure` that says which worlds there are.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import time
+from collections.abc import Callable
+
+from google.protobuf.message import Message
+
+from gz.sim.errors import nearest
+from gz.transport import Node
+from ros_gz_bridge.ros_program import Failure, UsageError
+from ros_gz_sim.flags import Flag
+
+TIMEOUT = Flag("timeout", "Longest wait for the world, in s of wall time (default 10)", "number")
+DEFAULT_TIMEOUT_S = 10.0
+_LONGEST_S = 1e6
+_OF_WORLD = re.compile("/world/([^/]+)/")
+
+
+class RunningWorld:
+    """A world that may still be starting. `name` is that of the first world found when none is given.
+
+    `timeout` (s) is for everything; it counts from `start` (s, `time.monotonic`), by default now. `warn` is told at
+    once when only other worlds answer.
+    Raises `Failure` when no simulator answers.
+    """
+
+    def __init__(
+        self, node: Node, name: str, timeout: float, warn: Callable[[str], object], *, start: float | None = None
+    ) -> None:
+        from gz.msgs.empty_pb2 import Empty
+        from gz.msgs.stringmsg_v_pb2 import StringMsg_V
+
+        if not 0.0 < timeout <= _LONGEST_S:
+            raise UsageError(f"-{TIMEOUT.name} must be above 0 and at most {_LONGEST_S:g} s, got {timeout:g}")
+        self._node = node
+        self._timeout = timeout
+        self._end = (time.monotonic() if start is None else start) + timeout
+        done, answer = node.request("/gazebo/worlds", None, Empty, StringMsg_V, self._left_ms())
+        if not done or not answer.data:
+            where = os.environ.get("GZ_PARTITION")
+            raise Failure(
+                f"no simulator answered within {timeout:g} s; start gz sim with the same GZ_PARTITION"
+                + (f" as here ('{where}')" if where else " (here it is not set)")
+            )
+        self.name = name or str(answer.data[0])
+        if name and name not in answer.data and name not in self._worlds():
+            warn(f"Waiting for world '{name}': {self._others()}")
+
+    def call(self, verb: str, request: Message) -> bool:
+        """Ask `/world/NAME/VERB` and wait until it is done; False when the simulator refuses.
+
+        Raises `Failure` when there is no answer in time.
+        """
+        from gz.msgs.boolean_pb2 import Boolean
+
+        service = f"/world/{self.name}/{verb}/blocking"  # the plain service answers before anything was done
+        kind = request.DESCRIPTOR.full_name
+        outcome = self._node.call_raw(
+            service, request.SerializeToString(), kind, Boolean.DESCRIPTOR.full_name, self._left_ms()
+        )
+        if not outcome.executed:
+            raise Failure(self._why_silent(service, verb))
+        return outcome.result and bool(Boolean.FromString(outcome.response).data)
+
+    def entities(self) -> tuple[list[str], list[str]]:
+        """Return the names of all models and of all lights; nothing where the world has no SceneBroadcaster."""
+        from gz.msgs.empty_pb2 import Empty
+        from gz.msgs.scene_pb2 import Scene
+
+        patience = min(2000, max(500, self._left_ms()))
+        _, scene = self._node.request(f"/world/{self.name}/scene/info", None, Empty, Scene, patience)
+        return [model.name for model in scene.model], [light.name for light in scene.light]
+
+    def resolve(self, uri: str) -> str:
+        """Return the path the simulator finds for a URI; empty when it finds none."""
+        from gz.msgs.stringmsg_pb2 import StringMsg
+
+        service = "/gazebo/resource_paths/resolve"
+        done, answer = self._node.request(service, StringMsg(data=uri), StringMsg, StringMsg, self._left_ms())
+        return str(answer.data) if done else ""
+
+    def _left_ms(self) -> int:
+        return max(1, round((self._end - time.monotonic()) * 1000))
+
+    def _worlds(self) -> set[str]:
+        return {found[1] for service in self._node.service_list() if (found := _OF_WORLD.match(service))}
+
+    def _others(self) -> str:
+        worlds = sorted(self._worlds())
+        close = nearest(self.name, worlds)
+        hint = f"; {close}" if close.startswith("did you mean") else ""
+        return f"worlds that run are: {', '.join(worlds) or 'none'}{hint}"
+
+    def _why_silent(self, service: str, verb: str) -> str:
+        if service in self._node.service_list():
+            return (
+                f"world '{self.name}' did not answer to '{verb}' within {self._timeout:g} s and may still obey; "
+                f"a larger -{TIMEOUT.name} waits longer"
+            )
+        if self.name in self._worlds():
+            return (
+                f"world '{self.name}' runs but offers no service '{service}'; it needs the plugin "
+                "gz-sim-user-commands-system, which a world with plugins of its own must name"
+            )
+        return f"no world '{self.name}' appeared within {self._timeout:g} s; {self._others()}"
