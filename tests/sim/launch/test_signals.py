@@ -9,6 +9,9 @@ import sys
 import psutil
 import pytest
 
+from launch.actions import LogInfo
+from launch.substitutions import Command
+
 
 def living_with(name, value):
     """The processes that have this environment variable."""
@@ -65,3 +68,20 @@ def test_signals_end_it_whatever_it_does(tmp_path, entities, number, code):
     wanted = "user interrupted with ctrl-c (SIGINT)" if number == signal.SIGINT else f"received {number.name}"
     assert f"[WARNING] [launch]: {wanted}" in rest
     assert living_with("ROS_LOG_DIR", str(tmp_path)) == []
+
+
+def test_a_command_that_is_interrupted_while_it_starts_is_ended(run, monkeypatch):
+    started = []
+
+    class Interrupted(subprocess.Popen):
+        def __init__(self, *arguments, **options):
+            super().__init__(*arguments, **options)
+            started.append(self)
+            os.kill(os.getpid(), signal.SIGINT)
+
+    monkeypatch.setattr("launch.substitutions.command.subprocess.Popen", Interrupted)
+    result = run(LogInfo(msg=Command("sleep 1000")), LogInfo(msg="not reached"))
+    assert result.code == 0
+    assert result.lines == ["[WARNING] [launch]: user interrupted with ctrl-c (SIGINT)"]
+    (process,) = started
+    assert process.returncode == -signal.SIGKILL
