@@ -59,15 +59,20 @@ def test_signals_end_it_whatever_it_does(tmp_path, entities, number, code):
         text=True,
         start_new_session=True,
     ) as process:
-        for line in process.stdout:
-            if line.rstrip().endswith("up"):
-                break
-        process.send_signal(number)
-        rest = process.stdout.read()  # ends when the last process of the tree has gone
-        assert (process.wait(30), "Traceback" in rest) == (code, False), rest
+        try:
+            for line in process.stdout:
+                if line.rstrip().endswith("up"):
+                    break
+            process.send_signal(number)
+            rest, _ = process.communicate(timeout=30)  # until the last process that holds its output has gone
+        finally:
+            left = living_with("ROS_LOG_DIR", str(tmp_path))
+            for each in left:
+                each.kill()
+    assert (process.returncode, "Traceback" in rest) == (code, False), rest
+    assert left == []
     wanted = "user interrupted with ctrl-c (SIGINT)" if number == signal.SIGINT else f"received {number.name}"
     assert f"[WARNING] [launch]: {wanted}" in rest
-    assert living_with("ROS_LOG_DIR", str(tmp_path)) == []
 
 
 def test_a_command_that_is_interrupted_while_it_starts_is_ended(run, monkeypatch):
