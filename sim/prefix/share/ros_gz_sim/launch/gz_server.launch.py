@@ -1,0 +1,63 @@
+"""Starts Gazebo's server with a world, running: `world_sdf_file:=empty.sdf`, or its text as `world_sdf_string`."""
+
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.conditions import IfCondition, UnlessCondition
+from launch.substitutions import AndSubstitution, LaunchConfiguration, NotSubstitution
+from launch_ros.actions import ComposableNodeContainer, LoadComposableNodes, Node
+from launch_ros.descriptions import ComposableNode
+from launch_ros.parameter_descriptions import ParameterValue
+
+
+def generate_launch_description() -> LaunchDescription:
+    """The arguments of ros_gz_sim's launch file, and one server."""
+    composed = LaunchConfiguration("use_composition")
+    own_container = LaunchConfiguration("create_own_container")
+    server = ComposableNode(package="ros_gz_sim", plugin="ros_gz_sim::GzServer")
+    return LaunchDescription(
+        [
+            DeclareLaunchArgument("world_sdf_file", default_value="", description="World to be simulated"),
+            DeclareLaunchArgument("world_sdf_string", default_value="", description="SDF text of that world"),
+            DeclareLaunchArgument(
+                "container_name", default_value="ros_gz_container", description="Name of the container, if composed"
+            ),
+            DeclareLaunchArgument(
+                "create_own_container", default_value="False", description="Whether a container is started, if composed"
+            ),
+            DeclareLaunchArgument(
+                "use_composition",
+                default_value="False",
+                description="Whether it runs in a container (not possible here)",
+            ),
+            DeclareLaunchArgument("initial_sim_time", default_value="0.0", description="Time the world starts at, s"),
+            DeclareLaunchArgument("verbosity_level", default_value="1", description="How much is said: 0 to 4"),
+            Node(
+                condition=UnlessCondition(composed),
+                package="ros_gz_sim",
+                executable="gzserver",
+                output="screen",
+                parameters=[
+                    {
+                        "world_sdf_file": _value("world_sdf_file", str),
+                        "world_sdf_string": _value("world_sdf_string", str),
+                        "initial_sim_time": _value("initial_sim_time", float),
+                        "verbosity_level": _value("verbosity_level", int),
+                    }
+                ],
+            ),
+            ComposableNodeContainer(
+                condition=IfCondition(AndSubstitution(composed, own_container)),
+                name=LaunchConfiguration("container_name"),
+                composable_node_descriptions=[server],
+            ),
+            LoadComposableNodes(
+                condition=IfCondition(AndSubstitution(composed, NotSubstitution(own_container))),
+                target_container=LaunchConfiguration("container_name"),
+                composable_node_descriptions=[server],
+            ),
+        ]
+    )
+
+
+def _value(name: str, kind: type) -> ParameterValue:
+    return ParameterValue(LaunchConfiguration(name), value_type=kind)

@@ -1,0 +1,27 @@
+"""Puts a model into a running world, and starts the bridge with a configuration file for its topics."""
+
+from pathlib import Path
+
+from ament_index_python.packages import get_package_share_directory
+
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch.substitutions import LaunchConfiguration
+
+
+def generate_launch_description() -> LaunchDescription:
+    """gz_spawn_model.launch.py and ros_gz_bridge.launch.py with one set of arguments."""
+    return LaunchDescription(
+        [
+            DeclareLaunchArgument("bridge_log_level", default_value="info", description="Log level of the bridge"),
+            _include("ros_gz_sim", "gz_spawn_model.launch.py"),
+            _include("ros_gz_bridge", "ros_gz_bridge.launch.py", log_level=LaunchConfiguration("bridge_log_level")),
+        ]
+    )
+
+
+def _include(package: str, file: str, **arguments: object) -> IncludeLaunchDescription:
+    # A plain path: `ros2 launch --show-args` can look into the file.
+    path = Path(get_package_share_directory(package), "launch", file)
+    return IncludeLaunchDescription(PythonLaunchDescriptionSource(str(path)), launch_arguments=arguments.items())
