@@ -45,15 +45,16 @@ class ImagePair:
         step = gz.step or gz.width * ENCODINGS[encoding][1]
         data = gz.data  # every access makes a copy
         _check_pixels(gz.width, gz.height, step, len(data), encoding)
-        return Image(
+        ros = Image(
             header=header_to_ros(gz.header),
             height=gz.height,
             width=gz.width,
             encoding=encoding,
             is_bigendian=0,
             step=step,
-            data=array("B", data),
         )
+        ros.data.frombytes(data)  # handed to the constructor, the bytes would be copied three times
+        return ros
 
     @staticmethod
     def to_gz(ros: Image) -> Any:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from array import array
 from typing import Any
 
 import numpy as np
@@ -38,9 +37,9 @@ class LaserScanPair:
         )
         if len(gz.ranges) < start + gz.count:
             raise ConversionError(f"the scan announces {gz.count} beams a layer but carries {len(gz.ranges)} ranges")
-        ros.ranges = _float32s(gz.ranges, start, gz.count)
+        ros.ranges.frombytes(_float32s(gz.ranges, start, gz.count))
         if len(gz.intensities) >= start + gz.count:
-            ros.intensities = _float32s(gz.intensities, start, gz.count)
+            ros.intensities.frombytes(_float32s(gz.intensities, start, gz.count))
         return ros
 
     @staticmethod
@@ -67,10 +66,10 @@ def _scan_header(gz: Any) -> Any:
     return header
 
 
-def _float32s(numbers: Any, start: int, count: int) -> array[float]:
-    """``count`` doubles from ``start`` as an array: ROS takes it as it is, where it checks a list one by one."""
+def _float32s(numbers: Any, start: int, count: int) -> bytes:
+    """``count`` doubles from ``start`` as the bytes of 32 bit numbers."""
     with np.errstate(over="ignore"):  # beyond float32 is infinite, as in C
-        return array("f", np.asarray(numbers, dtype=np.float64)[start : start + count].astype(np.float32).tobytes())
+        return np.asarray(numbers, dtype=np.float64)[start : start + count].astype(np.float32).tobytes()
 
 
 @type_pair("sensor_msgs/msg/Range", "gz.msgs.LaserScan")
@@ -113,7 +112,7 @@ class PointCloud2Pair:
     @staticmethod
     def to_ros(gz: Any) -> PointCloud2:
         """Gazebo to ROS."""
-        return PointCloud2(
+        ros = PointCloud2(
             header=header_to_ros(gz.header),
             height=gz.height,
             width=gz.width,
@@ -126,9 +125,10 @@ class PointCloud2Pair:
             is_bigendian=gz.is_bigendian,
             point_step=gz.point_step,
             row_step=gz.row_step,
-            data=array("B", gz.data),
             is_dense=gz.is_dense,
         )
+        ros.data.frombytes(gz.data)  # handed to the constructor, the bytes would be copied three times
+        return ros
 
     @staticmethod
     def to_gz(ros: PointCloud2) -> Any:
