@@ -130,14 +130,14 @@ class Graph:
         own = self.node.get_fully_qualified_name()
         return sorted(name for name in names if name != own and (hidden or not is_hidden(name)))
 
-    def settle(self) -> None:
-        """Wait until the graph is complete as far as one can tell, or exactly --spin-time."""
+    def settle(self, deadline: float = SETTLE_DEADLINE) -> None:
+        """Wait until the graph is complete as far as one can tell, at most `deadline` s, or exactly --spin-time."""
         if self._spin_time is not None:
             end = self._born + self._spin_time
             # Asked each time, because it calls those who are missing.
             self._wait(lambda: (self._participants.all_known(), time.monotonic() >= end)[1], self._spin_time)
         else:
-            self._wait(lambda: self._complete(QUIET), SETTLE_DEADLINE)
+            self._wait(lambda: self._complete(QUIET), deadline)
 
     def wait_for(self, find: Callable[[], Found]) -> Found:
         """What `find` returns as soon as that is true; at the latest after exactly --spin-time, if given."""

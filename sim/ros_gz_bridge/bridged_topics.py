@@ -38,13 +38,13 @@ def entries(texts: Iterable[str]) -> list[BridgeEntry]:
     for text in texts:
         try:
             keys = yaml.safe_load(text)
-            names = [keys[name] for name in _TOPICS_AND_TYPES]
+            ros_topic, gz_topic, ros_type, gz_type = names = [keys[name] for name in _TOPICS_AND_TYPES]
             direction, lazy = Direction(keys["direction"]), bool(keys["lazy"])
         except (yaml.YAMLError, KeyError, TypeError, ValueError) as error:
             raise ValueError(f"{text[:80]!r} is no entry of a bridge: {error}") from None
         if not all(isinstance(name, str) for name in names):
             raise ValueError(f"{text[:80]!r} is no entry of a bridge: names and types are texts")
-        found.append(BridgeEntry(*names, direction=direction, lazy=lazy))
+        found.append(BridgeEntry(ros_topic, gz_topic, ros_type, gz_type, direction=direction, lazy=lazy))
     return found
 
 

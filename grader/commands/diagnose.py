@@ -1,0 +1,75 @@
+"""`course diagnose`: look at the live ROS and Gazebo graphs and say what cannot work, and why."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from grader.diagnose.live import Diagnosis
+
+LONGEST = 60.0  # s
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    app.command(name="diagnose")(diagnose_command)
+
+
+def diagnose_command(
+    seconds: Annotated[
+        float, typer.Option(min=0.1, max=LONGEST, help="How long to listen to topics, after both graphs are known.")
+    ] = 2.0,
+    json: Annotated[bool, typer.Option("--json", help="Print the findings as JSON.")] = False,
+) -> None:
+    """Find what is wrong in the running system of this ROS domain and Gazebo partition; it only listens.
+
+    Exit code 0: nothing wrong, 1: something is, 2: a usage error, 3: ROS or Gazebo's transport cannot be used.
+    """
+    from rich.console import Console
+
+    from grader.diagnose.live import diagnose
+
+    diagnosis = diagnose(seconds)
+    if json:
+        sys.stdout.write(diagnosis.as_json())
+    else:
+        print_diagnosis(diagnosis, Console())
+    raise typer.Exit(1 if diagnosis.wrong else 0)
+
+
+def print_diagnosis(diagnosis: Diagnosis, console: Console) -> None:
+    """Print what was looked at, then every finding: sentence, evidence, fix."""
+    from rich.markup import escape
+
+    from grader.printable import shown
+
+    colours = {"ERROR": "red", "WARNING": "yellow", "NOTE": "cyan"}
+    ros, gz = diagnosis.system.ros, diagnosis.system.gz
+    worlds = ", ".join(world.name for world in gz.worlds) or "none"
+    bridges = ", ".join(f"{bridge.node} ({len(bridge.entries)})" for bridge in ros.bridges) or "none"
+    console.print(
+        escape(
+            shown(
+                f"ROS domain {ros.domain}: {_count(len(ros.nodes), 'node')}, bridges: {bridges}. "
+                f"Gazebo partition {gz.partition!r}: worlds: {worlds}."
+            )
+        ),
+        highlight=False,
+    )
+    for finding in diagnosis.findings:
+        word = finding.severity.name
+        console.print(f"\n[{colours[word]}]{word}[/]  {escape(shown(finding.sentence))}", highlight=False)
+        for line in finding.evidence:
+            console.print(f"  seen: {escape(shown(line))}", highlight=False)
+        console.print(f"  fix:  {escape(shown(finding.fix))}", highlight=False)
+    if not diagnosis.wrong:
+        console.print("\nNothing is wrong." if not diagnosis.findings else "\nNothing is wrong; see the notes above.")
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 's'}"

@@ -1,0 +1,23 @@
+"""The words of a fix that several kinds of findings give: how to bridge a topic, and which topics can be bridged."""
+
+from __future__ import annotations
+
+from ros_gz_bridge.entry import Direction
+from ros_gz_bridge.type_pairs import UnknownPairError, find_pair
+
+_MARKS = {Direction.BIDIRECTIONAL: "@", Direction.GZ_TO_ROS: "[", Direction.ROS_TO_GZ: "]"}
+
+
+def can_bridge(ros_type: str, gz_type: str) -> bool:
+    """Whether ros_gz_bridge has a conversion for the two types."""
+    try:
+        find_pair(ros_type, gz_type)
+    except UnknownPairError:
+        return False
+    return True
+
+
+def bridge_command(ros_topic: str, gz_topic: str, ros_type: str, gz_type: str, direction: Direction) -> str:
+    """The command line that bridges one topic."""
+    remap = f" --ros-args -r {gz_topic}:={ros_topic}" if ros_topic != gz_topic else ""
+    return f"parameter_bridge '{gz_topic}@{ros_type}{_MARKS[direction]}{gz_type}'{remap}"

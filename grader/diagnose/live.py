@@ -1,0 +1,85 @@
+"""From the two graphs to the findings: what `course diagnose` does, on one screen."""
+
+from __future__ import annotations
+
+import json
+import time
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import Any
+
+from grader.diagnose.finding import Finding, Severity, findings
+from grader.diagnose.system import System
+from grader.errors import InfrastructureError
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """The findings, worst first, and what they were found in."""
+
+    system: System
+    findings: list[Finding]
+    wall_seconds: float
+
+    @property
+    def wrong(self) -> bool:
+        """Whether anything is wrong; notes alone are nothing wrong."""
+        return any(finding.severity is not Severity.NOTE for finding in self.findings)
+
+    def as_dict(self) -> dict[str, Any]:
+        """The JSON report."""
+        ros, gz = self.system.ros, self.system.gz
+        return {
+            "wrong": self.wrong,
+            "findings": [finding.as_dict() for finding in self.findings],
+            "ros": {
+                "domain": ros.domain,
+                "nodes": [node.name for node in ros.nodes],
+                "bridges": {
+                    bridge.node: [
+                        {
+                            "ros_topic_name": entry.ros_topic,
+                            "gz_topic_name": entry.gz_topic,
+                            "ros_type_name": entry.ros_type,
+                            "gz_type_name": entry.gz_type,
+                            "direction": entry.direction.value,
+                        }
+                        for entry in bridge.entries
+                    ]
+                    for bridge in ros.bridges
+                },
+            },
+            "gz": {"partition": gz.partition, "worlds": [world.name for world in gz.worlds]},
+            "wall_seconds": round(self.wall_seconds, 2),
+        }
+
+    def as_json(self) -> str:
+        """The JSON report as text."""
+        return json.dumps(self.as_dict(), indent=2) + "\n"
+
+
+def diagnose(seconds: float = 2.0) -> Diagnosis:
+    """Observe both graphs, listening for `seconds`, and say what is wrong.
+
+    Raises InfrastructureError when ROS or Gazebo's transport cannot be used at all.
+    """
+    started = time.monotonic()
+    system = observe(seconds)
+    return Diagnosis(system, findings(system), time.monotonic() - started)
+
+
+def observe(seconds: float) -> System:
+    """Look at both sides at the same time."""
+    from grader.diagnose import gz_side, ros_side
+    from ros2.errors import CommandError
+
+    with ThreadPoolExecutor(1, "gz-side") as pool:
+        gz = pool.submit(gz_side.observe, seconds)
+        try:
+            ros = ros_side.observe(seconds)
+        except CommandError as error:
+            raise InfrastructureError(str(error)) from None
+        try:
+            return System(ros, gz.result())
+        except OSError as error:
+            raise InfrastructureError(f"Gazebo's transport cannot be used: {error}") from None

@@ -1,0 +1,26 @@
+"""A bridge that publishes a clock in Gazebo: Gazebo then keeps its own clock off that topic."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from grader.diagnose.finding import Finding, Severity
+from grader.diagnose.system import System
+from ros_gz_bridge.entry import Direction
+
+RANK = 4
+
+
+def look(system: System) -> Iterator[Finding]:
+    """Clock entries that do not go from Gazebo to ROS only."""
+    for bridge, entry in system.entries():
+        if entry.ros_type == "rosgraph_msgs/msg/Clock" and entry.direction is not Direction.GZ_TO_ROS:
+            yield Finding(
+                Severity.ERROR,
+                f"The bridge {bridge.node} publishes the clock {entry.gz_topic} in Gazebo, too: a Gazebo started after "
+                "it then keeps its own clock off that topic.",
+                "Write direction: GZ_TO_ROS for the clock (on the command line the mark [); without it a bridge is "
+                "BIDIRECTIONAL.",
+                (f"direction: {entry.direction.value}",),
+                frozenset({entry.ros_topic}),
+            )
