@@ -3,7 +3,8 @@
 Service callbacks run in the threads of the transport; nothing but the stepping thread may touch a world. They
 hand their work to `Requests.call` or `put`; `World.step` and the paused `Server` call `serve`. Whoever is the
 stepping thread itself, and not inside a step, is served at once: so a program that steps a world and calls its
-services never waits for itself.
+services never waits for itself. The stepping thread is who made the world, until another thread steps or serves it;
+that one waits until what is being done at once is done.
 """
 
 from __future__ import annotations
@@ -53,15 +54,23 @@ class Requests:
         """The queue; whoever steps looks at it before every step, so it is no more than that."""
         self._arrived = threading.Condition()
         self._owner = threading.get_ident()
+        self._handover = threading.RLock()
+        """Held while work is done at once, so that no other thread begins to step meanwhile."""
         self._inside = False
 
     def __bool__(self) -> bool:
         """Whether something waits."""
         return bool(self.waiting)
 
+    def own(self) -> None:
+        """Make the calling thread the stepping thread, from now on."""
+        caller = threading.get_ident()
+        if caller != self._owner:
+            with self._handover:
+                self._owner = caller
+
     def enter_step(self) -> None:
-        """The calling thread is the stepping thread and is inside a step from now on."""
-        self._owner = threading.get_ident()
+        """The calling thread, which owns the world, is inside a step from now on."""
         self._inside = True
 
     def leave_step(self) -> None:
@@ -77,8 +86,10 @@ class Requests:
         """Queue work, or do it at once when the caller is the stepping thread between two steps."""
         request = Request(work)
         if threading.get_ident() == self._owner and not self._inside:
-            request.run()
-            return request
+            with self._handover:
+                if threading.get_ident() == self._owner:
+                    request.run()
+                    return request
         with self._arrived:
             self.waiting.append(request)
             self._arrived.notify_all()
@@ -105,7 +116,7 @@ class Requests:
         """Do the work that waits now; called by the stepping thread between steps. Errors nobody waits for are the
         business of the work itself.
         """
-        self._owner = threading.get_ident()
+        self.own()
         for _ in range(len(self.waiting)):
             self.waiting.popleft().run()
 

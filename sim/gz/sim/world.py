@@ -204,6 +204,7 @@ class World(Editing):
         """
         requests, info, manager, advance = self.requests, self._info, self._manager, mujoco.mj_step
         done, waiting = 0, requests.waiting
+        requests.own()
         while done < n:
             if waiting:
                 requests.serve()

@@ -112,3 +112,29 @@ def test_a_world_goes_on_however_much_is_asked_for() -> None:
     world.requests.waiting.append(Request(again))
     world.step(5)
     assert world.iterations == 5 and asked == [0, 1, 2, 3, 4]
+
+
+def test_who_begins_to_step_waits_for_what_is_being_done_at_once() -> None:
+    requests = Requests()
+    begun: list[str] = []
+    thread = threading.Thread(target=lambda: (requests.own(), begun.append("step")))
+
+    def work() -> None:
+        thread.start()
+        thread.join(0.2)
+        begun.append("work")
+
+    requests.put(work)
+    thread.join(20)
+    assert begun == ["work", "step"]
+
+
+def test_who_stepped_first_is_served_by_who_steps_now() -> None:
+    requests = Requests()
+    thread = threading.Thread(target=requests.serve)
+    thread.start()
+    thread.join(20)
+    asked = requests.put(threading.get_ident)
+    assert not asked.done.is_set()
+    requests.serve()
+    assert asked.result == threading.get_ident()
