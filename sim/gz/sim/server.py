@@ -50,7 +50,10 @@ class Server:
         self._factor = 0.0
         self._pause_began: int | None = None
         self._on_rewind()
-        self._services = WorldServices(self)
+        self._services = WorldServices(world, node, self.control, self._stop)
+
+    def _stop(self) -> None:
+        self.stopped = True
 
     @property
     def paused(self) -> bool:

@@ -26,7 +26,9 @@ from gz.sim.sdf.resources import find_model, resource_paths
 from gz.sim.sdf_generator import generate_world
 
 if TYPE_CHECKING:
-    from gz.sim.server import Server
+    from gz.sim.control import Control
+    from gz.sim.world import World
+    from gz.transport import Node
 
 CONTROL_PATIENCE_S = 0.5
 """A control request is answered when it was obeyed, or after this long: then it waits for the next step."""
@@ -35,10 +37,12 @@ CONTROL_PATIENCE_S = 0.5
 class WorldServices:
     """Offers the services of one server on its node; they end with the node."""
 
-    def __init__(self, server: Server) -> None:
-        self._server = server
-        self._world = server.world
-        node, name = server.node, server.world.name
+    def __init__(self, world: World, node: Node, control: Control, stop: Callable[[], None]) -> None:
+        """Offer them at once; `stop()` is called, from any thread, when a client asks the server to end."""
+        self._world = world
+        self._control = control
+        self._stop = stop
+        name = world.name
         offers: list[tuple[str, type, type, Callable[[Any], Any]]] = [
             (f"/world/{name}/control", WorldControl, Boolean, self._on_control),
             (f"/world/{name}/control/state", WorldControlState, Boolean, self._on_control_state),
@@ -55,7 +59,7 @@ class WorldServices:
 
     def _on_control(self, request: Any) -> Any:
         topic = f"/world/{self._world.name}/control"
-        work = logged(lambda: self._server.control.apply(request), topic)
+        work = logged(lambda: self._control.apply(request), topic)
         asked = self._world.requests.put(work)
         if not asked.done.wait(CONTROL_PATIENCE_S):
             return Boolean(data=True)  # as in Gazebo: it was taken, and is obeyed when the world is stepped
@@ -103,7 +107,7 @@ class WorldServices:
     def _on_server_control(self, request: Any) -> Any:
         if request.stop:
             LOG.info("a client stops the server")
-            self._server.stopped = True
+            self._stop()
         others = [
             field.name for field, _ in request.ListFields() if field.name not in ("header", "stop")
         ]  # saving, opening and cloning belong to Gazebo Classic; Gazebo itself ignores them

@@ -23,9 +23,10 @@ from gz.sim.sdf.resources import find_model, read_text
 from gz.sim.sdf.writer import pose_element
 
 if TYPE_CHECKING:
-    from gz.sim.systems.user_commands import Command
     from gz.sim.world import World
 
+Command = Callable[["World", Any], Callable[[], None]]
+"""Looks at a message (in any thread) and returns what is to be done between two steps; both raise `SimError`."""
 _LIGHT_KINDS = ("point", "spot", "directional")
 
 

@@ -13,10 +13,9 @@ from typing import TYPE_CHECKING, Any
 from gz.sim.errors import SimError, nearest
 from gz.sim.sdf.description import Collision, Visual
 from gz.sim.spherical_coordinates import SURFACES, SphericalCoordinates
-from gz.sim.systems.entity_commands import light_changes, name_of, place_on_planet, pose_of
+from gz.sim.systems.entity_commands import Command, light_changes, name_of, place_on_planet, pose_of
 
 if TYPE_CHECKING:
-    from gz.sim.systems.user_commands import Command
     from gz.sim.world import World
 
 

@@ -18,11 +18,9 @@ from gz.sim.sdf.description import Model, Plugin
 from gz.sim.systems.registry import System, system
 
 if TYPE_CHECKING:
+    from gz.sim.systems.entity_commands import Command
     from gz.sim.world import World
     from gz.transport import Node
-
-Command = Callable[["World", Any], Callable[[], None]]
-"""Looks at a message (in any thread) and returns what is to be done between two steps; both raise `SimError`."""
 
 
 @system("UserCommands", "gz-sim-user-commands-system")
