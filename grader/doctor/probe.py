@@ -1,0 +1,139 @@
+"""Small Python programs in processes of their own, for what may hang or crash whoever tries it.
+
+All end at one deadline at the latest, whatever becomes of this process: each has an alarm of its own, too.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Mapping
+from pathlib import Path
+from types import TracebackType
+
+GRACE = 0.3  # [s] between SIGINT, SIGTERM and SIGKILL
+_ALARM = "import signal; signal.alarm({seconds})\n"
+
+
+class ProbeError(Exception):
+    """A probe did not do what it was to do; the text is the last line it complained with."""
+
+
+class Probe:
+    """One running program; its standard input stays open until `result()` or `stop()`."""
+
+    def __init__(self, code: str, arguments: tuple[str, ...], environment: Mapping[str, str], probes: Probes) -> None:
+        """Start it. Use `Probes.start` instead of calling this."""
+        self._probes = probes
+        alarm = _ALARM.format(seconds=int(probes.seconds_left + 2))
+        # -P: what lies in the folder we were called in (somebody's rclpy.py) is not ours to import.
+        self._process = subprocess.Popen(
+            [sys.executable, "-P", "-c", alarm + code, *arguments],
+            cwd=probes.folder,
+            env=dict(environment),
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            errors="replace",
+            start_new_session=True,
+        )
+
+    def result(self) -> str:
+        """Wait for its end; what it printed. Raises ProbeError if it failed or took too long."""
+        try:
+            output, errors = self._process.communicate(timeout=max(0.0, self._probes.seconds_left))
+        except subprocess.TimeoutExpired:
+            self.stop()
+            raise ProbeError(f"no answer within {self._probes.deadline:g} s") from None
+        finally:
+            self._kill(signal.SIGKILL)  # whatever it started and did not end
+        code = self._process.returncode
+        if code:
+            told = [line.strip() for line in errors.splitlines() if line.strip()]
+            how = f"ended by {_signal_name(-code)}" if code < 0 else f"ended with exit code {code}"
+            raise ProbeError(told[-1] if told and code > 0 else how)
+        return output.strip()
+
+    def stop(self) -> None:
+        """End it, first politely. Its output is thrown away."""
+        for number in (signal.SIGINT, signal.SIGTERM):
+            if self._process.poll() is None:
+                self._kill(number)
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    self._process.wait(GRACE)
+        self._kill(signal.SIGKILL)
+        self._process.wait()
+        for stream in (self._process.stdin, self._process.stdout, self._process.stderr):
+            if stream is not None:
+                with contextlib.suppress(OSError, ValueError):
+                    stream.close()
+
+    def _kill(self, number: signal.Signals) -> None:
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.killpg(self._process.pid, number)
+
+
+def _signal_name(number: int) -> str:
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return f"signal {number}"
+
+
+class Probes:
+    """Starts probes in a folder of their own, and ends them all; a context manager, usable from many threads."""
+
+    def __init__(self, deadline: float) -> None:
+        """All of it together may take `deadline` [s]."""
+        self.deadline = deadline
+        self._end = time.monotonic() + deadline
+        self.folder = Path(tempfile.mkdtemp(prefix="course-doctor-"))
+        self._lock = threading.Lock()
+        self._started: list[Probe] = []
+        self._open = True
+
+    @property
+    def seconds_left(self) -> float:
+        """Until the deadline [s]; negative after it."""
+        return self._end - time.monotonic()
+
+    def start(self, code: str, *arguments: str, environment: Mapping[str, str] | None = None) -> Probe:
+        """Start Python code; `environment` is added to this process's own. Raises ProbeError if that is impossible."""
+        with self._lock:
+            if not self._open or self.seconds_left <= 0:
+                raise ProbeError(f"no answer within {self.deadline:g} s")
+            try:
+                probe = Probe(code, arguments, os.environ | dict(environment or {}), self)
+            except OSError as error:
+                raise ProbeError(f"Python does not start: {error}") from None
+            self._started.append(probe)
+            return probe
+
+    def run(self, code: str, *arguments: str, environment: Mapping[str, str] | None = None) -> str:
+        """Run Python code to its end; what it printed. Raises ProbeError if it failed or took too long."""
+        return self.start(code, *arguments, environment=environment).result()
+
+    def close(self) -> None:
+        """End every probe, and remove the folder."""
+        with self._lock:
+            self._open = False
+            started, self._started = self._started, []
+        for probe in started:
+            probe.stop()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def __enter__(self) -> Probes:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()

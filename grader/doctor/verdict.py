@@ -1,0 +1,31 @@
+"""An answer of `course doctor`: what was seen and, if that is not well, what to do about it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+OK, WARNING, FAILED = "ok", "warning", "failed"
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """`status` is ok, warning (works, but worth knowing) or failed (does not work); `fix` is one sentence."""
+
+    status: str
+    seen: str
+    fix: str = ""
+
+
+def fine(seen: str) -> Verdict:
+    """All is well."""
+    return Verdict(OK, seen)
+
+
+def warning(seen: str, fix: str) -> Verdict:
+    """The course works; something may surprise."""
+    return Verdict(WARNING, seen, fix)
+
+
+def failed(seen: str, fix: str) -> Verdict:
+    """Something of the course does not work."""
+    return Verdict(FAILED, seen, fix)
