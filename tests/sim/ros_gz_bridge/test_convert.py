@@ -13,6 +13,7 @@ from gz.msgs.time_pb2 import Time as GzTime
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rcl_interfaces.msg import ParameterValue
+from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import CameraInfo, Image, JointState, LaserScan, PointCloud2, PointField, Range
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
@@ -76,6 +77,7 @@ def test_there_and_back_is_the_same_message(pair):
         back = pair.to_ros(pair.gz_class.FromString(on_the_wire))
         assert type(back) is pair.ros_class
         assert plain(back) == lossy(pair, plain(ros))
+        assert plain(deserialize_message(serialize_message(back), pair.ros_class)) == plain(back), "as sent over DDS"
 
     check()
 
