@@ -1,0 +1,198 @@
+"""What the rooms with ROS programs share: a DDS domain and a Gazebo partition of their own, programs, a simulator."""
+
+import os
+import random
+import re
+import signal
+import socket
+import subprocess
+import sys
+import threading
+import uuid
+import warnings
+from pathlib import Path
+
+import pytest
+
+DEADLINE = 30.0
+
+
+class Program:
+    """A child process, what it has said so far, and its end."""
+
+    def __init__(self, command, environment, folder):
+        self.process = subprocess.Popen(
+            [str(word) for word in command],
+            env=environment,
+            cwd=folder,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            start_new_session=True,
+        )
+        self.said = ""
+        self._changed = threading.Condition()
+        self._reader = threading.Thread(target=self._read)
+        self._reader.start()
+
+    def _read(self):
+        for line in self.process.stdout:
+            with self._changed:
+                self.said += line
+                self._changed.notify_all()
+        self.process.stdout.close()
+
+    def wait_for(self, words):
+        with self._changed:
+            found = self._changed.wait_for(lambda: words in self.said, DEADLINE)
+        assert found, f"no {words!r} in {self.said}"
+
+    def wait(self):
+        """Its exit code, when it has ended by itself."""
+        code = self.process.wait(DEADLINE)
+        self._reader.join(DEADLINE)
+        assert "Traceback" not in self.said, self.said
+        return code
+
+    def stop(self, number=signal.SIGINT):
+        self.process.send_signal(number)
+        return self.wait()
+
+    def end(self):
+        if self.process.poll() is None:
+            os.killpg(self.process.pid, signal.SIGKILL)
+            self.process.wait(DEADLINE)
+        self._reader.join(DEADLINE)
+
+
+class Programs:
+    """Starts programs that see the same domain, the same partition, and nobody else."""
+
+    def __init__(self, domain, folder):
+        self.partition = f"test-{uuid.uuid4().hex}"
+        self.domain = domain
+        self.folder = folder
+        self.ros = {
+            "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+            # Shared memory leaves files behind when a process is killed.
+            "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4",
+            "ROS_LOG_DIR": str(folder / "ros_log"),
+        }
+        self.environment = {
+            **os.environ,
+            **self.ros,
+            "ROS_DOMAIN_ID": str(domain),
+            "GZ_PARTITION": self.partition,
+            "GZ_IP": "127.0.0.1",
+        }
+        self._started = []
+
+    def start(self, *command, **variables):
+        self._started.append(Program(command, self.environment | variables, self.folder))
+        return self._started[-1]
+
+    def ros2(self, *words, **variables):
+        return self.start(sys.executable, "-m", "ros2", *words, **variables)
+
+    def module(self, name, *words, **variables):
+        return self.start(sys.executable, "-P", "-m", name, *words, **variables)
+
+    def finished(self, name, *words, **variables):
+        """Exit code and output of a module that ends by itself."""
+        program = self.module(name, *words, **variables)
+        return program.wait(), program.said
+
+    def gz_sim(self, world):
+        """A running server with this world (the text between <world> and </world>); its name is `small`."""
+        path = self.folder / f"{uuid.uuid4().hex}.sdf"
+        path.write_text(f"<sdf version='1.9'><world name='small'>{world}</world></sdf>")
+        return self.start(Path(sys.executable).with_name("gz"), "sim", "-r", "-s", path)
+
+    def gz_node(self):
+        from gz.transport import Node, NodeOptions
+
+        options = NodeOptions()
+        options.partition = self.partition
+        return Node(options)
+
+    def scene(self):
+        """Name -> gz.msgs.Model of every model in the world `small`."""
+        from gz.msgs.empty_pb2 import Empty
+        from gz.msgs.scene_pb2 import Scene
+
+        with self.gz_node() as node:
+            done, scene = node.request("/world/small/scene/info", None, Empty, Scene, round(DEADLINE * 1000))
+        assert done
+        return {model.name: model for model in scene.model}
+
+    def close(self):
+        for program in reversed(self._started):
+            program.end()
+
+
+@pytest.fixture(scope="session")
+def free_domain():
+    """The number of a DDS domain held for this session."""
+    for number in random.sample(range(1, 102), 101):
+        lock = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+        try:
+            lock.bind(f"\0gz-ros2-course-domain-{number}")
+        except OSError:
+            lock.close()
+            continue
+        yield number
+        lock.close()
+        return
+    pytest.fail("every DDS domain from 1 to 101 is in use")
+
+
+@pytest.fixture(scope="module")
+def programs(free_domain, tmp_path_factory):
+    made = Programs(free_domain, tmp_path_factory.mktemp("programs"))
+    yield made
+    made.close()
+
+
+@pytest.fixture
+def ros_node(programs, monkeypatch):
+    """A ROS node of this process among those programs; it is spun by whoever needs it."""
+    with warnings.catch_warnings():
+        # The parser that ROS's message packages bring along (lark) still imports a deprecated module.
+        warnings.simplefilter("ignore", DeprecationWarning)
+        import rclpy
+        import rosidl_generator_py  # noqa: F401
+    for name, value in programs.ros.items():
+        monkeypatch.setenv(name, value)
+    context = rclpy.Context()
+    rclpy.init(context=context, domain_id=programs.domain)
+    node = rclpy.create_node("tester", context=context)
+    yield node
+    node.destroy_node()
+    context.try_shutdown()
+
+
+@pytest.fixture
+def spin_until(ros_node):
+    """Run the callbacks of `ros_node` until a condition holds, or fail in time."""
+    import time
+
+    from rclpy.executors import SingleThreadedExecutor
+
+    executor = SingleThreadedExecutor(context=ros_node.context)
+    executor.add_node(ros_node)
+
+    def spin(condition, what):
+        end = time.monotonic() + DEADLINE
+        while not condition():
+            assert time.monotonic() < end, f"not in time: {what}"
+            executor.spin_once(timeout_sec=0.02)
+
+    yield spin
+    executor.shutdown()
+
+
+@pytest.fixture(scope="session")
+def without_stamp():
+    """The output of a ROS program without the wall time of its log lines."""
+    return lambda text: re.sub(r"\[\d+\.\d+\] ", "", text)
