@@ -1,6 +1,7 @@
 """Camera: a colour image of what is visible, and its CameraInfo.
 
-Base and topics: `camera_sensor`; colours: `renderer`. Formats R8G8B8, L8, L16 and the Bayer patterns.
+Base and topics: `camera_sensor`; colours: `renderer`. Formats R8G8B8, L8, L16 and the Bayer patterns; any other is
+named in a warning, and the image is R8G8B8, as in Gazebo.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from gz.sim.errors import nearest
 from gz.sim.sdf.description import Sensor
 from gz.sim.sensors.camera_sensor import CameraSensor
 from gz.sim.sensors.registry import sensor_type
@@ -18,6 +20,19 @@ from gz.sim.sensors.renderer import renderer_for
 if TYPE_CHECKING:
     from gz.sim.world import World
 
+FORMATS = {
+    "R8G8B8": "RGB_INT8",
+    "RGB_INT8": "RGB_INT8",
+    "L8": "L_INT8",
+    "L_INT8": "L_INT8",
+    "L16": "L_INT16",
+    "L_INT16": "L_INT16",
+    "BAYER_RGGB8": "BAYER_RGGB8",
+    "BAYER_BGGR8": "BAYER_BGGR8",
+    "BAYER_GBRG8": "BAYER_GBRG8",
+    "BAYER_GRBG8": "BAYER_GRBG8",
+}
+"""SDF's pixel formats that Gazebo's cameras make, and the names of gz.msgs.PixelFormatType."""
 _LUMINANCE = np.array((0.299, 0.587, 0.114))
 _BAYER = {"BAYER_RGGB8": "RGGB", "BAYER_BGGR8": "BGGR", "BAYER_GBRG8": "GBRG", "BAYER_GRBG8": "GRBG"}
 
@@ -51,6 +66,14 @@ class Camera(CameraSensor):
 
     def __init__(self, world: World, description: Sensor) -> None:
         super().__init__(world, description)
+        image = self.camera.find("image")
+        stated = image.text_of("format", "R8G8B8") if image is not None else "R8G8B8"
+        self.format = FORMATS.get(stated, "RGB_INT8")
+        """The name of the images' gz.msgs.PixelFormatType."""
+        if image is not None and stated not in FORMATS:
+            world.diagnostics.warn(
+                image.where, f"image format '{stated}' is not one cameras make, R8G8B8 is; {nearest(stated, FORMATS)}"
+            )
         self._renderer = renderer_for(self)
 
     def topic_suffix(self) -> str:
@@ -67,8 +90,8 @@ class Camera(CameraSensor):
         colours: NDArray[np.floating[Any]] = self._renderer.image()
         if not self.noise.silent:
             colours = self.noise.apply(colours.astype(np.float64), 0.0, self.random())
-        return encode(colours, self.pinhole.height, self.pinhole.width, self.pinhole.format)
+        return encode(colours, self.pinhole.height, self.pinhole.width, self.format)
 
     def look(self, now_ns: int) -> None:
         """Publish the image."""
-        self.publish_image("", self.image(), self.pinhole.format, now_ns)
+        self.publish_image("", self.image(), self.format, now_ns)

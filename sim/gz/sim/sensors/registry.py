@@ -53,6 +53,7 @@ KNOWN_TYPES = frozenset(
         "segmentation_camera",
         "thermal",
         "thermal_camera",
+        "wideangle_camera",
         "wideanglecamera",
         "wide_angle_camera",
     ]

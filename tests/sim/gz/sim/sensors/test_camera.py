@@ -237,9 +237,9 @@ def test_images_are_the_same_bytes_in_another_world(load_text: Load) -> None:
         ({"width": 0}, "1 to 4000000 pixels, this one is 0 x 48"),
         ({"width": 1_000_000, "height": 1_000_000}, "1 to 4000000 pixels"),
         ({"fov": 3.3}, "<horizontal_fov> must be between"),
+        ({"fov": 3.14159}, "<horizontal_fov> must be between"),
         ({"fov": "nan"}, "must not be NaN"),
         ({"near": 5, "far": 1}, "0 < near < far"),
-        ({"format": "R8G8B9"}, "did you mean 'R8G8B8'"),
         ({"kind": "segmentation_camera", "more": "<segmentation_type>semantik</segmentation_type>"}, "'semantic'"),
         ({"more": "<lens><intrinsics><fx>0</fx></intrinsics></lens>"}, "focal length must be positive"),
         ({"more": "<distortion><k1>inf</k1></distortion>"}, "<distortion> must hold reasonable numbers"),
@@ -249,6 +249,14 @@ def test_impossible_cameras_are_refused(load_text: Load, changes: dict[str, Any]
     with pytest.raises(SdfError, match=sentence) as error:
         load_text(eye(**changes))
     assert str(error.value).startswith("<string>:")
+
+
+def test_a_format_that_cameras_do_not_make_is_named_and_the_image_is_in_colour(load_text: Load, node: Node) -> None:
+    world = load_text(eye(format="B8G8R8"), node=node)
+    assert any("'B8G8R8' is not one cameras make" in each and "'R8G8B8'" in each for each in world.warnings)
+    images = listen(node, Image, sensor_of(world).topic)
+    world.step(1)
+    assert images[0].pixel_format_type == 3 and len(images[0].data) == 64 * 48 * 3
 
 
 def test_saving_to_disk_is_named_as_ignored(load_text: Load) -> None:

@@ -114,6 +114,11 @@ def test_grey_and_bayer_images(load_text: Load, node: Node, stated: str, kind: i
     assert value == pytest.approx(0.3 * (65535 if bytes_each == 2 else 255), abs=1)
 
 
+@pytest.mark.parametrize("kind", ["depth_camera", "rgbd_camera", "segmentation_camera"])
+def test_only_cameras_look_at_the_format(load_text: Load, kind: str) -> None:
+    assert load_text(eye(kind=kind, format="R_FLOAT32")).warnings == []
+
+
 def test_a_label_must_fit_a_byte(load_text: Load) -> None:
     with pytest.raises(SdfError, match="0 to 255, got '256'"):
         load_text(eye() + thing("a", "3 1 1 0 0 0", WALL).replace("</link>", "</link>" + label(256)))
