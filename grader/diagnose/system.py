@@ -15,6 +15,9 @@ from grader.diagnose.world_text import WorldText
 from gz.transport import MessagePublisher, ServicePublisher
 from ros_gz_bridge.entry import BridgeEntry
 
+OTHER_TYPE = 0.8
+"""How much alike a name must be to be meant although its type differs."""
+
 INFRASTRUCTURE = frozenset({"/rosout", "/parameter_events", "/clock", "/tf", "/tf_static", "/robot_description"})
 """ROS topics that many nodes have, used or not."""
 
@@ -194,10 +197,13 @@ def users(ends: Iterable[RosEndpoint], verb: str) -> str:
     return f"{names(nodes)} {verb if len(nodes) > 1 else singular}"
 
 
-def nearest_topic(name: str, known: Iterable[str]) -> str:
-    """The known topic that was probably meant: one that ends alike, or is spelled alike; empty if there is none."""
+def nearest_topic(name: str, known: Iterable[str], cutoff: float = 0.6) -> str:
+    """The known topic that was probably meant: one that ends alike, or is spelled alike; empty if there is none.
+
+    `cutoff` says how much alike, from 0 to 1: ask for more where the types differ.
+    """
     others = sorted(set(known) - {name})
     tail = name.rpartition("/")[2]
     alike = [other for other in others if other.rpartition("/")[2] == tail] or others
-    close = difflib.get_close_matches(name, alike, n=1, cutoff=0.0 if alike is not others else 0.6)
+    close = difflib.get_close_matches(name, alike, n=1, cutoff=0.0 if alike is not others else cutoff)
     return close[0] if close else ""

@@ -41,8 +41,8 @@ def look(system: System) -> Iterator[Finding]:
 def _in_gazebo(system: System) -> Iterator[Finding]:
     heard = system.gz_topics(publish=False)
     for bridge, entry in system.entries():
-        users = [way for way in (True, False) if system.gz_users(entry.gz_topic, publish=way)]
-        if not entry.direction.to_gz or entry.direction.to_ros or users:
+        ways = [way for way in (True, False) if system.gz_users(entry.gz_topic, publish=way)]
+        if not entry.direction.to_gz or entry.direction.to_ros or ways:
             continue
         wanted = canonical_name(entry.gz_type) if entry.gz_type else _ANY
         same = [topic for topic, types in heard.items() if wanted in {canonical_name(each) for each in types - {_ANY}}]

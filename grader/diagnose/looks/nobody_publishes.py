@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from grader.diagnose.finding import Finding, Severity
-from grader.diagnose.system import INFRASTRUCTURE, System, nearest_topic, users
+from grader.diagnose.system import INFRASTRUCTURE, OTHER_TYPE, System, nearest_topic, users
 from gz.msgs import canonical_name
 
 RANK = 20
@@ -33,11 +33,11 @@ def look(system: System) -> Iterator[Finding]:
 def _from_gazebo(system: System) -> Iterator[Finding]:
     sent = system.gz_topics(publish=True)
     for bridge, entry in system.entries():
-        users = [way for way in (True, False) if system.gz_users(entry.gz_topic, publish=way)]
-        if not entry.direction.to_ros or entry.direction.to_gz or users:
+        ways = [way for way in (True, False) if system.gz_users(entry.gz_topic, publish=way)]
+        if not entry.direction.to_ros or entry.direction.to_gz or ways:
             continue
         same = [topic for topic, types in sent.items() if _holds(types, entry.gz_type)]
-        near = nearest_topic(entry.gz_topic, same) or nearest_topic(entry.gz_topic, sent)
+        near = nearest_topic(entry.gz_topic, same) or nearest_topic(entry.gz_topic, sent, OTHER_TYPE)
         yield Finding(
             Severity.ERROR,
             f"The bridge {bridge.node} waits for {entry.gz_topic} from Gazebo, but nobody publishes it there.",
@@ -74,7 +74,7 @@ def _holds(types: set[str], wanted: str) -> bool:
 
 def _sent_in_ros(system: System, topic: str, kind: str) -> str:
     sent = {end.topic: end.type for end in system.ros.endpoints if end.publishes and end.topic not in INFRASTRUCTURE}
-    return nearest_topic(topic, [each for each in sent if sent[each] == kind]) or nearest_topic(topic, sent)
+    return nearest_topic(topic, [each for each in sent if sent[each] == kind]) or nearest_topic(topic, sent, OTHER_TYPE)
 
 
 def _did_you_mean(near: str, key: str = "") -> str:
