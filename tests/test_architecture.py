@@ -17,7 +17,9 @@ PACKAGES = {
     "launch": ROOT / "sim",
     "launch_ros": ROOT / "sim",
     "ros_gz_bridge": ROOT / "sim",
+    "ros_gz_image": ROOT / "sim",
     "ros_gz_sim": ROOT / "sim",
+    "robot_state_publisher": ROOT / "sim",
     "grader": ROOT,
 }
 CODE_FOLDERS = ("sim", "grader", "exercises", "solutions", "chapters", "tests")
@@ -95,8 +97,8 @@ def forbidden(name):
         tops |= {"rclpy", "mujoco", "gz", "ros_gz_bridge", "ros_gz_sim", "ros2", "grader"}
     if below(name, "launch"):
         tops |= {"launch_ros", "ament_index_python"}
-    if below(name, "ros_gz_sim"):
-        tops |= {"grader"}
+    if below(name, "ros_gz_sim", "ros_gz_image", "robot_state_publisher"):
+        tops |= {"grader", "mujoco", "gz.sim.world", "gz.sim.server"}
     if below(name, "gz.transport"):
         tops |= {"gz.sim", "mujoco"}
     if below(name, "gz.msgs"):

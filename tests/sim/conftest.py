@@ -1,8 +1,8 @@
 """What the rooms with ROS programs share: a DDS domain and a Gazebo partition of their own, programs, a simulator."""
 
+import importlib
 import os
 import random
-import re
 import signal
 import socket
 import subprocess
@@ -192,7 +192,24 @@ def spin_until(ros_node):
     executor.shutdown()
 
 
-@pytest.fixture(scope="session")
-def without_stamp():
-    """The output of a ROS program without the wall time of its log lines."""
-    return lambda text: re.sub(r"\[\d+\.\d+\] ", "", text)
+@pytest.fixture
+def call(programs, monkeypatch, capfd):
+    """Exit code and output of a program's `main` in this process: for faults, many times faster than a process."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)
+        import rosidl_generator_py  # noqa: F401
+    for name in ("ROS_DOMAIN_ID", "GZ_PARTITION", "GZ_IP", *programs.ros):
+        monkeypatch.setenv(name, programs.environment[name])
+    monkeypatch.chdir(programs.folder)
+    handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, ())
+
+    def call(module, *words):
+        code = importlib.import_module(module).main(list(words))
+        out, err = capfd.readouterr()
+        return code, out + err
+
+    yield call
+    signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+    for number, handler in handlers.items():
+        signal.signal(number, handler)

@@ -19,6 +19,9 @@ SHARE = Path(local_setup.PREFIX) / "share"
 FILES = sorted(SHARE.glob("*/launch/*.launch.py"))
 # As in the packages of these names on a full installation.
 ARGUMENTS = {
+    "gz_spawn_model.launch.py": [
+        *("world", "file", "model_string", "topic", "entity_name", "allow_renaming", "x", "y", "z", "R", "P", "Y"),
+    ],
     "gz_sim.launch.py": ["gz_args", "gz_version", "ign_args", "ign_version", "debugger", "on_exit_shutdown"],
     "ros_gz_bridge.launch.py": [
         *("bridge_name", "config_file", "container_name", "create_own_container", "namespace", "use_composition"),
@@ -29,8 +32,12 @@ ARGUMENTS = {
 
 @pytest.fixture
 def start(tmp_path):
-    """Run one of the launch files: a process whose output is read line by line, ended with the test."""
+    """Run one of the launch files: a process whose output is read line by line, ended with the test.
+
+    All of one test share a partition.
+    """
     running = []
+    partition = uuid.uuid4().hex
 
     def start(*arguments):
         running.append(
@@ -39,7 +46,7 @@ def start(tmp_path):
                 env={
                     **os.environ,
                     "GZ_IP": "127.0.0.1",
-                    "GZ_PARTITION": uuid.uuid4().hex,
+                    "GZ_PARTITION": partition,
                     "ROS_LOG_DIR": str(tmp_path),
                     "ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF",
                 },
@@ -123,9 +130,45 @@ def test_simulator_and_bridge_together(start, tmp_path):
     assert "[ns.my_bridge]: ready: 1 bridge" in lines_until(process, "ready:")
 
 
-def test_composition_is_refused(start):
-    arguments = ["bridge_name:=a", "config_file:=b", "use_composition:=True"]
-    process = start("ros_gz_bridge", "ros_gz_bridge.launch.py", *arguments)
+def test_a_server_from_a_text_and_a_model_spawned_into_it(start):
+    text = "<sdf version='1.9'><world name='small'/></sdf>"
+    arguments = [f"world_sdf_string:={text}", "initial_sim_time:=5.0", "verbosity_level:=3"]
+    server = start("ros_gz_sim", "gz_server.launch.py", *arguments)
+    lines_until(server, "world 'small' is loaded")
+    model = "<sdf version='1.9'><model name='m'><static>true</static><link name='l'/></model></sdf>"
+    arguments = ["world:=small", f"model_string:={model}", "entity_name:=here", "x:=1.5", "Y:=1.5"]
+    output, _ = start("ros_gz_sim", "gz_spawn_model.launch.py", *arguments).communicate(timeout=30)
+    assert "Entity creation successful in world 'small'" in output
+    output, _ = start("ros_gz_sim", "gz_spawn_model.launch.py", *arguments).communicate(timeout=30)
+    assert "already has something called 'here'" in output
+    assert "process has died" in output
+
+
+def test_a_model_with_its_bridge(start, tmp_path):
+    (tmp_path / "bridge.yaml").write_text(
+        "- topic_name: /clock\n  ros_type_name: rosgraph_msgs/msg/Clock\n  gz_type_name: gz.msgs.Clock\n"
+        "  direction: GZ_TO_ROS\n"
+    )
+    start("ros_gz_sim", "gz_server.launch.py", "world_sdf_file:=empty.sdf")
+    arguments = ["bridge_name:=my_bridge", "config_file:=bridge.yaml", "file:=model://crate"]
+    process = start("ros_gz_sim", "ros_gz_spawn_model.launch.py", *arguments)
+    waiting = {"ready: 1 bridge", "Entity creation successful in world 'empty'"}
+    for line in process.stdout:
+        waiting = {words for words in waiting if words not in line}
+        if not waiting:
+            break
+    assert not waiting
+
+
+@pytest.mark.parametrize(
+    ("package", "file", "arguments"),
+    [
+        ("ros_gz_bridge", "ros_gz_bridge.launch.py", ["bridge_name:=a", "config_file:=b"]),
+        ("ros_gz_sim", "gz_server.launch.py", ["world_sdf_file:=empty.sdf"]),
+    ],
+)
+def test_composition_is_refused(start, package, file, arguments):
+    process = start(package, file, *arguments, "use_composition:=True")
     output, _ = process.communicate(timeout=30)
     assert process.returncode == 1
     assert "LoadComposableNodes needs a full ROS 2 installation" in output

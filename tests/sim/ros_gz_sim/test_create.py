@@ -112,19 +112,19 @@ def test_a_taken_name(create, world):
         (["-string", "<robot name='r'/>"], 1, "robot 'r' has no <link>"),
         (["-topic", "/nobody", "-timeout", "0.5"], 1, "no message came on the topic '/nobody' within 0.5 s: nobody"),
         (
-            ["-file", "cube.sdf", "-world", "smal", "-timeout", "2"],
+            ["-file", "cube.sdf", "-world", "smal", "-timeout", "1"],
             1,
-            "no world 'smal' appeared within 2 s; worlds that",
+            "no world 'smal' appeared within 1 s; worlds that",
         ),
     ],
 )
-def test_what_goes_wrong(create, words, code, sentence):
-    ended, said = create(*words)
+def test_what_goes_wrong(world, call, words, code, sentence):
+    ended, said = call("ros_gz_sim.create", *words)
     assert (ended, sentence in said) == (code, True), said
 
 
-def test_another_world_is_told_at_once_with_the_nearest_name(create):
-    said = create("-file", "cube.sdf", "-world", "smal", "-timeout", "1.5")[1]
+def test_another_world_is_told_at_once_with_the_nearest_name(world, call):
+    said = call("ros_gz_sim.create", "-file", "cube.sdf", "-world", "smal", "-timeout", "0.5")[1]
     assert "Waiting for world 'smal': worlds that run are: small; did you mean 'small'?" in said
 
 
@@ -140,7 +140,7 @@ def test_a_world_without_user_commands(programs, create):
     path = programs.folder / "bare.sdf"
     path.write_text(f"<sdf version='1.9'><world name='bare'>{world}</world></sdf>")
     programs.module("ros_gz_sim.gzserver", "-world_sdf_file", path, GZ_PARTITION=partition)
-    code, said = create("-string", CUBE, "-timeout", "4", GZ_PARTITION=partition)
+    code, said = create("-string", CUBE, "-timeout", "3", GZ_PARTITION=partition)
     assert code == 1
     assert "world 'bare' runs but offers no service" in said
     assert "gz-sim-user-commands-system" in said

@@ -68,14 +68,14 @@ def test_spawn_and_move(world, run):
         ),
     ],
 )
-def test_what_goes_wrong(run, words, code, sentence):
-    ended, said = run(*words)
+def test_what_goes_wrong(world, call, words, code, sentence):
+    ended, said = call(f"ros_gz_sim.{words[0]}", *words[1:])
     assert (ended, sentence in said) == (code, True), said
 
 
 @pytest.mark.parametrize("name", ["create", "remove", "spawn_entity", "delete_entity", "set_entity_pose", "gzserver"])
-def test_help(run, name):
-    code, said = run(name, "--help")
+def test_help(call, name):
+    code, said = call(f"ros_gz_sim.{name}", "--help")
     assert code == 0
     assert said.startswith(f"usage: {name} ")
 
