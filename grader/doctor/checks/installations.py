@@ -41,7 +41,8 @@ def judge(environment: Mapping[str, str], prefix: Path, rclpy: str | None) -> Ve
         )
     if missing := [name for name, place in found.items() if place is None]:
         return warning(
-            f"not on PATH: {', '.join(missing)}; the environment is not activated", f"`source {prefix}/bin/activate`"
+            f"no such command on PATH: {', '.join(missing)}",
+            "install again with `pip install -c constraints.txt -e .` in the course's folder",
         )
     others = [name for name in ("ROS_DISTRO", "GZ_VERSION") if environment.get(name)]
     if others:

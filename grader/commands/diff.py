@@ -1,0 +1,44 @@
+"""`course diff EXERCISE`: what changes between starter and solution."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    app.command(name="diff")(diff_command)
+
+
+def diff_command(
+    exercise: Annotated[str, typer.Argument(help="Exercise, such as 03_teleop or 03.")],
+) -> None:
+    """Show what changes between starter and solution: a unified diff, coloured in a terminal."""
+    from rich.console import Console
+    from rich.text import Text
+
+    from grader.exercise import find_exercise
+    from grader.printable import shown
+    from grader.solution_diff import solution_diff
+
+    chosen = find_exercise(exercise)
+    lines = list(solution_diff(chosen))
+    if not lines:
+        print(f"The starter of {chosen.name} is its solution: nothing changes.")
+        return
+    console = Console(soft_wrap=True, highlight=False)
+    if not console.is_terminal:
+        print("\n".join(lines))
+        return
+    for line in lines:
+        console.print(Text(shown(line, len(line) + 1), style=style_of(line)))
+
+
+def style_of(line: str) -> str:
+    """The colour of a line of a unified diff."""
+    for start, style in (("---", "bold"), ("+++", "bold"), ("@@", "cyan"), ("+", "green"), ("-", "red")):
+        if line.startswith(start):
+            return style
+    return ""

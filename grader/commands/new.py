@@ -1,0 +1,25 @@
+"""`course new NN_name`: the two halves of a new exercise, which `course verify` accepts as they are."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    app.command(name="new")(new_command)
+
+
+def new_command(
+    name: Annotated[str, typer.Argument(help="Two digits and words, such as 05_wall_follower.")],
+) -> None:
+    """Begin an exercise: write both halves of one that works, to be changed into yours."""
+    from grader.exercise import course_root
+    from grader.scaffold.exercise import scaffold
+
+    root = course_root()
+    for path in scaffold(name, root):
+        print(path.relative_to(root))
+    print(f"\nin {root}. It works as it is: `course verify {name}`. Begin with exercises/{name}/exercise.toml.")

@@ -1,0 +1,154 @@
+"""Makes the students' copy of the course: everything they work with, nothing that gives a solution away.
+
+Copied are named folders and files, so what is not named cannot slip in: neither `solutions/` nor `tests/` (whose
+submissions solve exercises, too), nor recordings and caches. A starter that somebody has solved in place is refused.
+"""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+from grader.errors import ManifestError, UsageError
+from grader.exercise import Exercise, exercise_names, find_exercise
+from grader.verify import twin
+
+CHECKOUT = Path(__file__).parents[2]
+COURSE = ("exercises", "chapters")
+CODE = ("sim", "grader")
+FILES = ("pyproject.toml", "constraints.txt", "LICENSE", ".gitignore")
+# For authors. The scaffold of an exercise holds a solution of it.
+AUTHORS_ONLY = (
+    "grader/scaffold",
+    "grader/release",
+    "grader/commands/new.py",
+    "grader/commands/release.py",
+)
+TRACES = ("__pycache__", "*.pyc", "*.rrd", "*.rrd.part", "runs", "recorded_run", "*.egg-info", "*~", "*.orig", "*.bak")
+README = Path(__file__).with_name("README.md.template")
+
+
+def release(root: Path, target: Path) -> list[str]:
+    """Write the students' copy of the course at `root` to `target`; return the names of its exercises.
+
+    All or nothing: a copy that could not be finished is not left behind. Raises UsageError if `target` cannot be
+    used, ManifestError if a file would give a solution away.
+    """
+    code = root if all((root / name).exists() for name in (*CODE, *FILES[:1])) else CHECKOUT
+    missing = [name for name in (*CODE, *FILES) if not (code / name).exists()]
+    if missing:
+        raise UsageError(f"{code} lacks {missing[0]}; release from a checkout of the course, not from an installation")
+    exercises = [find_exercise(name, root) for name in exercise_names(root)]
+    if not exercises:
+        raise UsageError(f"there are no exercises in {root / 'exercises'}, so there is nothing to release")
+    target = _usable(target, [*(root / name for name in COURSE), *(code / name for name in CODE)])
+    copy = None
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        copy = Path(tempfile.mkdtemp(prefix=f".{target.name}-", dir=target.parent))
+        copy.chmod(0o755)
+        _fill(copy, root, code, exercises)
+        if target.exists():
+            target.rmdir()  # it is empty
+        copy.rename(target)
+    except (OSError, shutil.Error) as error:
+        told = getattr(error, "strerror", None) or str(error)
+        raise UsageError(f"{target} cannot be written: {told}") from None
+    finally:
+        if copy is not None:
+            shutil.rmtree(copy, ignore_errors=True)
+    return [exercise.name for exercise in exercises]
+
+
+def _usable(target: Path, sources: list[Path]) -> Path:
+    """The target as a full path. Raises UsageError unless it is new or an empty folder, outside of what is copied."""
+    full = target.resolve()
+    for source in sources:
+        if full.is_relative_to(source.resolve()):
+            raise UsageError(f"{target} lies inside {source}, which is to be copied; choose a folder elsewhere")
+    try:
+        if full.exists() and not full.is_dir():
+            raise UsageError(f"{target} is a file; give a folder that is new or empty")
+        if full.is_dir() and any(full.iterdir()):
+            raise UsageError(f"{target} is not empty; give a folder that is new or empty")
+    except OSError as error:
+        raise UsageError(f"{target} cannot be used: {error.strerror}") from None
+    return full
+
+
+def _fill(copy: Path, root: Path, code: Path, exercises: list[Exercise]) -> None:
+    private = [lines for exercise in exercises for lines in _private_files(exercise)]
+    for base, names in ((root, COURSE), (code, CODE)):
+        for name in names:
+            for path in _files(base / name):
+                inside = path.relative_to(base)
+                if not any(inside.is_relative_to(each) for each in AUTHORS_ONLY):
+                    if name in COURSE:
+                        _refuse_a_solution(path, inside, private)
+                    (copy / inside).parent.mkdir(parents=True, exist_ok=True)
+                    shutil.copy(path, copy / inside)
+    for name in FILES:
+        shutil.copy(code / name, copy / name)
+    (copy / "README.md").write_text(readme(copy, exercises), encoding="utf-8")
+
+
+def _files(folder: Path) -> Iterator[Path]:
+    """The files of a folder, without hidden ones and traces of work. Raises ManifestError for a link out of it."""
+    for path in sorted(folder.rglob("*")):
+        inside = path.relative_to(folder)
+        parents = [inside, *inside.parents][:-1]
+        if any(each.name.startswith(".") or any(each.match(trace) for trace in TRACES) for each in parents):
+            continue
+        if path.is_symlink() and not path.resolve().is_relative_to(folder.resolve()):
+            raise ManifestError(f"{path} is a link out of {folder}, which students do not get; copy the file instead")
+        if path.is_file():
+            yield path
+
+
+def _private_files(exercise: Exercise) -> list[tuple[Path, frozenset[str]]]:
+    """The solution and the accepted variants of an exercise with their lines."""
+    folder = twin(exercise)
+    found = [folder / exercise.file, *sorted(folder.glob(f"accepted/*/{exercise.file}"))]
+    return [(path, lines) for path in found if path.is_file() and (lines := _lines(path))]
+
+
+def _refuse_a_solution(path: Path, inside: Path, private: list[tuple[Path, frozenset[str]]]) -> None:
+    there = _lines(path)
+    for solution, lines in private:
+        if lines <= there:
+            given = "/".join(solution.parts[-3:])
+            raise ManifestError(f"{inside} holds all of the solution {given}; put the starter back before you release")
+
+
+def _lines(path: Path) -> frozenset[str]:
+    """The lines of a text, in a notebook without its quotes; indentation, comments and empty lines do not count."""
+    text = path.read_text(encoding="utf-8", errors="replace")
+    if path.suffix == ".ipynb":
+        text = text.replace('\\"', '"')
+    stripped = (line.strip().removeprefix('"').removesuffix(",").removesuffix('\\n"') for line in text.splitlines())
+    return frozenset(plain for line in stripped if (plain := line.strip()) and not plain.startswith(("#", '"""')))
+
+
+def readme(copy: Path, exercises: list[Exercise]) -> str:
+    """The students' README: what is in this copy, and how to work with it."""
+    rows = [f"| `{e.name}` | {e.title} | `exercises/{e.name}/{e.file}` | {e.max_score:g} |" for e in exercises]
+    table = "\n".join(["| exercise | task | file you edit | points |", "|---|---|---|---|", *rows])
+    text = README.read_text(encoding="utf-8").replace("@EXERCISES@", table).replace("@FIRST@", exercises[0].name)
+    return text.replace("@CHAPTERS@", _chapters(copy))
+
+
+def _chapters(copy: Path) -> str:
+    notebooks = sorted(path.relative_to(copy) for path in copy.glob("chapters/*/*.ipynb"))
+    if not notebooks:
+        return ""
+    return f"""
+## Read a chapter
+
+Each chapter in `chapters/` is a notebook that leads to the exercise of the same name:
+
+```
+jupyter lab {notebooks[0]}
+```
+"""

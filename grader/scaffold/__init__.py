@@ -1,0 +1,1 @@
+"""A new exercise: `exercise.py` makes its two halves from the files in `template/`; called by `course new`."""
