@@ -58,7 +58,8 @@ _HEADERLESS = {
 def check(topics: Iterable[BridgeEntry], services: Iterable[ServiceEntry] = ()) -> Iterator[Finding]:
     """Every finding of every check, in the order of the entries."""
     topics, services = list(topics), list(services)
-    order = {entry.source: number for number, entry in enumerate([*topics, *services])}
+    sources = [entry.source for entry in topics] + [entry.source for entry in services]
+    order = {source: number for number, source in enumerate(sources)}
     found = [finding for look in _checks for finding in look(topics, services)]
     yield from sorted(found, key=lambda finding: order.get(finding.place, len(order)))
 
