@@ -1,6 +1,6 @@
 """The ROS parameter by which a running bridge tells what it bridges: `ros2 param get /ros_gz_bridge bridged_topics`.
 
-Each entry is one text, a YAML mapping with the keys of the configuration file, topics as they are after remapping.
+Each entry is one text, a mapping (JSON) with the keys of the configuration file, topics as they are after remapping.
 ``parameter_bridge`` offers it; who looks at the graph from outside reads it with ``entries``.
 """
 
@@ -9,8 +9,6 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
-
-import yaml
 
 from ros_gz_bridge.entry import BridgeEntry, Direction
 
@@ -37,10 +35,10 @@ def entries(texts: Iterable[str]) -> list[BridgeEntry]:
     found = []
     for text in texts:
         try:
-            keys = yaml.safe_load(text)
+            keys = json.loads(text)
             ros_topic, gz_topic, ros_type, gz_type = names = [keys[name] for name in _TOPICS_AND_TYPES]
             direction, lazy = Direction(keys["direction"]), bool(keys["lazy"])
-        except (yaml.YAMLError, KeyError, TypeError, ValueError) as error:
+        except (KeyError, TypeError, ValueError) as error:
             raise ValueError(f"{text[:80]!r} is no entry of a bridge: {error}") from None
         if not all(isinstance(name, str) for name in names):
             raise ValueError(f"{text[:80]!r} is no entry of a bridge: names and types are texts")
@@ -50,5 +48,5 @@ def entries(texts: Iterable[str]) -> list[BridgeEntry]:
 
 def _text(entry: BridgeEntry, ros_topic: str) -> str:
     names = (ros_topic, entry.gz_topic, entry.ros_type, entry.gz_type)
-    keys = [*zip(_TOPICS_AND_TYPES, names, strict=True), ("direction", entry.direction.value)]
-    return f"{{{', '.join(f'{key}: {json.dumps(value)}' for key, value in keys)}, lazy: {str(entry.lazy).lower()}}}"
+    keys = dict(zip(_TOPICS_AND_TYPES, names, strict=True))
+    return json.dumps({**keys, "direction": entry.direction.value, "lazy": entry.lazy})

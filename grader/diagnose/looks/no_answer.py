@@ -19,7 +19,7 @@ def look(system: System) -> Iterator[Finding]:
         topics = sorted({end.topic for end in ends} - {"/rosout", "/parameter_events"})
         if system.is_bridge(node.name):
             sentence = (
-                f"The bridge {node.name} does not answer: its process was killed or hangs, so it bridges nothing."
+                f"The bridge {node.name} does not answer: its process hangs or was killed, so it bridges nothing."
             )
             fix = "Start the bridge again; ROS forgets a killed one after about 20 s."
         else:

@@ -55,4 +55,5 @@ def _in_gazebo(system: System) -> Iterator[Finding]:
             else "See gz topic -l and gz topic -i -t TOPIC for what Gazebo listens to.",
             (f"bridged from {entry.ros_topic} ({entry.ros_type})",),
             frozenset({entry.ros_topic}),
+            symptom=True,
         )

@@ -44,6 +44,7 @@ def _from_gazebo(system: System) -> Iterator[Finding]:
             _did_you_mean(near, "gz_topic_name") or "See gz topic -l for what Gazebo publishes.",
             (f"bridged to {entry.ros_topic} ({entry.ros_type})",),
             frozenset({entry.ros_topic}),
+            symptom=True,
         )
 
 

@@ -218,3 +218,30 @@ def test_a_camera_without_an_optical_frame(broken):
     )
     assert told.sentence("unknown_frame").startswith("Messages on /eye are in the frame post/top/eye, Gazebo's default")
     assert told.diagnosis.system.ros.heard["/eye"].count == 1, "a camera is left after one image"
+
+
+def test_a_bridge_that_hangs(broken):
+    from std_msgs.msg import Bool
+
+    broken.node("ros_gz_bridge", spins=False).create_publisher(Bool, "/alarm", 10)
+    broken.node("listener").create_subscription(Bool, "/alarm", print, 10)
+    told = broken.diagnose(0.1)
+    assert told.sentence("no_answer").startswith("The bridge /ros_gz_bridge does not answer: ")
+    assert told.diagnosis.system.ros.bridges[0].entries[0].ros_topic == "/alarm"
+
+
+def test_a_bridge_of_another_make_is_read_from_its_file_or_guessed(broken, tmp_path):
+    from std_msgs.msg import Bool
+
+    file = tmp_path / "bridge.yaml"
+    file.write_text(
+        "- {ros_topic_name: /in, gz_topic_name: /gz_in, ros_type_name: std_msgs/msg/Bool, "
+        "gz_type_name: gz.msgs.Boolean, direction: ROS_TO_GZ}\n"
+    )
+    node = broken.node("ros_gz_bridge")
+    node.declare_parameter("config_file", str(file))
+    broken.node("ros_gz_bridge_2").create_subscription(Bool, "/guessed", print, 10)
+    bridges = broken.diagnose(0.1).diagnosis.system.ros.bridges
+    told = {bridge.node: [(e.ros_topic, e.gz_topic, e.direction.name) for e in bridge.entries] for bridge in bridges}
+    assert told["/ros_gz_bridge"] == [("/in", "/gz_in", "ROS_TO_GZ")]
+    assert told["/ros_gz_bridge_2"] == [("/guessed", "/guessed", "ROS_TO_GZ")]

@@ -1,0 +1,105 @@
+"""`course diagnose` as a user runs it: among real processes, from a healthy system to one whose parts are killed."""
+
+import json
+import os
+import signal
+import sys
+import threading
+import time
+
+import pytest
+
+BRIDGE = "parameter_bridge --ros-args -p config_file:=exercises/03_teleop/bridge.yaml"
+LISTENER = """
+import rclpy
+from sensor_msgs.msg import LaserScan
+rclpy.init()
+node = rclpy.create_node("listener")
+node.create_subscription(LaserScan, "/lidar/scan", print, 10)
+rclpy.spin(node)
+"""
+OTHER_PARTITION = """
+import signal
+from gz.msgs.world_stats_pb2 import WorldStatistics
+from gz.transport import Node
+node = Node()
+node.advertise("/world/far/stats", WorldStatistics)
+print("ready", flush=True)
+signal.pause()
+"""
+DEADLINE = 20.0
+
+
+def wait_for(program, words):
+    pause, end = threading.Event(), time.monotonic() + DEADLINE
+    while words not in program.output:
+        assert program.exit_code is None and time.monotonic() < end, f"no {words!r} in {program.output}"
+        pause.wait(0.02)
+
+
+def ready_bridge(room):
+    bridge = room.start(BRIDGE)
+    wait_for(bridge, "ready")
+    return bridge
+
+
+def report(course, *arguments, code):
+    done = course("diagnose", "--json", *arguments)
+    assert done.returncode == code, done.stdout + done.stderr
+    return json.loads(done.stdout)
+
+
+def sentences(report, kind):
+    return [finding["sentence"] for finding in report["findings"] if finding["kind"] == kind]
+
+
+def test_from_a_healthy_system_to_one_whose_parts_are_gone(room, course, tmp_path):
+    listener = tmp_path / "listener.py"
+    listener.write_text(LISTENER)
+    simulator = room.start("gz sim lidar_room.sdf -r -s")
+    bridge = ready_bridge(room)
+    wait_for(room.start(f"{sys.executable} {listener}"), "ranges")
+
+    started = time.monotonic()
+    done = course("diagnose")
+    assert time.monotonic() - started < 15.0
+    assert done.returncode == 0, done.stdout + done.stderr
+    words = " ".join(done.stdout.split())
+    assert "2 nodes, bridges: /ros_gz_bridge (4)." in words and "worlds: lidar_room." in words
+    assert "ERROR" not in words and "WARNING" not in words
+    assert words.endswith("Nothing is wrong; see the notes above.")
+    assert done.stderr == ""
+
+    os.killpg(bridge.pid, signal.SIGKILL)
+    bridge.stop()
+    killed = report(course, "--seconds", "0.5", code=1)
+    assert sentences(killed, "not_bridged") == [
+        "/listener listens on /lidar/scan in ROS and Gazebo publishes it, but no ros_gz_bridge runs."
+    ]
+    first = killed["findings"][0]
+    assert first["fix"] == "Start it: parameter_bridge '/lidar/scan@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan'"
+    assert first["evidence"] == [
+        "ROS: /lidar/scan (sensor_msgs/msg/LaserScan)",
+        "Gazebo: /lidar/scan (gz.msgs.LaserScan)",
+    ]
+    assert killed["gz"]["worlds"] == ["lidar_room"] and killed["ros"]["nodes"] == ["/listener"]
+
+    simulator.stop()
+    ready_bridge(room)
+    other = tmp_path / "other.py"
+    other.write_text(OTHER_PARTITION)
+    wait_for(room.start(f"env GZ_PARTITION=00_{room.partition} {sys.executable} {other}"), "ready")
+    alone = report(course, "--seconds", "0.5", code=1)
+    assert sentences(alone, "no_world") == [
+        f"The bridge /ros_gz_bridge runs, but no simulator runs in the Gazebo partition '{room.partition}'."
+    ]
+    assert f"partition 00_{room.partition} has the world far" in alone["findings"][0]["evidence"]
+    assert [finding["kind"] for finding in alone["findings"]] == ["no_world"], "it explains everything else"
+    assert len(alone["ros"]["bridges"]["/ros_gz_bridge"]) == 4
+
+
+@pytest.mark.parametrize("seconds", ["0", "-1", "61", "nan", "soon"])
+def test_a_time_that_is_none(course, seconds):
+    done = course("diagnose", "--seconds", seconds)
+    assert done.returncode == 2
+    assert "--seconds" in done.stderr and "Traceback" not in done.stderr
