@@ -19,7 +19,7 @@ from gz.sim.errors import Diagnostics, SimError, nearest
 from gz.sim.physics.builder import scoped
 from gz.sim.pose import Pose, multiply, rotate
 from gz.sim.sdf.description import Collision, Light, Model, Visual
-from gz.sim.sdf.reader import read_model
+from gz.sim.sdf.reader import FARTHEST, read_model
 from gz.sim.spherical_coordinates import SphericalCoordinates
 from gz.sim.system_manager import SystemManager
 from gz.sim.truth import Truth
@@ -281,6 +281,8 @@ def _check_pose(pose: Pose | None, name: str) -> None:
         return
     if not (np.all(np.isfinite(pose.position)) and np.all(np.isfinite(pose.quaternion))):
         raise SimError(f"the pose for '{name}' is not finite, so it is refused; check for division by zero")
+    if not np.max(np.abs(pose.position)) < FARTHEST:
+        raise SimError(f"the pose for '{name}' is more than {FARTHEST:g} m away from the origin, so it is refused")
     if not math.isclose(float(np.linalg.norm(pose.quaternion)), 1.0, abs_tol=1e-3):
         raise SimError(f"the orientation for '{name}' is no unit quaternion, so it is refused")
 

@@ -73,6 +73,8 @@ class World(Editing):
         """The numbers of all entities."""
         self.requests = Requests()
         """What other threads want done between two steps."""
+        if not 0.0 <= initial_sim_time <= 1e9:
+            raise SimError(f"initial_sim_time must be between 0 and 1e9 seconds, got {initial_sim_time}")
         self._initial_ns = self._origin_ns = round(initial_sim_time * 1e9)
         self._refreshed = -1
         self._models = {model.name: model for model in description.models}
@@ -279,7 +281,7 @@ class World(Editing):
         """Change the length of a step (s) and the wanted real-time factor while the world runs."""
         self.requests.refuse_inside_step("change its physics")
         if step_size is not None:
-            step_ns = round(step_size * 1e9) if math.isfinite(step_size) else 0
+            step_ns = round(step_size * 1e9) if abs(step_size) < 1.0 else 0
             if not SHORTEST_STEP_NS <= step_ns <= LONGEST_STEP_NS:
                 raise SimError(f"max_step_size must be between 0.000001 and 0.1 seconds, got {step_size}")
             now = self.sim_time_ns

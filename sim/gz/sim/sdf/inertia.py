@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from gz.sim.errors import Diagnostics
+from gz.sim.errors import Diagnostics, SdfError
 from gz.sim.pose import Pose, matrix
 from gz.sim.sdf.description import Collision, Geometry, Inertial, TriangleMesh
 from gz.sim.sdf.element import Element
@@ -19,6 +19,7 @@ from gz.sim.sdf.element import Element
 Matrix = NDArray[np.float64]
 WATER = 1000.0
 """SDF's default density (kg/m^3)."""
+_HEAVIEST = 1e12  # [kg]
 
 
 def is_automatic(element: Element) -> bool:
@@ -29,8 +30,8 @@ def is_automatic(element: Element) -> bool:
 def read_inertial(element: Element, pose: Pose, static: bool) -> Inertial:
     """Return what an `<inertial>` states; raises `SdfError` for a body that cannot be, unless it never moves."""
     mass = element.number("mass", 1.0)
-    if not static and not 0.0 < mass < 1e12:
-        raise (element.find("mass") or element).error(f"<mass> must be greater than zero, got {mass:g}")
+    if not static and not 0.0 < mass < _HEAVIEST:
+        raise _impossible_mass(element.find("mass") or element, mass)
     inertia = element.find("inertia")
     values = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]
     if inertia is not None:
@@ -57,6 +58,10 @@ def _check(element: Element, values: list[float]) -> None:
         )
 
 
+def _impossible_mass(element: Element, mass: float) -> SdfError:
+    return element.error(f"<mass> must be greater than zero and below {_HEAVIEST:g} kg, got {mass:g}")
+
+
 def _symmetric(values: Sequence[float]) -> Matrix:
     ixx, iyy, izz, ixy, ixz, iyz = values
     return np.array(((ixx, ixy, ixz), (ixy, iyy, iyz), (ixz, iyz, izz)))
@@ -81,7 +86,7 @@ def automatic_inertial(element: Element, collisions: Sequence[Collision], diagno
         volume, centre, inertia = body
         density = collision.element.number("density", link_density)
         if not 0.0 < density < 1e9:
-            raise collision.element.error(f"<density> must be greater than zero, got {density:g}")
+            raise collision.element.error(f"<density> must be greater than zero and below 1e+09, got {density:g}")
         turn = matrix(collision.pose.quaternion)
         place = collision.pose.transform(centre)
         bodies.append((density * volume, place, density * (turn @ inertia @ turn.T)))
@@ -98,8 +103,8 @@ def automatic_inertial(element: Element, collisions: Sequence[Collision], diagno
         away = place - centre
         total += inertia + part * (float(away @ away) * np.eye(3) - np.outer(away, away))
     stated = element.number("mass", mass)
-    if not 0.0 < stated < 1e12 or not np.linalg.eigvalsh(total)[0] > 0.0:
-        raise element.error(f"<mass> must be greater than zero, got {stated:g}")
+    if not 0.0 < stated < _HEAVIEST or not np.linalg.eigvalsh(total)[0] > 0.0:
+        raise _impossible_mass(element, stated)
     total *= stated / mass
     moments = (total[0, 0], total[1, 1], total[2, 2], total[0, 1], total[0, 2], total[1, 2])
     ixx, iyy, izz, ixy, ixz, iyz = (float(value) for value in moments)

@@ -24,7 +24,7 @@ from gz.sim.sdf.models import ModelReader, add_frame, joint_to_skipped, pose_and
 from gz.sim.sdf.resources import read_text
 from gz.sim.spherical_coordinates import SphericalCoordinates
 
-_FARTHEST = 1e7  # [m]
+FARTHEST = 1e7  # [m]
 _NOT_SIMULATED = {
     "actor": "is not simulated here, nobody walks through this world",
     "road": "is not simulated here, it is left out; use a flat box",
@@ -181,6 +181,6 @@ class _WorldReader:
 
 def _bounded(pose: Pose, element: Element) -> Pose:
     """Return the pose; raise `SdfError` when it is so far out that numbers lose their meaning."""
-    if not np.max(np.abs(pose.position)) < _FARTHEST:
-        raise element.error(f"<{element.tag}> '{element.name}' stands more than {_FARTHEST:g} m away from the origin")
+    if not np.max(np.abs(pose.position)) < FARTHEST:
+        raise element.error(f"<{element.tag}> '{element.name}' stands more than {FARTHEST:g} m away from the origin")
     return pose

@@ -18,6 +18,7 @@ import numpy as np
 
 from gz.sim.requests import logged
 from gz.sim.sdf.description import Sensor
+from gz.sim.systems.period import period_ns
 from gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
@@ -206,7 +207,7 @@ class SensorBase:
 
 def _period_ns(rate: float) -> int:
     # Gazebo keeps the period in whole milliseconds: 30 Hz means every 33 ms.
-    return int(1000.0 / rate) * 1_000_000 if rate > 0.0 else 0
+    return period_ns(rate) // 1_000_000 * 1_000_000
 
 
 S = TypeVar("S", bound=type[SensorBase])

@@ -56,8 +56,11 @@ def pose_of(message: Any, about: str) -> Pose:
     quaternion = np.array((turn.w, turn.x, turn.y, turn.z))
     if not (all(map(math.isfinite, position)) and np.all(np.isfinite(quaternion))):
         raise SimError(f"the pose for '{about}' is not finite, so it is refused; check for division by zero")
-    length = float(np.linalg.norm(quaternion))
-    return Pose(position, quaternion / length if length > 1e-9 else (1.0, 0.0, 0.0, 0.0))
+    largest = float(np.max(np.abs(quaternion)))
+    if not largest > 1e-9:
+        return Pose(position)
+    quaternion /= largest  # the square of a large number is no number
+    return Pose(position, quaternion / np.linalg.norm(quaternion))
 
 
 def create(world: World, message: Any) -> Callable[[], None]:

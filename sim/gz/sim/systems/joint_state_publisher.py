@@ -13,6 +13,7 @@ from gz.sim.physics.joint_axis import JointAxis, find_axes
 from gz.sim.pose import Pose, rotate
 from gz.sim.sdf.description import UNLIMITED, Axis, Joint, Model, Plugin
 from gz.sim.systems.model_scope import ModelScope
+from gz.sim.systems.period import period_ns
 from gz.sim.systems.registry import System, UpdateInfo, system
 from gz.sim.systems.topics import valid_topic
 
@@ -35,8 +36,7 @@ class JointStatePublisher(System):
         named = element.find("joint_name") is not None
         self.joints = self.scope.find_joints(element) if named else self.scope.joints()
         self.topic = valid_topic(element.text_of("topic"), f"/world/{world.name}{self.scope.topic}/joint_state")
-        rate = element.number("update_rate", 0.0)
-        self._period_ns = int(1e9 / rate) if 0.0 < rate < 1e9 else 0
+        self._period_ns = period_ns(element.number("update_rate", 0.0))
         self._publisher: Any = None
 
     def bind(self) -> None:

@@ -20,6 +20,7 @@ from gz.sim.pose import Pose, Vector, multiply, rotate
 from gz.sim.sdf.description import Model, Plugin
 from gz.sim.systems.model_scope import ModelScope
 from gz.sim.systems.odometry_reports import fill_odometry_header
+from gz.sim.systems.period import period_ns
 from gz.sim.systems.registry import System, UpdateInfo, system
 from gz.sim.systems.topics import valid_topic
 
@@ -67,8 +68,7 @@ class OdometryPublisher(System):
                 "OdometryPublisher's offsets and <gaussian_noise> must be finite, the noise not negative"
             )
         self._offset = Pose.from_rpy(offset[:3], offset[3:])
-        frequency = element.number("odom_publish_frequency", 50.0)
-        self._period_ns = int(1e9 / frequency) if 0.0 < frequency < 1e9 else 0
+        self._period_ns = period_ns(element.number("odom_publish_frequency", 50.0))
         default = f"/model/{scope.name}"
         self.odometry_topic = valid_topic(element.text_of("odom_topic"), f"{default}/odometry")
         self.covariance_topic = valid_topic(

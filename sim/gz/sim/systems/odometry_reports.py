@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from gz.sim.sdf.element import Element
 from gz.sim.systems.model_scope import ModelScope
+from gz.sim.systems.period import period_ns
 from gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
@@ -38,8 +39,7 @@ class OdometryReports:
     )
 
     def __init__(self, scope: ModelScope, element: Element) -> None:
-        frequency = element.number("odom_publish_frequency", 50.0)
-        self._period_ns = int(1e9 / frequency) if 0.0 < frequency < math.inf else 0
+        self._period_ns = period_ns(element.number("odom_publish_frequency", 50.0))
         self.odometry_topic = valid_topic(element.text_of("odom_topic"), f"/model/{scope.name}/odometry")
         self.tf_topic = valid_topic(element.text_of("tf_topic"), f"/model/{scope.name}/tf")
         self.frame_id = element.text_of("frame_id", f"{scope.name}/odom")

@@ -15,6 +15,7 @@ from gz.sim.scene.fields import fill_pose, set_pose, set_stamp
 from gz.sim.scene.graph import SceneGraph, Vertex
 from gz.sim.sdf.description import Model, Plugin
 from gz.sim.sdf.element import Element
+from gz.sim.systems.period import period_ns
 from gz.sim.systems.registry import System, UpdateInfo, system
 from gz.sim.systems.topics import valid_topic
 
@@ -106,11 +107,11 @@ class PosePublisher(System):
         frequency = _frequency(element, "update_frequency", -1.0)
         self.topic = valid_topic("/model/" + "/model/".join((model.name, *filter(None, plugin.scope.split("::")))))
         self.topic += "/pose"
-        self._moving = Stream(self.topic, _period_ns(frequency), together)
+        self._moving = Stream(self.topic, period_ns(frequency), together)
         self._static: Stream | None = None
         if element.flag("static_publisher", False):
             static_frequency = _frequency(element, "static_update_frequency", frequency)
-            self._static = Stream(f"{self.topic}_static", _period_ns(static_frequency), together)
+            self._static = Stream(f"{self.topic}_static", period_ns(static_frequency), together)
         self._streams = [stream for stream in (self._static, self._moving) if stream is not None]
         self._graph: SceneGraph | None = None
         self._connected = False
@@ -197,8 +198,3 @@ def _frequency(element: Element, tag: str, default: float) -> float:
     if value == math.inf:
         raise element.error(f"PosePublisher's <{tag}> must be finite; leave it out to publish at each step")
     return value
-
-
-def _period_ns(frequency: float) -> int:
-    """Return the period of a frequency in Hz; 0, each step, for zero and less."""
-    return int(1e9 / frequency) if frequency > 0.0 else 0

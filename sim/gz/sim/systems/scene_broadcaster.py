@@ -18,6 +18,7 @@ from gz.sim.scene.fields import fill_pose, set_pose, set_stamp
 from gz.sim.scene.graph import KINDS, SceneGraph, Vertex
 from gz.sim.sdf.description import Model, Plugin
 from gz.sim.sdf.element import Element
+from gz.sim.systems.period import LONGEST_NS
 from gz.sim.systems.registry import System, UpdateInfo, system
 
 if TYPE_CHECKING:
@@ -32,7 +33,7 @@ class Schedule:
     """A topic of a fixed rate: when its next message is due (ns of simulated time)."""
 
     def __init__(self, hertz: float) -> None:
-        self.period_ns = max(1, round(1e9 / hertz))
+        self.period_ns = max(1, round(min(1e9 / hertz, LONGEST_NS)))
         self.next_ns = 0
 
     def due(self, now_ns: int) -> bool:

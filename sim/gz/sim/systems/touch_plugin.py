@@ -6,7 +6,6 @@ says that it happened; then the plugin is off until the service `/NAMESPACE/enab
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any
 
 from gz.sim.physics.contacts import CollisionGeoms, CollisionPath, touching
@@ -42,8 +41,8 @@ class TouchPlugin(System):
         self._target = element.text_of("target")
         self._namespace = valid_topic(element.text_of("namespace"))
         seconds = element.number("time", 0.0)
-        if not (math.isfinite(seconds) and seconds >= 0.0):
-            raise element.error(f"<time> of TouchPlugin must be a number of seconds from 0 on, got {seconds}")
+        if not 0.0 <= seconds < 1e9:
+            raise element.error(f"<time> of TouchPlugin must be seconds from 0 on, up to 1e9, got {seconds}")
         self._time_ns = round(seconds * 1e9)
         self._enabled_at_start = self._enabled = element.flag("enabled", False)
         self._since_ns = -1

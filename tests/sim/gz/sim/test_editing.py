@@ -193,9 +193,12 @@ def test_names_that_are_taken(load_text: Load) -> None:
         (lambda w: w.remove("bx"), "did you mean 'box'"),
         (lambda w: w.set_pose("bx", Pose()), "did you mean 'box'"),
         (lambda w: w.set_pose("box", Pose((math.inf, 0, 0))), "not finite"),
+        (lambda w: w.set_pose("box", Pose((1e300, 0, 0))), "more than 1e.07 m away"),
+        (lambda w: w.spawn(box("new"), pose=Pose((0, 0, -1e8))), "more than 1e.07 m away"),
         (lambda w: w.set_pose("box::lnk", Pose()), "did you mean 'link'"),
         (lambda w: w.set_light("sun", on=False), "no light 'sun'"),
         (lambda w: w.set_physics(step_size=math.nan), "max_step_size"),
+        (lambda w: w.set_physics(step_size=1e300), "max_step_size"),
         (lambda w: w.set_physics(real_time_factor=-1.0), "real_time_factor"),
     ],
 )

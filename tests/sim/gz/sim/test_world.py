@@ -142,3 +142,9 @@ def test_commands_from_another_thread_do_not_disturb_stepping() -> None:
             stop.set()
             thread.join(10)
         assert world.velocity("robot").linear[0] == pytest.approx(0.3, rel=0.01)
+
+
+@pytest.mark.parametrize("start", [-1.0, 1e300, float("nan")])
+def test_a_world_starts_at_a_time_that_can_be(start: float) -> None:
+    with pytest.raises(SimError, match="initial_sim_time must be between"):
+        World.from_string("<sdf version='1.10'><world name='w'/></sdf>", initial_sim_time=start)

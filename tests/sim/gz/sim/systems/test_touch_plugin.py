@@ -131,6 +131,7 @@ def test_what_is_needed_is_asked_for(missing: str) -> None:
         (text(sensor=""), "no contact sensor of the model"),
         (text(systems=""), "gz-sim-contact-system"),
         (text(PARAMETERS.replace("0.1", "-1")), "from 0 on"),
+        (text(PARAMETERS.replace("0.1", "1e300")), "from 0 on"),
     ],
 )
 def test_a_plugin_that_would_never_tell_says_why(sdf: str, sentence: str) -> None:

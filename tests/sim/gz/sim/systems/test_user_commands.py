@@ -165,6 +165,7 @@ NONSENSE = [
     ("set_pose", "name: 'box', position: {x: nan}", "not finite"),
     ("set_pose", "position: {x: 1}", "names no entity"),
     ("set_pose", "name: 'box', orientation: {w: inf}", "not finite"),
+    ("set_pose", "name: 'box', position: {z: 1e200}", "more than 1e"),
     ("light_config", "name: 'sin'", "did you mean 'sun'"),
     ("light_config", "name: 'sun', range: -1", "range of a light must be"),
     ("visual_config", "name: 'v'", "has none"),
@@ -230,3 +231,12 @@ def test_ten_megabytes_of_sdf(world: World, ask: Ask) -> None:
     assert len(text) > 9_500_000
     assert ask("create/blocking", EntityFactory(sdf=text))
     assert world.model_names() == ["big"] and world.model.ngeom == 1000
+
+
+def test_quaternions_of_any_length_say_a_direction() -> None:
+    from gz.sim.systems.entity_commands import pose_of
+
+    for length in (1e-8, 1.0, 1e300):
+        turned = pose_of(PoseMessage(orientation={"z": length, "w": length}), "box")
+        assert turned.quaternion == pytest.approx((0.5**0.5, 0.0, 0.0, 0.5**0.5))
+    assert pose_of(PoseMessage(), "box").quaternion.tolist() == [1.0, 0.0, 0.0, 0.0]
