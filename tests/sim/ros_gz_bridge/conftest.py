@@ -1,7 +1,11 @@
-"""A DDS domain and a Gazebo partition nobody else uses, a spinning ROS context, waiting with a deadline."""
+"""A DDS domain and a Gazebo partition nobody else uses, ROS, a parameter_bridge, waiting with a deadline."""
 
+import os
 import random
+import signal
 import socket
+import subprocess
+import sys
 import threading
 import time
 import uuid
@@ -15,6 +19,7 @@ with warnings.catch_warnings():
     import rosidl_generator_py  # noqa: F401
 
 DEADLINE = 20.0
+COMMAND = [sys.executable, "-m", "ros_gz_bridge.parameter_bridge"]
 
 
 class Inbox:
@@ -119,3 +124,59 @@ def ros(ros_domain):
     running = Ros(ros_domain)
     yield running
     running.close()
+
+
+class Process:
+    """A running parameter_bridge whose log is read as it comes."""
+
+    def __init__(self, *arguments, command=COMMAND):
+        self.process = subprocess.Popen(
+            [*command, *arguments],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+        )
+        self.lines = []
+        self._changed = threading.Condition()
+        self._reader = threading.Thread(target=self._read)
+        self._reader.start()
+
+    def _read(self):
+        for line in self.process.stderr:
+            with self._changed:
+                self.lines.append(line.rstrip())
+                self._changed.notify_all()
+        self.process.stderr.close()
+
+    def wait_for(self, words):
+        with self._changed:
+            found = self._changed.wait_for(lambda: any(words in line for line in self.lines), DEADLINE)
+            assert found, f"no {words!r} in {self.lines}"
+
+    def stop(self, number=signal.SIGINT):
+        """Send a signal and return the exit code."""
+        os.killpg(self.process.pid, number)
+        code = self.process.wait(DEADLINE)
+        self._reader.join(DEADLINE)
+        return code
+
+    def end(self):
+        if self.process.poll() is None:
+            os.killpg(self.process.pid, signal.SIGKILL)
+            self.process.wait(DEADLINE)
+        self._reader.join(DEADLINE)
+
+
+@pytest.fixture
+def start(ros_domain):
+    running = []
+
+    def run(*arguments, **options):
+        running.append(Process(*arguments, **options))
+        return running[-1]
+
+    yield run
+    for process in running:
+        process.end()

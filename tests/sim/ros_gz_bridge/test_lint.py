@@ -160,56 +160,12 @@ def test_a_pipe_without_writer_is_refused_at_once(tmp_path, capsys):
     assert "it is no ordinary file" in capsys.readouterr().out
 
 
-keys = st.sampled_from(
-    [
-        "topic_name",
-        "ros_topic_name",
-        "gz_topic_name",
-        "ros_type_name",
-        "gz_type_name",
-        "direction",
-        "lazy",
-        "directon",
-        "publisher_queue",
-        "subscriber_queue",
-        "qos_profile",
-        "frame_id",
-        "service_name",
-        "gz_req_type_name",
-        "'",
-    ]
-)
-values = st.sampled_from(
-    [
-        "/a",
-        "a/b",
-        "~/x",
-        "std_msgs/msg/Bool",
-        "gz.msgs.Boolean",
-        "GZ_TO_ROS",
-        "BOTH",
-        "true",
-        "7",
-        "-1",
-        "1e9",
-        "~",
-        "[1, 2]",
-        "{a: b}",
-        "!!python/object:os.system x",
-        "&a [*a]",
-        "*b",
-        "'",
-        "|\n    text",
-        "0x1f",
-        "2020-99-99",
-        "!!binary aGk=",
-        "!!float x",
-        "!!int ''",
-        "CLOCK",
-        "no_pkg/srv/Nope",
-        "",
-    ]
-)
+KEYS = """topic_name ros_topic_name gz_topic_name ros_type_name gz_type_name direction lazy directon publisher_queue
+subscriber_queue qos_profile frame_id service_name gz_req_type_name '"""
+VALUES = """/a;a/b;~/x;std_msgs/msg/Bool;gz.msgs.Boolean;GZ_TO_ROS;BOTH;true;7;-1;1e9;~;[1, 2];{a: b};&a [*a];*b;'
+!!python/object:os.system x;!!binary aGk=;!!float x;!!int '';CLOCK;no_pkg/srv/Nope;0x1f;2020-99-99;"""
+keys = st.sampled_from(KEYS.split())
+values = st.sampled_from([*VALUES.replace("\n", ";").split(";"), "|\n    text"])
 files = st.lists(st.lists(st.tuples(keys, values), min_size=1, max_size=5), min_size=1, max_size=3).map(
     lambda entries: "".join("- " + "  ".join(f"{key}: {value}\n" for key, value in entry) for entry in entries)
 )

@@ -1,11 +1,9 @@
 """parameter_bridge as an ordinary process, between a Gazebo node and a ROS node of this one."""
 
-import os
 import re
 import signal
 import subprocess
 import sys
-import threading
 
 import pytest
 from geometry_msgs.msg import Twist
@@ -17,62 +15,6 @@ from gz.transport import Node
 
 DEADLINE = 20.0
 COMMAND = [sys.executable, "-m", "ros_gz_bridge.parameter_bridge"]
-
-
-class Process:
-    """A running parameter_bridge whose log is read as it comes."""
-
-    def __init__(self, *arguments, command=COMMAND):
-        self.process = subprocess.Popen(
-            [*command, *arguments],
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.PIPE,
-            text=True,
-            start_new_session=True,
-        )
-        self.lines = []
-        self._changed = threading.Condition()
-        self._reader = threading.Thread(target=self._read)
-        self._reader.start()
-
-    def _read(self):
-        for line in self.process.stderr:
-            with self._changed:
-                self.lines.append(line.rstrip())
-                self._changed.notify_all()
-        self.process.stderr.close()
-
-    def wait_for(self, words):
-        with self._changed:
-            found = self._changed.wait_for(lambda: any(words in line for line in self.lines), DEADLINE)
-            assert found, f"no {words!r} in {self.lines}"
-
-    def stop(self, number=signal.SIGINT):
-        """Send a signal and return the exit code."""
-        os.killpg(self.process.pid, number)
-        code = self.process.wait(DEADLINE)
-        self._reader.join(DEADLINE)
-        return code
-
-    def end(self):
-        if self.process.poll() is None:
-            os.killpg(self.process.pid, signal.SIGKILL)
-            self.process.wait(DEADLINE)
-        self._reader.join(DEADLINE)
-
-
-@pytest.fixture
-def start(ros_domain):
-    running = []
-
-    def run(*arguments, **options):
-        running.append(Process(*arguments, **options))
-        return running[-1]
-
-    yield run
-    for process in running:
-        process.end()
 
 
 def run(*arguments):
@@ -214,7 +156,10 @@ GOOD = "/a@std_msgs/msg/Bool@gz.msgs.Boolean"
             "nothing to bridge; give bridges as arguments or -p config_file:=FILE",
         ),
         ([GOOD, "--ros-args", "-p", "lazy:=3"], "the parameter lazy must be true or false, not 3"),
-        ([GOOD, "--ros-args", "-p", "subscription_heartbeat:=0"], "must be a number of ms above 0 and up to an hour, not 0"),
+        (
+            [GOOD, "--ros-args", "-p", "subscription_heartbeat:=0"],
+            "must be a number of ms above 0 and up to an hour, not 0",
+        ),
         (
             [GOOD, "--ros-args", "-p", "config_file:=x.yaml"],
             "bridges are given on the command line and in x.yaml",

@@ -1,0 +1,117 @@
+"""A Gazebo service is called through ROS; what goes wrong is answered and said, and topics go on meanwhile."""
+
+import threading
+import uuid
+
+import pytest
+from geometry_msgs.msg import Twist
+from gz.msgs.boolean_pb2 import Boolean
+from gz.msgs.stringmsg_pb2 import StringMsg
+from gz.msgs.twist_pb2 import Twist as GzTwist
+from std_srvs.srv import SetBool
+
+from gz.transport import Node, NodeOptions, Scope
+from ros_gz_bridge import type_pairs
+from ros_gz_bridge.bridge import Bridge, BridgeError
+from ros_gz_bridge.entry import BridgeEntry, Direction, ServiceEntry
+
+TYPES = ("std_srvs/srv/SetBool", "gz.msgs.Boolean", "gz.msgs.StringMsg")
+DEADLINE = 20.0
+
+
+@pytest.fixture(autouse=True)
+def set_bool(monkeypatch):
+    """A pair of our own: the services that Gazebo's own bridge knows need packages that may be absent."""
+    monkeypatch.setattr(type_pairs, "_services", dict(type_pairs._services))
+    type_pairs.add_service(
+        *TYPES,
+        request_to_gz=lambda request: Boolean(data=request.data),
+        reply_to_ros=lambda reply: SetBool.Response(success=True, message=reply.data),
+        fault=lambda request: None,
+    )
+
+
+@pytest.fixture
+def stage(ros):
+    node, name = ros.new_node(), f"/s{uuid.uuid4().hex}"
+    options = NodeOptions(partition=uuid.uuid4().hex, scope=Scope.PROCESS)
+    client = ros.node.create_client(SetBool, name)
+
+    def call(value):
+        assert client.wait_for_service(DEADLINE)
+        answered = threading.Event()
+        future = client.call_async(SetBool.Request(data=value))
+        future.add_done_callback(lambda _: answered.set())
+        assert answered.wait(DEADLINE)
+        return future.result()
+
+    with Node(options) as own, Node(options) as gazebo:
+        yield node, own, gazebo, ServiceEntry(name, *TYPES, "b.yaml:1"), call
+    ros.node.destroy_client(client)
+    ros.drop_node(node)
+
+
+def test_a_call_goes_to_gazebo_and_its_reply_comes_back(stage):
+    node, own, gazebo, entry, call = stage
+    asked = []
+    gazebo.advertise_service(
+        entry.name, Boolean, StringMsg, lambda r: (asked.append(r.data), StringMsg(data="done"))[1]
+    )
+    with Bridge(node, own, [], services=[entry]):
+        replies = [call(True), call(False)]
+        assert [(reply.success, reply.message) for reply in replies] == [(True, "done")] * 2
+        assert asked == [True, False]
+    assert not [each for each in node.services if each.srv_name == entry.name]
+
+
+def test_a_service_that_fails_or_is_absent_is_answered_and_explained(stage, capfd):
+    node, own, gazebo, entry, call = stage
+    gazebo.advertise_service(f"{entry.name}s", Boolean, StringMsg, lambda request: StringMsg())
+    with Bridge(node, own, [], services=[entry]):
+        assert call(True).success is False
+        gazebo.advertise_service(entry.name, Boolean, Boolean, lambda request: request)
+        assert call(True).success is False
+        gazebo.unadvertise_service(entry.name)
+        gazebo.advertise_service(entry.name, Boolean, StringMsg, lambda request: (False, StringMsg()))
+        assert call(True).success is False
+    warnings = [line for line in capfd.readouterr().err.splitlines() if "[WARN]" in line]
+    assert len(warnings) == 3
+    assert f"offers no service {entry.name}; did you mean {entry.name}s?" in warnings[0]
+    assert "with gz.msgs.Boolean and gz.msgs.Boolean, not with gz.msgs.Boolean and gz.msgs.StringMsg" in warnings[1]
+    assert "Gazebo could not do what was asked" in warnings[2]
+
+
+def test_topics_go_on_while_gazebo_thinks(stage, ros, inbox, eventually):
+    node, own, gazebo, entry, call = stage
+    asked, let_go, commands = threading.Event(), threading.Event(), inbox()
+
+    def think(request):
+        asked.set()
+        assert let_go.wait(DEADLINE)
+        return StringMsg(data="at last")
+
+    gazebo.advertise_service(entry.name, Boolean, StringMsg, think)
+    gazebo.subscribe(GzTwist, f"{entry.name}/cmd", commands)
+    topic = f"{entry.name}/cmd"
+    command = BridgeEntry(topic, topic, "geometry_msgs/msg/Twist", "gz.msgs.Twist", Direction.ROS_TO_GZ)
+    replies = []
+    with Bridge(node, own, [command], services=[entry]):
+        caller = threading.Thread(target=lambda: replies.append(call(True)))
+        caller.start()
+        assert asked.wait(DEADLINE)
+        publisher = ros.node.create_publisher(Twist, topic, 10)
+        eventually(publisher.get_subscription_count, "the bridge listens")
+        publisher.publish(Twist())
+        commands.wait(1)
+        assert replies == []
+        let_go.set()
+        caller.join(DEADLINE)
+        ros.node.destroy_publisher(publisher)
+    assert replies[0].message == "at last"
+
+
+def test_a_service_nobody_can_convert_is_an_error(stage):
+    node, own, _, _, _ = stage
+    wrong = ServiceEntry("/s", "std_srvs/srv/SetBool", "gz.msgs.Twist", "gz.msgs.Boolean", "b.yaml:3")
+    with pytest.raises(BridgeError, match=r"b\.yaml:3: the service std_srvs/srv/SetBool does not go with"):
+        Bridge(node, own, [], services=[wrong])
