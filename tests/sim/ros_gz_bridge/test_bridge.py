@@ -1,6 +1,7 @@
 """The running bridge, over real DDS and a Gazebo node of this process."""
 
 import math
+import threading
 import uuid
 
 import pytest
@@ -9,13 +10,14 @@ from gz.msgs.clock_pb2 import Clock as GzClock
 from gz.msgs.image_pb2 import Image as GzImage
 from gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
 from gz.msgs.twist_pb2 import Twist as GzTwist
-from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Image, LaserScan
 
-from gz.transport import Node, NodeOptions, Scope
+from gz.transport import MessageInfo, Node, NodeOptions, Scope
 from ros_gz_bridge.arguments import parse_argument
 from ros_gz_bridge.bridge import Bridge, BridgeEntry, BridgeError, Direction, HeaderOverrides
+from ros_gz_bridge.qos_profile import QOS_PROFILES, depth_of, qos
 
 TWIST = ("geometry_msgs/msg/Twist", "gz.msgs.Twist")
 SCAN = ("sensor_msgs/msg/LaserScan", "gz.msgs.LaserScan")
@@ -334,3 +336,55 @@ def test_an_entry_from_the_command_line_runs(stage, inbox, eventually):
     )
     (image,) = images.wait(1)
     assert (image.encoding, image.step, bytes(image.data)) == ("rgb8", 6, pixels)
+
+
+def test_a_heavy_message_does_not_delay_another_topic(stage, inbox):
+    entered, let_go, clocks, images = threading.Event(), threading.Event(), inbox(), inbox()
+
+    def publish(publisher, message):
+        if isinstance(message, Clock):
+            clocks(message)
+        else:
+            entered.set()
+            assert let_go.wait(20)
+            images(message)
+
+    image = BridgeEntry("/image", f"{stage.topic}/image", "sensor_msgs/msg/Image", "gz.msgs.Image", Direction.GZ_TO_ROS)
+    clock = stage.entry(("rosgraph_msgs/msg/Clock", "gz.msgs.Clock"), Direction.GZ_TO_ROS)
+    bridge = stage.bridge(image, clock, publish=publish, threaded=True)
+    camera, time = bridge._to_ros
+    picture = GzImage(width=200, height=200, step=600, pixel_format_type="RGB_INT8", data=bytes(120_000))
+    from_another_process = MessageInfo(stage.topic, "gz.msgs.Image", "", False)
+    for _ in range(20):
+        camera._on_data(picture.SerializeToString(), from_another_process)
+        assert entered.wait(20)
+    time._on_data(GzClock().SerializeToString(), from_another_process)
+    clocks.wait(1)
+    assert images.messages == []
+    let_go.set()
+    images.wait(11)
+    assert bridge.status()[0].skipped == 9, "a queue of ten, and the one it was at"
+    bridge.close()
+    assert not camera._lane._thread.is_alive()
+
+
+@pytest.mark.parametrize(
+    ("profile", "reliability", "durability", "depth"),
+    [
+        ("CLOCK", ReliabilityPolicy.BEST_EFFORT, DurabilityPolicy.VOLATILE, 1),
+        ("SENSOR_DATA", ReliabilityPolicy.BEST_EFFORT, DurabilityPolicy.VOLATILE, 5),
+        ("ROSOUT", ReliabilityPolicy.RELIABLE, DurabilityPolicy.TRANSIENT_LOCAL, 1000),
+        ("SYSTEM_DEFAULT", ReliabilityPolicy.SYSTEM_DEFAULT, DurabilityPolicy.SYSTEM_DEFAULT, 1),
+        (None, ReliabilityPolicy.RELIABLE, DurabilityPolicy.VOLATILE, 10),
+    ],
+)
+def test_the_profiles_are_those_of_ros(profile, reliability, durability, depth):
+    chosen = qos(profile, depth_of(profile))
+    assert (chosen.reliability, chosen.durability, chosen.depth) == (reliability, durability, depth)
+
+
+@pytest.mark.parametrize("profile", sorted(QOS_PROFILES))
+def test_every_profile_makes_endpoints(stage, profile):
+    stage.bridge(stage.entry(SCAN, qos_profile=profile, publisher_queue=7))
+    assert stage.topic in [publisher.topic_name for publisher in stage.node.publishers]
+    assert stage.topic in [subscription.topic_name for subscription in stage.node.subscriptions]
