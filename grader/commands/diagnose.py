@@ -60,13 +60,16 @@ def print_diagnosis(diagnosis: Diagnosis, console: Console) -> None:
             )
         ),
         highlight=False,
+        soft_wrap=True,
     )
     for finding in diagnosis.findings:
         word = finding.severity.name
-        console.print(f"\n[{colours[word]}]{word}[/]  {escape(shown(finding.sentence))}", highlight=False)
+        console.print(
+            f"\n[{colours[word]}]{word}[/]  {escape(shown(finding.sentence))}", highlight=False, soft_wrap=True
+        )
         for line in finding.evidence:
-            console.print(f"  seen: {escape(shown(line))}", highlight=False)
-        console.print(f"  fix:  {escape(shown(finding.fix))}", highlight=False)
+            console.print(f"  seen: {escape(shown(line))}", highlight=False, soft_wrap=True)
+        console.print(f"  fix:  {escape(shown(finding.fix))}", highlight=False, soft_wrap=True)
     if not diagnosis.wrong:
         console.print("\nNothing is wrong." if not diagnosis.findings else "\nNothing is wrong; see the notes above.")
 

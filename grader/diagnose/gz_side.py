@@ -6,6 +6,7 @@ It only listens, and asks each world once for its SDF text. No sensor topic is l
 from __future__ import annotations
 
 import functools
+import threading
 import time
 from typing import Any
 
@@ -23,8 +24,11 @@ TEXT_WITHIN_MS = 1000
 MOST_WORLDS = 10
 
 
-def observe(seconds: float) -> GzSide:
-    """Look at the graph, then listen for `seconds`. Raises OSError when the network cannot be used."""
+def observe(seconds: float, stop: threading.Event) -> GzSide:
+    """Look at the graph, then listen for `seconds` or until `stop` is set.
+
+    Raises OSError when the network cannot be used.
+    """
     with Node() as node:
         side = GzSide(partition=node.options.partition)
         side.publishers, side.subscribers = node.publishers_and_subscribers()
@@ -39,7 +43,7 @@ def observe(seconds: float) -> GzSide:
                 node.subscribe(Twist, drive.command_topic, functools.partial(_command, drive))
                 node.subscribe(Odometry, drive.odometry_topic, functools.partial(_odometry, drive))
         started = time.monotonic()
-        time.sleep(seconds)  # listening is nothing but time that passes
+        stop.wait(seconds)
         side.seconds = time.monotonic() - started
     return side
 

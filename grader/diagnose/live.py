@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -73,12 +74,17 @@ def observe(seconds: float) -> System:
     from grader.diagnose import gz_side, ros_side
     from ros2.errors import CommandError
 
+    stop = threading.Event()
     with ThreadPoolExecutor(1, "gz-side") as pool:
-        gz = pool.submit(gz_side.observe, seconds)
+        gz = pool.submit(gz_side.observe, seconds, stop)
         try:
             ros = ros_side.observe(seconds)
         except CommandError as error:
+            stop.set()
             raise InfrastructureError(str(error)) from None
+        except BaseException:  # Ctrl-C: nobody waits for the other side
+            stop.set()
+            raise
         try:
             return System(ros, gz.result())
         except OSError as error:

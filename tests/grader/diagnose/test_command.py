@@ -7,6 +7,7 @@ import sys
 import threading
 import time
 
+import psutil
 import pytest
 
 BRIDGE = "parameter_bridge --ros-args -p config_file:=exercises/03_teleop/bridge.yaml"
@@ -96,6 +97,18 @@ def test_from_a_healthy_system_to_one_whose_parts_are_gone(room, course, tmp_pat
     assert f"partition 00_{room.partition} has the world far" in alone["findings"][0]["evidence"]
     assert [finding["kind"] for finding in alone["findings"]] == ["no_world"], "it explains everything else"
     assert len(alone["ros"]["bridges"]["/ros_gz_bridge"]) == 4
+
+
+def test_an_interrupt_ends_it_at_once(room):
+    script = "from grader.course import main; main()"
+    command = room.start(f"{sys.executable} -c '{script}' diagnose --seconds 60")
+    ports = range(7400 + 250 * room.domain, 7650 + 250 * room.domain)
+    process, pause, end = psutil.Process(command.pid), threading.Event(), time.monotonic() + DEADLINE
+    while not any(each.laddr.port in ports for each in process.net_connections("udp")):
+        assert command.exit_code is None and time.monotonic() < end, command.output
+        pause.wait(0.02)
+    assert command.stop() == 130, "SIGINT is enough, SIGTERM would come 3 s later"
+    assert "Traceback" not in command.output
 
 
 @pytest.mark.parametrize("seconds", ["0", "-1", "61", "nan", "soon"])
