@@ -55,10 +55,9 @@ def _command(values: dict[str, object]) -> list[str]:
 
 def _in_memory(text: str) -> Path:
     """Return the path of a file that ends with this process, whatever program it becomes."""
-    descriptor = os.memfd_create("world_sdf_string", 0)
+    descriptor = os.memfd_create("world_sdf_string", 0)  # without MFD_CLOEXEC: it outlives exec
     with os.fdopen(os.dup(descriptor), "w", encoding="utf-8") as file:
         file.write(text)
-    os.set_inheritable(descriptor, True)
     return Path(f"/proc/{os.getpid()}/fd/{descriptor}")
 
 

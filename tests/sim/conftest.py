@@ -1,5 +1,6 @@
 """What the rooms with ROS programs share: a DDS domain and a Gazebo partition of their own, programs, a simulator."""
 
+import contextlib
 import importlib
 import os
 import random
@@ -12,6 +13,7 @@ import uuid
 import warnings
 from pathlib import Path
 
+import psutil
 import pytest
 
 DEADLINE = 30.0
@@ -60,8 +62,12 @@ class Program:
         return self.wait()
 
     def end(self):
+        """Kill it with all below it: `ros2 run` gives its child a process group of its own."""
         if self.process.poll() is None:
-            os.killpg(self.process.pid, signal.SIGKILL)
+            family = psutil.Process(self.process.pid).children(recursive=True)
+            for each in [*family, self.process]:
+                with contextlib.suppress(psutil.NoSuchProcess):
+                    each.kill()
             self.process.wait(DEADLINE)
         self._reader.join(DEADLINE)
 
