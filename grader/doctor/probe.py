@@ -17,6 +17,7 @@ import time
 from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
+from typing import IO
 
 GRACE = 0.3  # [s] between SIGINT, SIGTERM and SIGKILL
 _ALARM = "import signal; signal.alarm({seconds})\n"
@@ -32,29 +33,36 @@ class Probe:
     def __init__(self, code: str, arguments: tuple[str, ...], environment: Mapping[str, str], probes: Probes) -> None:
         """Start it. Use `Probes.start` instead of calling this."""
         self._probes = probes
+        # Files, not pipes: a child that outlives the program would keep a pipe open, and us waiting.
+        self._output, self._errors = (tempfile.TemporaryFile(dir=probes.folder) for _ in range(2))  # noqa: SIM115
         alarm = _ALARM.format(seconds=int(probes.seconds_left + 2))
         # -P: what lies in the folder we were called in (somebody's rclpy.py) is not ours to import.
-        self._process = subprocess.Popen(
-            [sys.executable, "-P", "-c", alarm + code, *arguments],
-            cwd=probes.folder,
-            env=dict(environment),
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-            errors="replace",
-            start_new_session=True,
-        )
+        try:
+            self._process = subprocess.Popen(
+                [sys.executable, "-P", "-c", alarm + code, *arguments],
+                cwd=probes.folder,
+                env=dict(environment),
+                stdin=subprocess.PIPE,
+                stdout=self._output,
+                stderr=self._errors,
+                start_new_session=True,
+            )
+        except OSError:
+            self._output.close()
+            self._errors.close()
+            raise
 
     def result(self) -> str:
         """Wait for its end; what it printed. Raises ProbeError if it failed or took too long."""
         try:
-            output, errors = self._process.communicate(timeout=max(0.0, self._probes.seconds_left))
+            self._close_input()
+            self._process.wait(max(0.0, self._probes.seconds_left))
         except subprocess.TimeoutExpired:
-            self.stop()
             raise ProbeError(f"no answer within {self._probes.deadline:g} s") from None
+        else:
+            output, errors = _text(self._output), _text(self._errors)
         finally:
-            self._kill(signal.SIGKILL)  # whatever it started and did not end
+            self.stop()
         code = self._process.returncode
         if code:
             told = [line.strip() for line in errors.splitlines() if line.strip()]
@@ -69,16 +77,25 @@ class Probe:
                 self._kill(number)
                 with contextlib.suppress(subprocess.TimeoutExpired):
                     self._process.wait(GRACE)
-        self._kill(signal.SIGKILL)
+        self._kill(signal.SIGKILL)  # whatever it started and did not end
         self._process.wait()
-        for stream in (self._process.stdin, self._process.stdout, self._process.stderr):
-            if stream is not None:
-                with contextlib.suppress(OSError, ValueError):
-                    stream.close()
+        self._close_input()
+        self._output.close()
+        self._errors.close()
+
+    def _close_input(self) -> None:
+        if self._process.stdin is not None:
+            with contextlib.suppress(OSError):
+                self._process.stdin.close()
 
     def _kill(self, number: signal.Signals) -> None:
         with contextlib.suppress(ProcessLookupError, PermissionError):
             os.killpg(self._process.pid, number)
+
+
+def _text(stream: IO[bytes]) -> str:
+    stream.seek(0)
+    return stream.read().decode(errors="replace")
 
 
 def _signal_name(number: int) -> str:

@@ -6,6 +6,8 @@ submissions solve exercises, too), nor recordings and caches. A starter that som
 
 from __future__ import annotations
 
+import contextlib
+import json
 import shutil
 import tempfile
 from collections.abc import Iterator
@@ -123,12 +125,13 @@ def _refuse_a_solution(path: Path, inside: Path, private: list[tuple[Path, froze
 
 
 def _lines(path: Path) -> frozenset[str]:
-    """The lines of a text, in a notebook without its quotes; indentation, comments and empty lines do not count."""
+    """The lines of a text, or of a notebook's cells; indentation, comments and empty lines do not count."""
     text = path.read_text(encoding="utf-8", errors="replace")
     if path.suffix == ".ipynb":
-        text = text.replace('\\"', '"')
-    stripped = (line.strip().removeprefix('"').removesuffix(",").removesuffix('\\n"') for line in text.splitlines())
-    return frozenset(plain for line in stripped if (plain := line.strip()) and not plain.startswith(("#", '"""')))
+        with contextlib.suppress(ValueError, TypeError, AttributeError, KeyError):  # no notebook: a text like any other
+            text = "\n".join("".join(cell["source"]) for cell in json.loads(text)["cells"])
+    lines = (line.strip() for line in text.splitlines())
+    return frozenset(line for line in lines if line and not line.startswith(("#", '"""')))
 
 
 def readme(copy: Path, exercises: list[Exercise]) -> str:

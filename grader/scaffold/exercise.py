@@ -14,7 +14,7 @@ from grader.errors import UsageError
 from grader.exercise import exercise_names
 
 TEMPLATE = Path(__file__).with_name("template")
-NAME = re.compile(r"\d\d_[a-z][a-z0-9]*(_[a-z0-9]+)*")
+NAME = re.compile(r"[0-9]{2}_[a-z][a-z0-9]*(_[a-z0-9]+)*")
 LONGEST_NAME = 60
 PUBLIC = ("exercise.toml", "bridge.yaml")
 ACCEPTED = ("own_style", "odometry")
