@@ -132,6 +132,13 @@ def test_compat_is_as_lenient_as_the_original(tmp_path, capsys):
     assert [each.direction for each in config.topics] == [BOTH], "a misspelt key is passed over"
 
 
+def test_compat_leaves_out_what_cannot_work():
+    second = GOOD.replace("rosgraph_msgs/msg/Clock", "std_msgs/msg/Bool").replace("gz.msgs.Clock", "gz.msgs.Boolean")
+    config = read_yaml(GOOD + second.replace("gz_topic_name: /clock", "gz_topic_name: /b"), "b.yaml")
+    assert [each.place for each in config.findings] == ["b.yaml:6"]
+    assert [each.source for each in config.tolerant().topics] == ["b.yaml:1"]
+
+
 def test_arguments_are_checked_too(capsys):
     assert main(["/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock"]) == 0
     assert main(["/clock@rosgraph_msgs/msg/Clock"]) == 2
