@@ -14,6 +14,7 @@ from collections.abc import Callable
 from google.protobuf.message import Message
 
 from gz.sim.errors import nearest
+from gz.sim.systems.topics import valid_topic
 from gz.transport import Node
 from ros_gz_bridge.ros_program import Failure, UsageError
 from ros_gz_sim.flags import Flag
@@ -51,7 +52,8 @@ class RunningWorld:
                 + (f" as here ('{where}')" if where else " (here it is not set)")
             )
         self.name = name or str(answer.data[0])
-        if name and name not in answer.data and name not in self._worlds():
+        self._topic = valid_topic(f"/world/{self.name}")
+        if name and name not in answer.data and not self._is_there():
             warn(f"Waiting for world '{name}': {self._others()}")
 
     def call(self, verb: str, request: Message) -> bool:
@@ -61,7 +63,7 @@ class RunningWorld:
         """
         from gz.msgs.boolean_pb2 import Boolean
 
-        service = f"/world/{self.name}/{verb}/blocking"  # the plain service answers before anything was done
+        service = f"{self._topic}/{verb}/blocking"  # the plain service answers before anything was done
         kind = request.DESCRIPTOR.full_name
         outcome = self._node.call_raw(
             service, request.SerializeToString(), kind, Boolean.DESCRIPTOR.full_name, self._left_ms()
@@ -76,7 +78,7 @@ class RunningWorld:
         from gz.msgs.scene_pb2 import Scene
 
         patience = min(2000, max(500, self._left_ms()))
-        _, scene = self._node.request(f"/world/{self.name}/scene/info", None, Empty, Scene, patience)
+        _, scene = self._node.request(f"{self._topic}/scene/info", None, Empty, Scene, patience)
         return [model.name for model in scene.model], [light.name for light in scene.light]
 
     def resolve(self, uri: str) -> str:
@@ -89,6 +91,9 @@ class RunningWorld:
 
     def _left_ms(self) -> int:
         return max(1, round((self._end - time.monotonic()) * 1000))
+
+    def _is_there(self) -> bool:
+        return self._topic.removeprefix("/world/") in self._worlds()
 
     def _worlds(self) -> set[str]:
         return {found[1] for service in self._node.service_list() if (found := _OF_WORLD.match(service))}
@@ -105,7 +110,7 @@ class RunningWorld:
                 f"world '{self.name}' did not answer to '{verb}' within {self._timeout:g} s and may still obey; "
                 f"a larger -{TIMEOUT.name} waits longer"
             )
-        if self.name in self._worlds():
+        if self._is_there():
             return (
                 f"world '{self.name}' runs but offers no service '{service}'; it needs the plugin "
                 "gz-sim-user-commands-system, which a world with plugins of its own must name"

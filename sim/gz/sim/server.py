@@ -44,9 +44,9 @@ class Server:
         self.stopped = False
         """Set when a client asked the server to end."""
         world.attach(node)
-        name = world.name
-        self._clocks = [node.advertise(topic, Clock) for topic in ("/clock", f"/world/{name}/clock")]
-        self._stats = [node.advertise(topic, WorldStatistics) for topic in ("/stats", f"/world/{name}/stats")]
+        stem = world.topic
+        self._clocks = [node.advertise(topic, Clock) for topic in ("/clock", f"{stem}/clock")]
+        self._stats = [node.advertise(topic, WorldStatistics) for topic in ("/stats", f"{stem}/stats")]
         self._factor = 0.0
         self._pause_began: int | None = None
         self._on_rewind()

@@ -29,6 +29,7 @@ from gz.sim.sdf.resources import find_world
 from gz.sim.sensors.renderer import check_engine
 from gz.sim.system_manager import SystemManager, default_plugins
 from gz.sim.systems.registry import System, UpdateInfo
+from gz.sim.systems.topics import valid_topic
 from gz.sim.truth import JointAddress
 
 if TYPE_CHECKING:
@@ -146,6 +147,11 @@ class World(Editing):
             render_engine=render_engine,
             initial_sim_time=initial_sim_time,
         )
+
+    @property
+    def topic(self) -> str:
+        """Begin of the names of its topics and services: `/world/NAME`, blanks as underscores."""
+        return valid_topic(f"/world/{self.name}")
 
     @property
     def step_size_ns(self) -> int:

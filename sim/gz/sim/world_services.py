@@ -42,11 +42,11 @@ class WorldServices:
         self._world = world
         self._control = control
         self._stop = stop
-        name = world.name
+        name, stem = world.name, world.topic
         offers: list[tuple[str, type, type, Callable[[Any], Any]]] = [
-            (f"/world/{name}/control", WorldControl, Boolean, self._on_control),
-            (f"/world/{name}/control/state", WorldControlState, Boolean, self._on_control_state),
-            (f"/world/{name}/generate_world_sdf", SdfGeneratorConfig, StringMsg, self._on_generate),
+            (f"{stem}/control", WorldControl, Boolean, self._on_control),
+            (f"{stem}/control/state", WorldControlState, Boolean, self._on_control_state),
+            (f"{stem}/generate_world_sdf", SdfGeneratorConfig, StringMsg, self._on_generate),
             ("/gazebo/worlds", Empty, StringMsg_V, self._on_worlds),
             ("/gazebo/starting_world", Empty, StringMsg, lambda _: StringMsg(data=name)),
             ("/gazebo/resource_paths/get", Empty, StringMsg_V, self._on_resource_paths),
@@ -58,7 +58,7 @@ class WorldServices:
             node.advertise_service(service, request, response, callback)
 
     def _on_control(self, request: Any) -> Any:
-        topic = f"/world/{self._world.name}/control"
+        topic = f"{self._world.topic}/control"
         work = logged(lambda: self._control.apply(request), topic)
         asked = self._world.requests.put(work)
         if not asked.done.wait(CONTROL_PATIENCE_S):

@@ -12,6 +12,7 @@ import threading
 from typing import Any
 
 from gz.command_line import Parser, nearest
+from gz.sim.systems.topics import valid_topic
 from gz.transport.node import Node
 
 _TIMEOUT_MS = 5000
@@ -62,7 +63,7 @@ def _scene(node: Node, world: str) -> Any:
     from gz.msgs.empty_pb2 import Empty
     from gz.msgs.scene_pb2 import Scene
 
-    done, scene = node.request(f"/world/{world}/scene/info", None, Empty, Scene, _TIMEOUT_MS)
+    done, scene = node.request(valid_topic(f"/world/{world}/scene/info"), None, Empty, Scene, _TIMEOUT_MS)
     if not done:
         raise ValueError(f"world '{world}' does not tell its scene; it needs the SceneBroadcaster system")
     return scene
@@ -86,7 +87,7 @@ def _pose_now(node: Node, world: str, model: Any) -> Any:
         found.extend(each for each in message.pose if each.id == model.id)
         heard.set()
 
-    node.subscribe(Pose_V, f"/world/{world}/pose/info", take)
+    node.subscribe(Pose_V, valid_topic(f"/world/{world}/pose/info"), take)
     heard.wait(_TIMEOUT_MS / 1000)
     return found[0] if found else model.pose
 

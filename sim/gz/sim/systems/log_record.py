@@ -41,7 +41,7 @@ class LogRecord(System):
             raise element.error("LogRecord belongs directly in the <world>, not inside a <model>")
         self._world = world
         self._writer: LogWriter | None = None
-        self._patterns = [re.compile(re.escape(f"/world/{world.name}/") + "(dynamic_)?pose/info")]
+        self._patterns = [re.compile(re.escape(f"{world.topic}/") + "(dynamic_)?pose/info")]
         self._patterns += (_pattern(each) for each in element.all("record_topic") if each.text)
         self._state = self._patterns[0]
         path = element.text_of("record_path") or element.text_of("path")

@@ -113,7 +113,7 @@ class SceneBroadcaster(System):
 
         self._pose_v, self._step_map, self._numbers, self._empty = Pose_V, SerializedStepMap, UInt32_V, Empty
         self._node = node
-        root = f"/world/{self._world.name}"
+        root = self._world.topic
         self._all_publisher = node.advertise(f"{root}/pose/info", Pose_V)
         self._dynamic_publisher = node.advertise(f"{root}/dynamic_pose/info", Pose_V)
         self._scene_publisher = node.advertise(f"{root}/scene/info", Scene)

@@ -41,7 +41,7 @@ class UserCommands(System):
         from gz.sim.systems import entity_commands, property_commands
 
         self._answer = Boolean
-        prefix = f"/world/{self._world.name}"
+        prefix = self._world.topic
         for name, (request, command) in {**entity_commands.commands(), **property_commands.commands()}.items():
             for service, blocking in ((f"{prefix}/{name}", False), (f"{prefix}/{name}/blocking", True)):
                 node.advertise_service(service, request, Boolean, self._server_of(service, command, blocking))

@@ -39,6 +39,19 @@ def running() -> Iterator[Callable[..., threading.Event]]:
         assert not thread.is_alive()
 
 
+def test_blanks_in_the_name_of_a_world_are_underscores_in_its_topics(node: Node) -> None:
+    inside = "".join(
+        f"<plugin filename='gz-sim-{part}-system' name='gz::sim::systems::{name}'/>"
+        for part, name in (("scene-broadcaster", "SceneBroadcaster"), ("user-commands", "UserCommands"))
+    )
+    Server(World.from_string(f"<sdf version='1.10'><world name='my first world'>{inside}</world></sdf>"), node)
+    names = {*node.topic_list(), *node.service_list()}
+    stem = "/world/my_first_world"
+    expected = ("clock", "stats", "control", "pose/info", "scene/info", "create", "generate_world_sdf")
+    assert {f"{stem}/{each}" for each in expected} <= names
+    assert all(name.startswith(f"{stem}/") for name in names if name.startswith("/world/"))
+
+
 def test_clock_follows_every_step_call(server: Server, node: Node) -> None:
     root: list[int] = []
     scoped: list[int] = []
