@@ -72,6 +72,7 @@ def diagnose(seconds: float = 2.0) -> Diagnosis:
 def observe(seconds: float) -> System:
     """Look at both sides at the same time."""
     from grader.diagnose import gz_side, ros_side
+    from grader.diagnose.stopped import stopped_processes
     from ros2.errors import CommandError
 
     stop = threading.Event()
@@ -86,6 +87,7 @@ def observe(seconds: float) -> System:
             stop.set()
             raise
         try:
-            return System(ros, gz.result())
+            found = gz.result()
         except OSError as error:
             raise InfrastructureError(f"Gazebo's transport cannot be used: {error}") from None
+    return System(ros, found, stopped_processes(ros.domain, found.partition))

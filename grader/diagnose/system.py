@@ -127,12 +127,21 @@ class GzSide:
     seconds: float = 0.0
 
 
+@dataclass(frozen=True)
+class StoppedProcess:
+    """A process that was stopped by a signal, with its command line."""
+
+    pid: int
+    command: str
+
+
 @dataclass
 class System:
-    """Both sides at one moment."""
+    """Both sides at one moment, and the processes that would be there if they were not stopped."""
 
     ros: RosSide
     gz: GzSide
+    stopped: list[StoppedProcess] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         self._bridge_nodes = {bridge.node for bridge in self.ros.bridges}

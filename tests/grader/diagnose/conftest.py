@@ -79,35 +79,37 @@ class Broken:
         return server
 
     def context(self):
-        """A ROS context whose nodes are spun in a thread: (context, executor)."""
+        """A ROS context whose nodes are spun in a thread: (context, executor, its nodes)."""
         import rclpy
         from rclpy.executors import SingleThreadedExecutor
 
         context = rclpy.Context()
         rclpy.init(context=context, domain_id=self.domain)
         executor = SingleThreadedExecutor(context=context)
-        thread = threading.Thread(target=executor.spin)
+        thread, nodes = threading.Thread(target=executor.spin), []
         thread.start()
 
         def end():
-            executor.shutdown()
+            executor.shutdown()  # first, so that no callback finds its node gone
             thread.join(DEADLINE)
+            for node in nodes:
+                node.destroy_node()
             context.try_shutdown()
 
         self._stack.callback(end)
-        return context, executor
+        return context, executor, nodes
 
     def node(self, name, *, spins=True, sim_time=False, context=None):
         """A node, by default with a DDS participant of its own, as in a process of its own."""
         import rclpy
         from rclpy.parameter import Parameter
 
-        context, executor = context or self.context()
+        context, executor, nodes = context or self.context()
         overrides = [Parameter("use_sim_time", value=sim_time)]
         node = rclpy.create_node(name, context=context, parameter_overrides=overrides)
         if spins:
             executor.add_node(node)
-        self._stack.callback(node.destroy_node)
+        nodes.append(node)
         return node
 
     def bridge(self, *rows, name="ros_gz_bridge"):

@@ -17,6 +17,7 @@ from sensor_msgs.msg import LaserScan
 rclpy.init()
 node = rclpy.create_node("listener")
 node.create_subscription(LaserScan, "/lidar/scan", print, 10)
+print("listening", flush=True)
 rclpy.spin(node)
 """
 OTHER_PARTITION = """
@@ -97,6 +98,29 @@ def test_from_a_healthy_system_to_one_whose_parts_are_gone(room, course, tmp_pat
     assert f"partition 00_{room.partition} has the world far" in alone["findings"][0]["evidence"]
     assert [finding["kind"] for finding in alone["findings"]] == ["no_world"], "it explains everything else"
     assert len(alone["ros"]["bridges"]["/ros_gz_bridge"]) == 4
+
+
+def test_a_process_stopped_in_its_terminal(room, course, tmp_path):
+    listener, simulator = tmp_path / "listener.py", tmp_path / "simulator.py"
+    listener.write_text(LISTENER)
+    simulator.write_text(OTHER_PARTITION)
+    programs = [room.start(f"{sys.executable} {file}") for file in (listener, simulator)]
+    wait_for(programs[0], "listening")
+    wait_for(programs[1], "ready")
+    elsewhere = room.start(f"env GZ_PARTITION=00_{room.partition} {sys.executable} {simulator}")
+    wait_for(elsewhere, "ready")
+    for program in (*programs, elsewhere):
+        os.kill(program.pid, signal.SIGSTOP)
+    try:
+        found = report(course, "--seconds", "0.1", code=1)
+    finally:
+        for program in (*programs, elsewhere):
+            os.kill(program.pid, signal.SIGCONT)
+    assert sorted(sentences(found, "stopped_process")) == sorted(
+        f"The process {program.pid} is stopped (Ctrl-Z), so it neither sends nor hears anything."
+        for program in programs
+    )
+    assert found["findings"][0]["kind"] == "stopped_process"
 
 
 def test_an_interrupt_ends_it_at_once(room):
