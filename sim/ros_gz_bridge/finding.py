@@ -25,7 +25,7 @@ class Finding:
     tolerated: bool = False
 
     def __str__(self) -> str:
-        return f"{self.place}: {one_line(self.sentence)}" if self.place else one_line(self.sentence)
+        return f"{one_line(self.place)}: {one_line(self.sentence)}" if self.place else one_line(self.sentence)
 
 
 class ConfigError(ValueError):

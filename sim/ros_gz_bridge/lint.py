@@ -49,13 +49,15 @@ def main(argv: list[str] | None = None) -> int:
 
 
 def _report(words: list[str], compat: bool) -> int:
+    from ros_gz_bridge.finding import one_line
+
     errors = warnings = bridges = 0
     for config in _read(words):
         shown = config.tolerant() if compat else config
         for finding in shown.findings:
             kind = "warning" if finding.warning else "error"
-            place = f"{finding.place}: " if finding.place else ""
-            print(f"{place}{kind}: {str(finding).removeprefix(place)}")
+            place = f"{one_line(finding.place)}: " if finding.place else ""
+            print(f"{place}{kind}: {one_line(finding.sentence)}")
             errors += not finding.warning
             warnings += finding.warning
         bridges += len(shown.topics) + len(shown.services)
