@@ -52,14 +52,24 @@ class _Parser(argparse.ArgumentParser):
 
 
 def _number(text: str) -> float:
-    value = float(text)
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
     if not math.isfinite(value) or value < 0.0:
-        raise argparse.ArgumentTypeError(f"must be zero or more, got {text}")
+        raise argparse.ArgumentTypeError(f"must be a number, zero or more, got {text}")
     return value
 
 
+def _whole(text: str) -> int:
+    try:
+        return int(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"must be a whole number, got {text}") from None
+
+
 def _count(text: str) -> int:
-    value = int(text)
+    value = _whole(text)
     if value < 0:
         raise argparse.ArgumentTypeError(f"must be zero or more, got {text}")
     return value
@@ -84,7 +94,7 @@ def _parser() -> _Parser:
     )  # fmt: skip
     parser.add_argument("--iterations", type=_count, default=0, metavar="N", help="end after N steps (0: never)")
     parser.add_argument("-z", dest="rate", type=_number, metavar="HZ", help="steps per second of wall time")
-    parser.add_argument("--seed", type=int, default=0, metavar="N", help="seed of all sensor noise")
+    parser.add_argument("--seed", type=_whole, default=0, metavar="N", help="seed of all sensor noise")
     parser.add_argument(
         "--initial-sim-time", type=_seconds, default=0.0, metavar="S", help="simulated time to start at, in seconds"
     )

@@ -139,6 +139,9 @@ def test_errors_are_one_sentence(start: Callable[..., subprocess.Popen[str]], tm
     [
         (["--iteratons", "5", "empty.sdf"], "did you mean '--iterations'"),
         (["--iterations", "-5", "empty.sdf"], "zero or more"),
+        (["--iterations", "some", "empty.sdf"], "must be a whole number, got some"),
+        (["--seed", "1.5", "empty.sdf"], "must be a whole number, got 1.5"),
+        (["-z", "fast", "empty.sdf"], "must be a number, zero or more, got fast"),
         (["empty.sdf", "other.sdf"], "second file 'other.sdf'"),
         (["-g"], "use -s"),
         (["--playback", "log"], "gz log -i"),
