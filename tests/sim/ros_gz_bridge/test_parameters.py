@@ -150,6 +150,20 @@ def test_parameters_are_shown_and_cannot_be_changed_while_it_runs(start):
     assert process.stop() == 0
 
 
+def test_a_lazy_bridge_lets_the_simulator_rest_while_nobody_listens(start, ros, inbox, eventually):
+    with Node() as gz:
+        publisher = gz.advertise("/lazy/scan", GzLaserScan)
+        lazy = ("-p", "lazy:=true", "-p", "subscription_heartbeat:=50")
+        process = start("/lazy/scan@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan", "--ros-args", *lazy)
+        process.wait_for("ready: 1 bridge")
+        assert not publisher.has_connections()
+        subscription = ros.node.create_subscription(LaserScan, "/lazy/scan", inbox(), 10)
+        assert publisher.wait_for_subscribers(timeout=DEADLINE)
+        ros.node.destroy_subscription(subscription)
+        eventually(lambda: not publisher.has_connections(), "the sensor may rest")
+    assert process.stop() == 0
+
+
 SIMULATOR = """
 import sys
 from gz.msgs.laserscan_pb2 import LaserScan

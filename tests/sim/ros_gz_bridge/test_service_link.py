@@ -12,7 +12,9 @@ from std_srvs.srv import SetBool
 
 from gz.transport import Node, NodeOptions, Scope
 from ros_gz_bridge import type_pairs
+from ros_gz_bridge.arguments import parse_argument
 from ros_gz_bridge.bridge import Bridge, BridgeError
+from ros_gz_bridge.config import ConfigError, parse_yaml, read_yaml
 from ros_gz_bridge.entry import BridgeEntry, Direction, ServiceEntry
 
 TYPES = ("std_srvs/srv/SetBool", "gz.msgs.Boolean", "gz.msgs.StringMsg")
@@ -115,3 +117,37 @@ def test_a_service_nobody_can_convert_is_an_error(stage):
     wrong = ServiceEntry("/s", "std_srvs/srv/SetBool", "gz.msgs.Twist", "gz.msgs.Boolean", "b.yaml:3")
     with pytest.raises(BridgeError, match=r"b\.yaml:3: the service std_srvs/srv/SetBool does not go with"):
         Bridge(node, own, [], services=[wrong])
+
+
+YAML = """\
+- service_name: /world/w/set
+  ros_type_name: std_srvs/srv/SetBool
+  gz_req_type_name: gz.msgs.Boolean
+  gz_rep_type_name: gz.msgs.StringMsg
+"""
+
+
+def test_services_are_read_from_a_file_and_from_arguments():
+    config = read_yaml(YAML, "b.yaml")
+    assert config.services == [ServiceEntry("/world/w/set", *TYPES, "b.yaml:1")]
+    assert config.findings == []
+    for text in (f"/world/w/set@{TYPES[0]}", "@".join(["/world/w/set", *TYPES])):
+        assert parse_argument(text) == ServiceEntry("/world/w/set", *TYPES, f"argument '{text}'")
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (YAML.replace("service_name", "topic_name"), "b.yaml:1: 'service_name' is missing"),
+        (YAML + "  direction: GZ_TO_ROS\n", "b.yaml:5: 'direction' is for a topic, but this entry is a service"),
+        (YAML.replace("gz.msgs.StringMsg", "gz.msgs.Twist"), "b.yaml:2: the service std_srvs/srv/SetBool does not go"),
+        (YAML + YAML, "b.yaml:5: offers /world/w/set again (first: b.yaml:1)"),
+    ],
+)
+def test_each_fault_of_a_service(text, words):
+    assert any(str(finding).startswith(words) for finding in read_yaml(text, "b.yaml").findings)
+
+
+def test_who_wants_topics_only_is_told_of_a_service():
+    with pytest.raises(ConfigError, match="b.yaml:1: /world/w/set is a service; only topics can be bridged here"):
+        parse_yaml(YAML, "b.yaml")
