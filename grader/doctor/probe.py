@@ -36,11 +36,10 @@ class Probe:
         # Files, not pipes: a child that outlives the program would keep a pipe open, and us waiting.
         self._output, self._errors = (tempfile.TemporaryFile(dir=probes.folder) for _ in range(2))  # noqa: SIM115
         alarm = _ALARM.format(seconds=int(probes.seconds_left + 2))
-        # -P: what lies in the folder we were called in (somebody's rclpy.py) is not ours to import.
         try:
             self._process = subprocess.Popen(
-                [sys.executable, "-P", "-c", alarm + code, *arguments],
-                cwd=probes.folder,
+                [sys.executable, "-c", alarm + code, *arguments],
+                cwd=probes.folder,  # what lies where we were called (somebody's rclpy.py) is not ours to import
                 env=dict(environment),
                 stdin=subprocess.PIPE,
                 stdout=self._output,

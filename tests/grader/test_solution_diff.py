@@ -54,6 +54,14 @@ def test_files_only_the_solution_has_and_files_that_are_no_text(copy):
     assert not any("expect.toml" in line for line in lines)
 
 
+def test_what_is_not_shown_in_a_terminal_is_what_patch_takes(copy, course):
+    """Tabs and ends of lines as they are, whatever the width."""
+    path = copy / "solutions" / NAME / FILE
+    path.write_text(path.read_text() + "x = 1\t# " + "long " * 60 + "end\n")
+    outcome = course("diff", "03", COURSE_ROOT=str(copy))
+    assert "+x = 1\t# " + "long " * 60 + "end" in outcome.stdout.splitlines()
+
+
 def test_a_starter_that_is_the_solution(copy, course):
     shutil.copy(copy / "solutions" / NAME / FILE, copy / "exercises" / NAME / FILE)
     outcome = course("diff", "03", COURSE_ROOT=str(copy))
