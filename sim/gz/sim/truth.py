@@ -72,9 +72,12 @@ class Truth:
         return moving + [model.name for model in self.description.models if model.static] if static else moving
 
     def pose(self, model: str) -> Pose:
-        """Return where the model's frame is now, in the world frame; raise `SimError` for an unknown
-        model.
+        """Return where the frame of a model, or of a model in it (`arm::hand`), is now, in the world frame; raise
+        `SimError` for an unknown model.
         """
+        owner, _, inner = model.partition("::")
+        if inner and owner in self._models:
+            return self._nested_pose(self._models[owner], inner)
         found = self._model(model)
         if model not in self._canonical:
             return found.pose
@@ -118,6 +121,16 @@ class Truth:
         found = self.model.joint(name)
         control = mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_ACTUATOR, name)
         return JointAddress(int(found.qposadr[0]), int(found.dofadr[0]), control)
+
+    def _nested_pose(self, model: Model, name: str) -> Pose:
+        nested = next((each for each in model.nested if each.name == name), None)
+        if nested is None:
+            hint = nearest(name, [each.name for each in model.nested], listing="its models are")
+            raise SimError(f"model '{model.name}' has no model '{name}'; {hint}")
+        canonical = model.link(nested.canonical_link)
+        if canonical is None:
+            return self.pose(model.name) * nested.pose
+        return self._link_pose(model, canonical) * canonical.pose.inverse() * nested.pose
 
     def _model(self, name: str) -> Model:
         found = self._models.get(name)

@@ -148,3 +148,18 @@ def test_commands_from_another_thread_do_not_disturb_stepping() -> None:
 def test_a_world_starts_at_a_time_that_can_be(start: float) -> None:
     with pytest.raises(SimError, match="initial_sim_time must be between"):
         World.from_string("<sdf version='1.10'><world name='w'/></sdf>", initial_sim_time=start)
+
+
+def test_models_in_models_have_a_pose() -> None:
+    world = World.from_string(
+        "<sdf version='1.10'><world name='w'><gravity>0 0 -10</gravity><model name='arm'><pose>1 0 0 0 0 0</pose>"
+        "<link name='l'/><model name='hand'><pose>0 2 0 0 0 1.5</pose><link name='palm'><pose>1 0 0 0 0 0</pose></link>"
+        "</model></model></world></sdf>"
+    )
+    assert world.pose("arm::hand").position == pytest.approx((1.0, 2.0, 0.0))
+    world.step(1000)
+    fallen = world.pose("arm::hand")
+    assert fallen.position == pytest.approx((1.0, 2.0, -5.0), abs=0.01)
+    assert fallen.quaternion == pytest.approx((math.cos(0.75), 0.0, 0.0, math.sin(0.75)))
+    with pytest.raises(SimError, match="model 'arm' has no model 'hnd'; did you mean 'hand'"):
+        world.pose("arm::hnd")
