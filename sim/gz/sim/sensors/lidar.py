@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
 MOST_RAYS = 2_000_000
 """More beams than this would take minutes a scan."""
+_MORE_THAN_ROUND = 6.5  # [rad]; a full turn may be stated carelessly
 
 
 class _Sweep:
@@ -65,6 +66,13 @@ class Lidar(SensorBase):
         scan = holder.find("scan") or Element("scan", file=holder.file, line=holder.line)
         self.horizontal = _Sweep(scan.find("horizontal"), 640)
         self.vertical = _Sweep(scan.find("vertical"), 1)
+        for sweep, tag in ((self.horizontal, "horizontal"), (self.vertical, "vertical")):
+            if sweep.maximum - sweep.minimum > _MORE_THAN_ROUND:
+                world.diagnostics.warn(
+                    (scan.find(tag) or scan).where,
+                    f"lidar '{description.name}' turns from {sweep.minimum:g} to {sweep.maximum:g} rad, which is more "
+                    "than once round; angles are in radians, not degrees",
+                )
         count = self.horizontal.count * self.vertical.count
         if count > MOST_RAYS:
             raise scan.error(f"a lidar may have {MOST_RAYS} beams at most, this one has {count}")

@@ -311,6 +311,13 @@ def test_impossible_lidars_are_refused(load_text: Load, old: str, new: str, sent
         load_text(rig().replace(old, new))
 
 
+def test_angles_in_degrees_are_named(load_text: Load) -> None:
+    assert load_text(rig()).warnings == []
+    warnings = load_text(rig().replace("<min_angle>-1.5707963267948966", "<min_angle>-90")).warnings
+    assert len(warnings) == 1 and "angles are in radians, not degrees" in warnings[0]
+    assert warnings[0].startswith("<string>:")
+
+
 def test_a_world_without_the_sensors_system_says_why_its_lidar_is_silent(
     world_text: Callable[..., str],
 ) -> None:
