@@ -149,5 +149,5 @@ def test_each_fault_of_a_service(text, words):
 
 
 def test_who_wants_topics_only_is_told_of_a_service():
-    with pytest.raises(ConfigError, match="b.yaml:1: /world/w/set is a service; only topics can be bridged here"):
+    with pytest.raises(ConfigError, match=r"b\.yaml:1: /world/w/set is a service; only topics can be bridged here"):
         parse_yaml(YAML, "b.yaml")
