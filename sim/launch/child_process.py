@@ -15,6 +15,8 @@ import subprocess
 import threading
 from collections.abc import Callable, Mapping, Sequence
 
+from launch.orphan_watch import unwatch, watch
+
 _CHUNK = 65536
 _LARGEST_PIPE = 1 << 20
 # Ignored or blocked by the parent of this process, they would be so in the child.
@@ -64,6 +66,7 @@ class ChildProcess:
             raise
         finally:
             os.close(stdin_read)
+        watch(self.pid)
         os.close(out[1])
         os.close(err[1])
         os.set_blocking(self._stdin, False)
@@ -117,7 +120,8 @@ class ChildProcess:
             self._send()
 
     def close(self) -> None:
-        """Let go of its input and output."""
+        """Let go of its input and output, when its group has ended."""
+        unwatch(self.pid)
         for descriptor in list(self._readers):
             self._close_reader(descriptor)
         if self._stdin >= 0:

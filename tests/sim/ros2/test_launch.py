@@ -235,7 +235,7 @@ def test_sigterm_leaves_no_orphan(start, write):
     for number in (1, 2, 3):
         command.wait_for(f"[sh-{number}] up")
     children = psutil.Process(command.process.pid).children(recursive=True)
-    assert len(children) == 3
+    assert len(children) == 4  # three, and the shell of orphan_watch
     command.process.send_signal(signal.SIGTERM)
     code, text, _ = command.wait()
     assert code == 1
@@ -318,7 +318,7 @@ def test_simulator_bridge_and_node_drive_a_robot_and_end_together(start, workspa
     command = start("launch", str(path), "world:=-r -s lidar_room.sdf", environment=environment)
     command.wait_for("[driver-3] the robot has moved")
     children = psutil.Process(command.process.pid).children(recursive=True)
-    assert len(children) == 3
+    assert len(children) == 4  # three, and the shell of orphan_watch
     command.process.send_signal(signal.SIGINT)
     code, text, errors = command.wait()
     assert (code, errors) == (0, "")

@@ -1,0 +1,116 @@
+"""Ends what a launch has started when the launch itself is killed, and could not do it any more.
+
+`ChildProcess` names each process group here from its start to its end. While there is any, a small shell outside of
+the launch's session reads the names from a pipe. The pipe ends with the launch, however that ends: groups that are
+left then get SIGINT, later SIGTERM, later SIGKILL. After a proper end none is left, and the shell ends at once.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import subprocess
+import threading
+
+PATIENCE = 50  # tenths of a second after each signal
+# Reads `+ GROUP` and `- GROUP`. Its only argument is the patience.
+SCRIPT = """\
+trap '' HUP INT QUIT TERM
+groups=
+while read -r change group; do
+    kept=
+    for each in $groups; do [ "$each" = "$group" ] || kept="$kept $each"; done
+    groups=$kept
+    [ "$change" = + ] && groups="$groups $group"
+done
+for name in INT TERM KILL; do
+    for each in $groups; do kill -s $name -- "-$each"; done
+    left=$1
+    while [ "$left" -gt 0 ]; do
+        living=
+        for each in $groups; do kill -s 0 -- "-$each" && living="$living $each"; done
+        groups=$living
+        [ "$groups" ] || exit 0
+        sleep 0.1
+        left=$((left - 1))
+    done
+done
+"""
+
+
+class _Watch:
+    """One shell for all launches of this process."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._groups: set[int] = set()
+        self._shell: subprocess.Popen[bytes] | None = None
+        self._pipe = -1
+
+    def add(self, group: int) -> None:
+        with self._lock:
+            if not self._groups:
+                self._start()
+            self._groups.add(group)
+            self._tell(f"+ {group}\n")
+
+    def remove(self, group: int) -> None:
+        with self._lock:
+            if group not in self._groups:
+                return
+            self._groups.remove(group)
+            self._tell(f"- {group}\n")
+            if not self._groups:
+                self._end()
+
+    def _start(self) -> None:
+        read, self._pipe = os.pipe()
+        try:
+            self._shell = subprocess.Popen(
+                ["/bin/sh", "-c", SCRIPT, "orphan_watch", str(PATIENCE)],
+                stdin=read,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                env={"PATH": os.defpath},
+                cwd="/",
+                start_new_session=True,
+            )
+        except OSError:  # no more processes, or no shell: a launch works without it
+            self._shell = None
+        finally:
+            os.close(read)
+
+    def _tell(self, line: str) -> None:
+        with contextlib.suppress(OSError):
+            os.write(self._pipe, line.encode())
+
+    def _end(self) -> None:
+        os.close(self._pipe)
+        self._pipe = -1
+        if self._shell is not None:
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                self._shell.wait(1.0)
+
+
+_watch = _Watch()
+
+
+def _forget() -> None:
+    """A fork has no processes of its own yet, and must not keep the pipe of its parent open."""
+    global _watch
+    if _watch._pipe >= 0:
+        os.close(_watch._pipe)
+    _watch = _Watch()
+
+
+os.register_at_fork(after_in_child=_forget)
+
+
+def watch(group: int) -> None:
+    """End this process group if this process is killed."""
+    _watch.add(group)
+
+
+def unwatch(group: int) -> None:
+    """The process group has ended."""
+    _watch.remove(group)

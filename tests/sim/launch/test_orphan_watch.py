@@ -1,0 +1,111 @@
+"""A launch that is killed leaves no orphans."""
+
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+
+import psutil
+import pytest
+
+from launch import orphan_watch
+from launch.actions import ExecuteProcess, OpaqueFunction
+
+KILLED = """\
+import os
+from launch import *
+from launch.actions import *
+service = LaunchService()
+service.include_launch_description(LaunchDescription([
+    ExecuteProcess(cmd=["true"]),
+    ExecuteProcess(cmd=["echo up; sleep 1000; true"], shell=True, output="screen"),
+    ExecuteProcess(cmd=["sh", "-c", "echo up; exec sleep 1000"], respawn=True, output="screen"),
+]))
+service.run()
+"""
+
+
+def watchers():
+    return [each for each in psutil.Process().children() if "orphan_watch" in each.cmdline()]
+
+
+def test_sigkill_leaves_no_orphan(tmp_path):
+    with subprocess.Popen(
+        [sys.executable, "-c", KILLED],
+        env={**os.environ, "ROS_LOG_DIR": str(tmp_path)},
+        stdout=subprocess.PIPE,
+        stdin=subprocess.DEVNULL,
+        text=True,
+        start_new_session=True,
+    ) as process:
+        ups = 0
+        for line in process.stdout:
+            ups += line.rstrip().endswith("up")
+            if ups == 2:
+                break
+        children = [each for each in psutil.Process(process.pid).children(recursive=True) if each.name() == "sleep"]
+        os.killpg(process.pid, signal.SIGKILL)
+        assert len(children) == 2
+        try:
+            _, living = psutil.wait_procs(children, timeout=30)
+            assert living == []
+        finally:
+            for each in children:
+                if each.is_running():
+                    each.kill()
+
+
+@pytest.mark.parametrize(
+    ("ignored", "end"),
+    [((), -signal.SIGINT), (("SIGINT",), -signal.SIGTERM), (("SIGINT", "SIGTERM"), -signal.SIGKILL)],
+)
+def test_it_escalates(ignored, end):
+    traps = "".join(f"trap '' {name.removeprefix('SIG')}; " for name in ignored)
+    with (
+        subprocess.Popen(["sh", "-c", f"{traps}echo up; exec sleep 1000"], process_group=0, stdout=-1) as child,
+        subprocess.Popen(["sh", "-c", orphan_watch.SCRIPT, "sh", "2"], stdin=-1, stderr=-3, text=True) as watch,
+    ):
+        assert child.stdout.readline() == b"up\n"
+        gone = subprocess.Popen(["true"], process_group=0)
+        gone.wait(30)
+        watch.communicate(f"+ {gone.pid}\n+ {child.pid}\n- {gone.pid}\n", timeout=30)
+        assert child.wait(30) == end
+
+
+def test_who_has_ended_is_left_alone():
+    with (
+        subprocess.Popen(["sleep", "1000"], process_group=0) as other,
+        subprocess.Popen(["sh", "-c", orphan_watch.SCRIPT, "sh", "2"], stdin=-1, text=True) as watch,
+    ):
+        watch.communicate(f"+ {other.pid}\n- {other.pid}\n", timeout=30)
+        assert (watch.returncode, other.poll()) == (0, None)
+        other.kill()
+
+
+def test_it_lives_as_long_as_there_are_processes(run):
+    seen = []
+
+    def look(context):
+        seen.append(len(watchers()))
+
+    def after(event, context):
+        return OpaqueFunction(function=look)
+
+    run(*[ExecuteProcess(cmd=["true"], on_exit=after) for _ in range(2)])
+    assert seen[0] == 1
+    assert watchers() == []
+
+
+def test_a_fork_does_not_keep_it():
+    with subprocess.Popen(["sleep", "1000"], process_group=0) as child:
+        orphan_watch.watch(child.pid)
+        fork = multiprocessing.get_context("fork").Process(target=signal.pause)
+        fork.start()
+        try:
+            orphan_watch.unwatch(child.pid)  # waits for the shell, which reads until nobody holds the pipe
+            assert watchers() == []
+        finally:
+            for each in (fork, child):
+                each.kill()
+            fork.join(30)
