@@ -176,6 +176,13 @@ def test_many_runs_in_one_process_do_not_know_of_each_other(capsys, monkeypatch)
     assert signal.getsignal(signal.SIGINT) is handler
 
 
+def test_a_failure_does_not_stay():
+    service = started(OpaqueFunction(function=lambda context: 1 / 0))
+    assert service.run() == 1
+    service.include_launch_description(description(note("better")))
+    assert service.run() == 0
+
+
 def test_one_service_runs_again_but_not_twice_at_once():
     service = started(note("a"))
     assert service.run() == 0

@@ -208,11 +208,17 @@ def test_what_children_print_is_seen_when_it_is_printed(start, write):
     command = start("launch", path)
     command.wait_for("[child-1] up")
     command.process.send_signal(signal.SIGINT)
-    assert command.wait()[0] == 0
+    code, text, _ = command.wait()
+    assert code == 0
+    assert "[INFO] [child-1]: sending signal 'SIGINT' to process[child-1]" in text  # nobody sits at a terminal
 
 
 def test_on_a_terminal_ctrl_c_needs_no_explanation(start, write):
-    path = write("ExecuteProcess(cmd=['sh', '-c', 'echo up; exec sleep 1000'], output='screen')")
+    path = write(
+        "ExecuteProcess(cmd=['sh', '-c', 'echo up; exec sleep 1000'], output='screen'), "
+        "ExecuteProcess(cmd=['sh', '-c', 'trap \"\" INT; echo up; exec sleep 1000'], output='screen', name='stubborn', "
+        "sigterm_timeout='0.1')"
+    )
     terminal = (
         sys.executable,
         "-c",
@@ -220,12 +226,14 @@ def test_on_a_terminal_ctrl_c_needs_no_explanation(start, write):
     )
     command = start(*(sys.executable, "-m", "ros2", "launch", path), command=terminal, stdin=subprocess.PIPE)
     command.wait_for("[sh-1] up")
+    command.wait_for("[stubborn-2] up")
     command.process.stdin.write("\x03")
     command.process.stdin.flush()
     code, text, _ = command.wait()
     assert code == 0
     assert "[WARNING] [launch]: user interrupted with ctrl-c (SIGINT)" in text
-    assert "sending signal" not in text
+    assert "sending signal 'SIGINT'" not in text
+    assert "[INFO] [stubborn-2]: sending signal 'SIGTERM' to process[stubborn-2]" in text
     assert re.search(r"process has died \[pid \d+, exit code -2", text)
 
 
