@@ -20,7 +20,8 @@ def partition(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("GZ_PARTITION", uuid.uuid4().hex)
 
 
-WORLD = """<sdf version='1.10'><world name='a small world'><model name='arm'><static>1</static><pose>1 2 3 0 0 0.5</pose>
+WORLD = """<sdf version='1.10'><world name='a small world'><model name='arm'><static>1</static>
+<pose>1 2 3 0 0 0.5</pose>
 <link name='base'/><link name='upper'/><joint name='elbow' type='revolute'><parent>base</parent><child>upper</child>
 <axis><xyz>0 0 1</xyz></axis></joint></model></world></sdf>"""
 
