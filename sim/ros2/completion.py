@@ -10,6 +10,7 @@ from __future__ import annotations
 import argparse
 import shlex
 from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
@@ -25,6 +26,7 @@ _BASH = f"""\
 _ros2() {{
     local IFS=$'\\n'
     COMPREPLY=( $(ros2 {COMPLETE} "${{COMP_WORDS[@]:1:COMP_CWORD}}" 2>/dev/null) )
+    [[ ${{COMPREPLY[0]-}} == *:= ]] && compopt -o nospace
 }}
 complete -o default -F _ros2 ros2
 """
@@ -168,6 +170,25 @@ def _executables(given: Given) -> Iterable[str]:
     return (path.name for path in executables(given["package_name"]))
 
 
+def _launch_files(given: Given) -> Iterable[str]:
+    """The launch files of a package; after a path, the arguments of that launch file."""
+    from ros2.command.launch import launch_files_of
+    from ros2.packages import package_names
+
+    package = given["package_name"]
+    if Path(package).is_file():
+        return _launch_arguments(given)
+    return launch_files_of(package) if package in package_names() else ()
+
+
+def _launch_arguments(given: Given) -> Iterable[str]:
+    from ros2.command.launch import launch_file, load
+
+    named = {"launch_file_name": None, **given, "launch_arguments": []}
+    path, _ = launch_file(argparse.Namespace(**named))
+    return (f"{argument.name}:=" for argument in load(path).get_launch_arguments())
+
+
 def _interfaces(given: Given) -> Iterable[str]:
     from ros2.interface import interface_names
 
@@ -195,6 +216,8 @@ _COMPLETERS: Mapping[str, Callable[[Given], Iterable[str]]] = MappingProxyType(
         "parameter_names": _parameters,
         "package_name": _packages,
         "executable_name": _executables,
+        "launch_file_name": _launch_files,
+        "launch_arguments": _launch_arguments,
         "type": _interfaces,
         "values": _values,
     }

@@ -20,6 +20,7 @@ from launch.substitutions.paths import nearest_program
 from launch.substitutions.substitution_failure import SubstitutionFailure
 
 _ON_STDERR = ("fail", "ignore", "warn", "capture")
+_TRACE = ("Traceback (most recent", "During handling of the above", "The above exception was")
 
 
 class Command(Substitution):
@@ -62,7 +63,7 @@ class Command(Substitution):
         code, output, errors = _run(words, context)
         if code != 0:
             ended = f"exit code {code}" if code > 0 else f"signal {signal.Signals(-code).name}"
-            said = f": {errors.strip()}" if errors.strip() else ""
+            said = f": {_without_traces(errors)}" if errors.strip() else ""
             raise SubstitutionFailure(f"the command '{text}' failed with {ended}{said}")
         if errors and on_stderr == "fail":
             raise SubstitutionFailure(
@@ -73,6 +74,13 @@ class Command(Substitution):
                 f"the command '{text}' wrote to stderr: {errors.strip()}"
             )
         return output + errors if on_stderr == "capture" else output
+
+
+def _without_traces(errors: str) -> str:
+    """The text without the places of Python's tracebacks: those are not in the launch file."""
+    if _TRACE[0] not in errors:
+        return errors.strip()
+    return "; ".join(line for line in errors.splitlines() if line and not line.startswith((" ", *_TRACE)))
 
 
 def _run(words: list[str], context: LaunchContext) -> tuple[int, str, str]:

@@ -47,7 +47,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(arguments: argparse.Namespace) -> int:
     """Run the launch file: 0 at its end, whatever its processes return; 1 if the launch itself failed."""
-    path, words = _launch_file(arguments)
+    path, words = launch_file(arguments)
     pairs = _pairs(words)
     if arguments.launch_prefix_filter and not arguments.launch_prefix:
         raise CommandError("--launch-prefix-filter says where --launch-prefix is used; give that, too")
@@ -62,7 +62,7 @@ def main(arguments: argparse.Namespace) -> int:
     return _run(path, pairs, arguments)
 
 
-def _launch_file(arguments: argparse.Namespace) -> tuple[str, list[str]]:
+def launch_file(arguments: argparse.Namespace) -> tuple[str, list[str]]:
     """The path of the launch file, and the words that are its arguments."""
     package, name = arguments.package_name, arguments.launch_file_name
     words = list(arguments.launch_arguments)
@@ -71,7 +71,7 @@ def _launch_file(arguments: argparse.Namespace) -> tuple[str, list[str]]:
     if name is None or ":=" in name:
         if "/" in package or package.endswith((".py", ".xml", ".yaml", ".yml")):
             raise CommandError(f"there is no launch file '{package}'{_nearest_file(Path(package))}")
-        files = _launch_files_of(package) if package in package_names() else {}
+        files = launch_files_of(package) if package in package_names() else {}
         known = f"; it has {', '.join(sorted(files))}" if files else did_you_mean(package, package_names())
         raise CommandError(f"which launch file of the package '{package}'?{known}")
     return _file_of_package(package, name), words
@@ -88,7 +88,7 @@ def _file_of_package(package: str, name: str) -> str:
     if not found and (share / name).is_file():
         found = [share / name]
     if not found:
-        hint = did_you_mean(name, _launch_files_of(package))
+        hint = did_you_mean(name, launch_files_of(package))
         raise CommandError(
             f"file '{name}' was not found in the share directory of package '{package}' which is at '{share}'{hint}"
         )
@@ -104,7 +104,8 @@ def _is_plain(name: str) -> bool:
     return not re.search(r"[/*?\[\]]", name) and name not in ("", ".", "..")
 
 
-def _launch_files_of(package: str) -> dict[str, Path]:
+def launch_files_of(package: str) -> dict[str, Path]:
+    """Name -> path of the launch files of a package that exists."""
     from ament_index_python.packages import get_package_prefix
 
     share = Path(get_package_prefix(package)) / "share" / package
@@ -131,7 +132,8 @@ def _pairs(words: Sequence[str]) -> list[tuple[str, str]]:
     return list(pairs.items())
 
 
-def _load(path: str) -> LaunchDescription:
+def load(path: str) -> LaunchDescription:
+    """What a launch file holds; CommandError if it cannot be read."""
     from launch.launch_description_sources import get_launch_description_from_any_launch_file
 
     try:
@@ -149,7 +151,7 @@ def _sentence(error: Exception) -> str:
 
 
 def _show_arguments(path: str) -> int:
-    description = _load(path)
+    description = load(path)
     print("Arguments (pass arguments as '<name>:=<value>'):")
     some_are_conditional = False
     arguments = description.get_launch_arguments()
@@ -170,7 +172,7 @@ def _show_arguments(path: str) -> int:
 def _print_description(path: str) -> int:
     from launch import LaunchIntrospector
 
-    print(LaunchIntrospector().format_launch_description(_load(path)))
+    print(LaunchIntrospector().format_launch_description(load(path)))
     return 0
 
 

@@ -169,6 +169,7 @@ def test_a_command_may_warn_of_stderr(performed, capsys):
     [
         ("sh -c 'echo bad >&2; exit 3'", {}, "failed with exit code 3: bad"),
         ("sh -c 'kill -9 $$'", {}, "failed with signal SIGKILL"),
+        ("python3 -S -c 'raise OSError(5)'", {}, "failed with exit code 1: OSError: 5"),
         ("sh -c 'echo bad >&2'", {}, "wrote to stderr, which on_stderr='warn' would allow: bad"),
         ("pyton3 -c 1", {}, "there is no program 'pyton3' for Command to run; did you mean 'python3"),
         ("echo 'a", {}, "cannot be split into words"),

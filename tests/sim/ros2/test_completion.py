@@ -39,6 +39,20 @@ def test_packages_executables_and_interfaces():
     ]
 
 
+def test_launch_files_and_their_arguments(tmp_path):
+    assert offered("launch", "ros_gz_sim", "gz_si") == ["gz_sim.launch.py"]
+    assert "gz_args:=" in offered("launch", "ros_gz_sim", "gz_sim.launch.py", "")
+    assert offered("launch", "ros_gz_sim", "gz_sim.launch.py", "on_exit_shutdown:=true", "gz_a") == ["gz_args:="]
+    path = tmp_path / "my.launch.py"
+    path.write_text(
+        "from launch import LaunchDescription\nfrom launch.actions import DeclareLaunchArgument\n"
+        "def generate_launch_description():\n    return LaunchDescription([DeclareLaunchArgument('map')])\n"
+    )
+    assert offered("launch", str(path), "") == ["map:="]
+    assert offered("launch", str(path), "map:=a", "") == ["map:="]
+    assert offered("launch", "no_such_package", "") == []
+
+
 def test_names_of_the_live_graph(robot):
     assert offered("topic", "echo", "/stam") == ["/stamped"]
     assert offered("topic", "pub", "/stamped", "geo") == ["geometry_msgs/msg/PointStamped"]
