@@ -10,7 +10,8 @@ import psutil
 import pytest
 
 from launch import orphan_watch
-from launch.actions import ExecuteProcess, OpaqueFunction
+from launch.actions import ExecuteProcess, OpaqueFunction, RegisterEventHandler, Shutdown
+from launch.event_handlers import OnProcessStart
 
 KILLED = """\
 import os
@@ -57,19 +58,23 @@ def test_sigkill_leaves_no_orphan(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("ignored", "end"),
-    [((), -signal.SIGINT), (("SIGINT",), -signal.SIGTERM), (("SIGINT", "SIGTERM"), -signal.SIGKILL)],
+    ("ignored", "patience", "end"),
+    # Patience is not used up where the signal works, but must be long enough for it on a busy machine.
+    [((), 300, -signal.SIGINT), (("SIGINT",), 10, -signal.SIGTERM), (("SIGINT", "SIGTERM"), 2, -signal.SIGKILL)],
 )
-def test_it_escalates(ignored, end):
+def test_it_escalates(ignored, patience, end):
     traps = "".join(f"trap '' {name.removeprefix('SIG')}; " for name in ignored)
     with (
         subprocess.Popen(["sh", "-c", f"{traps}echo up; exec sleep 1000"], process_group=0, stdout=-1) as child,
-        subprocess.Popen(["sh", "-c", orphan_watch.SCRIPT, "sh", "2"], stdin=-1, stderr=-3, text=True) as watch,
+        subprocess.Popen(
+            ["sh", "-c", orphan_watch.SCRIPT, "sh", str(patience)], stdin=-1, stderr=-3, text=True
+        ) as watch,
     ):
         assert child.stdout.readline() == b"up\n"
         gone = subprocess.Popen(["true"], process_group=0)
         gone.wait(30)
-        watch.communicate(f"+ {gone.pid}\n+ {child.pid}\n- {gone.pid}\n", timeout=30)
+        watch.stdin.write(f"+ {gone.pid}\n+ {child.pid}\n- {gone.pid}\n")
+        watch.stdin.close()
         assert child.wait(30) == end
 
 
@@ -89,11 +94,9 @@ def test_it_lives_as_long_as_there_are_processes(run):
     def look(context):
         seen.append(len(watchers()))
 
-    def after(event, context):
-        return OpaqueFunction(function=look)
-
-    run(*[ExecuteProcess(cmd=["true"], on_exit=after) for _ in range(2)])
-    assert seen[0] == 1
+    started = OnProcessStart(on_start=[OpaqueFunction(function=look), Shutdown()])
+    run(RegisterEventHandler(started), ExecuteProcess(cmd=["sleep", "1000"]))
+    assert seen == [1]
     assert watchers() == []
 
 
