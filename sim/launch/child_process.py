@@ -113,6 +113,13 @@ class ChildProcess:
             if not self._reaped or self.has_left_something():
                 os.killpg(self.pid, number)
 
+    def kill(self) -> None:
+        """End the whole group at once and take notice of it, where no event loop can wait for that any more."""
+        self.send_signal(signal.SIGKILL)
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            self._process.wait(1.0)
+            self._reaped = True
+
     def write(self, data: bytes) -> None:
         """Write to its stdin, as soon as it takes it."""
         self._unsent += data

@@ -184,7 +184,7 @@ def _launch_files(given: Given) -> Iterable[str]:
 def _launch_arguments(given: Given) -> Iterable[str]:
     from ros2.command.launch import launch_file, load
 
-    named = {"launch_file_name": None, **given, "launch_arguments": []}
+    named: dict[str, Any] = {"launch_file_name": None, **given, "launch_arguments": []}
     path, _ = launch_file(argparse.Namespace(**named))
     return (f"{argument.name}:=" for argument in load(path).get_launch_arguments())
 

@@ -247,7 +247,7 @@ class ExecuteLocal(Action):
             if child.has_left_something():
                 await self._wait_for_what_is_left(child, context, settings)
         except asyncio.CancelledError:  # the event loop ends without waiting for the launch
-            child.send_signal(signal.SIGKILL)
+            child.kill()
             raise
         finally:
             self.__ended.set()

@@ -215,6 +215,11 @@ def test_respawn(run, tmp_path):
     assert {line.partition(":")[0] for line in result.lines} == {"[INFO] [sh-1]", "[ERROR] [sh-1]"}
 
 
+def test_what_it_has_left_is_gone_before_it_is_started_again(run):
+    result = run(sh("sleep 1000 & exit 1", respawn=True, respawn_max_retries=1))
+    assert sum("process has died" in line for line in result.lines) == 2
+
+
 def test_a_shutdown_ends_respawning_even_while_it_waits(run):
     action = sh("exit 1", respawn=True, respawn_delay=1000.0)
     result = run(action, RegisterEventHandler(OnProcessExit(target_action=action, on_exit=[Shutdown()])))
@@ -311,6 +316,16 @@ def test_signals_and_input_on_demand(run):
     )
     assert result.printed_by("listener")[:3] == ["up", "heard", "read words"]
     assert "[INFO] [listener-1]: sending signal 'SIGUSR1' to process[listener-1]" in result.lines
+    assert result.code == 0
+
+
+def test_input_for_who_does_not_read_is_lost(run):
+    action = sh("exec <&-; echo up; exec sleep 1000")
+
+    def talk(context):
+        return [EmitEvent(event=ProcessStdin(text=b"words\n", action=action, **action.process_details)), Shutdown()]
+
+    result = run(action, when_printed(action, "up", OpaqueFunction(function=talk)))
     assert result.code == 0
 
 

@@ -176,6 +176,31 @@ def test_many_runs_in_one_process_do_not_know_of_each_other(capsys, monkeypatch)
     assert signal.getsignal(signal.SIGINT) is handler
 
 
+def test_a_loop_that_ends_takes_the_processes_along():
+    action = ExecuteProcess(cmd=["sleep", "1000"])
+
+    async def cell():
+        up = asyncio.Event()
+        service = started(action)
+        service.context.register_event_handler(
+            launch.event_handlers.OnProcessStart(on_start=lambda event, context: up.set())
+        )
+        task = asyncio.create_task(service.run_async())
+        await asyncio.wait_for(up.wait(), 30)
+        return task
+
+    asyncio.run(cell())
+    with pytest.raises(ProcessLookupError):
+        os.killpg(action.process_details["pid"], 0)
+
+
+def test_a_failure_leaves_the_scopes_it_was_in(run):
+    inner = [SetLaunchConfiguration("where", "inside"), OpaqueFunction(function=lambda context: 1 / 0)]
+    at_end = OnShutdown(on_shutdown=[note(LaunchConfiguration("where"))])
+    result = run(RegisterEventHandler(at_end), SetLaunchConfiguration("where", "outside"), GroupAction(inner))
+    assert (result.code, said(result)) == (1, ["outside"])
+
+
 def test_a_failure_does_not_stay():
     service = started(OpaqueFunction(function=lambda context: 1 / 0))
     assert service.run() == 1
