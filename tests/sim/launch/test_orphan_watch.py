@@ -27,6 +27,17 @@ service.run()
 """
 
 
+# The tests themselves may have been started with SIGINT ignored, as a shell's & does.
+STUBBORN = """\
+import signal
+for name in ("SIGINT", "SIGTERM"):
+    signal.signal(signal.Signals[name], signal.SIG_IGN if name in {} else signal.SIG_DFL)
+print("up", flush=True)
+while True:
+    signal.pause()
+"""
+
+
 def watchers():
     return [each for each in psutil.Process().children() if "orphan_watch" in each.cmdline()]
 
@@ -63,9 +74,8 @@ def test_sigkill_leaves_no_orphan(tmp_path):
     [((), 300, -signal.SIGINT), (("SIGINT",), 10, -signal.SIGTERM), (("SIGINT", "SIGTERM"), 2, -signal.SIGKILL)],
 )
 def test_it_escalates(ignored, patience, end):
-    traps = "".join(f"trap '' {name.removeprefix('SIG')}; " for name in ignored)
     with (
-        subprocess.Popen(["sh", "-c", f"{traps}echo up; exec sleep 1000"], process_group=0, stdout=-1) as child,
+        subprocess.Popen([sys.executable, "-S", "-c", STUBBORN.format(ignored)], process_group=0, stdout=-1) as child,
         subprocess.Popen(
             ["sh", "-c", orphan_watch.SCRIPT, "sh", str(patience)], stdin=-1, stderr=-3, text=True
         ) as watch,
