@@ -13,14 +13,13 @@ import contextlib
 import difflib
 import importlib
 import os
-import signal
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from prefix import local_setup
-from ros2 import completion
+from ros2 import completion, interruption
 from ros2.errors import CommandError
 from ros2.hand_over import hand_over
 
@@ -54,8 +53,7 @@ def _explained(arguments: list[str]) -> int:
     """Run `ros2`; every error is one sentence and an exit code."""
     # A shell's '&' starts programs with SIGINT ignored; an ended node must say so to the others: both signals
     # arrive as KeyboardInterrupt.
-    signal.signal(signal.SIGINT, signal.default_int_handler)
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    interruption.listen()
     try:
         sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
         return _run(COMMANDS, "ros2", arguments)

@@ -24,6 +24,7 @@ from rclpy.signals import SignalHandlerOptions
 
 from ros2.discovery import Participants
 from ros2.errors import CommandError
+from ros2.interruption import check
 from ros2.option_values import seconds
 
 FIRST_CONTACT = 3.3  # s within which every node there is has announced itself to a new one
@@ -101,6 +102,7 @@ class Graph:
     def spin_once(self, timeout: float = 0.1) -> None:
         """Run what has arrived, waiting up to `timeout` seconds for it."""
         self._executor.spin_once(timeout_sec=timeout)
+        check()
 
     def spin_until(self, condition: Callable[[], bool], timeout: float | None = None) -> bool:
         """Run what arrives until the condition is true; False if it is not within `timeout` seconds (None: ever)."""
@@ -173,6 +175,7 @@ class Graph:
             if left <= 0:
                 return False
             time.sleep(min(_POLL, left))
+            check()
         return True
 
     def _complete(self, quiet: float) -> bool:

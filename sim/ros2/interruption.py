@@ -1,0 +1,32 @@
+"""Ctrl-C that is not lost: SIGINT and SIGTERM arrive as KeyboardInterrupt, at the latest at the next `check`.
+
+Python drops an exception that a signal raises in a callback from C or in a `__del__`, and rclpy has many of both.
+`command_line` listens; `graph.Graph` checks in every loop that waits.
+"""
+
+from __future__ import annotations
+
+import signal
+from types import FrameType
+
+_heard = False
+
+
+def listen() -> None:
+    """Listen to both signals, also where a shell's `&` has set SIGINT to ignored."""
+    global _heard
+    _heard = False
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, _interrupt)
+
+
+def check() -> None:
+    """Raise KeyboardInterrupt if a signal has come."""
+    if _heard:
+        raise KeyboardInterrupt
+
+
+def _interrupt(number: int, frame: FrameType | None) -> None:
+    global _heard
+    _heard = True
+    raise KeyboardInterrupt
