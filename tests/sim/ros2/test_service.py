@@ -26,7 +26,7 @@ ASKED = {
     "wrong type": ["call", "/robot/enable", "std_srvs/srv/Trigger"],
     "no type": ["call", "/robot/enable", "std_srvs/srv/Triger"],
     "bad name": ["call", "/a b", "std_srvs/srv/Trigger"],
-    "unknown": ["call", "/robot/enabl", "std_srvs/srv/SetBool", "--timeout", "0.2"],
+    "unknown": ["call", "/robot/enabl", "std_srvs/srv/Trigger", "--timeout", "0.2"],
     "silent": ["call", SILENT, "std_srvs/srv/Trigger", "--timeout", "0.3"],
 }
 
