@@ -81,9 +81,9 @@ class Editing(Truth):
         """Put a model or a light into the running world; return the name it got.
 
         `what` is an SDF text, or a description that is in no world yet. `pose` (world frame) replaces its own. A name
-        that is taken gets `_0`, `_1`, ... behind it with `allow_renaming`. The state of all else stays exactly as it is;
-        from then on one solver serves all, so that later digits (1e-20 m) may differ. Raises `SimError` (`SdfError` with
-        file and line for a bad text); the world is then as before.
+        that is taken gets `_0`, `_1`, ... behind it with `allow_renaming`. The state of all else stays as it is, bit for
+        bit. From then on one solver serves all, so that last digits (1e-20 m) may differ. Raises `SimError` (`SdfError`
+        with file and line for a bad text); the world is then as before.
         """
         self.requests.refuse_inside_step("take in a model")
         made = read_model(what, file_name, self.diagnostics, name) if isinstance(what, str) else what
