@@ -8,6 +8,7 @@ searched.
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from collections.abc import Iterable, Sequence
 
@@ -40,7 +41,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"bridge_types: {error}", file=sys.stderr)
         return 1
     except BrokenPipeError:  # the reader has seen enough, for instance `head`
-        sys.stderr.close()
+        # What is still in the buffer must not fail once more when the interpreter ends.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     return 0
 

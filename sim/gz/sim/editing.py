@@ -81,7 +81,7 @@ class Editing(Truth):
         """Put a model or a light into the running world; return the name it got.
 
         `what` is an SDF text, or a description that is in no world yet. `pose` (world frame) replaces its own. A name
-        that is taken gets `_0`, `_1`, ... behind it with `allow_renaming`. The state of all else stays as it is, bit for
+        that is taken gets `_0`, `_1`, ... behind it with `allow_renaming`. The state of all else stays as it is, to the
         bit. From then on one solver serves all, so that last digits (1e-20 m) may differ. Raises `SimError` (`SdfError`
         with file and line for a bad text); the world is then as before.
         """

@@ -59,7 +59,12 @@ def test_bridges_from_a_parameter_file_in_a_namespace(start, ros, inbox, eventua
             assert publisher.wait_for_subscribers(timeout=DEADLINE)
             eventually(lambda: (publisher.publish(GzLaserScan(frame="x")), scans.messages)[1], "a scan arrives")
             assert scans.messages[0].header.frame_id == "front"
-        eventually(lambda: ros.node.get_subscriptions_info_by_topic("/robot1/cmd"), "the bridge listens")
+
+        def known() -> bool:  # DDS tells of endpoints before it tells the names of their nodes
+            found = ros.node.get_subscriptions_info_by_topic("/robot1/cmd")
+            return bool(found) and not found[0].node_name.startswith("_NODE_NAME_UNKNOWN")
+
+        eventually(known, "the bridge listens")
         (info,) = ros.node.get_subscriptions_info_by_topic("/robot1/cmd")
         assert info.node_name == "my_bridge"
         assert info.qos_profile.reliability == ReliabilityPolicy.BEST_EFFORT
