@@ -110,6 +110,7 @@ class DiffDrive(System):
         self._started = False
         self._reports.start()
         self._target = (0.0, 0.0)
+        self._heeded: tuple[float, float] | None = None
         self._last = (0.0, 0.0)
         self._before_last = (0.0, 0.0)
         self._left_speed = self._right_speed = 0.0
@@ -159,11 +160,32 @@ class DiffDrive(System):
 
     def post_update(self, info: UpdateInfo) -> None:
         """Compute the next wheel speeds, advance the odometry, publish it when due."""
+        target = self._target
+        if self._limited or target is not self._heeded:  # most steps bring nothing new
+            self._heeded = target
+            self._find_speeds(info.dt)
+        positions = self._world.data.qpos
+        left = positions.item(self._left[0].position)
+        right = positions.item(self._right[0].position)
+        if not self._started:
+            # Gazebo's odometry takes its start from the first step without publishing; its wheels count from
+            # zero.
+            self._odometry.reset(0.0, 0.0)
+            self._started = True
+            return
+        odometry = self._odometry
+        odometry.update(left, right, info.dt)
+        if self._reports.due(info.sim_time_ns):
+            pose = (odometry.x, odometry.y, odometry.heading)
+            self._reports.publish(info.sim_time_ns, pose, odometry.linear, odometry.angular)
+
+    def _find_speeds(self, dt: float) -> None:
+        """Bring the target within its limits and turn it into wheel speeds."""
         linear, angular = self._target
         if self._limited:
             last, before = self._last, self._before_last
-            linear = self._limit_linear.limit(linear, last[0], before[0], info.dt)
-            angular = self._limit_angular.limit(angular, last[1], before[1], info.dt)
+            linear = self._limit_linear.limit(linear, last[0], before[0], dt)
+            angular = self._limit_angular.limit(angular, last[1], before[1], dt)
             self._before_last = last
             self._last = (linear, angular)
         turn = angular * self._half_separation
@@ -181,20 +203,6 @@ class DiffDrive(System):
             right_speed = min(max(right_speed, -MAX_WHEEL_SPEED), MAX_WHEEL_SPEED)
         self._left_speed = left_speed
         self._right_speed = right_speed
-        positions = self._world.data.qpos
-        left = positions.item(self._left[0].position)
-        right = positions.item(self._right[0].position)
-        if not self._started:
-            # Gazebo's odometry takes its start from the first step without publishing; its wheels count from
-            # zero.
-            self._odometry.reset(0.0, 0.0)
-            self._started = True
-            return
-        odometry = self._odometry
-        odometry.update(left, right, info.dt)
-        if self._reports.due(info.sim_time_ns):
-            pose = (odometry.x, odometry.y, odometry.heading)
-            self._reports.publish(info.sim_time_ns, pose, odometry.linear, odometry.angular)
 
 
 def _joints(model: Model, plugin: Plugin, side: str) -> list[str]:
