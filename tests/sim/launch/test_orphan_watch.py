@@ -39,12 +39,19 @@ while True:
 """
 
 
-def watchers():
-    found = []
+def all_watchers():
+    found = set()
     for each in psutil.Process().children():
         with contextlib.suppress(psutil.Error):  # another test's child has ended just now
-            found += [each] if "orphan_watch" in each.cmdline() else []
+            found |= {each.pid} if "orphan_watch" in each.cmdline() else set()
     return found
+
+
+@pytest.fixture
+def watchers():
+    """Looks for the watchers that came since the test began."""
+    before = all_watchers()
+    return lambda: all_watchers() - before
 
 
 def test_sigkill_leaves_no_orphan(tmp_path):
@@ -103,7 +110,7 @@ def test_who_has_ended_is_left_alone():
         other.kill()
 
 
-def test_it_lives_as_long_as_there_are_processes(run):
+def test_it_lives_as_long_as_there_are_processes(run, watchers):
     seen = []
 
     def look(context):
@@ -112,17 +119,17 @@ def test_it_lives_as_long_as_there_are_processes(run):
     started = OnProcessStart(on_start=[OpaqueFunction(function=look), Shutdown()])
     run(RegisterEventHandler(started), ExecuteProcess(cmd=["sleep", "1000"]))
     assert seen == [1]
-    assert watchers() == []
+    assert watchers() == set()
 
 
-def test_a_fork_does_not_keep_it():
+def test_a_fork_does_not_keep_it(watchers):
     with subprocess.Popen(["sleep", "1000"], process_group=0) as child:
         orphan_watch.watch(child.pid)
         fork = multiprocessing.get_context("fork").Process(target=signal.pause)
         fork.start()
         try:
             orphan_watch.unwatch(child.pid)  # waits for the shell, which reads until nobody holds the pipe
-            assert watchers() == []
+            assert watchers() == set()
         finally:
             for each in (fork, child):
                 each.kill()
