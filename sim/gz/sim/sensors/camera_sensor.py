@@ -25,15 +25,14 @@ if TYPE_CHECKING:
     from gz.sim.world import World
     from gz.transport import Node
 
-IGNORED = {"save": "images are not written to disk here; subscribe, or record the topic"}
-"""Parts of `<camera>` that are read over, and what to do instead."""
-
 
 class CameraSensor(SensorBase):
     """Base of the cameras; `pinhole` is the lens, `caster` the rays of its pixels."""
 
     info_beside = True
     """Whether camera_info stands beside the topic; otherwise below it."""
+    near_hides = True
+    """Whether what is nearer than the near plane is looked through."""
     wanted: ClassVar[dict[str, str]] = {}
     """Suffix of each topic this camera publishes, and the message type."""
 
@@ -42,10 +41,10 @@ class CameraSensor(SensorBase):
         camera = description.element.find("camera")
         if camera is None:
             raise description.element.error(f"{description.kind} sensor '{description.name}' needs a <camera> element")
-        for tag, reason in IGNORED.items():
-            part = camera.find(tag)
-            if part is not None and (tag != "save" or part.attributes.get("enabled", "false") in ("true", "1")):
-                world.diagnostics.warn(part.where, f"<{tag}> of sensor '{description.name}' is ignored: {reason}")
+        save = camera.find("save")
+        if save is not None and save.attributes.get("enabled", "false") in ("true", "1"):
+            reason = "images are not written to disk here; subscribe, or record the topic"
+            world.diagnostics.warn(save.where, f"<save> of sensor '{description.name}' is ignored: {reason}")
         self.camera = camera
         self.pinhole = Pinhole(camera)
         self.noise = Noise.from_sdf(camera.find("noise"))
@@ -54,16 +53,15 @@ class CameraSensor(SensorBase):
         self.info_topic = valid_topic(camera.text_of("camera_info_topic"), f"{parent}/camera_info")
         self._triggered = camera.flag("triggered", False)
         self.trigger_topic = valid_topic(camera.text_of("trigger_topic"), f"{self.topic}/trigger")
-        self._directions = self.pinhole.directions()
+        self.directions = self.pinhole.directions()
         # A renderer leaves out what is nearer than the near plane, and what is behind the far plane.
-        along = self._directions[:, 0]
+        along = self.directions[:, 0]
+        near = self.pinhole.near / along if self.near_hides else np.zeros(len(along))
         self._far = self.pinhole.far / along
         self._along = along
         mask = camera.integer("visibility_mask", ALL_BITS)
         reach = float(self._far.max())
-        self.caster = RayCaster(
-            world, description, self._directions, VISUAL_GROUP, self.pinhole.near / along, reach, mask
-        )
+        self.caster = RayCaster(world, description, self.directions, VISUAL_GROUP, near, reach, mask)
         self.publishers: dict[str, Any] = {}
         self._info: Any = None
 

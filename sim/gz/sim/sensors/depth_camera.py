@@ -11,12 +11,11 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gz.sim.physics.builder import VISUAL_GROUP
 from gz.sim.sdf.description import Sensor
 from gz.sim.sensors.camera import to_bytes
 from gz.sim.sensors.camera_sensor import CameraSensor
 from gz.sim.sensors.point_cloud import COLOURED, pack_rgb
-from gz.sim.sensors.ray_caster import ALL_BITS, Hits, RayCaster
+from gz.sim.sensors.ray_caster import Hits
 from gz.sim.sensors.registry import sensor_type
 from gz.sim.sensors.shading import Shader
 
@@ -27,20 +26,10 @@ if TYPE_CHECKING:
 class DepthSensing(CameraSensor):
     """What depth cameras and RGBD cameras share."""
 
+    near_hides = False
+
     def __init__(self, world: World, description: Sensor) -> None:
         super().__init__(world, description)
-        mask = self.camera.integer("visibility_mask", ALL_BITS)
-        directions = self.pinhole.directions()
-        nothing_hides = np.zeros(len(directions))
-        self.caster = RayCaster(
-            world,
-            description,
-            directions,
-            VISUAL_GROUP,
-            nothing_hides,
-            self.pinhole.far / float(directions[:, 0].min()),
-            mask,
-        )
         self.shader = Shader(world)
         left, up = self.pinhole.slopes()
         self._slopes = np.stack((np.ones_like(left), left, up))

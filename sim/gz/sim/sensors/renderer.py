@@ -123,7 +123,7 @@ class GlRenderer:
         mujoco.mjr_readPixels(self._pixels, self._depth, self._rectangle, self._drawing)
         colours = np.flipud(self._pixels).reshape(-1, 3).astype(np.float32) / np.float32(255.0)
         empty = np.flatnonzero(np.flipud(self._depth).ravel() >= 1.0)
-        colours[empty] = self._shader.background((self._camera.pinhole.directions() @ axes.reshape(3, 3).T)[empty])
+        colours[empty] = self._shader.background((self._camera.directions @ axes.reshape(3, 3).T)[empty])
         return colours
 
 
