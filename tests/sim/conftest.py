@@ -3,9 +3,7 @@
 import contextlib
 import importlib
 import os
-import random
 import signal
-import socket
 import subprocess
 import sys
 import threading
@@ -15,6 +13,8 @@ from pathlib import Path
 
 import psutil
 import pytest
+
+from grader.run.domain import Domain
 
 DEADLINE = 30.0
 
@@ -140,17 +140,8 @@ class Programs:
 @pytest.fixture(scope="session")
 def free_domain():
     """The number of a DDS domain held for this session."""
-    for number in random.sample(range(1, 102), 101):
-        lock = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
-        try:
-            lock.bind(f"\0gz-ros2-course-domain-{number}")
-        except OSError:
-            lock.close()
-            continue
-        yield number
-        lock.close()
-        return
-    pytest.fail("every DDS domain from 1 to 101 is in use")
+    with Domain() as domain:
+        yield domain.id
 
 
 @pytest.fixture(scope="module")

@@ -1,9 +1,7 @@
 """Running `ros2` as a process, in a DDS domain nobody else uses."""
 
 import os
-import random
 import signal
-import socket
 import subprocess
 import sys
 import threading
@@ -12,29 +10,19 @@ from concurrent.futures import ThreadPoolExecutor
 import psutil
 import pytest
 
+from grader.run.domain import Domain
+
 DEADLINE = 30.0
 
 
 @pytest.fixture(scope="session")
 def ros_domain(tmp_path_factory):
     """The number of a DDS domain held for this session, set in the environment for children too."""
-    numbers = list(range(1, 102))
-    random.shuffle(numbers)
-    for number in numbers:
-        lock = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
-        try:
-            lock.bind(f"\0gz-ros2-course-domain-{number}")
-            break
-        except OSError:
-            lock.close()
-    else:
-        pytest.fail("every DDS domain from 1 to 101 is in use")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("ROS_DOMAIN_ID", str(number))
+    with Domain() as domain, pytest.MonkeyPatch.context() as patch:
+        patch.setenv("ROS_DOMAIN_ID", str(domain.id))
         patch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
         patch.setenv("ROS_LOG_DIR", str(tmp_path_factory.mktemp("ros_log")))
-        yield number
-    lock.close()
+        yield domain.id
 
 
 class Command:

@@ -1,9 +1,7 @@
 """A DDS domain and a Gazebo partition nobody else uses, ROS, a parameter_bridge, waiting with a deadline."""
 
 import os
-import random
 import signal
-import socket
 import subprocess
 import sys
 import threading
@@ -12,6 +10,8 @@ import uuid
 import warnings
 
 import pytest
+
+from grader.run.domain import Domain
 
 with warnings.catch_warnings():
     # The parser that ROS's message packages bring along (lark) still imports a deprecated module.
@@ -62,19 +62,8 @@ def inbox():
 @pytest.fixture(scope="session")
 def ros_domain(tmp_path_factory):
     """The number of a DDS domain held for this session, set in the environment for children too."""
-    numbers = list(range(1, 102))
-    random.shuffle(numbers)
-    for number in numbers:
-        lock = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
-        try:
-            lock.bind(f"\0gz-ros2-course-domain-{number}")
-            break
-        except OSError:
-            lock.close()
-    else:
-        pytest.fail("every DDS domain from 1 to 101 is in use")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("ROS_DOMAIN_ID", str(number))
+    with Domain() as domain, pytest.MonkeyPatch.context() as patch:
+        patch.setenv("ROS_DOMAIN_ID", str(domain.id))
         patch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
         patch.setenv("ROS_LOG_DIR", str(tmp_path_factory.mktemp("ros_log")))
         patch.setenv(
@@ -82,8 +71,7 @@ def ros_domain(tmp_path_factory):
         )  # shared memory leaves files behind when a process is killed
         patch.setenv("GZ_PARTITION", f"test-{uuid.uuid4().hex}")
         patch.setenv("GZ_IP", "127.0.0.1")
-        yield number
-    lock.close()
+        yield domain.id
 
 
 class Ros:
