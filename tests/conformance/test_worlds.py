@@ -4,9 +4,6 @@ stands in the same place, every joint connects the same links.
 Needs Debian's `libsdformat-dev` and `g++`; skipped where they are missing.
 """
 
-import json
-import shutil
-import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -17,31 +14,16 @@ from hypothesis import strategies as st
 from gz.sim.errors import Diagnostics
 from gz.sim.pose import Pose, rotate
 from gz.sim.sdf.reader import read_world
+from tests.conformance.libsdformat import libsdformat
 from tests.conformance.random_worlds import WorldMaker
 
 NEEDS_CLIENT = False
-SOURCE = Path(__file__).with_name("sdformat_world.cc")
 
 
 @pytest.fixture(scope="module")
 def sdformat(tmp_path_factory):
-    """libsdformat in a process of its own: a function that reads one file."""
-    if shutil.which("g++") is None or shutil.which("pkg-config") is None:
-        pytest.skip("conformance with libsdformat was NOT tested: install g++ and pkg-config")
-    flags = subprocess.run(["pkg-config", "--cflags", "--libs", "sdformat12"], capture_output=True, text=True)
-    if flags.returncode:
-        pytest.skip("conformance with libsdformat was NOT tested: install libsdformat-dev (Debian 12)")
-    program = tmp_path_factory.mktemp("oracle") / "sdformat_world"
-    subprocess.run(["g++", SOURCE, "-o", program, *flags.stdout.split()], check=True, timeout=120)
-    process = subprocess.Popen([program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-
-    def read(path: Path) -> dict:
-        process.stdin.write(f"{path}\n")
-        process.stdin.flush()
-        return json.loads(process.stdout.readline())
-
-    yield read
-    process.communicate(timeout=20)
+    with libsdformat("sdformat_world.cc", tmp_path_factory.mktemp("oracle")) as read:
+        yield read
 
 
 def ours(text: str, path: Path) -> dict[tuple[str, str], Pose]:

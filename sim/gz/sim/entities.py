@@ -56,14 +56,8 @@ class Entities:
             self._add("model", (model.name, nested.name))
         for link in model.links:
             self._add("link", (model.name, link.name))
-            for kind, parts in (
-                ("visual", link.visuals),
-                ("collision", link.collisions),
-                ("sensor", link.sensors),
-                ("light", link.lights),
-            ):
-                for part in parts:
-                    self._add(kind, (model.name, link.name, part.name))
+            for kind, part in link.parts():
+                self._add(kind, (model.name, link.name, part.name))
         for joint in model.joints:
             self._add("joint", (model.name, joint.name))
             for sensor in joint.sensors:

@@ -7,6 +7,7 @@ import pytest
 
 import launch.logging
 from launch import LaunchDescription, LaunchService
+from tests.sim.launch.conftest import performed  # noqa: F401
 
 DEADLINE = 30.0
 # Writes its words, and what is in its parameter files, as one line of JSON.
@@ -69,15 +70,3 @@ def tell(package, tmp_path, capsys):
         return Told(code, capsys.readouterr().out)
 
     return run
-
-
-@pytest.fixture
-def performed():
-    """The text of a substitution, with these launch configurations."""
-
-    def perform(substitution, **configurations):
-        context = launch.LaunchContext()
-        context.launch_configurations.update(configurations)
-        return context.perform_substitution(substitution)
-
-    return perform

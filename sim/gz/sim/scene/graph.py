@@ -136,14 +136,8 @@ class SceneGraph:
             path = (model.name, link.name)
             vertex = self._add(above, "link", _own(link.name), path, link, place.inverse() * link.pose)
             vertex.static = model.static or link.static
-            for kind, parts in (
-                ("visual", link.visuals),
-                ("collision", link.collisions),
-                ("sensor", link.sensors),
-                ("light", link.lights),
-            ):
-                for part in parts:
-                    self._add(vertex, kind, part.name, (*path, part.name), part, part.pose, static=vertex.static)
+            for kind, part in link.parts():
+                self._add(vertex, kind, part.name, (*path, part.name), part, part.pose, static=vertex.static)
             self._let_move(vertex, model, link.name, link)
         for joint in model.joints:
             path = (model.name, joint.name)

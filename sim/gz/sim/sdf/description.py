@@ -7,6 +7,7 @@ model's frame.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -148,6 +149,17 @@ class Link:
     gravity: bool = True
     self_collide: bool = False
     static: bool = False
+
+    def parts(self) -> Iterator[tuple[str, Collision | Visual | Sensor | Light]]:
+        """Yield (kind, part) of all that is fixed to it, in the order in which entities are numbered."""
+        for kind, parts in (
+            ("visual", self.visuals),
+            ("collision", self.collisions),
+            ("sensor", self.sensors),
+            ("light", self.lights),
+        ):
+            for part in parts:
+                yield kind, part
 
 
 @dataclass(eq=False)

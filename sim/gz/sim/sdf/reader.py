@@ -35,9 +35,7 @@ _NOT_SIMULATED = {
 
 
 def read_world_file(path: Path, diagnostics: Diagnostics) -> WorldDescription:
-    """Read the world of an SDF file; a file with only models is put into a world of its own, as `gz sim`
-    refuses to.
-    """
+    """Read the world of an SDF file; raise `SdfError` for what is none, also for a file with only a model."""
     return read_world(read_text(path), str(path), diagnostics)
 
 
