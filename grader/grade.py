@@ -10,7 +10,7 @@ from grader.exercise import Exercise, find_exercise
 from grader.intake import take_in
 from grader.printable import shown
 from grader.record.reading import Recording
-from grader.report.report import HostFacts, Report
+from grader.report.report import HostFacts, Report, TrialReport
 from grader.report.verdicts import write_verdicts
 from grader.score.score import Score, score
 from grader.trial import Trial
@@ -79,4 +79,5 @@ def make_report(
         seed=run["seed"],
         versions=recording.properties("versions"),
         host=host,
+        trials=(TrialReport("public", run["seed"], verdict, path, verdict.truth_sha256),),
     )

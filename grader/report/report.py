@@ -24,8 +24,19 @@ class HostFacts:
 
 
 @dataclass(frozen=True)
+class TrialReport:
+    """One run of the submission: the trial's name and seed, the score of this run alone, and its recording."""
+
+    name: str
+    seed: int
+    score: Score
+    recording: Path
+    truth_sha256: str
+
+
+@dataclass(frozen=True)
 class Report:
-    """A score with everything around it."""
+    """A score with everything around it. `score` is that of all `trials` together, `recording` that of the first."""
 
     exercise: str
     title: str
@@ -37,6 +48,7 @@ class Report:
     seed: int
     versions: dict[str, Any]
     host: HostFacts | None = None
+    trials: tuple[TrialReport, ...] = ()
 
     @property
     def full_marks(self) -> bool:
@@ -72,7 +84,17 @@ class Report:
                 }
                 for check in self.score.checks
             ],
-            "trials": [{"name": "public", "seed": self.seed, "score": self.score.points}],
+            "trials": [
+                {
+                    "name": trial.name,
+                    "seed": trial.seed,
+                    "score": trial.score.points,
+                    "outcome": trial.score.outcome,
+                    "recording": str(trial.recording),
+                    "truth_sha256": trial.truth_sha256,
+                }
+                for trial in self.trials
+            ],
             "sandbox": host.sandbox if host else None,
             "pace": host.pace if host else None,
             "recording": str(self.recording),

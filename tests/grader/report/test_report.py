@@ -9,7 +9,7 @@ import pytest
 from rich.console import Console
 
 from grader.exercise import CheckSpec
-from grader.report.report import HostFacts, Report
+from grader.report.report import HostFacts, Report, TrialReport
 from grader.report.terminal import print_report
 from grader.score.check import Finding
 from grader.score.score import CheckResult, Score
@@ -26,17 +26,19 @@ def result(id, passed, measured="was 0.5"):
     return CheckResult(spec, Finding(passed, "is 0.5", measured, 1.25 if passed else None))
 
 
+SCORE = Score((result("good", True), result("bad", False)), "graded", "The bad one: was 0.5.", "ab" * 32)
 REPORT = Report(
     exercise="03_teleop",
     title="Drive",
     submission="/home/me/teleop_node.py",
     recording=Path("runs/03_teleop.rrd"),
-    score=Score((result("good", True), result("bad", False)), "graded", "The bad one: was 0.5.", "ab" * 32),
+    score=SCORE,
     max_score=100,
     sim_seconds=8.0,
     seed=3,
     versions={"mujoco": "4.0.0"},
     host=HostFacts("D", "lockstep", 0.5, 2.0),
+    trials=(TrialReport("public", 3, SCORE, Path("runs/03_teleop.rrd"), "ab" * 32),),
 )
 
 
@@ -50,7 +52,8 @@ def test_the_values():
     data = json.loads(REPORT.as_json())
     assert (data["score"], data["max_score"], data["outcome"]) == (50, 100, "graded")
     assert (data["real_time_factor"], data["run_wall_seconds"], data["wall_seconds"]) == (16.0, 0.5, 2.0)
-    assert data["trials"] == [{"name": "public", "seed": 3, "score": 50}]
+    trial = {"name": "public", "seed": 3, "score": 50, "outcome": "graded"}
+    assert data["trials"] == [trial | {"recording": "runs/03_teleop.rrd", "truth_sha256": "ab" * 32}]
     good, bad = data["checks"]
     assert (good["status"], good["points"], good["at_s"], good["hint"]) == ("passed", 50, 1.25, None)
     assert (bad["status"], bad["points"], bad["at_s"], bad["hint"]) == ("failed", 0, None, "Hint for bad.")
