@@ -27,6 +27,7 @@ LONGEST_LINE = 2_000  # [characters] of one line that are kept
 MOST_LINES = 20_000  # kept per run; the rest is counted
 MOST_READ = 1 << 20  # [bytes] of a pipe, and
 MOST_REPORTS = 1_000  # of the socket, taken at once: who writes without end does not keep the grader from going on
+SHOWN_FOLDER = b"/submission"  # what the folder of a submission is called in its log
 GRACE = 1.5  # [s] between SIGINT, SIGTERM and SIGKILL
 
 
@@ -94,32 +95,20 @@ class Student:
     `progress` is its latest report (None before the first), `exit_code` is None while it runs.
     """
 
-    def __init__(self, file: Path, sandbox: Sandbox, topics: dict[str, str]) -> None:
-        """Start `file` with simulated time switched on.
+    def __init__(self, folder: Path, program: str, sandbox: Sandbox, topics: dict[str, str]) -> None:
+        """Start the file `program` of a staged folder with simulated time switched on.
 
         `topics` maps the topics the grader publishes or subscribes to onto their ROS types.
         """
         ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         ours.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 20)
-        environment = sandbox.student_environment() | {
-            participant.SOCKET_FD: str(theirs.fileno()),
-            participant.TOPICS: json.dumps(topics),
-        }
+        environment = {participant.SOCKET_FD: str(theirs.fileno()), participant.TOPICS: json.dumps(topics)}
         self._children_before = _children()
-        command = [sys.executable, "-P", participant.__file__, str(file)]
-        self._process = subprocess.Popen(
-            [*command, "--ros-args", "-p", "use_sim_time:=true"],
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            env=environment,
-            cwd=sandbox.home,
-            pass_fds=(theirs.fileno(),),
-            start_new_session=True,
-        )
+        self._folder = str(folder).encode()
+        command = [sys.executable, "-P", participant.__file__, str(folder / program)]
+        command += ["--ros-args", "-p", "use_sim_time:=true"]
+        self._process = sandbox.start(command, environment, (theirs.fileno(),))
         theirs.close()
-        with contextlib.suppress(ProcessLookupError):
-            sandbox.limit(self._process.pid)
         self._channel = ours
         self._selector = selectors.DefaultSelector()
         self._partial: dict[int, bytes] = {}
@@ -199,6 +188,7 @@ class Student:
     def _keep(self, line: bytes) -> None:
         self._line_count += 1
         if self._line_count <= MOST_LINES:
+            line = line.replace(self._folder, SHOWN_FOLDER)  # where it lies differs between equal runs
             self._lines.append(line.decode(errors="replace")[:LONGEST_LINE])
 
     def _read_progress(self) -> None:

@@ -6,11 +6,14 @@ the machine's loopback, kept apart by the ROS domain. The level stands in every 
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import os
 import resource
 import shutil
+import subprocess
 import tempfile
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 LEVEL = "D"
@@ -45,7 +48,9 @@ def ros_environment(domain: int, log_dir: Path) -> dict[str, str]:
 class Sandbox:
     """A private folder and the environment for one run; `close()` removes the folder."""
 
-    def __init__(self, domain: int) -> None:
+    level = LEVEL
+
+    def __init__(self, domain: int, level: str = "auto") -> None:
         self.folder = Path(tempfile.mkdtemp(prefix="course-"))
         self.domain = domain
         ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1)  # orphaned daemons become ours to sweep
@@ -83,6 +88,36 @@ class Sandbox:
         home = self.folder / "home"
         home.mkdir(exist_ok=True)
         return home
+
+    def stage(self, files: Mapping[str, bytes]) -> Path:
+        """Put files (by name, relative, with `/` between parts) into the box; the folder as the box sees it."""
+        folder = self.folder / "submission"
+        for name, data in files.items():
+            path = folder / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(data)
+        return folder
+
+    def start(
+        self, command: Sequence[str], environment: Mapping[str, str], pass_fds: Sequence[int] = ()
+    ) -> subprocess.Popen[bytes]:
+        """Start a command in the box, in a process group of its own, with stdout and stderr as pipes.
+
+        `environment` is added to `student_environment()`; `pass_fds` keep their numbers.
+        """
+        process = subprocess.Popen(
+            list(command),
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            env=self.student_environment() | dict(environment),
+            cwd=self.home,
+            pass_fds=tuple(pass_fds),
+            start_new_session=True,
+        )
+        with contextlib.suppress(ProcessLookupError):
+            self.limit(process.pid)
+        return process
 
     def limit(self, pid: int) -> None:
         """Put the resource limits on a process that was just started."""
