@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from grader.errors import ManifestError, UsageError, nearest
+from grader.kinds.kind import find_kind, kind_names
 from grader.table import Table
 
 MANIFEST = "exercise.toml"
@@ -47,12 +48,13 @@ class Exercise:
     folder: Path
     title: str
     summary: str
+    kind: str  # of submission: a file in `kinds/`
     file: str  # the file a submission consists of
     world: str
     robot: str
     duration: float  # [s] simulated
     tick: float  # [s] simulated time between two /clock messages
-    bridge: Path
+    bridge: Path | None  # what stands between simulator and ROS; None if that is part of the submission
     observe: dict[str, str]  # ROS topics the student is to publish on -> type
     script: tuple[ScriptedCommand, ...]
     checks: tuple[CheckSpec, ...]
@@ -105,17 +107,19 @@ def load_exercise(folder: Path) -> Exercise:
     path = folder / MANIFEST
     manifest = Table.load(path)
     run = manifest.table("run")
+    kind = manifest.choice("kind", kind_names()) if manifest.has("kind") else "node"
     exercise = Exercise(
         name=folder.name,
         folder=folder,
         title=manifest.text("title"),
         summary=manifest.text("summary").strip(),
+        kind=kind,
         file=manifest.text("file"),
         world=run.text("world"),
         robot=run.text("robot"),
         duration=run.number("duration", above=0),
         tick=run.number("tick", 0.01, above=0),
-        bridge=folder / run.text("bridge"),
+        bridge=None if find_kind(kind).brings_bridge else folder / run.text("bridge"),
         observe=_observed(run.table("observe", {})),
         script=tuple(_command(command) for command in manifest.tables("script", [])),
         checks=tuple(_check(path, check) for check in manifest.tables("check")),

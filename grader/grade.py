@@ -50,7 +50,7 @@ def grade(
         verdict = score(recording, exercise)
         write_verdicts(recorder, verdict, exercise.max_score, exercise.duration)
     host = HostFacts(result.sandbox, result.pace, result.run_wall_seconds, time.monotonic() - started)
-    return make_report(recording, path, exercise, verdict, shown(str(submission.file), LONGEST_PATH), host)
+    return make_report(recording, path, exercise, verdict, shown(str(submission.path), LONGEST_PATH), host)
 
 
 def grade_again(path: Path, root: Path | None = None) -> Report:

@@ -1,64 +1,81 @@
-"""Takes a submission in: finds the file asked for and reads it before anything is run.
+"""Takes a submission in: finds the file asked for and reads it, with what lies beside it, before anything is run.
 
-What cannot be read is a usage error (exit 2). What can be read but is not Python is the student's error: it is
-graded, with no points, and told the line.
+What cannot be read is a usage error (exit 2). What can be read but can never run is the student's error: it is graded,
+with no points, and told the line.
 """
 
 from __future__ import annotations
 
 import hashlib
-import io
 import stat
-import tokenize
-import warnings
-from dataclasses import dataclass
 from pathlib import Path
 
 from grader.errors import UsageError, nearest
 from grader.exercise import Exercise
+from grader.kinds.kind import find_kind
 from grader.printable import shown
+from grader.submission import Submission
 
 LARGEST = 1 << 20  # [bytes] of a submitted file
-
-
-@dataclass(frozen=True)
-class Submission:
-    """A file to grade. `fault` says in one sentence why it cannot run; None if it can."""
-
-    file: Path
-    sha256: str
-    fault: str | None = None
+LARGEST_FOLDER = 16 << 20  # [bytes] of all files of a submitted folder
+MOST_FILES = 200  # of a submitted folder
 
 
 def take_in(exercise: Exercise, path: Path | None) -> Submission:
     """Find and read the submission at `path`: the file itself or a folder with it; None is the student's own copy.
 
-    Raises UsageError if there is nothing to read.
+    A folder comes with everything in it, a file alone. Raises UsageError if there is nothing to read.
     """
-    path = path if path is not None else exercise.starter
+    path = path if path is not None else exercise.folder
     if not _is_utf8(path):
         raise UsageError(f"{shown(str(path))!r}: a file name must be UTF-8, or ROS cannot start the file; rename it")
-    if _is_folder(path):
-        names = _python_files(path)
+    kind = find_kind(exercise.kind)
+    folder = path if _is_folder(path) else None
+    if folder is not None:
+        names = _files(folder, kind.suffixes)
         if exercise.file not in names:
             raise UsageError(
                 f"{path} holds no {exercise.file}, the file {exercise.name} asks for{nearest(exercise.file, names)}"
             )
-        path = path / exercise.file
+        path = folder / exercise.file
+    data = _read(path, exercise.file, kind.suffixes)
+    files = {path.name: data}
+    if folder is not None:
+        files |= _beside(folder)
+    return Submission(path.resolve(), path.name, hashlib.sha256(data).hexdigest(), kind.fault(path.name, data), files)
+
+
+def _read(path: Path, wanted: str, suffixes: tuple[str, ...]) -> bytes:
     try:
         status = path.stat()
         if not stat.S_ISREG(status.st_mode):
-            raise UsageError(f"{path} is not a regular file; give the {exercise.file} to grade or its folder")
+            raise UsageError(f"{path} is not a regular file; give the {wanted} to grade or its folder")
         if status.st_size > LARGEST:
             raise UsageError(f"{path} has {status.st_size} bytes; at most {LARGEST} are accepted")
         with path.open("rb") as stream:
-            data = stream.read(LARGEST + 1)
+            return stream.read(LARGEST + 1)
     except FileNotFoundError:
-        raise UsageError(f"there is no file {path}{nearest(path.name, _python_files(path.parent))}") from None
+        raise UsageError(f"there is no file {path}{nearest(path.name, _files(path.parent, suffixes))}") from None
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise UsageError(f"{str(path)[:200]!r} cannot be read: {reason}") from None
-    return Submission(path.resolve(), hashlib.sha256(data).hexdigest(), _fault(data, path.name))
+
+
+def _beside(folder: Path) -> dict[str, bytes]:
+    """Return the regular files below a folder: relative name -> content. Symbolic links are left out."""
+    files: dict[str, bytes] = {}
+    total = 0
+    for path in sorted(folder.rglob("*")):
+        name = path.relative_to(folder).as_posix()
+        if "__pycache__" in path.parts or path.is_symlink() or not path.is_file() or not _is_utf8(path):
+            continue
+        total += path.stat().st_size
+        if len(files) >= MOST_FILES or total > LARGEST_FOLDER:
+            raise UsageError(
+                f"{folder} is too large: at most {MOST_FILES} files and {LARGEST_FOLDER} bytes are accepted in a folder"
+            )
+        files[name] = _read(path, name, ())
+    return files
 
 
 def _is_utf8(path: Path) -> bool:
@@ -76,27 +93,8 @@ def _is_folder(path: Path) -> bool:
         return False
 
 
-def _python_files(folder: Path) -> list[str]:
+def _files(folder: Path, suffixes: tuple[str, ...]) -> list[str]:
     try:
-        return [p.name for p in folder.iterdir() if p.suffix == ".py" and p.is_file()]
+        return [p.name for p in folder.iterdir() if p.name.endswith(suffixes) and p.is_file()]
     except OSError:
         return []
-
-
-def _fault(data: bytes, name: str) -> str | None:
-    try:
-        # compile() passes bytes in a comment that are not UTF-8; Python, which is given the file, does not.
-        data.decode(tokenize.detect_encoding(io.BytesIO(data).readline)[0])
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # an odd escape in a student's string is not our business
-            compile(data, name, "exec", dont_inherit=True)
-    except UnicodeDecodeError as error:
-        line = data[: error.start].count(b"\n") + 1
-        return shown(f"{name}, line {line}: this is not {error.encoding}: byte 0x{data[error.start]:02x}")
-    except SyntaxError as error:
-        line_number = f"{name}, line {error.lineno}" if error.lineno else name
-        code = f": {error.text.strip()}" if error.text and error.text.strip() else ""
-        return shown(f"{line_number}: {type(error).__name__}: {error.msg}{code}")
-    except (ValueError, RecursionError, MemoryError, LookupError) as error:
-        return shown(f"{name} cannot be read as Python: {type(error).__name__}: {error}")
-    return None

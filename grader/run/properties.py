@@ -8,9 +8,9 @@ from importlib.metadata import version
 from typing import Any
 
 from grader.exercise import MANIFEST, Exercise
-from grader.intake import Submission
 from grader.printable import shown
 from grader.record.recorder import Recorder
+from grader.submission import Submission
 from grader.trial import Trial
 
 PACKAGES = {"mujoco": "mujoco", "rclpy": "ros-jazzy-rclpy", "rerun": "rerun-sdk", "course": "gz-ros2-course"}
@@ -23,7 +23,7 @@ def write_properties(
     recorder.properties(
         "run",
         exercise=exercise.name,
-        submission=shown(submission.file.name),
+        submission=shown(submission.main),
         submission_sha256=submission.sha256,
         manifest_sha256=hashlib.sha256((exercise.folder / MANIFEST).read_bytes()).hexdigest(),
         seed=trial.seed,

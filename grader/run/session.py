@@ -12,14 +12,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grader.errors import ManifestError
 from grader.exercise import Exercise
-from grader.intake import Submission
+from grader.kinds.kind import find_kind
 from grader.run.domain import Domain
 from grader.run.sandbox import LEVEL, Sandbox
 from grader.run.student import Student
+from grader.submission import Submission
 from grader.trial import Trial
-from ros_gz_bridge.config import ConfigError, load_yaml
 
 if TYPE_CHECKING:
     from grader.record.recorder import Recorder
@@ -52,16 +51,13 @@ def run(exercise: Exercise, submission: Submission, trial: Trial, pace: str, pat
     `pace` is `lockstep` or `realtime`. Nothing is left running and no temporary file is left behind, whatever
     happens. Raises ManifestError if the exercise's own files are wrong.
     """
-    try:
-        entries = load_yaml(exercise.bridge)
-    except (ConfigError, OSError) as error:
-        raise ManifestError(str(error)) from None
-    topics = {e.ros_topic: e.ros_type for e in entries} | exercise.observe
+    cast = find_kind(exercise.kind).cast(exercise, submission)
+    topics = {e.ros_topic: e.ros_type for e in cast.entries} | exercise.observe
     with contextlib.ExitStack() as stack:
         domain = stack.enter_context(Domain())
         sandbox = Sandbox(domain.id)
         stack.callback(sandbox.close)
-        student = Student(submission.file, sandbox, topics)
+        student = Student(sandbox.stage(cast.files), cast.program, sandbox, topics)
         stack.callback(student.close)
         stack.enter_context(_environment(sandbox.grader_environment()))
 
@@ -69,11 +65,11 @@ def run(exercise: Exercise, submission: Submission, trial: Trial, pace: str, pat
         from grader.run.properties import write_properties
         from grader.run.stage import Stage
 
-        stage = Stage(exercise, trial, entries, domain.id, student, pace, stack)
+        stage = Stage(exercise, trial, cast.entries, domain.id, student, pace, stack)
         recorder = Recorder(path, exercise.robot)
         with recorder.abandoned_on_error():
             facts = stage.play(recorder)
-            write_properties(recorder, exercise, submission, trial, facts)
+            write_properties(recorder, exercise, submission, trial, cast.facts | facts)
         return RunResult(recorder, LEVEL, stage.pace_name, stage.wall_seconds)
 
 

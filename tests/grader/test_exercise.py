@@ -215,3 +215,8 @@ def test_the_shipped_exercises_load_and_give_a_hundred_points(name, root, tmp_pa
     assert exercise.starter.is_file() and exercise.bridge.is_file()
     shutil.copytree(exercise.folder, tmp_path / name)
     assert load_exercise(tmp_path / name).checks == exercise.checks, "a manifest does not depend on where it lies"
+
+
+def test_an_unknown_kind_of_submission_is_told_with_the_nearest(folder):
+    with pytest.raises(ManifestError, match=r"kind is 'nod' \((known|did you mean).*node"):
+        load_exercise(folder('kind = "nod"\n' + GOOD))

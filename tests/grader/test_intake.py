@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from grader.errors import UsageError
 from grader.exercise import find_exercise
-from grader.intake import LARGEST, Submission, take_in
+from grader.intake import LARGEST, LARGEST_FOLDER, MOST_FILES, take_in
+from grader.submission import Submission
 
 
 @pytest.fixture(scope="module")
@@ -24,23 +25,46 @@ def write(path, data):
 
 def test_a_file_is_taken_whatever_it_is_called(exercise, tmp_path):
     path = write(tmp_path / "mine (2).py", "x = 1\n")
-    assert take_in(exercise, path) == Submission(path, hashlib.sha256(b"x = 1\n").hexdigest(), None)
+    wanted = Submission(path, path.name, hashlib.sha256(b"x = 1\n").hexdigest(), None, {path.name: b"x = 1\n"})
+    assert take_in(exercise, path) == wanted
 
 
 def test_of_a_folder_the_file_asked_for(exercise, tmp_path):
     write(tmp_path / "other.py", "y = 1")
     path = write(tmp_path / "teleop_node.py", "x = 1")
-    assert take_in(exercise, tmp_path).file == path
+    assert take_in(exercise, tmp_path).path == path
+
+
+def test_of_a_folder_everything_goes_along_but_links(exercise, tmp_path):
+    write(tmp_path / "teleop_node.py", "import speeds.slow")
+    (tmp_path / "speeds").mkdir()
+    write(tmp_path / "speeds/slow.py", "X = 1")
+    (tmp_path / "link.py").symlink_to("/etc/passwd")
+    (tmp_path / "folder").symlink_to("/etc")
+    files = take_in(exercise, tmp_path).files
+    assert files == {"teleop_node.py": b"import speeds.slow", "speeds/slow.py": b"X = 1"}
+
+
+def test_a_folder_with_too_much_in_it(exercise, tmp_path):
+    write(tmp_path / "teleop_node.py", "x = 1")
+    for number in range(MOST_FILES):
+        write(tmp_path / f"{number}.txt", "")
+    refused(exercise, tmp_path, str(tmp_path), "too large", str(MOST_FILES))
+    for number in range(MOST_FILES):
+        (tmp_path / f"{number}.txt").unlink()
+    for number in range(LARGEST_FOLDER // LARGEST):
+        write(tmp_path / f"{number}.bin", bytes(LARGEST))
+    refused(exercise, tmp_path, str(tmp_path), "too large", str(LARGEST_FOLDER))
 
 
 def test_without_a_path_the_students_own_copy(exercise):
-    assert take_in(exercise, None).file == exercise.starter.resolve()
+    assert take_in(exercise, None).path == exercise.starter.resolve()
 
 
 def test_a_relative_path_becomes_absolute(exercise, tmp_path, monkeypatch):
     path = write(tmp_path / "node.py", "x = 1")
     monkeypatch.chdir(tmp_path)
-    assert take_in(exercise, path.relative_to(tmp_path)).file == path
+    assert take_in(exercise, path.relative_to(tmp_path)).path == path
 
 
 def refused(exercise, path, *words):
