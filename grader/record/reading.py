@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import math
 import warnings
+from collections import defaultdict
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -29,6 +30,19 @@ class Signal:
 
 
 @dataclass(frozen=True)
+class Poses:
+    """Where something was relative to its parent entity.
+
+    `times` in simulated nanoseconds (n,), `positions` [m] (n, 3), `quaternions` x, y, z, w (n, 4), sorted by time. What
+    never moves has one row, at time 0.
+    """
+
+    times: np.ndarray
+    positions: np.ndarray
+    quaternions: np.ndarray
+
+
+@dataclass(frozen=True)
 class Line:
     """One line of a log."""
 
@@ -47,7 +61,7 @@ class Recording:
             raise UsageError(f"no recording at {path}: give the .rrd file that `course grade` wrote")
         self.path = path
         self._rows: dict[tuple[str, str], list[tuple[np.ndarray, Any]]] = {}  # times, arrow column
-        self._static: dict[str, dict[str, Any]] = {}
+        self._static: dict[str, dict[str, Any]] = defaultdict(dict)  # arrow columns of one row
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")  # a file still being written has no footer yet
@@ -62,10 +76,7 @@ class Recording:
         names = batch.schema.names
         components = [name for name in names if name not in ("rerun.controls.RowId", "sim_time", "log_time")]
         if chunk.is_static:
-            entity = self._static.setdefault(chunk.entity_path.lstrip("/"), {})
-            for name in components:
-                value = batch.column(name)[0].as_py()
-                entity[name] = value[0] if value and len(value) == 1 else value
+            self._static[chunk.entity_path.lstrip("/")].update({name: batch.column(name) for name in components})
             return
         if "sim_time" not in names:
             return
@@ -129,7 +140,51 @@ class Recording:
 
     def properties(self, name: str) -> dict[str, Any]:
         """Return the facts stored under a name, or an empty dict."""
-        return dict(self._static.get(f"__properties/{name}", {}))
+        return self.static(f"__properties/{name}")
+
+    def static(self, entity: str) -> dict[str, Any]:
+        """Return what never changes about an entity such as `world/robot/base_link/chassis`, by component."""
+        values = {name: column[0].as_py() for name, column in self._static.get(entity, {}).items()}
+        return {name: value[0] if value and len(value) == 1 else value for name, value in values.items()}
+
+    def entities(self, below: str, component: str = "") -> list[str]:
+        """Names of all entities below one, such as `world`, that hold a component whose name begins so."""
+        held = [*self._rows, *((entity, name) for entity, names in self._static.items() for name in names)]
+        return sorted({e for e, name in held if e.startswith(f"{below}/") and name.startswith(component)})
+
+    def poses(self, entity: str) -> Poses | None:
+        """Return the poses of an entity relative to its parent; None if it has no pose of its own."""
+        parts = []
+        for component, width in (("Transform3D:translation", 3), ("Transform3D:quaternion", 4)):
+            rows = self._rows.get((entity, component), [])
+            if not rows and component in self._static.get(entity, {}):
+                rows = [(np.zeros(1, dtype=np.int64), self._static[entity][component])]
+            if not rows:
+                return None
+            values = [column.flatten().flatten().to_numpy(zero_copy_only=False) for _, column in rows]
+            parts.append((np.concatenate([t for t, _ in rows]), np.concatenate(values).reshape(-1, width)))
+        (times, positions), (_, quaternions) = parts
+        order = np.argsort(times, kind="stable")
+        return Poses(times[order], positions[order], quaternions[order])
+
+    def points_at(self, entity: str, time_ns: int) -> np.ndarray:
+        """Return the last cloud of points (n, 3) [m] of an entity at a time [ns]; empty before the first."""
+        row = self._last_row(entity, "Points3D:positions", time_ns)
+        return np.empty((0, 3)) if row is None else np.asarray(row.values.flatten()).reshape(-1, 3)
+
+    def picture_at(self, entity: str, time_ns: int) -> bytes:
+        """Return the last encoded image of an entity at a time [ns]; empty before the first."""
+        row = self._last_row(entity, "EncodedImage:blob", time_ns)
+        return b"" if row is None else bytes(np.asarray(row.values.flatten(), dtype=np.uint8))
+
+    def _last_row(self, entity: str, component: str, time_ns: int) -> Any:
+        """Return the arrow list of the last row at or before a time [ns], or None."""
+        found, when = None, -1
+        for times, column in self._rows.get((entity, component), []):
+            index = int(np.searchsorted(times, time_ns, side="right")) - 1
+            if index >= 0 and times[index] >= when:
+                found, when = column[index], int(times[index])
+        return found
 
     def facts(self) -> dict[str, Any]:
         """Return what the run reported about the submission: endpoints, exit, dropped messages."""
