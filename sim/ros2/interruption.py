@@ -7,6 +7,7 @@ Python drops an exception that a signal raises in a callback from C or in a `__d
 from __future__ import annotations
 
 import signal
+import sys
 from types import FrameType
 
 _heard = False
@@ -18,12 +19,19 @@ def listen() -> None:
     _heard = False
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, _interrupt)
+    sys.unraisablehook = _unraisable
 
 
 def check() -> None:
     """Raise KeyboardInterrupt if a signal has come."""
     if _heard:
         raise KeyboardInterrupt
+
+
+def _unraisable(dropped: sys.UnraisableHookArgs) -> None:
+    """Say nothing of an interruption that Python drops: `check` raises it again."""
+    if not (_heard and isinstance(dropped.exc_value, KeyboardInterrupt)):
+        sys.__unraisablehook__(dropped)
 
 
 def _interrupt(number: int, frame: FrameType | None) -> None:

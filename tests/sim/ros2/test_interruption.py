@@ -2,6 +2,7 @@
 
 import os
 import signal
+import sys
 
 import pytest
 
@@ -17,18 +18,34 @@ class Deaf:
             pass
 
 
-@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
-def test_an_interrupt_that_python_drops_is_heard_later(monkeypatch):
+class Broken:
+    """Fails while it is deleted."""
+
+    def __del__(self):
+        raise ValueError("a fault of its own")
+
+
+@pytest.fixture
+def listening(monkeypatch):
     before = [(number, signal.getsignal(number)) for number in (signal.SIGINT, signal.SIGTERM)]
+    monkeypatch.setattr(sys, "unraisablehook", sys.unraisablehook)
     interruption.listen()
-    try:
+    yield
+    interruption.listen()
+    for number, handler in before:
+        signal.signal(number, handler)
+
+
+def test_an_interrupt_that_python_drops_is_heard_later_and_not_printed(listening, capsys):
+    interruption.check()
+    del (deaf := [Deaf()])[:]
+    assert deaf == []
+    with pytest.raises(KeyboardInterrupt):
         interruption.check()
-        monkeypatch.setattr("sys.unraisablehook", lambda info: None)
-        del (deaf := [Deaf()])[:]
-        assert deaf == []
-        with pytest.raises(KeyboardInterrupt):
-            interruption.check()
-    finally:
-        interruption.listen()
-        for number, handler in before:
-            signal.signal(number, handler)
+    assert capsys.readouterr().err == ""
+
+
+def test_another_fault_that_python_drops_is_printed_as_ever(listening, capsys):
+    del (broken := [Broken()])[:]
+    assert broken == []
+    assert "a fault of its own" in capsys.readouterr().err
