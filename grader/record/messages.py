@@ -1,11 +1,13 @@
 """Turns a ROS message into rows of the recording, whatever its type.
 
 Every numeric field becomes a signal named after it: `topics/cmd_vel/linear/x`. Lists of numbers become one list a
-row. Knows ROS messages only by their own introspection, so it needs no ROS import.
+row, texts a line whenever they change, and pictures a JPEG now and then. Knows ROS messages only by their own
+introspection, so it needs no ROS import.
 """
 
 from __future__ import annotations
 
+import io
 import math
 from collections.abc import Iterator
 from typing import Any
@@ -15,6 +17,10 @@ import numpy as np
 from grader.record.recorder import Recorder
 
 LONGEST_LIST = 20_000  # numbers; images and clouds are shown, not stored number by number
+LONGEST_TEXT = 2_000  # characters of a text that are kept
+JPEG_QUALITY = 85
+# ROS's names of the pixel formats a picture is made of: Pillow's mode, its raw mode, bytes a pixel.
+PIXELS = {"rgb8": ("RGB", "RGB", 3), "bgr8": ("RGB", "BGR", 3), "mono8": ("L", "L", 1)}
 SKIPPED_FIELDS = frozenset({"stamp"})  # simulated time is the timeline already
 
 
@@ -50,3 +56,23 @@ def record_message(recorder: Recorder, topic: str, message: Any) -> None:
             numbers = np.asarray(value)
             if numbers.dtype.kind in "fiu":
                 recorder.array(entity, numbers)
+        elif isinstance(value, str):
+            recorder.said(entity, value[:LONGEST_TEXT].encode(errors="replace").decode())
+    if getattr(message, "encoding", None) in PIXELS and recorder.wants_picture(base) and (picture := jpeg(message)):
+        recorder.picture(base, picture)
+
+
+def jpeg(image: Any) -> bytes:
+    """Return a sensor_msgs/Image of one of the formats in PIXELS as a JPEG file; empty if it is not a whole picture."""
+    from PIL import Image
+
+    mode, raw, width = PIXELS[image.encoding]
+    data = bytes(image.data)
+    if not (image.width and image.height and image.step >= width * image.width):
+        return b""
+    if len(data) < image.step * image.height:
+        return b""
+    picture = Image.frombytes(mode, (image.width, image.height), data, "raw", raw, image.step, 1)
+    target = io.BytesIO()
+    picture.save(target, "JPEG", quality=JPEG_QUALITY)
+    return target.getvalue()

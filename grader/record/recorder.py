@@ -10,7 +10,9 @@ Entities (names are what a manifest's checks refer to, without the leading slash
     /world/MODEL, /world/MODEL/LINK          Transform3D, shapes below them (static)
     /world/scan/TOPIC, /world/path/MODEL     what the 3-D view shows
     /truth/MODEL/{x,y,z,qw,qx,qy,qz,yaw,linear_x,angular_z,distance}   the simulator's truth
-    /topics/TOPIC/FIELD/...                  every numeric field of every message seen on a ROS topic
+    /topics/TOPIC/FIELD/...                  every numeric field of every message seen on a ROS topic; texts when they
+                                             change
+    /topics/TOPIC                            EncodedImage, pictures as JPEG, at most one each PICTURE_NS
     /log/SOURCE                              TextLog
     /checks/ID                               StateChange, written after scoring
     properties                               run, endpoints, result: what is known about the run as a whole
@@ -35,6 +37,7 @@ from grader.record.timeline import TIMELINE
 
 APPLICATION = "gz_course"
 BLOCK_NS = 5_000_000_000  # simulated time per block [ns]
+PICTURE_NS = 500_000_000  # simulated time between two pictures of one camera [ns]
 
 
 class Recorder:
@@ -54,12 +57,15 @@ class Recorder:
         self.stream.save(self.part, default_blueprint=blueprint(robot), write_footer=True)
         self.now_ns = 0
         self._named: set[str] = set()
+        self._said: dict[str, str] = {}
+        self._pictured: dict[str, int] = {}
         self._block_end = BLOCK_NS
         self._scalars: dict[str, tuple[list[int], list[float]]] = defaultdict(lambda: ([], []))
         self._poses: dict[str, tuple[list[int], list[Any], list[Any]]] = defaultdict(lambda: ([], [], []))
         self._texts: dict[str, tuple[list[int], list[str], list[str]]] = defaultdict(lambda: ([], [], []))
         self._arrays: dict[str, tuple[list[int], list[Any]]] = defaultdict(lambda: ([], []))
         self._points: dict[str, tuple[list[int], list[Any]]] = defaultdict(lambda: ([], []))
+        self._pictures: dict[str, tuple[list[int], list[bytes]]] = defaultdict(lambda: ([], []))
 
     def set_time(self, now_ns: int) -> None:
         """Move on to simulated time `now_ns` [ns]; everything logged next carries it."""
@@ -89,6 +95,23 @@ class Recorder:
         times.append(self.now_ns)
         lines.append(line)
         levels.append(level)
+
+    def said(self, entity: str, text: str) -> None:
+        """Log what a text field of a message says, if that is new; `Recording.lines` reads it."""
+        if self._said.get(entity) != text:
+            self._said[entity] = text
+            self.text(entity, text)
+
+    def wants_picture(self, entity: str) -> bool:
+        """Whether the last picture of this entity is old enough for another."""
+        return self.now_ns - self._pictured.get(entity, -PICTURE_NS) >= PICTURE_NS
+
+    def picture(self, entity: str, jpeg: bytes) -> None:
+        """Log one picture as a JPEG file's bytes."""
+        self._pictured[entity] = self.now_ns
+        times, pictures = self._pictures[entity]
+        times.append(self.now_ns)
+        pictures.append(jpeg)
 
     def array(self, entity: str, values: Iterable[float]) -> None:
         """Log a whole list of numbers as one row."""
@@ -135,7 +158,10 @@ class Recorder:
             lengths = [len(cloud) for cloud in clouds]
             flat = np.concatenate(clouds)
             self._send(entity, times, rr.Points3D.columns(positions=flat).partition(lengths))
-        for pending in (self._scalars, self._poses, self._texts, self._arrays, self._points):
+        for entity, (times, pictures) in self._pictures.items():
+            columns = rr.EncodedImage.columns(blob=pictures, media_type=["image/jpeg"] * len(pictures))
+            self._send(entity, times, columns)
+        for pending in (self._scalars, self._poses, self._texts, self._arrays, self._points, self._pictures):
             pending.clear()
         self.stream.flush()
 

@@ -1,10 +1,11 @@
 """Every numeric field of a ROS message becomes a signal named after it."""
 
+import io
 import math
 
 import pytest
 
-from grader.record.messages import LONGEST_LIST, fields, record_message
+from grader.record.messages import LONGEST_LIST, LONGEST_TEXT, fields, record_message
 from grader.record.reading import Recording
 from grader.record.recorder import Recorder
 
@@ -70,12 +71,64 @@ def test_booleans_and_whole_numbers(recorded):
     assert recording.signal("topics/i/data").values.tolist() == [float(-(2**53))]
 
 
-def test_texts_and_lists_of_messages_are_passed_over(recorded):
+def test_lists_of_messages_are_passed_over(recorded):
     from geometry_msgs.msg import Pose, PoseArray
+
+    recording = recorded(("/p", PoseArray(poses=[Pose()])))
+    assert [name for name in recording.signals() if "count" not in name] == []
+
+
+def test_a_text_is_a_line_whenever_it_changes(recorded):
     from std_msgs.msg import String
 
-    recording = recorded(("/s", String(data="hello")), ("/p", PoseArray(poses=[Pose()])))
-    assert [name for name in recording.signals() if "count" not in name] == []
+    said = ["hello", "hello", "größer", "", "x" * (LONGEST_TEXT + 1)]
+    recording = recorded(*(("/s", String(data=text)) for text in said))
+    lines = recording.lines("topics/s/data")
+    assert [(line.time_ns // 10**9, line.text) for line in lines] == [
+        (0, "hello"),
+        (2, "größer"),
+        (3, ""),
+        (4, "x" * LONGEST_TEXT),
+    ]
+    assert len(recording.signal("topics/s/count")) == 5
+
+
+@pytest.mark.parametrize(("encoding", "pixel"), [("rgb8", (200, 20, 40)), ("bgr8", (40, 20, 200)), ("mono8", (90,))])
+def test_a_picture_is_kept_as_jpeg_in_its_colours(recorded, encoding, pixel):
+    from PIL import Image as Picture
+    from sensor_msgs.msg import Image
+
+    row = bytes(pixel * 16) + b"padding"
+    image = Image(encoding=encoding, width=16, height=8, step=len(row), data=row * 8)
+    recording = recorded(("/camera/image", image))
+    assert recording.entities("topics", "EncodedImage") == ["topics/camera/image"]
+    picture = Picture.open(io.BytesIO(recording.picture_at("topics/camera/image", 10**9)))
+    assert picture.size == (16, 8)
+    seen = picture.getpixel((8, 4))
+    wanted = {"rgb8": (200, 20, 40), "bgr8": (200, 20, 40), "mono8": (90,)}[encoding]
+    assert all(abs(a - b) < 12 for a, b in zip(seen if isinstance(seen, tuple) else (seen,), wanted, strict=True))
+
+
+def test_of_many_pictures_some_are_kept(tmp_path):
+    from sensor_msgs.msg import Image
+
+    image = Image(encoding="mono8", width=1, height=1, step=1, data=[7])
+    with Recorder(tmp_path / "run.rrd", "robot") as recorder:
+        for tenth in range(12):
+            recorder.set_time(tenth * 100_000_000)
+            record_message(recorder, "/camera/image", image)
+    rows = Recording(tmp_path / "run.rrd")._rows["topics/camera/image", "EncodedImage:blob"]
+    assert [time / 1e9 for times, _ in rows for time in times] == [0.0, 0.5, 1.0]
+
+
+@pytest.mark.parametrize("broken", [{"step": 1}, {"height": 3}, {"width": 0}, {"encoding": "16UC1"}])
+def test_what_is_no_whole_picture_is_passed_over(recorded, broken):
+    from sensor_msgs.msg import Image
+
+    whole = {"encoding": "mono8", "width": 2, "height": 2, "step": 2, "data": bytes(4)}
+    recording = recorded(("/camera/image", Image(**(whole | broken))))
+    assert recording.entities("topics", "EncodedImage") == []
+    assert recording.has("topics/camera/image/count")
 
 
 def test_an_empty_list_is_no_row_and_a_long_one_is_not_stored(recorded):

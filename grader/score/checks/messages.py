@@ -1,0 +1,74 @@
+"""`messages`: did the right messages arrive on a topic: how many, when, and saying what?
+
+kind = "messages"
+topic = "hello"
+count = [1, 1]            # at least, at most; the second may be left out
+window = [0.9, 3.0]       # optional: only messages that arrive then count [s]
+field = "data"            # optional, with `says`: only messages whose text field says exactly this count
+says = "hello, robot"
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from grader.printable import shown
+from grader.record.reading import Recording
+from grader.score.check import Finding, check_kind
+from grader.score.steps import told
+from grader.table import Table
+
+LONGEST_QUOTE = 60  # characters of a message's text that are told
+
+
+@check_kind("messages")
+def messages(recording: Recording, parameters: Table) -> Finding:
+    """Pass if the number of messages that came in the window and say the text lies within `count`."""
+    topic = parameters.text("topic").strip("/")
+    least, *rest = parameters.numbers("count", [1, 2])
+    most = rest[0] if rest else np.inf
+    window = parameters.numbers("window", [2], [0.0, np.inf]) if parameters.has("window") else None
+    says = parameters.text("says") if parameters.has("says") else None
+    field = parameters.text("field", "data")
+    times = recording.signal(f"topics/{topic}/count").times / 1e9
+    texts = _texts(recording, f"topics/{topic}/{field}", times)
+    counts = np.ones(len(times), dtype=bool)
+    expected = f"{_number(least, most)} on /{topic}"
+    if window is not None:
+        counts &= (times >= window[0]) & (times <= window[1])
+        expected += f" between {window[0]:g} and {window[1]:g} s"
+    if says is not None:
+        counts &= np.array([text == says for text in texts], dtype=bool)
+        expected += f" saying {says!r}"
+    passed = bool(least <= counts.sum() <= most)
+    if not len(times):
+        return Finding(passed, expected, "no message arrived")
+    # What is shown is the first message that decides: the first one too many, else the first that does not count.
+    wrong = np.flatnonzero(counts)[int(most) :] if counts.sum() > most else np.flatnonzero(~counts)
+    at = float(times[wrong[0] if len(wrong) and not passed else 0])
+    measured = f"1 message arrived, at {told(at)} s" if len(times) == 1 else _many(times)
+    if says is not None:
+        measured += f"; it said {_quoted(texts[0])}" if len(times) == 1 else f"; the first said {_quoted(texts[0])}"
+    return Finding(passed, expected, measured, round(at, 3))
+
+
+def _texts(recording: Recording, entity: str, times: np.ndarray) -> list[str | None]:
+    """What the field said at each of the times [s]; texts are on record when they change."""
+    lines = recording.lines(entity)
+    starts = [line.time_ns / 1e9 for line in lines]
+    index = np.searchsorted(starts, times, side="right") - 1
+    return [lines[i].text if i >= 0 else None for i in index]
+
+
+def _number(least: float, most: float) -> str:
+    if least == most:
+        return "exactly one message" if least == 1 else f"exactly {least:g} messages"
+    return f"at least {least:g}" + ("" if np.isinf(most) else f" and at most {most:g}") + " messages"
+
+
+def _many(times: np.ndarray) -> str:
+    return f"{len(times)} messages arrived, the first at {told(times[0])} s, the last at {told(times[-1])} s"
+
+
+def _quoted(text: str | None) -> str:
+    return "nothing that is a text" if text is None else repr(shown(text, LONGEST_QUOTE))
