@@ -17,6 +17,7 @@ def said(tmp_path):
 
     def make(*messages):
         with Recorder(tmp_path / "run.rrd", "robot") as recorder:
+            recorder.properties("run", exercise="made")
             for at, text in messages:
                 recorder.set_time(round(at * 1e9))
                 recorder.scalar("topics/hello/count", 1.0)

@@ -1,0 +1,26 @@
+"""Calls the callback instead of handing it over: the brackets make all the difference."""
+
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import String
+
+
+class Hello(Node):
+    """Publishes one std_msgs/msg/String on /hello."""
+
+    def __init__(self):
+        super().__init__("hello")
+        self.publisher = self.create_publisher(String, "/hello", 10)
+        self.timer = self.create_timer(1.0, self.say_hello())
+
+    def say_hello(self):
+        self.publisher.publish(String(data="hello, robot"))
+
+
+def main():
+    rclpy.init()
+    rclpy.spin(Hello())
+
+
+if __name__ == "__main__":
+    main()

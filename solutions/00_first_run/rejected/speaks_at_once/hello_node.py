@@ -1,0 +1,23 @@
+"""Publishes as soon as there is a publisher: nobody has had time to find it."""
+
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import String
+
+
+class Hello(Node):
+    """Publishes one std_msgs/msg/String on /hello."""
+
+    def __init__(self):
+        super().__init__("hello")
+        self.publisher = self.create_publisher(String, "/hello", 10)
+        self.publisher.publish(String(data="hello, robot"))
+
+
+def main():
+    rclpy.init()
+    rclpy.spin(Hello())
+
+
+if __name__ == "__main__":
+    main()
