@@ -25,13 +25,15 @@ class Cast:
     """Who plays in a run beside the simulator.
 
     `program` names the file among `files` that is started in the box. `entries` are the bridges that stand between the
-    simulator and ROS from the beginning. `facts` go into the recording as they are.
+    simulator and ROS from the beginning. `facts` go into the recording as they are. `given`: the program comes with
+    the exercise, so what it does is never the student's fault, and both graphs are taken into the recording.
     """
 
     program: str
     files: dict[str, bytes]
     entries: list[BridgeEntry] = field(default_factory=list)
     facts: dict[str, Any] = field(default_factory=dict)
+    given: bool = False
 
 
 @dataclass(frozen=True)

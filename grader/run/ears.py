@@ -6,6 +6,7 @@ lock-step they leave one at a time.
 
 from __future__ import annotations
 
+import time
 from collections import Counter
 from collections.abc import Callable
 from importlib import import_module
@@ -15,13 +16,16 @@ import rclpy
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.logging import LoggingSeverity, set_logger_level
-from rclpy.qos import QoSProfile
+from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
 
 from grader.errors import ManifestError
 from gz.transport import Node as GzNode
 from ros_gz_bridge.bridge import Bridge, BridgeEntry
 
+HOUSEKEEPING = ("/parameter_events", "/rosout")  # topics every node has
+UNKNOWN = "_NODE_NAME_UNKNOWN_"  # what rcl calls the node of an endpoint that has not told it yet
+NAMES, LOOK_AGAIN = 5.0, 0.02  # [s] of wall time for the nodes' names to arrive, and between two looks
 TAP_DEPTH = 1000
 MOST_AT_ONCE = 1000  # messages taken in one go: a flood does not keep the grader from going on
 NODE = "ros_gz_bridge"
@@ -68,6 +72,8 @@ class Ears:
         # One publisher and one subscription a topic, so one match on either side is a complete match.
         self._publishers = {p.topic_name: p for p in self._node.publishers if p.topic_name in self.offered}
         self._subscriptions = {s.topic_name: s for s in self._node.subscriptions if s.topic_name in self.listened}
+        # An entry that goes both ways hears itself; that is no match with the student.
+        self._own = self.offered.keys() & self.listened.keys()
 
     def _hold(self, publisher: Any, message: Any) -> None:
         self.held.append((publisher.topic_name, publisher, message))
@@ -112,9 +118,62 @@ class Ears:
 
     def matched(self, topic: str, kind: str) -> int:
         """How many of the student's endpoints of a kind (publisher, subscription) are matched on a topic."""
+        own = topic in self._own
         if kind == "subscription":
-            return int(self._publishers[topic].get_subscription_count()) if topic in self._publishers else 0
-        return int(self._subscriptions[topic].get_publisher_count()) if topic in self._subscriptions else 0
+            return int(self._publishers[topic].get_subscription_count()) - own if topic in self._publishers else 0
+        return int(self._subscriptions[topic].get_publisher_count()) - own if topic in self._subscriptions else 0
+
+    def reliable(self, topic: str) -> bool:
+        """Whether the bridge publishes reliably on a topic, so that a reliable subscription hears it."""
+        publisher = self._publishers.get(topic)
+        return publisher is None or publisher.qos_profile.reliability != ReliabilityPolicy.BEST_EFFORT
+
+    def bridged(self) -> list[dict[str, Any]]:
+        """Return every bridge as it was set up and how many messages went through it each way."""
+        found = []
+        for status in self.bridge.status():
+            entry = status.entry
+            publisher, subscription = self._publishers.get(entry.ros_topic), self._subscriptions.get(entry.ros_topic)
+            found.append(
+                {
+                    "source": entry.source,
+                    "ros_topic": entry.ros_topic,
+                    "ros_type": entry.ros_type,
+                    "gz_topic": entry.gz_topic,
+                    "gz_type": entry.gz_type,
+                    "direction": entry.direction.value,
+                    "to_ros": status.gz_to_ros,
+                    "to_gz": status.ros_to_gz,
+                    "publisher_qos": _qos(publisher) if entry.direction.to_ros else None,
+                    "subscription_qos": _qos(subscription) if entry.direction.to_gz else None,
+                }
+            )
+        return found
+
+    def ros_graph(self) -> dict[str, dict[str, list[str]]]:
+        """Return the ROS graph as it is seen from here: topic -> types, publishing and subscribing nodes.
+
+        Waits, for at most `NAMES` seconds, until every endpoint has told the name of its node.
+        """
+        deadline = time.monotonic() + NAMES
+        while True:
+            graph = self._graph()
+            unknown = any(UNKNOWN in ends["publishers"] + ends["subscribers"] for ends in graph.values())
+            if not unknown or time.monotonic() > deadline:
+                return graph
+            self._executor.spin_once(timeout_sec=LOOK_AGAIN)
+
+    def _graph(self) -> dict[str, dict[str, list[str]]]:
+        node = self._node
+        return {
+            topic: {
+                "types": sorted(types),
+                "publishers": sorted({end.node_name for end in node.get_publishers_info_by_topic(topic)}),
+                "subscribers": sorted({end.node_name for end in node.get_subscriptions_info_by_topic(topic)}),
+            }
+            for topic, types in sorted(node.get_topic_names_and_types())
+            if topic not in HOUSEKEEPING
+        }
 
     def close(self) -> None:
         """Leave the ROS graph."""
@@ -122,3 +181,9 @@ class Ears:
         self._executor.shutdown()
         self._node.destroy_node()
         rclpy.shutdown(context=self._context)
+
+
+def _qos(endpoint: Any) -> dict[str, Any]:
+    """The QoS of a publisher or subscription of the bridge."""
+    profile = endpoint.qos_profile
+    return {"reliability": profile.reliability.name, "durability": profile.durability.name, "depth": profile.depth}

@@ -38,6 +38,9 @@ class Ears(Protocol):
     def listens(self, topic: str) -> str | None:
         """ROS type of what the grader subscribes to on a topic."""
 
+    def reliable(self, topic: str) -> bool:
+        """Whether the grader publishes reliably on a topic."""
+
     def matched(self, topic: str, kind: str) -> int:
         """How many remote endpoints of a kind (publisher or subscription) are matched on a topic."""
 
@@ -45,6 +48,8 @@ class Ears(Protocol):
 def can_match(endpoint: Endpoint, ears: Ears) -> bool:
     """Whether DDS will ever connect this endpoint with the grader's."""
     ours = ears.listens if endpoint.kind == "publisher" else ears.publishes
+    if endpoint.kind == "subscription" and endpoint.reliability == "RELIABLE" and not ears.reliable(endpoint.topic):
+        return False
     return ours(endpoint.topic) == endpoint.type and qos_can_match(
         endpoint.kind, endpoint.reliability, endpoint.durability
     )

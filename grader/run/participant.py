@@ -43,9 +43,9 @@ MATCH_PATIENCE = 5.0  # [s] after that a publisher nobody matches is simply unma
 class Watch:
     """Counts what one process publishes and takes, and reports it whenever its executors go idle."""
 
-    def __init__(self, channel: socket.socket, topics: dict[str, str]) -> None:
+    def __init__(self, channel: socket.socket, topics: dict[str, dict[str, str]]) -> None:
         self._channel = channel
-        self._topics = topics  # the grader's: topic -> ROS type
+        self._topics = topics  # where the grader has the other end: kind of ours -> topic -> ROS type
         self._taken: Counter[str] = Counter()
         self._published: Counter[str] = Counter()
         self._clock_seen: dict[int, int] = {}  # id(TimeSource) -> ns
@@ -174,11 +174,16 @@ class Watch:
             return
         self._awaited.add(id(publisher))
         endpoint = self._describe("", "publisher", publisher, 0)
-        if self._topics.get(endpoint["topic"]) != endpoint["type"] or not qos_can_match(**endpoint):
+        if not self._is_met(endpoint):
             return
         deadline = time.monotonic() + MATCH_PATIENCE
         while not publisher.get_subscription_count() and time.monotonic() < deadline:
             threading.Event().wait(UNMATCHED_SLICE)
+
+    def _is_met(self, endpoint: dict[str, Any]) -> bool:
+        """Whether the grader has the other end of an endpoint, of the same type and with QoS that fits."""
+        met = self._topics.get(endpoint["kind"], {})
+        return met.get(endpoint["topic"]) == endpoint["type"] and qos_can_match(**endpoint)
 
     def topic_of(self, endpoint: Any) -> str:
         """Resolved topic name of a publisher or subscription."""
@@ -219,11 +224,7 @@ class Watch:
                 matched = subscription.get_publisher_count()
                 self._endpoints.append(self._describe(name, "subscription", subscription, matched))
         now = time.monotonic()
-        waiting = [
-            (e["kind"], e["topic"])
-            for e in self._endpoints
-            if not e["matched"] and self._topics.get(e["topic"]) == e["type"] and qos_can_match(**e)
-        ]
+        waiting = [(e["kind"], e["topic"]) for e in self._endpoints if not e["matched"] and self._is_met(e)]
         self._unmatched_since = {key: self._unmatched_since.get(key, now) for key in waiting}
 
     def _describe(self, node: str, kind: str, endpoint: Any, matched: int) -> dict[str, Any]:

@@ -52,7 +52,10 @@ def run(exercise: Exercise, submission: Submission, trial: Trial, pace: str, pat
     happens. Raises ManifestError if the exercise's own files are wrong.
     """
     cast = find_kind(exercise.kind).cast(exercise, submission)
-    topics = {e.ros_topic: e.ros_type for e in cast.entries} | exercise.observe
+    topics = {
+        "publisher": {e.ros_topic: e.ros_type for e in cast.entries if e.direction.to_gz} | exercise.observe,
+        "subscription": {e.ros_topic: e.ros_type for e in cast.entries if e.direction.to_ros},
+    }
     with contextlib.ExitStack() as stack:
         domain = stack.enter_context(Domain())
         sandbox = Sandbox(domain.id)
@@ -65,7 +68,7 @@ def run(exercise: Exercise, submission: Submission, trial: Trial, pace: str, pat
         from grader.run.properties import write_properties
         from grader.run.stage import Stage
 
-        stage = Stage(exercise, trial, cast.entries, domain.id, student, pace, stack)
+        stage = Stage(exercise, trial, cast, domain.id, student, pace, stack)
         recorder = Recorder(path, exercise.robot)
         with recorder.abandoned_on_error():
             facts = stage.play(recorder)

@@ -16,10 +16,12 @@ from gz.msgs.twist_pb2 import Twist
 
 from grader.errors import ManifestError, nearest
 from grader.exercise import MANIFEST, Exercise, ScriptedCommand
+from grader.kinds.kind import Cast
 from grader.record.messages import record_message
 from grader.record.recorder import Recorder
 from grader.record.scene import Scene
 from grader.run.ears import Ears
+from grader.run.graphs import both_graphs
 from grader.run.lockstep import LockStep, RealTime
 from grader.run.student import Endpoint, Student
 from grader.trial import Trial
@@ -27,7 +29,6 @@ from gz.sim.errors import SimError
 from gz.sim.server import Server
 from gz.sim.world import World
 from gz.transport import Node, NodeOptions, Scope
-from ros_gz_bridge.bridge import BridgeEntry
 
 MOST_MESSAGES = 20_000  # of one topic that are recorded; the rest is counted
 WALL_FACTOR, WALL_GRACE = 2.0, 10.0  # a run may take 2 x its simulated time + 10 s of wall time, then it is ended
@@ -41,13 +42,14 @@ class Stage:
         self,
         exercise: Exercise,
         trial: Trial,
-        entries: list[BridgeEntry],
+        cast: Cast,
         domain: int,
         student: Student,
         pace: str,
         stack: ExitStack,
     ) -> None:
         self._exercise = exercise
+        self._given = cast.given
         self._student = student
         partition = f"grader-{domain}"
         self._gz_nodes = [Node(NodeOptions(scope=Scope.PROCESS, partition=partition)) for _ in range(2)]
@@ -56,11 +58,11 @@ class Stage:
         self._world = _load(exercise, trial, self._gz_nodes[0])
         stack.callback(self._world.close)
         self._server = Server(self._world, self._gz_nodes[0])
-        self._ears = Ears(domain, self._gz_nodes[1], entries, exercise.observe, self._record)
+        self._ears = Ears(domain, self._gz_nodes[1], cast.entries, exercise.observe, self._record)
         stack.callback(self._ears.close)
         self._pace = (LockStep if pace == "lockstep" else RealTime)(student, self._ears)
         self._steps = round(exercise.tick * 1e9 / self._world.step_size_ns)
-        self._scans = {e.ros_topic: e.gz_topic for e in entries if e.ros_type == "sensor_msgs/msg/LaserScan"}
+        self._scans = {e.ros_topic: e.gz_topic for e in cast.entries if e.ros_type == "sensor_msgs/msg/LaserScan"}
         self._script = [trial.vary(command) for command in exercise.script]
         self._script_publishers: dict[str, Any] = {}
         self._exit_at: float | None = None
@@ -91,9 +93,10 @@ class Stage:
             self._tick()
             self._out_of_time = time.monotonic() > deadline
         self.wall_seconds = time.monotonic() - started
+        graphs = both_graphs(self._gz_nodes, self._ears) if self._given else {}
         self._student.stop()
         self._scene.finish()
-        return self._facts(ready)
+        return self._facts(ready) | graphs
 
     def _tick(self) -> None:
         while self._script and self._script[0].at * 1e9 <= self._world.sim_time_ns:
@@ -144,7 +147,7 @@ class Stage:
         if progress is not None and progress.endpoints is not self._seen_endpoints:
             self._seen_endpoints = progress.endpoints
             for e in progress.endpoints:
-                self._tampered |= e.kind == "publisher" and e.topic in self._ears.offered
+                self._tampered |= e.kind == "publisher" and e.topic in self._ears.offered and not self._given
                 # Whether it had matched yet when it was first seen differs between equal runs.
                 self._endpoints.setdefault((e.kind, e.topic, e.type, e.node), asdict(e) | {"matched": None})
         if not self._student.running and self._exit_at is None:

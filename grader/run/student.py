@@ -95,10 +95,11 @@ class Student:
     `progress` is its latest report (None before the first), `exit_code` is None while it runs.
     """
 
-    def __init__(self, folder: Path, program: str, sandbox: Sandbox, topics: dict[str, str]) -> None:
+    def __init__(self, folder: Path, program: str, sandbox: Sandbox, topics: dict[str, dict[str, str]]) -> None:
         """Start the file `program` of a staged folder with simulated time switched on.
 
-        `topics` maps the topics the grader publishes or subscribes to onto their ROS types.
+        `topics` says what the grader has an end for: for each kind of endpoint of the student's node (publisher,
+        subscription) the topics on which one is waited for, and their ROS types.
         """
         ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         ours.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 20)
