@@ -68,9 +68,11 @@ def per_scan(recording: Recording, parameters: Table) -> Finding:
     if parameters.has("signal"):
         signal = parameters.text("signal")
         given, printed = _messages(recording, signal), 0
+        not_finite = len(recording.signal(f"{signal}/not_finite"))
         where = f"on {signal}"
     else:
         given, printed = _log_answers(recording, parameters.pattern("log"))
+        not_finite = 0
         where = "in the node's log"
     expected = f"{what.replace('_', ' ')} of every scan {where}, within {tolerance:g}"
     right, unanswered, wrong = 0, 0, ""
@@ -82,11 +84,13 @@ def per_scan(recording: Recording, parameters: Table) -> Finding:
             continue
         unanswered += answer is None
         if answer is not None and not wrong:
-            wrong = f"; at {scan.start:.2f} s it said {answer:g}, the truth was {scan.answers[0]:.3f}"
+            wrong = f"; at {scan.start:.2f} s it said {answer:g}, the truth was {round(scan.answers[0], 3):g}"
         if at is None:
             at = round(scan.start, 3)
     if printed and not given:
         wrong = f"; {printed} such lines were printed, not logged: use the node's logger, self.get_logger().info(...)"
+    if not_finite:
+        wrong += f"; {not_finite} answers were inf, -inf or nan"
     measured = f"{right} of {len(asked)} scans right" + (f", {unanswered} without an answer" if unanswered else "")
     passed = bool(asked) and right >= share * len(asked)
     return Finding(passed, expected, measured + wrong, None if passed else at)

@@ -44,7 +44,13 @@ def test_the_minimum_with_and_without_the_rays_on_the_limits(scanned, answer):
 def test_a_wrong_minimum(scanned, answer):
     finding = per_scan(scanned(signals=answers(answer)), TOPIC)
     assert (finding.passed, finding.at_s) == (False, 0.0)
-    assert finding.measured.startswith(f"0 of 20 scans right; at 0.00 s it said {answer:g}, the truth was 1.000")
+    assert finding.measured.startswith(f"0 of 20 scans right; at 0.00 s it said {answer:g}, the truth was 1")
+
+
+def test_answers_that_are_no_numbers_are_counted(scanned):
+    signals = {f"{TOPIC['signal']}/not_finite": [(0.5, 1.0), (1.5, 1.0)]}
+    finding = per_scan(scanned(signals=signals), TOPIC)
+    assert finding.measured == "0 of 20 scans right, 20 without an answer; 2 answers were inf, -inf or nan"
 
 
 @pytest.mark.parametrize(("statistic", "truths"), [("valid_count", (2, 4)), ("minimum", (1, 0.25)), ("mean", (1.5,))])
