@@ -24,9 +24,11 @@ def outcome_of(recording: Recording) -> str:
 
     `tamper`: it published what only the simulator may; `protocol`: it closed the descriptors it was given; `memory`: it
     ran out of memory; `student_error`: it could not run, or crashed; `timeout`: it never spun, or held everything up;
-    `graded`: none of these.
+    `infra`: the node given with the exercise did not do its part; `graded`: none of these.
     """
     facts = recording.facts()
+    if facts.get("given"):
+        return "infra" if _given_failed(recording, facts) else "graded"
     if _reserved(facts):
         return "tamper"
     if facts.get("fault"):
@@ -46,7 +48,7 @@ def outcome_of(recording: Recording) -> str:
 def diagnose(recording: Recording) -> str:
     """Return one sentence on the first fault found, or an empty string if nothing structural is wrong."""
     facts = recording.facts()
-    for look in LOOKS:
+    for look in LOOKS_AT_GIVEN if facts.get("given") else LOOKS:
         if sentence := look(recording, facts):
             return sentence
     return ""
@@ -204,6 +206,12 @@ def _out_of_time(recording: Recording, facts: dict[str, Any]) -> str:
     )
 
 
+def _given_failed(recording: Recording, facts: dict[str, Any]) -> str:
+    if facts.get("ready", True) and facts.get("exit_at") is None and not facts.get("out_of_time"):
+        return ""
+    return "The node given with the exercise did not run to the end. That is not your fault; grade once more."
+
+
 # In the order in which one would look.
 LOOKS = (
     _tampered,
@@ -218,3 +226,5 @@ LOOKS = (
     _dropped,
     _unstable,
 )
+# With a node that is not the student's.
+LOOKS_AT_GIVEN = (_given_failed, _unstable)
