@@ -14,18 +14,9 @@ from typing import Any
 from grader.errors import ManifestError, UsageError, nearest
 from grader.kinds.kind import find_kind, kind_names
 from grader.table import Table
+from grader.trial import PUBLIC, ScriptedCommand, Trial, read_trials
 
 MANIFEST = "exercise.toml"
-
-
-@dataclass(frozen=True)
-class ScriptedCommand:
-    """A velocity the grader itself commands during a run, before the noise of the trial's seed."""
-
-    at: float  # [s] simulated
-    topic: str  # Gazebo topic of a Twist
-    linear_x: float  # [m/s]
-    angular_z: float  # [rad/s]
 
 
 @dataclass(frozen=True)
@@ -58,6 +49,12 @@ class Exercise:
     observe: dict[str, str]  # ROS topics the student is to publish on -> type
     script: tuple[ScriptedCommand, ...]
     checks: tuple[CheckSpec, ...]
+    trials: tuple[Trial, ...] = (PUBLIC,)  # those everybody may know; one without parameters if none is given
+
+    @property
+    def twin(self) -> Path:
+        """The folder with its private half, which a student's copy lacks."""
+        return self.folder.parents[1] / "solutions" / self.name
 
     @property
     def max_score(self) -> float:
@@ -121,8 +118,9 @@ def load_exercise(folder: Path) -> Exercise:
         tick=run.number("tick", 0.01, above=0),
         bridge=None if find_kind(kind).brings_bridge else folder / run.text("bridge"),
         observe=_observed(run.table("observe", {})),
-        script=tuple(_command(command) for command in manifest.tables("script", [])),
+        script=tuple(map(ScriptedCommand.read, manifest.tables("script", []))),
         checks=tuple(_check(path, check) for check in manifest.tables("check")),
+        trials=read_trials(manifest.tables("trial", []), path) or (PUBLIC,),
     )
     if Path(exercise.file).name != exercise.file:
         manifest.refuse("file", "the name of a file, without folders")
@@ -136,14 +134,6 @@ def load_exercise(folder: Path) -> Exercise:
 
 def _observed(table: Table) -> dict[str, str]:
     return {topic: table.text(topic) for topic in table.names()}
-
-
-def _command(table: Table) -> ScriptedCommand:
-    command = ScriptedCommand(
-        table.number("at"), table.text("topic"), table.number("linear_x"), table.number("angular_z")
-    )
-    table.end()
-    return command
 
 
 def _check(path: Path, table: Table) -> CheckSpec:

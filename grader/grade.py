@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from grader.errors import UsageError
 from grader.exercise import Exercise, find_exercise
@@ -12,11 +15,28 @@ from grader.printable import shown
 from grader.record.reading import Recording
 from grader.report.report import HostFacts, Report, TrialReport
 from grader.report.verdicts import write_verdicts
+from grader.score.combined import combined
 from grader.score.score import Score, score
-from grader.trial import Trial
+from grader.submission import Submission
+from grader.trial import Trial, numbered
 
 LONGEST_PATH = 4096
 PACES = ("lockstep", "realtime")
+
+
+@dataclass(frozen=True)
+class Played:
+    """One trial, run and scored. `host` is None when it was scored from its recording alone."""
+
+    recording: Recording
+    path: Path
+    score: Score
+    host: HostFacts | None = None
+
+    @property
+    def run(self) -> dict[str, Any]:
+        """What the recording says about its run: exercise, submission, trial, seed."""
+        return self.recording.properties("run")
 
 
 def grade(
@@ -26,58 +46,116 @@ def grade(
     *,
     seed: int = 0,
     pace: str = "lockstep",
+    trials: tuple[Trial, ...] | None = None,
     started: float | None = None,
 ) -> Report:
-    """Grade the submission at a path (None: the student's own copy) and leave its recording in the folder `out`.
+    """Grade the submission at a path (None: the student's own copy) and leave its recordings in the folder `out`.
 
-    `started` is the `time.monotonic()` [s] at which the command began, for the report. Raises UsageError for a
-    submission that cannot be read; a submission that is wrong is graded, not raised.
+    `trials` are those of the exercise if None; `seed` is added to the seed of each. `started` is the
+    `time.monotonic()` [s] at which the command began, for the report. Raises UsageError for a submission that cannot be
+    read; a submission that is wrong is graded, not raised.
     """
     started = time.monotonic() if started is None else started
     submission = take_in(exercise, submission_path)
-    trial = Trial("public", seed)
-    path = out / f"{exercise.name}.rrd"
+    played = [play(exercise, submission, trial, pace, out) for trial in numbered(trials or exercise.trials, seed)]
+    facts = [each.host for each in played if each.host is not None]
+    host = HostFacts(
+        "; ".join(dict.fromkeys(each.sandbox for each in facts)),
+        "; ".join(dict.fromkeys(each.pace for each in facts)),
+        sum(each.run_wall_seconds for each in facts),
+        time.monotonic() - started,
+    )
+    return make_report(played, exercise, shown(str(submission.path), LONGEST_PATH), host)
 
+
+def play(exercise: Exercise, submission: Submission, trial: Trial, pace: str, out: Path) -> Played:
+    """Run one trial of a submission and score its recording, which is left in the folder `out`."""
     from grader.run.session import record_unrunnable, run
 
+    path = recording_path(exercise, trial, out)
+    in_trial = trial.applied_to(exercise)
     if submission.fault is None:
-        result = run(exercise, submission, trial, pace, path)
+        result = run(in_trial, submission, trial, pace, path)
     else:
-        result = record_unrunnable(exercise, submission, trial, path)
+        result = record_unrunnable(in_trial, submission, trial, path)
     with result.recorder as recorder:
         recorder.flush()
         recording = Recording(recorder.part)
         verdict = score(recording, exercise)
-        write_verdicts(recorder, verdict, exercise.max_score, exercise.duration)
-    host = HostFacts(result.sandbox, result.pace, result.run_wall_seconds, time.monotonic() - started)
-    return make_report(recording, path, exercise, verdict, shown(str(submission.path), LONGEST_PATH), host)
+        write_verdicts(recorder, verdict, exercise.max_score, in_trial.duration)
+    return Played(recording, path, verdict, HostFacts(result.sandbox, result.pace, result.run_wall_seconds, 0.0))
 
 
-def grade_again(path: Path, root: Path | None = None) -> Report:
-    """Score a recording once more; the same score as the first time, unless the exercise has changed since."""
-    recording = Recording(path)
-    run = recording.properties("run")
-    if "exercise" not in run:
-        raise UsageError(f"{path} is not a recording of a graded run")
-    exercise = find_exercise(run["exercise"], root)
-    return make_report(recording, path, exercise, score(recording, exercise), run["submission"])
+def recording_path(exercise: Exercise, trial: Trial, out: Path) -> Path:
+    """Where a trial's recording goes: `NAME.rrd`, or `NAME.TRIAL.rrd` if there are several trials."""
+    return out / (f"{exercise.name}.rrd" if trial.place[1] == 1 else f"{exercise.name}.{trial.name}.rrd")
 
 
-def make_report(
-    recording: Recording, path: Path, exercise: Exercise, verdict: Score, submission: str, host: HostFacts | None = None
-) -> Report:
-    """Put a score and what the recording, which people find at `path`, says about its run together."""
-    run = recording.properties("run")
+def grade_again(paths: Path | Sequence[Path], root: Path | None = None) -> Report:
+    """Score recordings once more: that of one trial, or those of all trials of one grading, in any order.
+
+    The same score as the first time, unless the exercise has changed since. A folder stands for the recordings in it.
+    Raises UsageError for recordings that do not belong together.
+    """
+    given = [paths] if isinstance(paths, Path) else list(paths)
+    recordings = [(path, Recording(path)) for each in given for path in recordings_in(each)]
+    runs = [recording.properties("run") for _, recording in recordings]
+    for (path, _), run in zip(recordings, runs, strict=True):
+        if "exercise" not in run:
+            raise UsageError(f"{path} is not a recording of a graded run")
+    _check_trials([path for path, _ in recordings], runs)
+    exercise = find_exercise(runs[0]["exercise"], root)
+    played = [Played(recording, path, score(recording, exercise)) for path, recording in recordings]
+    played.sort(key=lambda each: each.run.get("trial_number", 1))
+    return make_report(played, exercise, runs[0]["submission"])
+
+
+def recordings_in(path: Path) -> list[Path]:
+    """Return the recordings a path stands for: itself, or those of a folder. Raises UsageError if it holds none."""
+    if not path.is_dir():
+        return [path]
+    if found := sorted(path.glob("*.rrd")):
+        return found
+    raise UsageError(f"there is no recording (.rrd) in the folder {path}")
+
+
+def _check_trials(paths: list[Path], runs: list[dict[str, Any]]) -> None:
+    """Raise UsageError unless the recordings are one trial, or all trials of one grading."""
+    if len(runs) == 1:
+        return
+    for path, run in zip(paths, runs, strict=True):
+        for key, noun in (("exercise", "exercise"), ("submission_sha256", "submission"), ("trial_count", "grading")):
+            if run.get(key) != runs[0].get(key):
+                raise UsageError(f"{path} and {paths[0]} are of different {noun}s; give the recordings of one grading")
+    names = [run.get("trial", "public") for run in runs]
+    for name in names:
+        if names.count(name) > 1:
+            raise UsageError(
+                f"two of these recordings are of the same trial, {name}; give the recordings of one grading"
+            )
+    if len(runs) != (count := runs[0].get("trial_count", 1)):
+        raise UsageError(
+            f"these are {len(runs)} of {count} trials ({', '.join(names)}); give all recordings of the grading, or one"
+        )
+
+
+def make_report(played: Sequence[Played], exercise: Exercise, submission: str, host: HostFacts | None = None) -> Report:
+    """Put the scores of all trials, and what their recordings say about the runs, together."""
     return Report(
         exercise=exercise.name,
         title=exercise.title,
         submission=submission,
-        recording=path,
-        score=verdict,
+        recording=played[0].path,
+        score=combined([(each.run.get("trial", "public"), each.score) for each in played]),
         max_score=exercise.max_score,
-        sim_seconds=recording.facts().get("sim_seconds", 0.0),
-        seed=run["seed"],
-        versions=recording.properties("versions"),
+        sim_seconds=sum(each.recording.facts().get("sim_seconds", 0.0) for each in played),
+        seed=played[0].run["seed"],
+        versions=played[0].recording.properties("versions"),
         host=host,
-        trials=(TrialReport("public", run["seed"], verdict, path, verdict.truth_sha256),),
+        trials=tuple(
+            TrialReport(
+                each.run.get("trial", "public"), each.run["seed"], each.score, each.path, each.score.truth_sha256
+            )
+            for each in played
+        ),
     )

@@ -8,7 +8,6 @@ from pathlib import Path
 
 from grader.errors import UsageError
 from grader.exercise import Exercise
-from grader.verify import twin
 
 PRIVATE_ONLY = ("expect.toml", "trials.toml")  # about the variants, not part of a solution
 
@@ -18,7 +17,7 @@ def solution_diff(exercise: Exercise) -> Iterator[str]:
 
     Raises UsageError if this copy of the course has no solution of it.
     """
-    folder = twin(exercise)
+    folder = exercise.twin
     if not (folder / exercise.file).is_file():
         raise UsageError(
             f"there is no solution of {exercise.name} to compare with: this copy of the course comes without "

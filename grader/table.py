@@ -73,6 +73,13 @@ class Table:
             self.refuse(key, f"a finite number greater than {above:g}" if math.isfinite(above) else "a finite number")
         return value
 
+    def integer(self, key: str, *default: int) -> int:
+        """Return a whole number."""
+        value = self.any(key, *default)
+        if type(value) is not int:
+            self.refuse(key, "a whole number")
+        return value
+
     def numbers(self, key: str, lengths: list[int], *default: list[float]) -> list[float]:
         """Return a list of as many finite numbers as one of `lengths` says."""
         value = self.any(key, *default)
@@ -111,6 +118,13 @@ class Table:
     def table(self, key: str, *default: dict[str, Any]) -> Table:
         """Return a table inside this one."""
         return Table(self.any(key, *default), f"{self.where}: {key}", self._noun)
+
+    def free(self, key: str) -> dict[str, Any]:
+        """Return a table as it is, for whoever knows its keys; empty if it is left out."""
+        value = self.any(key, {})
+        if not isinstance(value, dict):
+            self.refuse(key, "a table")
+        return value
 
     def tables(self, key: str, *default: list[Any]) -> list[Table]:
         """Return a list of tables; at least one unless there is a default."""

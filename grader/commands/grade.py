@@ -11,6 +11,7 @@ import typer
 
 from grader.errors import UsageError, nearest
 from grader.exercise import find_exercise
+from grader.trial import chosen_trials, numbered
 
 if TYPE_CHECKING:
     from grader.report.report import Report
@@ -34,23 +35,30 @@ def grade_command(
         str,
         typer.Option(help="lockstep (as fast as it goes, always the same) or realtime (paced to the wall clock)."),
     ] = "lockstep",
-    out: Annotated[Path | None, typer.Option(help="Folder for the recording. Default: runs/EXERCISE.")] = None,
+    trials: Annotated[
+        str,
+        typer.Option(
+            help="public (those of the exercise), hidden (those of its solution's trials.toml), all, or a file."
+        ),
+    ] = "public",
+    out: Annotated[Path | None, typer.Option(help="Folder for the recordings. Default: runs/EXERCISE.")] = None,
     json: Annotated[Path | None, typer.Option(help="Write the report as JSON to this file.")] = None,
 ) -> None:
     """Grade one submission. Exit code 0: full marks, 1: less, 2: nothing to grade, 3: the grader's fault."""
     from rich.console import Console
 
-    from grader.grade import PACES, grade
+    from grader.grade import PACES, grade, recording_path
     from grader.report.terminal import print_report
 
     if pace not in PACES:
         raise UsageError(f"there is no pace {pace!r}{nearest(pace, PACES)}")
     chosen = find_exercise(exercise)
     out = out or Path("runs") / chosen.name
-    for target in (json, out / f"{chosen.name}.rrd"):
+    asked = numbered(chosen_trials(chosen, trials))
+    for target in (json, *(recording_path(chosen, trial, out) for trial in asked)):
         if target is not None:
             check_writable(target)
-    report = grade(chosen, submission, out, seed=seed, pace=pace, started=STARTED)
+    report = grade(chosen, submission, out, seed=seed, pace=pace, trials=asked, started=STARTED)
     print_report(report, Console())
     if json is not None:
         write_json(json, report)

@@ -1,4 +1,4 @@
-"""`course score RECORDING`: the score again, from the recording alone."""
+"""`course score RECORDING...`: the score again, from the recording alone."""
 
 from __future__ import annotations
 
@@ -14,17 +14,19 @@ def register(app: typer.Typer) -> None:
 
 
 def score_command(
-    recording: Annotated[Path, typer.Argument(help="The .rrd file a grading wrote.")],
+    recordings: Annotated[
+        list[Path], typer.Argument(metavar="RECORDING...", help="The .rrd files a grading wrote, or their folder.")
+    ],
     json: Annotated[Path | None, typer.Option(help="Write the report as JSON to this file.")] = None,
 ) -> None:
-    """Score a recording again; nothing is run. Exit codes as for `course grade`."""
+    """Score recordings again; nothing is run. Exit codes as for `course grade`."""
     from rich.console import Console
 
     from grader.commands.grade import write_json
     from grader.grade import grade_again
     from grader.report.terminal import print_report
 
-    report = grade_again(recording)
+    report = grade_again(recordings)
     print_report(report, Console())
     if json is not None:
         write_json(json, report)

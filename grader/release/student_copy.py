@@ -15,7 +15,6 @@ from pathlib import Path
 
 from grader.errors import ManifestError, UsageError
 from grader.exercise import Exercise, exercise_names, find_exercise
-from grader.verify import twin
 
 CHECKOUT = Path(__file__).parents[2]
 COURSE = ("exercises", "chapters")
@@ -111,7 +110,7 @@ def _files(folder: Path) -> Iterator[Path]:
 
 def _private_files(exercise: Exercise) -> list[tuple[Path, frozenset[str]]]:
     """The solution and the accepted variants of an exercise with their lines."""
-    folder = twin(exercise)
+    folder = exercise.twin
     found = [folder / exercise.file, *sorted(folder.glob(f"accepted/*/{exercise.file}"))]
     return [(path, lines) for path in found if path.is_file() and (lines := _lines(path))]
 

@@ -14,8 +14,7 @@ from typing import Any
 
 from gz.msgs.twist_pb2 import Twist
 
-from grader.errors import ManifestError, nearest
-from grader.exercise import MANIFEST, Exercise, ScriptedCommand
+from grader.exercise import Exercise
 from grader.kinds.kind import Cast
 from grader.record.messages import record_message
 from grader.record.recorder import Recorder
@@ -24,10 +23,10 @@ from grader.run.ears import Ears
 from grader.run.graphs import both_graphs
 from grader.run.lockstep import LockStep, RealTime
 from grader.run.student import Endpoint, Student
-from grader.trial import Trial
+from grader.run.trial_world import load_trial_world
+from grader.trial import ScriptedCommand, Trial
 from gz.sim.errors import SimError
 from gz.sim.server import Server
-from gz.sim.world import World
 from gz.transport import Node, NodeOptions, Scope
 
 MOST_MESSAGES = 20_000  # of one topic that are recorded; the rest is counted
@@ -55,7 +54,7 @@ class Stage:
         self._gz_nodes = [Node(NodeOptions(scope=Scope.PROCESS, partition=partition)) for _ in range(2)]
         for node in self._gz_nodes:
             stack.callback(node.close)
-        self._world = _load(exercise, trial, self._gz_nodes[0])
+        self._world = load_trial_world(exercise, trial, self._gz_nodes[0])
         stack.callback(self._world.close)
         self._server = Server(self._world, self._gz_nodes[0])
         self._ears = Ears(domain, self._gz_nodes[1], cast.entries, exercise.observe, self._record)
@@ -177,17 +176,3 @@ class Stage:
             "out_of_time": self._out_of_time and self._world.sim_time_ns < round(self._exercise.duration * 1e9),
             "out_of_step": bool(self._pace.paced_ticks),
         }
-
-
-def _load(exercise: Exercise, trial: Trial, node: Node) -> World:
-    try:
-        world = World.load(exercise.world, seed=trial.seed, node=node)
-    except SimError as error:
-        raise ManifestError(f"{exercise.folder / MANIFEST}: {error}") from None
-    names = world.model_names()
-    if exercise.robot not in names:
-        raise ManifestError(
-            f"{exercise.folder / MANIFEST}: the world {exercise.world} has no moving model "
-            f"{exercise.robot!r}{nearest(exercise.robot, names)}"
-        )
-    return world

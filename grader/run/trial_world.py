@@ -1,0 +1,44 @@
+"""Loads the world of a run and puts its models where the trial wants them, before anything has started in it.
+
+Called wherever a run needs its simulator; the world then belongs to the caller.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from grader.errors import ManifestError, nearest
+from grader.exercise import MANIFEST, Exercise
+from grader.trial import Trial
+from gz.sim.errors import Diagnostics, SimError
+from gz.sim.pose import Pose
+from gz.sim.sdf.reader import read_world_file
+from gz.sim.sdf.resources import find_world
+from gz.sim.world import World
+
+if TYPE_CHECKING:
+    from gz.transport import Node
+
+
+def load_trial_world(exercise: Exercise, trial: Trial, node: Node | None) -> World:
+    """Return the world of `exercise` as `trial` wants it. Raises ManifestError for what there is not."""
+    where = f"{exercise.folder / MANIFEST}, trial {trial.name}"
+    try:
+        diagnostics = Diagnostics()
+        description = read_world_file(find_world(exercise.world), diagnostics)
+        models = {model.name: model for model in description.models}
+        for name, pose in trial.poses.items():
+            if name not in models:
+                raise ManifestError(f"{where}: {exercise.world} has no model {name!r} to place{nearest(name, models)}")
+            models[name].pose = Pose.from_rpy(pose[:3], pose[3:])
+        world = World(description, diagnostics, seed=trial.seed, node=node)
+    except SimError as error:
+        raise ManifestError(f"{where}: {error}") from None
+    names = world.model_names()
+    if exercise.robot not in names:
+        world.close()
+        raise ManifestError(
+            f"{where}: the world {exercise.world} has no moving model {exercise.robot!r}"
+            f"{nearest(exercise.robot, names)}"
+        )
+    return world
