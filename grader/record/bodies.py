@@ -100,7 +100,7 @@ def _corners(shape: str, facts: dict) -> np.ndarray:
         low = np.asarray(facts.get("Capsules3D:translations", [0.0, 0.0, 0.0]))
         return np.concatenate([_sphere() * radius + low, _sphere() * radius + low + [0.0, 0.0, length]])
     ring = _ring() * radius
-    return np.concatenate([ring + [0.0, 0.0, z] for z in (-length / 2, length / 2)])
+    return np.concatenate([ring + np.array([0.0, 0.0, z]) for z in (-length / 2, length / 2)])
 
 
 def _ring() -> np.ndarray:

@@ -10,7 +10,18 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from grader.score.score import Score
+from grader.score.score import CheckResult, Score
+
+# What each outcome means, in a sentence.
+OUTCOMES = {
+    "graded": "The program ran to the end and was graded.",
+    "student_error": "The program could not run, or ended with an error.",
+    "timeout": "The program never began to work, or held everything up.",
+    "memory": "The program ran out of memory.",
+    "protocol": "The program closed the connection it is followed by.",
+    "tamper": "The program published what only the simulator may; nothing counts.",
+    "infra": "The machine or the grader failed; this is no verdict on the program.",
+}
 
 
 @dataclass(frozen=True)
@@ -49,11 +60,17 @@ class Report:
     versions: dict[str, Any]
     host: HostFacts | None = None
     trials: tuple[TrialReport, ...] = ()
+    notes: tuple[str, ...] = ()  # what a reader must know about how the score came about
 
     @property
     def full_marks(self) -> bool:
         """Whether every point was earned."""
         return self.score.points >= self.max_score
+
+    @property
+    def shown_trial(self) -> TrialReport:
+        """The trial to look at: the first that lost points, else the first."""
+        return next((trial for trial in self.trials if trial.score.points < self.max_score), self.trials[0])
 
     def as_json(self) -> str:
         """Return the report as JSON text; see README for the keys."""
@@ -70,6 +87,7 @@ class Report:
             "max_score": self.max_score,
             "outcome": self.score.outcome,
             "diagnosis": self.score.diagnosis,
+            "notes": list(self.notes),
             "checks": [
                 {
                     "id": check.spec.id,
@@ -105,3 +123,17 @@ class Report:
             "real_time_factor": self.sim_seconds / run_wall if run_wall else None,
             "versions": self.versions,
         }
+
+
+def points(value: float) -> str:
+    """Return points as they are written: no more digits than they have, no traces of binary fractions."""
+    return f"{round(value, 3):g}"
+
+
+def told(check: CheckResult) -> list[tuple[str, str]]:
+    """Return what there is to say about one check, by name: expected, measured, when, and the hint if it failed."""
+    finding = check.finding
+    lines = [("expected", finding.expected), ("measured", finding.measured)]
+    if finding.at_s is not None:
+        lines.append(("when", f"{finding.at_s:.2f} s of simulated time"))
+    return lines if finding.passed else [*lines, ("hint", check.spec.hint)]

@@ -1,0 +1,65 @@
+"""The report as Gradescope reads it: `results.json`, one test for each check.
+
+All text is declared as plain text, so that nothing a student wrote is ever taken for markup. `execution_time` is a fact
+about the machine and missing when a recording was scored again.
+"""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from grader.record.reading import Recording
+from grader.report.node_log import node_log
+from grader.report.report import OUTCOMES, Report, points, told
+from grader.score.score import CheckResult
+
+LINES = 20  # of the node's log, from its end, below the verdict
+
+FORMATS = {"output_format": "text", "test_output_format": "text", "test_name_format": "text"}
+
+
+def as_gradescope(report: Report) -> str:
+    """Return the report as the text of a Gradescope `results.json`. Raises UsageError if a recording is unreadable."""
+    return json.dumps(as_dict(report), indent=2) + "\n"
+
+
+def as_dict(report: Report) -> dict[str, Any]:
+    """Return the report with Gradescope's keys."""
+    data = report.as_dict()
+    results: dict[str, Any] = {
+        "score": data["score"],
+        "output": _output(report),
+        **FORMATS,
+        "visibility": "visible",
+        "stdout_visibility": "hidden",  # it says the same once more
+        "tests": [_test(number, check) for number, check in enumerate(report.score.checks, start=1)],
+        "extra_data": {key: data[key] for key in ("exercise", "outcome", "truth_sha256", "versions")}
+        | {"trials": [{key: trial[key] for key in trial if key != "recording"} for trial in data["trials"]]},
+    }
+    if report.host is not None:
+        results["execution_time"] = data["wall_seconds"]
+        results["extra_data"] |= {key: data[key] for key in ("sandbox", "pace")}
+    return results
+
+
+def _test(number: int, check: CheckResult) -> dict[str, Any]:
+    return {
+        "number": str(number),
+        "name": check.spec.title,
+        "score": check.points,
+        "max_score": check.spec.points,
+        "status": "passed" if check.finding.passed else "failed",
+        "output": "\n".join(f"{name}: {value}" for name, value in told(check)),
+        "extra_data": {"id": check.spec.id},
+    }
+
+
+def _output(report: Report) -> str:
+    """Return the diagnosis and, unless all is well, how the node's log ends."""
+    verdict = f"{points(report.score.points)} of {points(report.max_score)} points. "
+    lines = [report.score.diagnosis, verdict + OUTCOMES.get(report.score.outcome, report.score.outcome), *report.notes]
+    if not report.full_marks:
+        said = node_log(Recording(report.shown_trial.recording), 0, LINES)
+        lines += ["", "What the node said last:", said.as_text() or "nothing"]
+    return "\n".join(line for n, line in enumerate(lines) if line or n)

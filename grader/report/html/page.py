@@ -1,0 +1,256 @@
+"""Puts the HTML report together: `as_html(report)` reads the recordings of its trials and fills `page.html.jinja`.
+
+Called by `grader.report.outputs` only when somebody asks for the page. A pure function of report and recordings: the
+page made from a recording that is scored again differs from the first in host facts only.
+"""
+
+from __future__ import annotations
+
+import base64
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
+
+from grader.printable import shown
+from grader.record.reading import Recording
+from grader.report.html.from_above import Map
+from grader.report.html.plot import key
+from grader.report.html.signals import Figure, figures_of, speeds_of
+from grader.report.node_log import node_log
+from grader.report.report import OUTCOMES, Report, TrialReport, points
+from grader.score.score import CheckResult
+
+FOLDER = Path(__file__).parent
+LONGEST = 4000  # characters of one piece of text
+APART = 0.05  # [s] moments nearer than this are one
+MOST_VERDICTS = 4  # moments of failed checks that are drawn
+MAP, FRAME = 640, 360  # [pixels] width of the large drawing and of the small ones
+NOT_IN_HTML = re.compile("[^\t\n\r -~\xa0-\ud7ff\ue000-\ufdcf\ufdf0-\ufffd\U00010000-\U0010ffff]")
+JPEG, PNG = b"\xff\xd8\xff", b"\x89PNG\r\n"
+
+
+@dataclass(frozen=True)
+class CheckRow:
+    """One line of the table of checks; `trial` is the name of the one its finding comes from."""
+
+    word: str
+    title: str
+    points: float
+    max_points: float
+    expected: str
+    measured: str
+    when: str
+    hint: str
+    trial: str
+
+
+@dataclass(frozen=True)
+class TrialRow:
+    """One line of the table of trials, with a drawing of the path taken."""
+
+    name: str
+    seed: int
+    points: float
+    outcome: str
+    failed: str
+    truth_sha256: str
+    drawing: Markup
+    path: str
+
+
+@dataclass(frozen=True)
+class Plots:
+    """What one check looked at."""
+
+    word: str
+    title: str
+    trial: str
+    figures: list[Figure]
+
+
+@dataclass(frozen=True)
+class Frame:
+    """The world at one moment of the run."""
+
+    title: str
+    where: str
+    drawing: Markup
+
+
+@dataclass(frozen=True)
+class Picture:
+    """One recorded camera frame, as a data URI."""
+
+    title: str
+    alt: str
+    source: str
+
+
+def as_html(report: Report) -> str:
+    """Return the report as one HTML page. Raises UsageError if a recording cannot be read."""
+    trials = report.trials
+    recordings = {trial.name: Recording(trial.recording) for trial in trials}
+    maps = {name: Map(recording, _robot(recording)) for name, recording in recordings.items()}
+    shown_trial = report.shown_trial
+    recording, drawn = recordings[shown_trial.name], maps[shown_trial.name]
+    moments = _moments(shown_trial, recording)
+    several = len(trials) > 1
+    text = _template().render(
+        report=report,
+        submission=Path(report.submission).name,
+        style=Markup((FOLDER / "page.css").read_text()),
+        outcome=OUTCOMES.get(report.score.outcome, report.score.outcome),
+        several=several,
+        shown_trial=f" (trial {shown_trial.name})" if several else "",
+        checks=[_check_row(check, trials) for check in report.score.checks],
+        trials=[_trial_row(trial, maps[trial.name]) for trial in trials],
+        plots=[group for check in report.score.checks if (group := _plots(check, trials, recordings)).figures],
+        speeds=speeds_of(recording, _robot(recording)),
+        drawing=_whole(drawn, recording),
+        path=drawn.told(),
+        frames=[_frame(drawn, *moment) for moment in moments] if drawn and _lasted(recording) else [],
+        pictures=_pictures(recording, moments),
+        log=node_log(recording),
+        noted=[f"{line.time_ns / 1e9:.2f} s: {shown(line.text)}" for line in recording.lines("log/grader")],
+        facts=_facts(report),
+        points=points,
+        key=key,
+    )
+    return NOT_IN_HTML.sub("\N{REPLACEMENT CHARACTER}", text)
+
+
+def _template() -> Any:
+    environment = Environment(
+        loader=FileSystemLoader(FOLDER),
+        autoescape=True,
+        undefined=StrictUndefined,
+        finalize=_plain,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    return environment.get_template("page.html.jinja")
+
+
+def _plain(value: Any) -> Any:
+    """Foreign text on one line and not endless; what we drew ourselves stays."""
+    return value if isinstance(value, Markup) or not isinstance(value, str) else shown(value, LONGEST)
+
+
+def _check_row(check: CheckResult, trials: tuple[TrialReport, ...]) -> CheckRow:
+    finding = check.finding
+    return CheckRow(
+        word=_word(finding.passed),
+        title=check.spec.title,
+        points=check.points,
+        max_points=check.spec.points,
+        expected=finding.expected,
+        measured=finding.measured,
+        when="" if finding.at_s is None else f"{finding.at_s:.2f} s",
+        hint="" if finding.passed else check.spec.hint,
+        trial="" if finding.passed else _decisive(check, trials)[0].name,
+    )
+
+
+def _trial_row(trial: TrialReport, drawn: Map) -> TrialRow:
+    failed = [check.spec.title for check in _failed(trial.score.checks)]
+    path = drawn.told()
+    drawing = drawn.draw(1e6, FRAME, path, whole_path=True) if drawn else Markup("")
+    outcome = trial.score.outcome
+    return TrialRow(
+        trial.name, trial.seed, trial.score.points, outcome, ", ".join(failed), trial.truth_sha256, drawing, path
+    )
+
+
+def _plots(check: CheckResult, trials: tuple[TrialReport, ...], recordings: dict[str, Recording]) -> Plots:
+    trial, decisive = _decisive(check, trials)
+    figures = figures_of(decisive, recordings[trial.name])
+    return Plots(_word(check.finding.passed), check.spec.title, trial.name, figures)
+
+
+def _decisive(check: CheckResult, trials: tuple[TrialReport, ...]) -> tuple[TrialReport, CheckResult]:
+    """Return the first trial in which a check failed, else the first, and what the check found there."""
+    each = [(trial, one) for trial in trials for one in trial.score.checks if one.spec.id == check.spec.id]
+    return next(((trial, one) for trial, one in each if not one.finding.passed), each[0])
+
+
+def _failed(checks: tuple[CheckResult, ...]) -> list[CheckResult]:
+    return [check for check in checks if not check.finding.passed]
+
+
+def _word(passed: bool) -> str:
+    return "pass" if passed else "FAIL"
+
+
+def _robot(recording: Recording) -> str:
+    return str(recording.properties("run").get("robot", "robot"))
+
+
+def _lasted(recording: Recording) -> float:
+    """Return how long the run lasted [s], simulated; 0 if nothing was run."""
+    return float(recording.facts().get("sim_seconds") or 0.0)
+
+
+def _moments(trial: TrialReport, recording: Recording) -> list[tuple[float, str]]:
+    """Return the moments worth a look, in order: start, middle, verdicts of failed checks, end."""
+    end = _lasted(recording)
+    found = [(0.0, "Start"), (end, "End")]
+    failed = [check for check in _failed(trial.score.checks) if check.finding.at_s is not None]
+    verdicts = [(float(check.finding.at_s or 0.0), f"{check.spec.title}: failed") for check in failed]
+    for at, title in [*verdicts[:MOST_VERDICTS], (end / 2, "Middle")]:
+        near = next((n for n, (other, _) in enumerate(found) if abs(other - at) < APART), None)
+        if near is None:
+            found.append((at, title))
+        elif title != "Middle":
+            found[near] = (found[near][0], f"{found[near][1]}. {title}")
+    return sorted(found, key=lambda moment: moment[0])
+
+
+def _whole(drawn: Map, recording: Recording) -> Markup:
+    return drawn.draw(_lasted(recording), MAP, drawn.told(), whole_path=True) if drawn else Markup("")
+
+
+def _frame(drawn: Map, at: float, title: str) -> Frame:
+    where = drawn.where(at)
+    alt = f"The world from above at {at:.2f} s of simulated time{f': the robot is at {where}' if where else ''}."
+    return Frame(f"{at:.2f} s. {title}", where, drawn.draw(at, FRAME, alt))
+
+
+def _pictures(recording: Recording, moments: list[tuple[float, str]]) -> list[Picture]:
+    """Return the recorded camera frames at the moments worth a look."""
+    found = []
+    for entity in [*recording.entities("world", "EncodedImage"), *recording.entities("topics", "EncodedImage")]:
+        seen = b""
+        for at, title in moments:
+            data = recording.picture_at(entity, round(at * 1e9))
+            kind = "jpeg" if data.startswith(JPEG) else "png" if data.startswith(PNG) else ""
+            if kind and data != seen:
+                seen = data
+                alt = f"Picture of {entity} at {at:.2f} s of simulated time."
+                source = f"data:image/{kind};base64,{base64.b64encode(data).decode()}"
+                found.append(Picture(f"{at:.2f} s. {title} ({entity})", alt, source))
+    return found
+
+
+def _facts(report: Report) -> list[tuple[str, Any]]:
+    """Return what else is known: about the run, then about the machine, which a recording does not know."""
+    facts: list[tuple[str, Any]] = [
+        ("Seeds", ", ".join(str(trial.seed) for trial in report.trials)),
+        ("Simulated", f"{report.sim_seconds:g} s"),
+        ("SHA-256 of the true path", report.score.truth_sha256),
+        ("Versions", ", ".join(f"{name} {version}" for name, version in sorted(report.versions.items()))),
+    ]
+    if host := report.host:
+        facts += [
+            ("Recording", str(report.recording)),
+            ("Graded file", report.submission),
+            ("Isolation", f"level {host.sandbox}"),
+            ("Pace", host.pace),
+            ("Run", f"{host.run_wall_seconds:.2f} s on the wall clock; the whole command {host.wall_seconds:.2f} s"),
+        ]
+    else:
+        facts.append(("Isolation, pace, speed", "known only to the report made when the submission was run"))
+    return facts

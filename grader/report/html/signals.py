@@ -1,0 +1,137 @@
+"""Chooses what is plotted: for each check the signals it looked at, and for the run commands beside the truth.
+
+Called by `page.py`. A check's signals are those of its bands; without bands they are those
+its manifest names.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from markupsafe import Markup
+
+from grader.record.reading import Recording
+from grader.report.html.plot import Area, Curve, Moment, number, plot
+from grader.score.score import CheckResult
+
+MOST_FIGURES = 4  # of one check
+SPEEDS = (
+    ("Forward speed", "m/s", "linear_x", "linear/x"),
+    ("Turning rate", "rad/s", "angular_z", "angular/z"),
+)
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A plot with its title, its curves as (number, name), and what its band means (empty without one)."""
+
+    svg: Markup
+    title: str
+    names: list[tuple[int, str]]
+    band: str
+
+
+def figures_of(check: CheckResult, recording: Recording) -> list[Figure]:
+    """Return a plot for each signal that a check looked at and that was recorded."""
+    finding, parameters = check.finding, check.spec.parameters
+    bands = {name: [b for b in finding.bands if b.signal == name] for name in [b.signal for b in finding.bands]}
+    gate = parameters.get("gate")
+    if finding.gated and isinstance(gate, dict):  # what it failed for is the gate alone
+        bands = {str(gate.get("signal")): []}
+    named = list(bands) or list(_texts({k: v for k, v in parameters.items() if k != "gate"}))
+    moment = None if finding.at_s is None else Moment(finding.at_s, finding.passed)
+    behind = parameters.get("command")
+    recorded = set(recording.signals())  # lists of numbers are none
+    figures: list[Figure] = []
+    for name in dict.fromkeys(named):
+        if name not in recorded:
+            continue
+        title = _name(name, parameters, recording)
+        curves = [_curve(recording, name, title)]
+        if isinstance(behind, str) and behind != name and not figures and behind in recorded:
+            curves.append(_curve(recording, behind, _name(behind, {}, recording)))
+        areas = [Area(b.low, b.high, b.start, b.end) for b in bands.get(name, [])]
+        if finding.gated and isinstance(gate, dict):
+            reaches = gate.get("reaches")
+            areas = [Area(float(reaches), math.inf, 0.0, _end(recording))] if isinstance(reaches, int | float) else []
+        figures.append(_figure(recording, title, curves, areas, moment))
+    return figures[:MOST_FIGURES]
+
+
+def speeds_of(recording: Recording, robot: str) -> list[Figure]:
+    """Return the true speeds of the robot, each with the commands that student or script gave for it."""
+    figures = []
+    for title, unit, truth, command in SPEEDS:
+        name = f"truth/{robot}/{truth}"
+        if not recording.has(name):
+            continue
+        curves = [_curve(recording, name, f"truth, {name}")]
+        for topic in sorted(recording.facts().get("listened", {})):
+            for signal in recording.entities(f"topics/{topic.strip('/')}", "Scalars:scalars"):
+                if signal.endswith(f"/{command}"):
+                    curves.append(_curve(recording, signal, f"command, {signal.removeprefix('topics')}"))
+        figures.append(_figure(recording, f"{title} [{unit}]", curves[:4], [], None))
+    return figures
+
+
+def _figure(recording: Recording, title: str, curves: list[Curve], areas: list[Area], moment: Moment | None) -> Figure:
+    end = _end(recording)
+    svg = plot(curves, areas, moment, end, recording.ended_s, _told(title, curves, areas, moment, end))
+    band = "wanted: " + "; ".join(dict.fromkeys(_bounds(area) for area in areas)) if areas else ""
+    return Figure(svg, title, [(n, curve.name) for n, curve in enumerate(curves)], band)
+
+
+def _told(title: str, curves: list[Curve], areas: list[Area], moment: Moment | None, end: float) -> str:
+    """Return a plot in words, for those who do not see it."""
+    words = [f"{title} over {end:g} s of simulated time."]
+    for curve in curves:
+        if len(curve.values):
+            low, high, last = (number(float(v)) for v in (curve.values.min(), curve.values.max(), curve.values[-1]))
+            words.append(f"{curve.name}: from {low} to {high}, at last {last}.")
+    words += [f"Wanted: {_bounds(area)}." for area in areas]
+    if moment is not None:
+        words.append(f"{'Passed' if moment.passed else 'Failed'} at {moment.at_s:.2f} s.")
+    return " ".join(words)
+
+
+def _bounds(area: Area) -> str:
+    if math.isinf(area.high):
+        wanted = f"at least {number(area.low)}"
+    elif math.isinf(area.low):
+        wanted = f"at most {number(area.high)}"
+    else:
+        wanted = f"{number(area.low)} to {number(area.high)}"
+    return f"{wanted} at {area.end:g} s" if area.start == area.end else f"{wanted}, {area.start:g} s to {area.end:g} s"
+
+
+def _curve(recording: Recording, name: str, title: str) -> Curve:
+    signal = recording.signal(name)
+    return Curve(title, signal.times / 1e9, signal.values)
+
+
+def _name(signal: str, parameters: dict[str, Any], recording: Recording) -> str:
+    """What people call a signal: as the manifest says, else as the recording does."""
+    for table in (parameters, *(t for t in parameters.get("conditions", []) if isinstance(t, dict))):
+        if table.get("signal") == signal and "name" in table:
+            return f"{table['name']} [{table['unit']}]" if "unit" in table else str(table["name"])
+    return str(recording.static(signal).get("SeriesLines:names", signal.removeprefix("topics")))
+
+
+def _texts(value: Any) -> Iterator[str]:
+    """Every text in a manifest's parameters, however deep."""
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, dict):
+        for part in value.values():
+            yield from _texts(part)
+    elif isinstance(value, list):
+        for part in value:
+            yield from _texts(part)
+
+
+def _end(recording: Recording) -> float:
+    """Where the time axis ends [s]: the duration the exercise asked for."""
+    return float(recording.properties("run").get("duration") or 1.0)

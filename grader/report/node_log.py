@@ -1,0 +1,47 @@
+"""What the node said, shortened: how it began and how it ended. Every report that shows it reads it here."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from grader.printable import shown
+from grader.record.reading import Recording
+
+FIRST, LAST = 40, 80  # lines that are kept from the beginning and from the end
+
+
+@dataclass(frozen=True)
+class NodeLog:
+    """Lines as (simulated time [s], level, text), fit to be shown; `left_out` lines are missing between the two parts.
+
+    `dropped` lines more came so fast that they were never recorded.
+    """
+
+    first: tuple[tuple[float, str, str], ...]
+    left_out: int
+    last: tuple[tuple[float, str, str], ...]
+    dropped: int = 0
+
+    def as_text(self) -> str:
+        """Return the lines as text, each with its time."""
+        lines = [_told(line) for line in self.first]
+        if self.left_out:
+            lines.append(f"({self.left_out} lines are left out here)")
+        lines += [_told(line) for line in self.last]
+        if self.dropped:
+            lines.append(f"({self.dropped} more lines came too fast to be recorded)")
+        return "\n".join(lines)
+
+
+def node_log(recording: Recording, first: int = FIRST, last: int = LAST) -> NodeLog:
+    """Return the first and last lines of what the student's process printed and logged."""
+    every = [(line.time_ns / 1e9, line.level, shown(line.text).rstrip()) for line in recording.lines("log/student")]
+    dropped = int(recording.facts().get("lines_dropped") or 0)
+    if len(every) <= first + last:
+        return NodeLog(tuple(every), 0, (), dropped)
+    return NodeLog(tuple(every[:first]), len(every) - first - last, tuple(every[-last:] if last else ()), dropped)
+
+
+def _told(line: tuple[float, str, str]) -> str:
+    time_s, _, text = line
+    return f"{time_s:8.2f} s  {text}"
