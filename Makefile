@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 PIP := $(BIN)/pip --disable-pip-version-check --quiet install --constraint constraints.txt
 
-.PHONY: setup demo test verify bench lint clean
+.PHONY: setup demo test verify bench book fuzz lint clean
 setup: .venv/with-course
 
 .venv/with-course: pyproject.toml constraints.txt
@@ -32,6 +32,12 @@ verify: .venv/with-tools
 
 bench: .venv/with-tools
 	$(BIN)/python -m tests.bench
+
+book: .venv/with-tools
+	$(BIN)/python -m grader.book build/book
+
+fuzz: .venv/with-tools
+	$(BIN)/python -m tests.fuzz.load_worlds
 
 lint: .venv/with-tools
 	$(BIN)/ruff check .
