@@ -1,4 +1,4 @@
-"""The book of a small course: chapters are run in a copy, pages load nothing, the front page maps checks to variants."""
+"""The book of a small course: chapters run in a copy, pages load nothing, the front page maps checks to variants."""
 
 import re
 import shutil
