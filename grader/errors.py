@@ -20,6 +20,13 @@ class UsageError(CourseError):
     exit_code = 2
 
 
+class RefusedError(UsageError):
+    """A submission that is not taken in because of what it is made of: too large, or leading out of its folder.
+
+    Exit code 2 like any that cannot be read; in a class its outcome is `protocol`.
+    """
+
+
 class ManifestError(CourseError):
     """An exercise's own files are wrong: the author must mend them (exit code 3, never the student's loss)."""
 

@@ -1,16 +1,20 @@
 """Takes a submission in: finds the file asked for and reads it, with what lies beside it, before anything is run.
 
-What cannot be read is a usage error (exit 2). What can be read but can never run is the student's error: it is graded,
-with no points, and told the line.
+A submission is a file, a folder or an archive (`archive.py`); all it consists of is read into memory once. What cannot
+be read is a usage error (exit 2). What can be read but can never run is the student's error: it is graded, with no
+points, and told the line.
 """
 
 from __future__ import annotations
 
 import hashlib
+import os
 import stat
-from pathlib import Path
+from pathlib import Path, PurePosixPath
+from typing import NamedTuple
 
-from grader.errors import UsageError, nearest
+from grader.archive import LARGEST_ARCHIVE, MOST_MEMBERS, Member, Tree, damaged, is_archive, open_archive
+from grader.errors import RefusedError, UsageError, nearest
 from grader.exercise import Exercise
 from grader.kinds.kind import find_kind
 from grader.printable import shown
@@ -19,41 +23,159 @@ from grader.submission import Submission
 LARGEST = 1 << 20  # [bytes] of a submitted file
 LARGEST_FOLDER = 16 << 20  # [bytes] of all files of a submitted folder
 MOST_FILES = 200  # of a submitted folder
+# Traces of editors, systems and tools, which nobody means to hand in. So are hidden files and folders.
+JUNK = {"__pycache__", "__MACOSX", "Thumbs.db", "desktop.ini"}
+# Python files of these names stand in for others wherever their folder is looked into first: they stay out of the box.
+STAND_INS = {"conftest", "sitecustomize", "usercustomize", "numpy", "rclpy"}
+
+
+class Selection(NamedTuple):
+    """What of a folder or an archive is the submission: everything below `base`; `main` is the file asked for."""
+
+    base: str
+    main: str
+    files: dict[str, bytes]
 
 
 def take_in(exercise: Exercise, path: Path | None) -> Submission:
-    """Find and read the submission at `path`: the file itself or a folder with it; None is the student's own copy.
+    """Find and read the submission at `path`: the file itself, or a folder or archive with it; None: the student's own.
 
-    A folder comes with everything in it, a file alone. Raises UsageError if there is nothing to read.
+    A folder or an archive comes with everything in it, a file alone. Raises UsageError if there is nothing to read,
+    RefusedError if it is not to be read.
     """
-    path = path if path is not None else exercise.folder
-    if not _is_utf8(path):
+    path, main, files = read_submission(exercise, path if path is not None else exercise.folder)
+    fault = find_kind(exercise.kind).fault(main, files[main])
+    return Submission(path.resolve(), main, hashlib.sha256(files[main]).hexdigest(), fault, files)
+
+
+def read_submission(exercise: Exercise, path: Path) -> tuple[Path, str, dict[str, bytes]]:
+    """Read a submission without looking into its files: where it lies, the name of the file asked for, all files."""
+    if not _is_utf8(str(path)):
         raise UsageError(f"{shown(str(path))!r}: a file name must be UTF-8, or ROS cannot start the file; rename it")
-    kind = find_kind(exercise.kind)
-    folder = path if _is_folder(path) else None
-    if folder is not None:
-        names = _files(folder, kind.suffixes)
-        if exercise.file not in names:
-            raise UsageError(
-                f"{path} holds no {exercise.file}, the file {exercise.name} asks for{nearest(exercise.file, names)}"
-            )
-        path = folder / exercise.file
-    data = _read(path, exercise.file, kind.suffixes)
-    files = {path.name: data}
-    if folder is not None:
-        files |= _beside(folder)
-    return Submission(path.resolve(), path.name, hashlib.sha256(data).hexdigest(), kind.fault(path.name, data), files)
+    if _is_folder(path):
+        chosen = select(folder_tree(path), exercise, str(path))
+        return path / chosen.base / chosen.main, chosen.main, chosen.files
+    suffixes = find_kind(exercise.kind).suffixes
+    archive = is_archive(path.name) and not path.name.endswith(suffixes)
+    data = _read(path, exercise.file, suffixes, LARGEST_ARCHIVE if archive else LARGEST)
+    if not archive:
+        return path, path.name, {path.name: data}
+    chosen = select(open_archive(path.name, data), exercise, str(path))
+    return path, chosen.main, chosen.files
 
 
-def _read(path: Path, wanted: str, suffixes: tuple[str, ...]) -> bytes:
+def folder_tree(folder: Path) -> Tree:
+    """The regular files below a folder. Symbolic links and junk are left out; no link is followed.
+
+    Raises RefusedError if there are too many to look at.
+    """
+    tree: Tree = {}
+    seen = 0
+    for parent, folders, names in os.walk(folder):
+        folders[:] = sorted(name for name in folders if not is_junk(name))
+        seen += len(folders) + len(names)
+        if seen > MOST_MEMBERS:
+            raise RefusedError(f"{folder} is too large: it holds more than {MOST_MEMBERS} files")
+        for name in sorted(names):
+            path = Path(parent, name)
+            inside = path.relative_to(folder).as_posix()
+            if is_junk(name) or not _is_utf8(inside):
+                continue
+            try:
+                status = path.lstat()
+            except OSError:
+                continue
+            if stat.S_ISREG(status.st_mode):
+                tree[inside] = Member(status.st_size, lambda most, path=path: _read(path, path.name, (), most))
+    return tree
+
+
+def is_junk(name: str) -> bool:
+    """Whether a file or folder of this name is left behind by a tool and not handed in."""
+    return name.startswith(".") or name in JUNK
+
+
+def select(tree: Tree, exercise: Exercise, where: str, *, nested: bool = False) -> Selection:
+    """Find in a folder or archive the file an exercise asks for and read it, with all that lies beside and below it.
+
+    It may lie anywhere if it is there only once. One single file is the one meant, whatever it is called, and one
+    single archive is looked into. Raises UsageError if it is not there, RefusedError if something is not to be read.
+    """
+    tree = {n: m for n, m in tree.items() if not any(map(is_junk, PurePosixPath(n).parts)) and _is_utf8(n)}
+    for name, member in sorted(tree.items()):
+        if member.refusal:
+            raise RefusedError(f"{where} holds {shown(name)!r}, which {member.refusal}; send plain files")
+    only = next(iter(tree), "") if len(tree) == 1 else ""
+    if only and is_archive(only) and not nested:
+        archive = open_archive(PurePosixPath(only).name, _content(tree[only], only, where, LARGEST_ARCHIVE))
+        return select(archive, exercise, f"{where}: {shown(only)}", nested=True)
+    main = _main(tree, exercise, where, only)
+    base = str(PurePosixPath(main).parent)
+    inside = {name if base == "." else name[len(base) + 1 :]: name for name in tree if base in (".", *_above(name))}
+    chosen = {short: name for short, name in inside.items() if name == main or not _stands_in(short)}
+    if len(chosen) > MOST_FILES or sum(tree[name].size for name in chosen.values()) > LARGEST_FOLDER:
+        raise RefusedError(
+            f"{where} is too large: at most {MOST_FILES} files and {LARGEST_FOLDER} bytes are accepted in a folder"
+        )
+    if both := [name for short, name in chosen.items() if any(parent in chosen for parent in _above(short))]:
+        raise RefusedError(f"{where} holds {shown(min(both))!r} below a file, where no file can be")
+    files = {short: _content(tree[name], name, where, LARGEST) for short, name in sorted(chosen.items())}
+    if sum(map(len, files.values())) > LARGEST_FOLDER:
+        raise RefusedError(f"{where} is too large: at most {LARGEST_FOLDER} bytes are accepted in a folder")
+    return Selection(base, PurePosixPath(main).name, files)
+
+
+def _main(tree: Tree, exercise: Exercise, where: str, only: str) -> str:
+    """The name in `tree` of the file asked for."""
+    wanted = exercise.file
+    if wanted in tree:
+        return wanted
+    found = sorted(name for name in tree if PurePosixPath(name).name == wanted)
+    of_course = [name for name in found if name.endswith(f"exercises/{exercise.name}/{wanted}")]  # a student's copy
+    for candidates in (of_course, found):
+        if len(candidates) == 1:
+            return candidates[0]
+    if found:
+        raise UsageError(f"{where} holds {wanted} {len(found)} times: {shown(', '.join(found))}; keep one")
+    suffixes = find_kind(exercise.kind).suffixes
+    if only.endswith(suffixes):
+        return only
+    names = [PurePosixPath(name).name for name in tree if name.endswith(suffixes)]
+    raise UsageError(f"{where} holds no {wanted}, the file {exercise.name} asks for{nearest(wanted, names)}")
+
+
+def _above(name: str) -> list[str]:
+    return [str(parent) for parent in PurePosixPath(name).parents][:-1]
+
+
+def _stands_in(name: str) -> bool:
+    return any(part.partition(".")[0] in STAND_INS for part in PurePosixPath(name).parts)
+
+
+def _content(member: Member, name: str, where: str, largest: int) -> bytes:
+    """Read a file completely. Raises RefusedError if it is larger than `largest` bytes, or than it claims."""
+    if member.size > largest:
+        raise RefusedError(f"{where}: {shown(name)} has {member.size} bytes; at most {largest} are accepted")
+    try:
+        data = member.read(largest + 1)
+    except UsageError:
+        raise
+    except Exception as error:  # what the readers raise when somebody has damaged an archive on purpose is not listed
+        raise damaged(f"{where}: {shown(name)}", error) from None
+    if len(data) > largest:
+        raise RefusedError(f"{where}: {shown(name)} has more than {largest} bytes")
+    return data
+
+
+def _read(path: Path, wanted: str, suffixes: tuple[str, ...], largest: int) -> bytes:
     try:
         status = path.stat()
         if not stat.S_ISREG(status.st_mode):
             raise UsageError(f"{path} is not a regular file; give the {wanted} to grade or its folder")
-        if status.st_size > LARGEST:
-            raise UsageError(f"{path} has {status.st_size} bytes; at most {LARGEST} are accepted")
+        if status.st_size > largest:
+            raise RefusedError(f"{path} has {status.st_size} bytes; at most {largest} are accepted")
         with path.open("rb") as stream:
-            return stream.read(LARGEST + 1)
+            return stream.read(largest + 1)
     except FileNotFoundError:
         raise UsageError(f"there is no file {path}{nearest(path.name, _files(path.parent, suffixes))}") from None
     except (OSError, ValueError) as error:
@@ -61,26 +183,9 @@ def _read(path: Path, wanted: str, suffixes: tuple[str, ...]) -> bytes:
         raise UsageError(f"{str(path)[:200]!r} cannot be read: {reason}") from None
 
 
-def _beside(folder: Path) -> dict[str, bytes]:
-    """Return the regular files below a folder: relative name -> content. Symbolic links are left out."""
-    files: dict[str, bytes] = {}
-    total = 0
-    for path in sorted(folder.rglob("*")):
-        name = path.relative_to(folder).as_posix()
-        if "__pycache__" in path.parts or path.is_symlink() or not path.is_file() or not _is_utf8(path):
-            continue
-        total += path.stat().st_size
-        if len(files) >= MOST_FILES or total > LARGEST_FOLDER:
-            raise UsageError(
-                f"{folder} is too large: at most {MOST_FILES} files and {LARGEST_FOLDER} bytes are accepted in a folder"
-            )
-        files[name] = _read(path, name, ())
-    return files
-
-
-def _is_utf8(path: Path) -> bool:
+def _is_utf8(name: str) -> bool:
     try:
-        str(path).encode()
+        name.encode()
     except UnicodeEncodeError:
         return False
     return True

@@ -35,6 +35,54 @@ def test_of_a_folder_the_file_asked_for(exercise, tmp_path):
     assert take_in(exercise, tmp_path).path == path
 
 
+def test_the_one_file_of_a_folder_is_the_one_meant(exercise, tmp_path):
+    path = write(tmp_path / "teleop (1).py", "x = 1")
+    (tmp_path / ".git").mkdir()
+    write(tmp_path / ".git/config.py", "")
+    write(tmp_path / ".DS_Store", "")
+    submission = take_in(exercise, tmp_path)
+    assert (submission.path, submission.main, submission.files) == (path, path.name, {path.name: b"x = 1"})
+
+
+def test_the_file_may_lie_deeper(exercise, tmp_path):
+    (tmp_path / "week 3/lib").mkdir(parents=True)
+    write(tmp_path / "notes.py", "")
+    path = write(tmp_path / "week 3/teleop_node.py", "x = 1")
+    write(tmp_path / "week 3/lib/slow.py", "y = 1")
+    submission = take_in(exercise, tmp_path)
+    assert submission.path == path
+    assert submission.files == {"teleop_node.py": b"x = 1", "lib/slow.py": b"y = 1"}
+
+
+def test_of_a_copy_of_the_course_the_file_of_this_exercise(exercise, tmp_path):
+    for folder in ("exercises/03_teleop", "backup"):
+        (tmp_path / folder).mkdir(parents=True)
+        write(tmp_path / folder / "teleop_node.py", folder)
+    assert take_in(exercise, tmp_path).files == {"teleop_node.py": b"exercises/03_teleop"}
+
+
+def test_two_files_of_the_name_are_not_guessed_between(exercise, tmp_path):
+    for folder in ("old", "new"):
+        (tmp_path / folder).mkdir()
+        write(tmp_path / folder / "teleop_node.py", folder)
+    refused(exercise, tmp_path, "2 times", "new/teleop_node.py, old/teleop_node.py")
+
+
+def test_what_would_stand_in_for_other_modules_stays_out_of_the_box(exercise, tmp_path):
+    (tmp_path / "rclpy").mkdir()
+    for name in ("conftest.py", "sitecustomize.py", "usercustomize.py", "numpy.py", "rclpy/__init__.py", "mine.py"):
+        write(tmp_path / name, "raise SystemExit(0)")
+    write(tmp_path / "teleop_node.py", "x = 1")
+    assert set(take_in(exercise, tmp_path).files) == {"teleop_node.py", "mine.py"}
+
+
+def test_a_folder_without_end_is_not_walked_to_it(exercise, tmp_path, monkeypatch):
+    monkeypatch.setattr("grader.intake.MOST_MEMBERS", 50)
+    for number in range(60):
+        write(tmp_path / f"{number}.txt", "")
+    refused(exercise, tmp_path, "too large", "50 files")
+
+
 def test_of_a_folder_everything_goes_along_but_links(exercise, tmp_path):
     write(tmp_path / "teleop_node.py", "import speeds.slow")
     (tmp_path / "speeds").mkdir()
@@ -77,6 +125,7 @@ def refused(exercise, path, *words):
 
 def test_a_folder_without_the_file(exercise, tmp_path):
     write(tmp_path / "teleop.py", "")
+    write(tmp_path / "other.py", "")
     refused(exercise, tmp_path, str(tmp_path), "teleop_node.py", "did you mean teleop.py?")
 
 
