@@ -2,14 +2,19 @@
 
     room = Playground()
     room.start("gz sim lidar_room.sdf -r -s")
-    room.start("parameter_bridge --ros-args -p config_file:=bridge.yaml")
-    ...                                     # your rclpy node, in this very process
+    bridge = room.start("ros2 run ros_gz_bridge parameter_bridge --ros-args -p config_file:=bridge.yaml")
+    bridge.wait_for("ready")
+    print(room)                             # what runs
+    !ros2 topic list                        # a notebook's own way to run a command and wait for its end
     room.close()
 
 What is started here is what a terminal would start: ordinary processes that meet each other, and your node, over DDS
 and Gazebo's transport. A playground only adds three things: a ROS domain and a Gazebo partition nobody else on
 this machine uses, a place where the output is kept, and an end: with `close()`, at the end of a `with` block, or
 with the notebook's kernel, whichever comes first.
+
+A notebook's cell may be run again at any time, so doing a thing twice does no harm: a new playground closes the one
+before it, and a command that is started again ends its first run.
 """
 
 from __future__ import annotations
@@ -23,6 +28,8 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
+import time
 from pathlib import Path
 from types import TracebackType
 
@@ -31,6 +38,7 @@ from grader.run.domain import Domain
 from grader.run.sandbox import ros_environment
 
 GRACE = 3.0  # [s] between SIGINT, SIGTERM and SIGKILL
+LOOK_AGAIN = 0.02  # [s] how often the output of a program is looked at
 # Becomes the command after asking Linux (prctl 1, PR_SET_PDEATHSIG) for a SIGTERM when the process that started it
 # is gone: a kernel that is killed cannot clean up. Run without site packages, so it takes only milliseconds.
 _LAUNCHER = """
@@ -74,6 +82,22 @@ class Program:
         """What it has printed so far, stdout and stderr as they came."""
         return self._log.read_text(errors="replace") if self._text is None else self._text
 
+    def wait_for(self, text: str, deadline: float = 30.0) -> str:
+        """Wait until it has printed `text`; return its output so far.
+
+        Raises TimeoutError, with the output, if it does not within `deadline` seconds of your watch or has ended.
+        """
+        end = time.monotonic() + deadline
+        pause = threading.Event()
+        while True:
+            ended = self.exit_code is not None  # asked first: what it prints before it ends is in the output
+            if text in (output := self.output):
+                return output
+            if ended or time.monotonic() > end:
+                reason = "has ended and" if ended else f"has, within {deadline:g} s,"
+                raise TimeoutError(f"{self.command} {reason} not printed {text!r}, but:\n{output}")
+            pause.wait(LOOK_AGAIN)
+
     def stop(self) -> int:
         """End it as Ctrl-C would (SIGINT), more firmly if it does not listen; return its exit code."""
         if self._text is None:
@@ -100,12 +124,18 @@ class Playground:
     """Own ROS domain, own Gazebo partition, and the programs started in them; also a context manager.
 
     While it is open, `os.environ` holds what a node of this process needs to be in the same domain and partition:
-    make one before `rclpy.init()`. Use it from the main thread, where a notebook's cells run: Linux ends the
-    programs when the thread that started them does.
+    make one before `rclpy.init()`. As it can hold that once only, a new playground closes the one before it. The
+    course's commands are put on the PATH and stay there. Use it from the main thread, where a notebook's cells run:
+    Linux ends the programs when the thread that started them does.
     """
+
+    _opened: Playground | None = None
 
     def __init__(self) -> None:
         """Reserve the domain. Raises InfrastructureError if none is free."""
+        if Playground._opened is not None:
+            Playground._opened.close()
+        _put_on_path(Path(sys.executable).parent)
         self._domain = Domain()
         self._folder = Path(tempfile.mkdtemp(prefix="playground-"))
         self.programs: list[Program] = []
@@ -117,6 +147,7 @@ class Playground:
         self._before = {name: os.environ.get(name) for name in self.environment}
         os.environ.update(self.environment)
         self._open = True
+        Playground._opened = self
         atexit.register(self.close)
 
     @property
@@ -129,23 +160,30 @@ class Playground:
         """The name of its Gazebo partition (GZ_PARTITION)."""
         return self.environment["GZ_PARTITION"]
 
-    def start(self, command: str) -> Program:
+    @property
+    def running(self) -> list[Program]:
+        """The programs that have not ended yet."""
+        return [program for program in self.programs if program.exit_code is None]
+
+    def start(self, command: str, instead_of: str | None = None) -> Program:
         """Start a command as a terminal would, without waiting for it.
 
-        The words are split and unquoted as in a shell, but there are no shell features such as pipes. Raises
-        UsageError if there is no such command.
+        The words are split and unquoted as in a shell, but there are no shell features such as pipes. What is running
+        and begins with `instead_of` (the command itself if left out) is stopped before: `instead_of="gz sim"` leaves
+        one simulator only. Raises UsageError if there is no such command.
         """
         if not self._open:
             raise UsageError("this playground is closed; make a new one with Playground()")
         words = shlex.split(command)
         if not words:
             raise UsageError("which command? For example: gz sim lidar_room.sdf -r -s")
-        # The commands of this course live beside its Python, whether or not its environment is activated.
-        beside = Path(sys.executable).parent
-        executable = shutil.which(words[0], path=f"{beside}{os.pathsep}{os.environ.get('PATH', os.defpath)}")
+        executable = shutil.which(words[0])
         if executable is None:
-            known = [path.name for path in beside.iterdir()]
+            known = [path.name for path in Path(sys.executable).parent.iterdir()]
             raise UsageError(f"there is no command {words[0]!r}{nearest(words[0], known)}")
+        for before in self.running:
+            if before.command.startswith(command if instead_of is None else instead_of):
+                before.stop()
         program = Program(command, executable, words, self._folder / f"{len(self.programs)}.log")
         self.programs.append(program)
         return program
@@ -159,6 +197,7 @@ class Playground:
         if not self._open:
             return
         self._open = False
+        Playground._opened = None
         atexit.unregister(self.close)
         try:
             for program in reversed(self.programs):
@@ -172,6 +211,12 @@ class Playground:
             self._domain.release()
             shutil.rmtree(self._folder, ignore_errors=True)
 
+    def __repr__(self) -> str:
+        if not self._open:
+            return "<playground: closed, nothing is running>"
+        lines = [f"  process {program.pid}  {program.command}" for program in self.running] or ["  nothing"]
+        return "\n".join([f"running with ROS_DOMAIN_ID={self.domain}, GZ_PARTITION={self.partition}:", *lines])
+
     def __enter__(self) -> Playground:
         return self
 
@@ -179,3 +224,10 @@ class Playground:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
+
+
+def _put_on_path(folder: Path) -> None:
+    """Let commands in a folder be found first: those of this course, whether or not its environment is activated."""
+    path = os.environ.get("PATH", os.defpath).split(os.pathsep)
+    if str(folder) not in path:
+        os.environ["PATH"] = os.pathsep.join([str(folder), *path])

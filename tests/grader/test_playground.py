@@ -62,9 +62,52 @@ def test_programs_and_nodes_of_this_process_share_one_fence(room, tmp_path):
     assert str([os.environ[name] for name in FENCE]) in program.output
 
 
-def test_two_playgrounds_are_fenced_off_from_each_other(room):
+def test_a_new_playground_closes_the_one_before_it(room):
+    program = room.start("sleep 1000")
     with Playground() as other:
-        assert other.domain != room.domain and other.partition != room.partition
+        assert gone(program.pid) and "closed" in repr(room)
+        room.close()  # once more does no harm to the new one
+        assert os.environ["GZ_PARTITION"] == other.partition
+    assert os.environ.get("GZ_PARTITION") != other.partition
+
+
+def test_a_command_started_again_ends_its_first_run(room):
+    first, other = room.start("sleep 1000"), room.start("sleep 999")
+    second = room.start("sleep 1000")
+    assert gone(first.pid) and room.running == [other, second]
+    third = room.start("sleep 998", instead_of="sleep")
+    assert room.running == [third]
+
+
+def test_it_lists_what_runs(room):
+    assert "nothing" in repr(room) and str(room.domain) in repr(room)
+    program = room.start("sleep 1000")
+    assert f"process {program.pid}  sleep 1000" in repr(room)
+    program.stop()
+    assert "sleep" not in repr(room)
+
+
+def test_waiting_for_what_a_program_prints(room, tmp_path):
+    program = start_script(room, tmp_path, "print('ready: 3 bridges'); print('up'); import signal; signal.pause()")
+    assert program.wait_for("ready") == "ready: 3 bridges\nup\n"
+    with pytest.raises(TimeoutError, match=r"within 0.1 s, not printed 'never', but:\nready"):
+        program.wait_for("never", deadline=0.1)
+
+
+def test_who_has_ended_is_not_waited_for(room, tmp_path):
+    program = start_script(room, tmp_path, "print('up, and out')")
+    with pytest.raises(TimeoutError, match="has ended and not printed 'more', but:\nup, and out"):
+        program.wait_for("more")
+    assert "out" in program.wait_for("out")
+
+
+def test_the_commands_of_the_course_are_on_the_path_and_stay_there(monkeypatch):
+    monkeypatch.setenv("PATH", "/usr/bin")
+    with Playground():
+        pass
+    assert os.environ["PATH"] == f"{Path(sys.executable).parent}{os.pathsep}/usr/bin"
+    with Playground():
+        assert os.environ["PATH"].count(str(Path(sys.executable).parent)) == 1
 
 
 def test_closing_gives_environment_and_folder_back(monkeypatch):
