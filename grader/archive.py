@@ -14,7 +14,7 @@ import zipfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import PurePosixPath
-from typing import IO, BinaryIO
+from typing import IO, BinaryIO, cast
 
 from grader.errors import RefusedError, UsageError
 from grader.printable import shown
@@ -151,8 +151,8 @@ class _Counted(io.RawIOBase):
 def _tar_members(name: str, data: bytes) -> Iterator[tuple[str, Member]]:
     """The files of a tar, compressed or not. It is gone through once and its small files are kept."""
     raw: IO[bytes] = io.BytesIO(data)
-    stream = raw if name.lower().endswith(".tar") else gzip.GzipFile(fileobj=raw)
-    with tarfile.open(fileobj=_Counted(stream, name), mode="r|") as archive:
+    stream = raw if name.lower().endswith(".tar") else cast(IO[bytes], gzip.GzipFile(fileobj=raw))
+    with tarfile.open(fileobj=cast(IO[bytes], _Counted(stream, name)), mode="r|") as archive:
         for info in archive:
             if info.isdir():
                 continue
@@ -166,4 +166,8 @@ def _tar_members(name: str, data: bytes) -> Iterator[tuple[str, Member]]:
             content = b""
             if refusal is None and (file := archive.extractfile(info)) is not None:
                 content = file.read()  # the stream is counted
-            yield info.name, Member(info.size, lambda most, content=content: content[:most], refusal)
+            yield info.name, Member(info.size, _cutter(content), refusal)
+
+
+def _cutter(content: bytes) -> Callable[[int], bytes]:
+    return lambda most: content[:most]

@@ -10,6 +10,7 @@ from __future__ import annotations
 import hashlib
 import os
 import stat
+from functools import partial
 from pathlib import Path, PurePosixPath
 from typing import NamedTuple
 
@@ -86,7 +87,7 @@ def folder_tree(folder: Path) -> Tree:
             except OSError:
                 continue
             if stat.S_ISREG(status.st_mode):
-                tree[inside] = Member(status.st_size, lambda most, path=path: _read(path, path.name, (), most))
+                tree[inside] = Member(status.st_size, partial(_read, path, name, ()))
     return tree
 
 
