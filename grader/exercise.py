@@ -6,6 +6,7 @@ with a manifest is an exercise, its name is the folder's.
 
 from __future__ import annotations
 
+import hashlib
 import os
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -55,6 +56,11 @@ class Exercise:
     def twin(self) -> Path:
         """The folder with its private half, which a student's copy lacks."""
         return self.folder.parents[1] / "solutions" / self.name
+
+    @property
+    def manifest_sha256(self) -> str:
+        """SHA-256 of the manifest's text; a recording keeps that of its run."""
+        return hashlib.sha256((self.folder / MANIFEST).read_bytes()).hexdigest()
 
     @property
     def max_score(self) -> float:

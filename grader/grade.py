@@ -107,7 +107,10 @@ def grade_again(paths: Path | Sequence[Path], root: Path | None = None) -> Repor
     exercise = find_exercise(runs[0]["exercise"], root)
     played = [Played(recording, path, score(recording, exercise)) for path, recording in recordings]
     played.sort(key=lambda each: each.run.get("trial_number", 1))
-    return make_report(played, exercise, runs[0]["submission"])
+    notes = []
+    if any(run.get("manifest_sha256", exercise.manifest_sha256) != exercise.manifest_sha256 for run in runs):
+        notes.append(f"The manifest of {exercise.name} has changed since this run; it is scored by what it says now.")
+    return make_report(played, exercise, runs[0]["submission"], notes=notes)
 
 
 def recordings_in(path: Path) -> list[Path]:
@@ -139,7 +142,13 @@ def _check_trials(paths: list[Path], runs: list[dict[str, Any]]) -> None:
         )
 
 
-def make_report(played: Sequence[Played], exercise: Exercise, submission: str, host: HostFacts | None = None) -> Report:
+def make_report(
+    played: Sequence[Played],
+    exercise: Exercise,
+    submission: str,
+    host: HostFacts | None = None,
+    notes: Sequence[str] = (),
+) -> Report:
     """Put the scores of all trials, and what their recordings say about the runs, together."""
     return Report(
         exercise=exercise.name,
@@ -158,4 +167,5 @@ def make_report(played: Sequence[Played], exercise: Exercise, submission: str, h
             )
             for each in played
         ),
+        notes=tuple(notes),
     )

@@ -18,16 +18,18 @@ def score_command(
         list[Path], typer.Argument(metavar="RECORDING...", help="The .rrd files a grading wrote, or their folder.")
     ],
     json: Annotated[Path | None, typer.Option(help="Write the report as JSON to this file.")] = None,
+    html: Annotated[Path | None, typer.Option(help="Write the report as one HTML page, with plots.")] = None,
+    gradescope: Annotated[Path | None, typer.Option(help="Write the report as Gradescope's results.json.")] = None,
+    junit: Annotated[Path | None, typer.Option(help="Write the report as JUnit XML.")] = None,
 ) -> None:
     """Score recordings again; nothing is run. Exit codes as for `course grade`."""
-    from rich.console import Console
-
-    from grader.commands.grade import write_json
-    from grader.grade import grade_again
+    from grader.grade import grade_again, recordings_in
+    from grader.report.outputs import Outputs
     from grader.report.terminal import print_report
 
+    outputs = Outputs(json, html, gradescope, junit)
+    outputs.check(inputs=[path for given in recordings for path in recordings_in(given)])
     report = grade_again(recordings)
-    print_report(report, Console())
-    if json is not None:
-        write_json(json, report)
+    print_report(report)
+    outputs.write(report)
     raise typer.Exit(0 if report.full_marks else 1)

@@ -1,47 +1,135 @@
-"""The report a person reads in a terminal: the diagnosis first, then a line for each check, hints where it failed."""
+"""The report a person reads in a terminal: the diagnosis first, then what each check expected and measured.
+
+Called by the commands that grade. One layout for every width; every state is a word as well as a colour. What a student
+wrote is printed as text: no markup, no control codes, and no line that a build service would take for a command.
+"""
 
 from __future__ import annotations
 
-from rich.console import Console
-from rich.markup import escape
+import io
+import re
+import sys
+from typing import TextIO
+
+from rich.console import Console, RenderableType
+from rich.padding import Padding
 from rich.table import Table
+from rich.text import Text
 
 from grader.printable import shown
-from grader.report.report import Report
+from grader.record.reading import Recording
+from grader.report.node_log import node_log
+from grader.report.report import Report, points, told
+from grader.score.score import CheckResult
 
 NO_LIMIT = 1 << 20
-MARKS = {True: "[green]pass[/green]", False: "[red]FAIL[/red]"}
+MARKS = {True: ("pass", "green"), False: ("FAIL", "bold red")}
+INDENT = 6  # columns below a check's first line: the width of its mark
+NARROWEST = 24  # columns; in less nothing could be read anyway
+LAST_LINES = 12  # of the log of a node that died
+
+TRAILING = re.compile(r" +$", re.MULTILINE)
+
+# GitHub Actions obeys lines that begin with "::", and "##[" anywhere in a line; Azure Pipelines "##vso[".
+COMMANDS = re.compile(r"^([^\S\n]*(?:\x1b\[[0-9;]*m)*[^\S\n]*):(?=:)|#(?=#\[|#vso\[)", re.MULTILINE)
 
 
-def print_report(report: Report, console: Console) -> None:
-    """Print one report. Readable without colour: every state is also a word."""
+def print_report(report: Report, file: TextIO | None = None, width: int | None = None) -> None:
+    """Print one report to the terminal (or to `file`, `width` columns wide), in colour where it is wanted and shown.
+
+    Raises UsageError if the recording of a node that died cannot be read.
+    """
+    target = file or sys.stdout
+    page = io.StringIO()
+    told_to = Console(file=target, width=width)
+    console = Console(
+        file=page,
+        width=max(told_to.width, NARROWEST),
+        force_terminal=told_to.is_terminal,
+        color_system=told_to.color_system,  # type: ignore[arg-type]
+        no_color=told_to.no_color,
+        highlight=False,
+    )
+    _print(report, console)
+    text = disarmed(TRAILING.sub("", page.getvalue()))
+    encoding = getattr(target, "encoding", None) or "utf-8"
+    target.write(text.encode(encoding, "replace").decode(encoding))
+    target.flush()
+
+
+def disarmed(text: str) -> str:
+    """Break what a build service would obey in the log of a job: a space after the first colon or hash is enough."""
+    return COMMANDS.sub(lambda match: f"{match[0]} ", text)
+
+
+def _print(report: Report, console: Console) -> None:
     score = report.score
-    console.print(f"\n[bold]{_plain(report.exercise)}[/bold]  {_plain(report.title)}")
-    console.print(f"submission: {_plain(report.submission)}", soft_wrap=True)
+    console.print(_text("\n", (report.exercise, "bold"), "  ", report.title))
+    console.print(_text("submission: ", report.submission), soft_wrap=True)
     if score.diagnosis:
-        console.print(f"\n[bold]{_plain(score.diagnosis)}[/bold]")
-    table = Table(show_edge=False, pad_edge=False, box=None, padding=(0, 2, 0, 0))
-    for heading in ("", "check", "points", "measured"):
-        table.add_column(heading, overflow="fold")
-    for check in score.checks:
-        points = f"{check.points:g}/{check.spec.points:g}"
-        passed = check.finding.passed
-        table.add_row(MARKS[passed], _plain(check.spec.title), points, _plain(check.finding.measured))
+        console.print(_text("\n", (score.diagnosis, "bold")))
+    if score.outcome in ("student_error", "memory"):
+        _print_last_lines(report, console)
     console.print()
-    console.print(table)
     for check in score.checks:
-        if not check.finding.passed and report.sim_seconds:
-            console.print(f"\n[bold]{_plain(check.spec.title)}[/bold]")
-            console.print(f"  expected: {_plain(check.finding.expected)}")
-            console.print(f"  measured: {_plain(check.finding.measured)}")
-            console.print(f"  hint:     {_plain(check.spec.hint)}")
-    console.print(f"\n[bold]score: {score.points:g} of {report.max_score:g}[/bold]  ({score.outcome})")
+        _print_check(check, console, brief=not report.sim_seconds)
+    if len(report.trials) > 1:
+        console.print(_text("\n", ("trials", "bold")))
+        rows = Table.grid(padding=(0, 2, 0, 0))
+        for trial in report.trials:
+            earned = f"{points(trial.score.points)}/{points(report.max_score)}"
+            rows.add_row(*map(_text, (trial.name, f"seed {trial.seed}", earned, trial.score.outcome)))
+        console.print(Padding(rows, (0, 0, 0, 2)))
+    verdict = f"score: {points(score.points)} of {points(report.max_score)}"
+    console.print(_text("\n", (verdict, "bold"), f"  ({score.outcome})"))
+    for note in report.notes:
+        console.print(_text(("note:", "bold"), " ", note))
     if (host := report.host) and report.sim_seconds:
         factor = f", {report.sim_seconds / host.run_wall_seconds:.1f} x real time" if host.run_wall_seconds else ""
-        console.print(f"{report.sim_seconds:g} s simulated in {host.run_wall_seconds:.2f} s ({host.pace}{factor})")
-    console.print(f"recording: {_plain(str(report.recording))}", soft_wrap=True)
+        console.print(
+            _text(f"{report.sim_seconds:g} s simulated in {host.run_wall_seconds:.2f} s ({host.pace}{factor})")
+        )
+    for trial in report.trials:
+        console.print(_text("recording: ", str(trial.recording)), soft_wrap=True)
 
 
-def _plain(text: str) -> str:
-    """Foreign text: neither markup nor control codes."""
-    return escape(shown(text, NO_LIMIT))
+def _print_check(check: CheckResult, console: Console, *, brief: bool) -> None:
+    """Print one check. `brief`: nothing was run, and the diagnosis says why; expectations and hints are for later."""
+    finding = check.finding
+    earned = f"{points(check.points)}/{points(check.spec.points)}"
+    console.print(_hanging(_text(MARKS[finding.passed]), _text(check.spec.title, "  ", (earned, "bold"))))
+    if brief:
+        return
+    if finding.passed:
+        when = "" if finding.at_s is None else f", at {finding.at_s:.2f} s"
+        line = _text((f"{finding.measured}{when}; expected: {finding.expected}", "dim"))
+        console.print(Padding(line, (0, 0, 0, INDENT)))
+        return
+    for name, text in told(check):
+        console.print(Padding(_hanging(_text(f"{name}:"), _text(text), 10), (0, 0, 0, INDENT)))
+
+
+def _print_last_lines(report: Report, console: Console) -> None:
+    said = node_log(Recording(report.shown_trial.recording), 0, LAST_LINES)
+    if said.last or said.first:
+        console.print(_text("\n", "What the node said last:"))
+    for _, _, text in said.first + said.last:
+        console.print(Padding(_text(text), (0, 0, 0, 2)))
+
+
+def _hanging(label: Text, text: Text, width: int = INDENT) -> RenderableType:
+    """Return a text whose further lines begin below its first, to the right of the label."""
+    row = Table.grid()
+    row.add_column(width=width, no_wrap=True)
+    row.add_column(overflow="fold")
+    row.add_row(label, text)
+    return row
+
+
+def _text(*parts: str | tuple[str, str]) -> Text:
+    """Put texts, or (text, style), together: foreign text holds no markup, and control codes are replaced."""
+    line = Text(overflow="fold")
+    for part in parts:
+        text, style = part if isinstance(part, tuple) else (part, "")
+        line.append(text if text == "\n" else shown(text, NO_LIMIT), style)
+    return line

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 from importlib.metadata import version
 from typing import Any
 
-from grader.exercise import MANIFEST, Exercise
+from grader.exercise import Exercise
 from grader.printable import shown
 from grader.record.recorder import Recorder
 from grader.submission import Submission
@@ -25,7 +24,7 @@ def write_properties(
         exercise=exercise.name,
         submission=shown(submission.main),
         submission_sha256=submission.sha256,
-        manifest_sha256=hashlib.sha256((exercise.folder / MANIFEST).read_bytes()).hexdigest(),
+        manifest_sha256=exercise.manifest_sha256,
         seed=trial.seed,
         trial=trial.name,
         trial_number=trial.place[0],
