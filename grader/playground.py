@@ -228,6 +228,5 @@ class Playground:
 
 def _put_on_path(folder: Path) -> None:
     """Let commands in a folder be found first: those of this course, whether or not its environment is activated."""
-    path = os.environ.get("PATH", os.defpath).split(os.pathsep)
-    if str(folder) not in path:
-        os.environ["PATH"] = os.pathsep.join([str(folder), *path])
+    path = [part for part in os.environ.get("PATH", os.defpath).split(os.pathsep) if part != str(folder)]
+    os.environ["PATH"] = os.pathsep.join([str(folder), *path])

@@ -101,13 +101,13 @@ def test_who_has_ended_is_not_waited_for(room, tmp_path):
     assert "out" in program.wait_for("out")
 
 
-def test_the_commands_of_the_course_are_on_the_path_and_stay_there(monkeypatch):
-    monkeypatch.setenv("PATH", "/usr/bin")
+@pytest.mark.parametrize("before", ["/usr/bin", "/usr/bin:{here}", "{here}:/usr/bin"])
+def test_the_commands_of_the_course_are_first_on_the_path_and_stay_there(monkeypatch, before):
+    here = str(Path(sys.executable).parent)
+    monkeypatch.setenv("PATH", before.format(here=here))
     with Playground():
         pass
-    assert os.environ["PATH"] == f"{Path(sys.executable).parent}{os.pathsep}/usr/bin"
-    with Playground():
-        assert os.environ["PATH"].count(str(Path(sys.executable).parent)) == 1
+    assert os.environ["PATH"] == f"{here}:/usr/bin"
 
 
 def test_closing_gives_environment_and_folder_back(monkeypatch):
