@@ -15,6 +15,7 @@ import numpy as np
 from grader.printable import shown
 from grader.record.reading import Recording
 from grader.score.check import Finding, check_kind
+from grader.score.events import texts as texts_of
 from grader.score.steps import told
 from grader.table import Table
 
@@ -31,7 +32,7 @@ def messages(recording: Recording, parameters: Table) -> Finding:
     says = parameters.text("says") if parameters.has("says") else None
     field = parameters.text("field", "data")
     times = recording.signal(f"topics/{topic}/count").times / 1e9
-    texts = _texts(recording, f"topics/{topic}/{field}", times)
+    texts = [text for _, text in texts_of(recording, topic, field)]
     counts = np.ones(len(times), dtype=bool)
     expected = f"{_number(least, most)} on /{topic}"
     if window is not None:
@@ -49,21 +50,15 @@ def messages(recording: Recording, parameters: Table) -> Finding:
     measured = f"1 message arrived, at {told(at)} s" if len(times) == 1 else _many(times)
     if says is not None:
         measured += f"; it said {_quoted(texts[0])}" if len(times) == 1 else f"; the first said {_quoted(texts[0])}"
-    return Finding(passed, expected, measured, round(at, 3))
-
-
-def _texts(recording: Recording, entity: str, times: np.ndarray) -> list[str | None]:
-    """What the field said at each of the times [s]; texts are on record when they change."""
-    lines = recording.lines(entity)
-    starts = [line.time_ns / 1e9 for line in lines]
-    index = np.searchsorted(starts, times, side="right") - 1
-    return [lines[i].text if i >= 0 else None for i in index]
+    return Finding(passed, expected, measured, round(at, 3), timing=window is not None)
 
 
 def _number(least: float, most: float) -> str:
     if least == most:
         return "exactly one message" if least == 1 else f"exactly {least:g} messages"
-    return f"at least {least:g}" + ("" if np.isinf(most) else f" and at most {most:g}") + " messages"
+    if np.isinf(most):
+        return "at least one message" if least == 1 else f"at least {least:g} messages"
+    return f"{least:g} to {most:g} messages"
 
 
 def _many(times: np.ndarray) -> str:
