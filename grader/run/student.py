@@ -113,7 +113,6 @@ class Student:
         self._channel = ours
         self._selector = selectors.DefaultSelector()
         self._partial: dict[int, bytes] = {}
-        assert self._process.stdout is not None and self._process.stderr is not None
         self._pipes = [self._process.stdout, self._process.stderr]
         for pipe in self._pipes:
             os.set_blocking(pipe.fileno(), False)
@@ -227,15 +226,13 @@ class Student:
             self._channel.shutdown(socket.SHUT_WR)  # nobody is going to answer it any more
         if self._process.poll() is None:
             for escalation in (signal.SIGINT, signal.SIGTERM):
-                with contextlib.suppress(ProcessLookupError):
-                    os.killpg(self._process.pid, escalation)
+                self._process.signal(escalation)
                 try:
                     self._process.wait(GRACE)
                     break
                 except subprocess.TimeoutExpired:
                     continue
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(self._process.pid, signal.SIGKILL)
+        self._process.kill()
         self.exit_code = self._process.wait()
         self._sweep()
 

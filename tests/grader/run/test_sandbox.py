@@ -7,12 +7,13 @@ import sys
 import pytest
 
 from grader.run.sandbox import LIMITS, Sandbox
+from grader.run.sandbox.sandbox import limit
 
 
 @pytest.fixture
 def sandbox(tmp_path, monkeypatch):
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    box = Sandbox(42)
+    box = Sandbox(42, "D")
     yield box
     box.close()
     assert list(tmp_path.iterdir()) == []
@@ -46,7 +47,7 @@ def test_both_sides_speak_on_the_same_domain(sandbox):
 def test_limits_are_put_on_a_running_process(sandbox):
     process = subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE)
     try:
-        sandbox.limit(process.pid)
+        limit(process.pid)
         for kind, most in LIMITS.items():
             soft, hard = resource.prlimit(process.pid, kind)
             assert soft == hard <= most
@@ -56,7 +57,7 @@ def test_limits_are_put_on_a_running_process(sandbox):
 
 
 def test_folders_of_two_runs_are_apart(sandbox):
-    other = Sandbox(43)
+    other = Sandbox(43, "D")
     try:
         assert other.folder != sandbox.folder
     finally:

@@ -38,7 +38,7 @@ def start(tmp_path, monkeypatch):
     before = set(psutil.Process().children(recursive=True))
     made = []
     domain = Domain()
-    sandbox = Sandbox(domain.id)
+    sandbox = Sandbox(domain.id, "D")
 
     def call(code, name="node.py"):
         file = tmp_path / name
@@ -254,7 +254,7 @@ def test_it_dies_with_the_grader(start, tmp_path):
     file.write_text("import os, time\nprint(os.getpid(), flush=True)\ntime.sleep(600)")
     code = (
         "from pathlib import Path; from grader.run.sandbox import Sandbox; from grader.run.student import Student\n"
-        f"s = Student(Path({str(file.parent)!r}), {file.name!r}, Sandbox(101), {{}})\n"
+        f"s = Student(Path({str(file.parent)!r}), {file.name!r}, Sandbox(101, \"D\"), {{}})\n"
         "while not (lines := s.take_lines()): s.wait(0.1)\n"
         "print(lines[0], flush=True); input()"
     )

@@ -1,0 +1,119 @@
+"""The first program inside a box: locks itself in, starts the submission, and ends when it ends.
+
+Started by `grader.run.sandbox` as a script with the number of a socket; what to do comes over that socket. With
+namespaces it stays as process 1, collects orphans, passes signals on and tells how the submission ended; when it goes,
+Linux ends everything in the box. Without, it becomes the submission.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import resource
+import select
+import signal
+import socket
+import sys
+from typing import Any, NoReturn
+
+from grader.run.inside import kernel, landlock, seccomp, walls
+
+LARGEST = 1 << 20  # [bytes] of a message
+FAILED = 125  # exit code of a box that could not be built
+
+
+def main() -> None:
+    """Take the order from the socket named in argv[1] and carry it out."""
+    channel = socket.socket(fileno=int(sys.argv[1]))
+    channel.set_inheritable(False)
+    try:
+        order = json.loads(channel.recv(LARGEST))
+        kernel.prctl(kernel.PR_SET_PDEATHSIG, signal.SIGKILL)
+        if order["walls"] == "own":
+            walls.build(order["root"], order["places"])
+        elif order["walls"]:
+            walls.limit_tmpfs(order["places"])
+        if order["walls"]:
+            _supervise(order, channel)
+        _become(order)
+    except (OSError, ValueError, KeyError) as error:
+        with contextlib.suppress(OSError):
+            channel.send(json.dumps({"error": str(error)}).encode())
+        os._exit(FAILED)
+
+
+def _become(order: dict[str, Any]) -> NoReturn:
+    """Lock this process in and turn it into the submission."""
+    os.chdir(order["folder"])
+    for number, most in order["limits"].items():
+        hard = resource.getrlimit(int(number))[1]
+        value = most if hard == resource.RLIM_INFINITY else min(most, hard)
+        resource.setrlimit(int(number), (value, value))
+    kernel.drop_capabilities(order["user"], order["group"])
+    kernel.prctl(kernel.PR_SET_PDEATHSIG, signal.SIGKILL)  # forgotten when the user changed
+    kernel.prctl(kernel.PR_SET_NO_NEW_PRIVS, 1)
+    if order["landlock"]:
+        landlock.restrict(order["readable"], order["writable"], tcp=False)
+    if order["seccomp"]:
+        seccomp.install()
+    for number in (signal.SIGINT, signal.SIGPIPE, signal.SIGXFSZ):  # as any program finds them
+        signal.signal(number, signal.SIG_DFL)
+    os.execve(order["command"][0], order["command"], order["environment"])
+
+
+def _supervise(order: dict[str, Any], channel: socket.socket) -> NoReturn:
+    """Start the submission and stay until it ends or nobody listens any more."""
+    wake, woken = socket.socketpair()
+    for end in (wake, woken):
+        end.setblocking(False)
+    signal.set_wakeup_fd(woken.fileno(), warn_on_full_buffer=False)
+    signal.signal(signal.SIGCHLD, lambda *_: None)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    child = os.fork()
+    if not child:
+        try:
+            signal.set_wakeup_fd(-1)
+            signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+            os.setsid()
+            _become(order)
+        except OSError as error:
+            channel.send(json.dumps({"error": str(error)}).encode())
+        finally:
+            os._exit(FAILED)
+    kernel.drop_capabilities(order["user"], order["group"])
+    kernel.prctl(kernel.PR_SET_PDEATHSIG, signal.SIGKILL)
+    kernel.prctl(kernel.PR_SET_DUMPABLE, 0)  # nobody in the box may look into this process
+    for number in (0, 1, 2, *order["descriptors"]):
+        os.close(number)
+    while True:
+        ready, _, _ = select.select([channel, wake], [], [])
+        if wake in ready:
+            with contextlib.suppress(BlockingIOError):
+                wake.recv(4096)
+            _collect(child, channel)
+        if channel in ready:
+            told = channel.recv(16)
+            if not told:
+                os._exit(0)
+            with contextlib.suppress(ProcessLookupError, PermissionError):
+                os.killpg(child, told[0])
+
+
+def _collect(child: int, channel: socket.socket) -> None:
+    """Reap every process that has ended; the end of the submission's is the end of the box."""
+    while True:
+        try:
+            ended, status = os.waitpid(-1, os.WNOHANG)
+        except ChildProcessError:
+            return
+        if not ended:
+            return
+        if ended == child:
+            with contextlib.suppress(OSError):
+                channel.send(json.dumps({"exit": os.waitstatus_to_exitcode(status)}).encode())
+            os._exit(0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,122 @@
+"""A process in its box, as seen from outside: like a `subprocess.Popen`, and it can be signalled through the walls."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import signal
+import socket
+import subprocess
+from typing import IO
+
+from grader.errors import InfrastructureError
+
+LONGEST_MESSAGE = 1 << 16  # [bytes]
+
+
+class Boxed:
+    """One started command. `pid` is the outermost process of the box, which lives as long as anything in the box.
+
+    `returncode` is that of the command itself, minus the signal's number if a signal ended it.
+    """
+
+    def __init__(
+        self, process: subprocess.Popen[bytes], level: str, channel: socket.socket | None, walled: bool
+    ) -> None:
+        """Take over a process. `channel` leads to `init.py`, if there is one; with `walled` it stays process 1."""
+        self._process = process
+        self._level = level
+        self._channel = channel
+        self._walled = walled
+        self._told: int | None = None
+        self._error = ""
+        self._killed = False
+        if channel is not None:
+            channel.setblocking(False)
+
+    @property
+    def pid(self) -> int:
+        """Number of the outermost process, which is also that of its group."""
+        return self._process.pid
+
+    @property
+    def stdout(self) -> IO[bytes]:
+        """What the command prints."""
+        assert self._process.stdout is not None
+        return self._process.stdout
+
+    @property
+    def stderr(self) -> IO[bytes]:
+        """What the command prints to stderr."""
+        assert self._process.stderr is not None
+        return self._process.stderr
+
+    @property
+    def returncode(self) -> int | None:
+        """None while it runs."""
+        return self.poll()
+
+    @property
+    def running(self) -> bool:
+        """Whether the outermost process is still there."""
+        return self._process.poll() is None
+
+    def poll(self) -> int | None:
+        """Return the exit code, or None while it runs. Raises InfrastructureError if the box could not be built."""
+        code = self._process.poll()
+        return None if code is None else self._exit_code(code)
+
+    def wait(self, timeout: float | None = None) -> int:
+        """Wait for the end. Raises subprocess.TimeoutExpired, and InfrastructureError as `poll` does."""
+        return self._exit_code(self._process.wait(timeout))
+
+    def signal(self, number: signal.Signals) -> None:
+        """Send a signal to every process of the submission that has not left its process group."""
+        if self._channel is not None and self._walled:
+            with contextlib.suppress(OSError):
+                self._channel.send(bytes([number]))
+        else:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(self.pid, number)
+
+    def kill(self) -> None:
+        """End everything in the box at once."""
+        self._killed = True
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(self.pid, signal.SIGKILL)
+
+    def close(self) -> None:
+        """Give the channel back; the process has been ended before."""
+        self._process.wait()
+        if self._channel is not None:
+            self._channel.close()
+
+    def _exit_code(self, outermost: int) -> int:
+        if self._channel is None:
+            return outermost
+        self._listen(self._channel)
+        if self._error:
+            raise InfrastructureError(f"a sandbox of level {self._level} could not be built: {self._error}")
+        if self._told is not None:
+            return self._told
+        if not self._walled:
+            return outermost
+        if self._killed or outermost < 0:
+            return -signal.SIGKILL
+        raise InfrastructureError(
+            f"a sandbox of level {self._level} could not be built: {self._last_words() or f'exit code {outermost}'}"
+        )
+
+    def _listen(self, channel: socket.socket) -> None:
+        with contextlib.suppress(OSError, ValueError):
+            while data := channel.recv(LONGEST_MESSAGE):
+                told = json.loads(data)
+                self._told = told.get("exit", self._told)
+                self._error = self._error or told.get("error", "")
+
+    def _last_words(self) -> str:
+        with contextlib.suppress(OSError, ValueError):
+            os.set_blocking(self.stderr.fileno(), False)
+            return (self.stderr.read() or b"").decode(errors="replace").strip()[:300]
+        return ""

@@ -1,0 +1,115 @@
+"""The levels there are, and the best one that works on this machine.
+
+Whether a level works is found out by doing it: a node in the box and one outside exchange a message over DDS
+(`probe.py`). The answer holds until the machine or what is installed changes, and is kept in the user's cache folder,
+so that a grading does not pay for it.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import importlib
+import json
+import os
+import platform
+import sys
+import tempfile
+from pathlib import Path
+from typing import Protocol, cast
+
+from grader.errors import InfrastructureError, UsageError, nearest
+from grader.run.sandbox.order import Order
+
+AUTO = "auto"
+LEVELS = ("A", "B", "C", "D")  # from the firmest
+CACHE = "gz-ros2-course/sandbox.json"  # below XDG_CACHE_HOME
+
+
+class Level(Protocol):
+    """What a file of `levels/` offers."""
+
+    ABOUT: str  # in a few words
+    PRIVATE_NETWORK: bool
+    WALLS: str  # who builds a box of namespaces: `bubblewrap`, `own` (walls.py), or nobody
+    LANDLOCK: bool
+
+    def missing(self) -> str:
+        """Say what this level lacks here; an empty text if it can be tried."""
+
+    def command(self, order: Order, init: list[str]) -> list[str]:
+        """Return the command that runs `init` in the box."""
+
+
+def level_module(level: str) -> Level:
+    """Return a level by its letter. Raises UsageError if there is none."""
+    if level not in LEVELS:
+        raise UsageError(f"there is no sandbox level {level!r}{nearest(level, (AUTO, *LEVELS))}")
+    return cast(Level, importlib.import_module(f"grader.run.sandbox.levels.{level.lower()}"))
+
+
+def choose(wanted: str = AUTO, demand: str | None = None) -> str:
+    """Return the level to grade with: the one `wanted`, and at least as firm as `demand`.
+
+    Raises UsageError for a level there is not, InfrastructureError for one that does not work here.
+    """
+    for level in (wanted, demand):
+        if level not in (AUTO, None):
+            level_module(str(level))
+    best, why = (wanted, {}) if wanted != AUTO else best_level()
+    if demand is not None and LEVELS.index(best) > LEVELS.index(demand):
+        if wanted != AUTO:
+            raise UsageError(f"sandbox level {wanted} is asked for, but at least {demand} is demanded")
+        reason = why.get(demand) or next(iter(why.values()), "it was not tried")
+        raise InfrastructureError(
+            f"a sandbox of level {demand} or better is demanded, but the best here is {best}: {reason}; "
+            "`course doctor` shows more"
+        )
+    return best
+
+
+def best_level() -> tuple[str, dict[str, str]]:
+    """Return the best level that works here, and why each better one does not; from the cache if it is known."""
+    from grader.run.sandbox.probe import try_levels
+
+    path, key = _cache(), _fingerprint()
+    with contextlib.suppress(OSError, ValueError, KeyError, TypeError):
+        known = json.loads(path.read_text())[key]
+        if known["level"] in LEVELS:
+            return known["level"], dict(known["why"])
+    level, why, certain = try_levels()
+    if certain:
+        _remember(path, key, level, why)
+    return level, why
+
+
+def _cache() -> Path:
+    base = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
+    return Path(base) / CACHE
+
+
+def _fingerprint() -> str:
+    """What the answer depends on: this boot of this kernel, the user and its privileges, what is installed."""
+    parts = [platform.release(), sys.prefix, str(os.geteuid())]
+    with contextlib.suppress(OSError):
+        parts.append(Path("/proc/sys/kernel/random/boot_id").read_text())
+    with contextlib.suppress(OSError):
+        status = Path("/proc/self/status").read_text().splitlines()
+        parts += [line for line in status if line.startswith(("CapEff", "CapBnd", "NoNewPrivs", "Seccomp:"))]
+    with contextlib.suppress(OSError):
+        parts += [str(Path("/proc/self/ns", name).readlink()) for name in ("user", "mnt")]
+    here = Path(__file__).parent
+    for file in sorted([*here.rglob("*.py"), *(here.parent / "inside").glob("*.py")]):
+        parts.append(f"{file} {file.stat().st_mtime_ns}")
+    with contextlib.suppress(OSError):
+        parts.append(str(Path(sys.prefix, "lib").stat().st_mtime_ns))
+    return hashlib.sha256("\n".join(parts).encode()).hexdigest()
+
+
+def _remember(path: Path, key: str, level: str, why: dict[str, str]) -> None:
+    """Keep one answer, in place of older ones; a cache that cannot be written is none."""
+    with contextlib.suppress(OSError):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.NamedTemporaryFile("w", dir=path.parent, delete=False) as file:
+            json.dump({key: {"level": level, "why": why}}, file)
+        Path(file.name).replace(path)

@@ -1,0 +1,111 @@
+"""Does a level work here? A node in a box of that level and one outside exchange a message over DDS.
+
+Run as a program of its own (`python -m grader.run.sandbox.probe A`), because it enters a private network and loads
+ROS. Prints nothing if all is well, else why not, and ends with exit code 1.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import time
+
+from grader.errors import CourseError
+from grader.run.sandbox.level import LEVELS, level_module
+
+DEADLINE = 20.0  # [s] for one level; it takes about one
+TOPIC = "/course_sandbox"
+SILENT = "no message came through within {seconds:g} s"
+# The answer comes back only if a message went in and another one came out.
+INSIDE = f"""
+import sys
+import rclpy
+from std_msgs.msg import String
+rclpy.init()
+node = rclpy.create_node("inside")
+answers = node.create_publisher(String, "{TOPIC}/out", 10)
+node.create_subscription(String, "{TOPIC}/in", lambda m: answers.publish(String(data=m.data[::-1])), 10)
+rclpy.spin(node)
+"""
+
+
+def try_levels() -> tuple[str, dict[str, str], bool]:
+    """Return the best level that works, why each better one does not, and whether that is sure to stay so.
+
+    A level that is refused is refused again; one that was merely silent may have met a busy machine.
+    """
+    why: dict[str, str] = {}
+    certain = True
+    for level in LEVELS[:-1]:
+        reason = try_level(level)
+        if not reason:
+            return level, why, certain
+        why[level] = reason
+        certain = certain and not reason.startswith(SILENT.partition("{")[0])
+    return LEVELS[-1], why, certain
+
+
+def try_level(level: str, deadline: float = DEADLINE) -> str:
+    """Return an empty text if a level works here, else why not."""
+    if lack := level_module(level).missing():
+        return lack
+    command = [sys.executable, "-m", __name__, level, str(deadline)]
+    probe = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, start_new_session=True)
+    try:
+        told = probe.communicate(timeout=deadline + 5.0)[0].decode(errors="replace").strip()
+    except subprocess.TimeoutExpired:
+        return SILENT.format(seconds=deadline)
+    finally:
+        if probe.poll() is None:
+            os.killpg(probe.pid, 9)
+            probe.communicate()
+    return "" if probe.returncode == 0 else told.splitlines()[-1] if told else f"exit code {probe.returncode}"
+
+
+def exchange(level: str, deadline: float) -> str:
+    """Send a message into a box of a level and wait for its answer; an empty text, or what went wrong."""
+    from grader.run.domain import Domain
+    from grader.run.sandbox.sandbox import Sandbox
+
+    with Domain() as domain:
+        sandbox = Sandbox(domain.id, level)
+        try:
+            file = sandbox.stage({"inside.py": INSIDE.encode()}) / "inside.py"
+            boxed = sandbox.start([sys.executable, "-P", str(file)], {})
+            os.environ.update(sandbox.grader_environment())
+            import rclpy
+            from std_msgs.msg import String
+
+            rclpy.init(args=[])
+            node = rclpy.create_node("outside")
+            heard: list[str] = []
+            questions = node.create_publisher(String, f"{TOPIC}/in", 10)
+            node.create_subscription(String, f"{TOPIC}/out", lambda message: heard.append(message.data), 10)
+            end = time.monotonic() + deadline
+            while "olleh" not in heard and time.monotonic() < end and boxed.poll() is None:
+                questions.publish(String(data="hello"))
+                rclpy.spin_once(node, timeout_sec=0.05)
+            if "olleh" in heard:
+                return ""
+            if boxed.poll() is not None:
+                told = boxed.stderr.read().decode(errors="replace").strip().splitlines()
+                return f"a node in the box ended with exit code {boxed.poll()}{': ' + told[-1] if told else ''}"
+            return SILENT.format(seconds=deadline)
+        finally:
+            sandbox.close()
+
+
+def main() -> None:
+    """Try the level in argv[1] for at most argv[2] seconds."""
+    try:
+        told = exchange(sys.argv[1], float(sys.argv[2]))
+    except CourseError as error:
+        told = str(error)
+    if told:
+        print(told, flush=True)
+    os._exit(1 if told else 0)
+
+
+if __name__ == "__main__":
+    main()

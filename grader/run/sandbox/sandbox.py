@@ -1,0 +1,187 @@
+"""The box a submission runs in: `Sandbox` is made for one run, filled with `stage`, started with `start`, and closed.
+
+Called by `grader.run.session`, and by `probe.py` to find out which level works here.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import os
+import resource
+import shutil
+import socket
+import subprocess
+import tempfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from grader.errors import InfrastructureError
+from grader.run.sandbox.boxed import Boxed
+from grader.run.sandbox.environment import ros_environment, student_environment
+from grader.run.sandbox.level import AUTO, choose, level_module
+from grader.run.sandbox.network import NetworkError, PrivateNetwork
+from grader.run.sandbox.order import HOST, LIMITS, MOST_PROCESSES, OPEN_DEVICES, OPEN_FOLDERS, Order, init_command
+from grader.run.sandbox.view import DOOR, HOME, SUBMISSION, view
+
+PR_SET_CHILD_SUBREAPER = 36
+FIRST_USER = 61_000  # + the ROS domain: nobody else's number, and another one for each run at the same time
+
+
+class Sandbox:
+    """One box, and the private network its processes share with the grader's ROS side.
+
+    `level` is `A` to `D`, or `auto` for the best that works here. `close()` removes everything. Raises
+    InfrastructureError if the level is not to be had here.
+    """
+
+    def __init__(self, domain: int, level: str = "D") -> None:
+        self.level = choose() if level == AUTO else level
+        self._module = level_module(self.level)
+        self.domain = domain
+        ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1)  # orphaned daemons become ours to sweep
+        self._network: PrivateNetwork | None = None
+        if self._module.PRIVATE_NETWORK:
+            try:
+                self._network = PrivateNetwork()
+            except NetworkError as error:
+                raise self._impossible(str(error)) from None
+        self.folder = Path(tempfile.mkdtemp(prefix="course-"))
+        for name in ("submission", "home", "door", "root", "etc"):
+            (self.folder / name).mkdir()
+            (self.folder / name).chmod(0o755)
+        self._boxes: list[Boxed] = []
+
+    def grader_environment(self) -> dict[str, str]:
+        """What the grader's own ROS context needs."""
+        return ros_environment(self.domain, self.folder / "grader-log", self._module.PRIVATE_NETWORK)
+
+    def student_environment(self) -> dict[str, str]:
+        """The whole environment of the submission's process."""
+        return student_environment(self.domain, self.home, self._module.PRIVATE_NETWORK)
+
+    @property
+    def home(self) -> Path:
+        """The submission's working folder, as it sees it."""
+        return HOME if self._module.WALLS else self.folder / "home"
+
+    def stage(self, files: Mapping[str, bytes]) -> Path:
+        """Put files (by name, relative, with `/` between parts) into the box; the folder as the box sees it."""
+        folder = self.folder / "submission"
+        for name, data in files.items():
+            path = folder / name
+            for parent in reversed(path.relative_to(folder).parents[:-1]):
+                (folder / parent).mkdir(exist_ok=True)
+                (folder / parent).chmod(0o755)
+            path.write_bytes(data)
+            path.chmod(0o644)
+        return SUBMISSION if self._module.WALLS else folder
+
+    @property
+    def door(self) -> tuple[Path, Path]:
+        """A folder for unix sockets of the grader: where to bind them, and where the box finds them (to connect)."""
+        outside = self.folder / "door"
+        return outside, DOOR if self._module.WALLS else outside
+
+    def start(self, command: Sequence[str], environment: Mapping[str, str], pass_fds: Sequence[int] = ()) -> Boxed:
+        """Start a command in the box, in a process group of its own, with stdout and stderr as pipes.
+
+        `command` begins with the path of a program; `environment` is added to `student_environment()`; `pass_fds` keep
+        their numbers. A box that cannot be built is an InfrastructureError when its process is asked for its end.
+        """
+        order = self._order(list(command), self.student_environment() | dict(environment), tuple(pass_fds))
+        if not (self._module.WALLS or self._module.LANDLOCK):
+            boxed = Boxed(_spawn(order.command, order.environment, self.home, pass_fds), self.level, None, False)
+            with contextlib.suppress(ProcessLookupError):
+                limit(boxed.pid)
+        else:
+            ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+            with theirs:
+                ours.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, 1 << 20)
+                line = self._module.command(order, init_command(theirs.fileno()))
+                process = _spawn(line, {"PATH": os.defpath}, Path("/"), (theirs.fileno(), *pass_fds))
+            boxed = Boxed(process, self.level, ours, bool(self._module.WALLS))
+            with contextlib.suppress(OSError):  # it has ended already, and will be asked why
+                ours.send(order.for_init().as_json())
+        self._boxes.append(boxed)
+        return boxed
+
+    def _order(self, command: list[str], environment: dict[str, str], descriptors: tuple[int, ...]) -> Order:
+        walls, landlock = self._module.WALLS, self._module.LANDLOCK
+        own_user = bool(walls) and os.geteuid() == 0
+        user = FIRST_USER + self.domain if own_user else None
+        places = (
+            tuple(view(self.folder / "submission", self.folder / "door", self._etc(user))) if walls or landlock else ()
+        )
+        shown = [place.source for place in places if place.kind == "bind"]
+        writable = [place.path for place in places if place.kind == "tmpfs"] if walls else [str(self.home)]
+        limits = {int(kind): most for kind, most in LIMITS.items()}
+        if walls:  # elsewhere all processes of the same user count
+            limits[int(resource.RLIMIT_NPROC)] = MOST_PROCESSES
+        return Order(
+            walls=walls,
+            places=places,
+            root=str(self.folder / "root"),
+            host=HOST,
+            user=user,
+            group=user,
+            landlock=landlock,
+            seccomp=landlock or bool(walls),
+            limits=limits,
+            readable=("/",) if walls else (*shown, *OPEN_FOLDERS),
+            writable=(*writable, *OPEN_DEVICES),
+            folder=str(self.home),
+            command=command,
+            environment=environment,
+            descriptors=descriptors,
+        )
+
+    def _etc(self, user: int | None) -> Path:
+        """Files of /etc a program may look into: who it is, and where names of machines come from."""
+        etc = self.folder / "etc"
+        number, group = (os.geteuid(), os.getegid()) if user is None else (user, user)
+        for name, text in {
+            "passwd": f"student:x:{number}:{group}::{HOME}:/bin/sh\n",
+            "group": f"student:x:{group}:\n",
+            "hosts": f"127.0.0.1 localhost {HOST}\n::1 localhost\n",
+            "nsswitch.conf": "passwd: files\ngroup: files\nhosts: files\n",
+        }.items():
+            (etc / name).write_text(text)
+            (etc / name).chmod(0o644)
+        return etc
+
+    def close(self) -> None:
+        """End what still runs, leave the private network, remove the folder and everything in it."""
+        for boxed in self._boxes:
+            if boxed.running:
+                boxed.kill()
+            boxed.close()
+        shutil.rmtree(self.folder, ignore_errors=True)
+        if self._network is not None:
+            self._network.close()
+
+    def _impossible(self, why: str) -> InfrastructureError:
+        return InfrastructureError(f"a sandbox of level {self.level} is not to be had here: {why}")
+
+
+def limit(pid: int) -> None:
+    """Put the resource limits on a process that was just started."""
+    for kind, most in LIMITS.items():
+        hard = resource.prlimit(pid, kind)[1]
+        value = most if hard == resource.RLIM_INFINITY else min(most, hard)
+        resource.prlimit(pid, kind, (value, value))
+
+
+def _spawn(
+    command: Sequence[str], environment: Mapping[str, str], folder: Path, pass_fds: Sequence[int]
+) -> subprocess.Popen[bytes]:
+    return subprocess.Popen(
+        list(command),
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        env=dict(environment),
+        cwd=folder,
+        pass_fds=tuple(pass_fds),
+        start_new_session=True,
+    )

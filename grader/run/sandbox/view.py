@@ -1,0 +1,95 @@
+"""What a submission sees of the machine: a list of places, the same for every way of building the box.
+
+The system's programs and libraries, Python with what is installed for it, `sim/`, and of the grader only what runs in
+the submission's own process; all of it read-only. Exercises, solutions, tests, homes and other submissions are not
+hidden: they are not there.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from dataclasses import dataclass
+from importlib.util import find_spec
+from pathlib import Path
+
+SUBMISSION = Path("/submission")
+DOOR = Path("/grader")  # holds the sockets on which the grader can be reached
+HOME = Path("/tmp")
+SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
+SETTINGS = ("ld.so.cache", "alternatives", "localtime")  # of /etc
+DEVICES = ("null", "zero", "full", "random", "urandom")
+LINKS = {"/dev/fd": "/proc/self/fd", "/dev/stdin": "fd/0", "/dev/stdout": "fd/1", "/dev/stderr": "fd/2"}
+# Of the package `grader`: what is started as a script inside.
+OF_THE_GRADER = ("run/box", "run/box", "run/inside")
+TMP_SIZE, TMP_FILES = 64 << 20, 20_000  # [bytes] and files of /tmp
+SHM_SIZE, SHM_FILES = 16 << 20, 1_000  # of /dev/shm
+
+
+@dataclass(frozen=True)
+class Place:
+    """One thing the box has at `path`.
+
+    `kind` is `bind` (read-only, from `source`), `device` (from `source`), `link` (to `source`), `folder` (empty),
+    `mask` (empty, over something bound; read-only in the end), `proc` or `tmpfs` (writable).
+    """
+
+    kind: str
+    path: str
+    source: str = ""
+    size: int = 0  # [bytes] of a tmpfs
+    files: int = 0  # most files in a tmpfs
+
+
+def view(submission: Path, door: Path, etc: Path) -> list[Place]:
+    """Return the places of a box, parents first.
+
+    `submission` and `door` are the folders shown under those names; `etc` holds files that stand for those of /etc.
+    """
+    places = [_system(name) for name in SYSTEM if os.path.lexists(name)]
+    places += [_bind(f"/etc/{name}", f"/etc/{name}") for name in SETTINGS if Path("/etc", name).exists()]
+    places += [_bind(f"/etc/{path.name}", path) for path in etc.iterdir()]
+    places += [_bind(prefix, prefix) for prefix in _python()]
+    package, simulator = _package("grader"), _package("ros_gz_bridge").parent
+    if _within(package, places):
+        places.append(Place("mask", str(package)))
+    places += [_bind(simulator, simulator)]
+    places += [_bind(path, path) for pattern in OF_THE_GRADER for path in package.glob(pattern)]
+    places += [_bind(SUBMISSION, submission), _bind(DOOR, door), Place("proc", "/proc")]
+    places += [Place("device", f"/dev/{name}", f"/dev/{name}") for name in DEVICES]
+    places += [Place("link", path, target) for path, target in LINKS.items()]
+    places += [Place("tmpfs", str(HOME), size=TMP_SIZE, files=TMP_FILES)]
+    places += [Place("tmpfs", "/dev/shm", size=SHM_SIZE, files=SHM_FILES)]
+    by_path = {place.path: place for place in places}
+    for path in list(by_path):
+        for parent in Path(path).parents[:-1]:
+            masked = str(package) in by_path and parent.is_relative_to(package) and parent != package
+            if masked or not _within(parent, places):
+                by_path.setdefault(str(parent), Place("folder", str(parent)))
+    return sorted(by_path.values(), key=lambda place: Path(place.path).parts)
+
+
+def _bind(path: str | Path, source: str | Path) -> Place:
+    return Place("bind", str(path), os.path.realpath(source))
+
+
+def _system(name: str) -> Place:
+    return Place("link", name, str(Path(name).readlink())) if Path(name).is_symlink() else _bind(name, name)
+
+
+def _within(path: Path, places: list[Place]) -> bool:
+    return any(place.kind == "bind" and path.is_relative_to(place.path) for place in places)
+
+
+def _python() -> list[Path]:
+    """Folders of the interpreter and of what is installed for it, each name under which they are reached."""
+    homes = {Path(p) for p in (sys.prefix, sys.exec_prefix, sys.base_prefix, sys.base_exec_prefix)}
+    # `home` in pyvenv.cfg may be a link to the real place; both names are used at a start.
+    homes |= {path.resolve() for path in homes}
+    return [home for home in homes if not any(home.is_relative_to(name) for name in SYSTEM)]
+
+
+def _package(name: str) -> Path:
+    spec = find_spec(name)
+    assert spec is not None and spec.submodule_search_locations
+    return Path(next(iter(spec.submodule_search_locations))).resolve()
