@@ -73,7 +73,8 @@ class Ears:
         self._publishers = {p.topic_name: p for p in self._node.publishers if p.topic_name in self.offered}
         self._subscriptions = {s.topic_name: s for s in self._node.subscriptions if s.topic_name in self.listened}
         # An entry that goes both ways hears itself; that is no match with the student.
-        self._own = self.offered.keys() & self.listened.keys()
+        self._own_publishers = Counter(p.topic_name for p in self._node.publishers)
+        self._own_subscriptions = Counter(s.topic_name for s in self._node.subscriptions)
 
     def _hold(self, publisher: Any, message: Any) -> None:
         self.held.append((publisher.topic_name, publisher, message))
@@ -118,10 +119,11 @@ class Ears:
 
     def matched(self, topic: str, kind: str) -> int:
         """How many of the student's endpoints of a kind (publisher, subscription) are matched on a topic."""
-        own = topic in self._own
         if kind == "subscription":
-            return int(self._publishers[topic].get_subscription_count()) - own if topic in self._publishers else 0
-        return int(self._subscriptions[topic].get_publisher_count()) - own if topic in self._subscriptions else 0
+            publisher, own = self._publishers.get(topic), self._own_subscriptions[topic]
+            return max(0, int(publisher.get_subscription_count()) - own) if publisher else 0
+        subscription, own = self._subscriptions.get(topic), self._own_publishers[topic]
+        return max(0, int(subscription.get_publisher_count()) - own) if subscription else 0
 
     def reliable(self, topic: str) -> bool:
         """Whether the bridge publishes reliably on a topic, so that a reliable subscription hears it."""
@@ -136,7 +138,7 @@ class Ears:
             publisher, subscription = self._publishers.get(entry.ros_topic), self._subscriptions.get(entry.ros_topic)
             found.append(
                 {
-                    "source": entry.source,
+                    "source": entry.source.rpartition("/")[2],  # the file's name: where it lies differs
                     "ros_topic": entry.ros_topic,
                     "ros_type": entry.ros_type,
                     "gz_topic": entry.gz_topic,

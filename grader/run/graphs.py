@@ -12,29 +12,27 @@ from grader.run.ears import NODE, Ears
 from gz.transport import MessagePublisher, Node
 
 SIMULATOR = "gz sim"
-WHO = (SIMULATOR, NODE)  # the two Gazebo nodes of a stage
 
 
-def both_graphs(gz_nodes: list[Node], ears: Ears) -> dict[str, Any]:
-    """Return the facts `gz_topics`, `ros_topics` and `bridges`. `gz_nodes` are the simulator's and the bridge's."""
+def both_graphs(gz_node: Node, ears: Ears) -> dict[str, Any]:
+    """Return the facts `gz_topics`, `ros_topics` and `bridges`. `gz_node` is the bridge's."""
     return {
         "given": True,
-        "gz_topics": gz_graph(gz_nodes),
+        "gz_topics": gz_graph(gz_node),
         "ros_topics": ears.ros_graph(),
         "bridges": ears.bridged(),
     }
 
 
-def gz_graph(gz_nodes: list[Node]) -> dict[str, dict[str, list[str]]]:
-    """Return Gazebo's graph: topic -> types, publishing and subscribing programs."""
-    published, subscribed = gz_nodes[0].publishers_and_subscribers()
-    advertised = {who: set(node.advertised_topics()) for who, node in zip(WHO, gz_nodes, strict=True)}
-    heard = {who: set(node.subscribed_topics()) for who, node in zip(WHO, gz_nodes, strict=True)}
+def gz_graph(gz_node: Node) -> dict[str, dict[str, list[str]]]:
+    """Return Gazebo's graph, seen from the bridge's node: topic -> types, publishing and subscribing programs."""
+    published, subscribed = gz_node.publishers_and_subscribers()
+    own = set(gz_node.advertised_topics()), set(gz_node.subscribed_topics())
     return {
         topic: {
             "types": _types(topic, published) or _types(topic, subscribed),
-            "publishers": [who for who in WHO if topic in advertised[who]],
-            "subscribers": [who for who in WHO if topic in heard[who]],
+            "publishers": _who(topic, published, own[0]),
+            "subscribers": _who(topic, subscribed, own[1]),
         }
         for topic in sorted({end.topic for end in [*published, *subscribed]})
     }
@@ -42,3 +40,9 @@ def gz_graph(gz_nodes: list[Node]) -> dict[str, dict[str, list[str]]]:
 
 def _types(topic: str, ends: list[MessagePublisher]) -> list[str]:
     return sorted({end.msg_type_name for end in ends if end.topic == topic})
+
+
+def _who(topic: str, ends: list[MessagePublisher], own: set[str]) -> list[str]:
+    """The simulator has many Gazebo nodes, the bridge one, with the topics `own`."""
+    others = sum(end.topic == topic for end in ends) > (topic in own)
+    return [SIMULATOR] * others + [NODE] * (topic in own)

@@ -8,12 +8,14 @@ from __future__ import annotations
 import contextlib
 import os
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grader.exercise import Exercise
+from grader.errors import ManifestError
+from grader.exercise import MANIFEST, Exercise
 from grader.kinds.kind import find_kind
+from grader.printable import shown
 from grader.run.domain import Domain
 from grader.run.sandbox import LEVEL, Sandbox
 from grader.run.student import Student
@@ -51,7 +53,8 @@ def run(exercise: Exercise, submission: Submission, trial: Trial, pace: str, pat
     `pace` is `lockstep` or `realtime`. Nothing is left running and no temporary file is left behind, whatever
     happens. Raises ManifestError if the exercise's own files are wrong.
     """
-    cast = find_kind(exercise.kind).cast(exercise, submission)
+    kind = find_kind(exercise.kind)
+    cast = kind.cast(exercise, submission)
     topics = {
         "publisher": {e.ros_topic: e.ros_type for e in cast.entries if e.direction.to_gz} | exercise.observe,
         "subscription": {e.ros_topic: e.ros_type for e in cast.entries if e.direction.to_ros},
@@ -67,8 +70,14 @@ def run(exercise: Exercise, submission: Submission, trial: Trial, pace: str, pat
         from grader.record.recorder import Recorder
         from grader.run.properties import write_properties
         from grader.run.stage import Stage
+        from ros_gz_bridge.entry import BridgeError
 
-        stage = Stage(exercise, trial, cast, domain.id, student, pace, stack)
+        try:
+            stage = Stage(exercise, trial, cast, domain.id, student, pace, stack)
+        except BridgeError as error:
+            if not kind.brings_bridge:
+                raise ManifestError(f"{exercise.folder / MANIFEST}: {error.errors[0]}") from None
+            return record_unrunnable(exercise, replace(submission, fault=shown(error.errors[0])), trial, path)
         recorder = Recorder(path, exercise.robot)
         with recorder.abandoned_on_error():
             facts = stage.play(recorder)

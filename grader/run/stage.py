@@ -92,7 +92,7 @@ class Stage:
             self._tick()
             self._out_of_time = time.monotonic() > deadline
         self.wall_seconds = time.monotonic() - started
-        graphs = both_graphs(self._gz_nodes, self._ears) if self._given else {}
+        graphs = both_graphs(self._gz_nodes[1], self._ears) if self._given else {}
         self._student.stop()
         self._scene.finish()
         return self._facts(ready) | graphs

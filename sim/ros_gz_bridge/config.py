@@ -18,7 +18,17 @@ from ros_gz_bridge.entry import BridgeEntry, ServiceEntry
 from ros_gz_bridge.entry_reader import KEYS, SERVICE_KEYS, EntryReader, Value, unknown_key
 from ros_gz_bridge.finding import ConfigError, Finding, raise_errors
 
-__all__ = ["MAX_BYTES", "MAX_ENTRIES", "Config", "ConfigError", "load_yaml", "parse_yaml", "read_file", "read_yaml"]
+__all__ = [
+    "MAX_BYTES",
+    "MAX_ENTRIES",
+    "Config",
+    "ConfigError",
+    "compose",
+    "load_yaml",
+    "parse_yaml",
+    "read_file",
+    "read_yaml",
+]
 
 MAX_BYTES = 256 * 1024
 """Largest YAML file read, in bytes."""
@@ -91,7 +101,7 @@ def read_yaml(text: str | bytes, file_name: str = "<string>", *, lazy: bool = Fa
     if len(text) > MAX_BYTES:
         return _only(first_line, f"larger than {MAX_BYTES // 1024} KiB, which no bridge configuration needs")
     try:
-        root = _compose(text, file_name)
+        root = compose(text, file_name)
     except ConfigError as error:
         place, _, sentence = error.errors[0].partition(": ")
         return _only(place, sentence)
@@ -124,8 +134,11 @@ def _only(place: str, sentence: str) -> Config:
     return Config(findings=[Finding(place, sentence)])
 
 
-def _compose(text: str | bytes, file_name: str) -> yaml.Node | None:
-    """The node tree with its line numbers; nothing in it is ever built into an object."""
+def compose(text: str | bytes, file_name: str) -> yaml.Node | None:
+    """The node tree of a YAML text with its line numbers; nothing in it is ever built into an object.
+
+    Raises ``ConfigError`` with one sentence that begins with the place if the text is not YAML.
+    """
     try:
         return yaml.compose(text, Loader=yaml.SafeLoader)
     except yaml.MarkedYAMLError as error:

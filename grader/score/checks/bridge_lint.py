@@ -1,0 +1,32 @@
+"""`bridge_lint`: is there nothing to say about the student's bridge configuration?
+
+kind = "bridge_lint"
+carried = 6               # bridges that must have carried messages, so that an empty file earns nothing
+"""
+
+from __future__ import annotations
+
+from pathlib import PurePath
+
+from grader.record.reading import Recording
+from grader.score.check import Finding, check_kind
+from grader.score.graphs import bridges
+from grader.table import Table
+
+
+@check_kind("bridge_lint")
+def bridge_lint(recording: Recording, parameters: Table) -> Finding:
+    """Pass if lint found neither an error nor a warning; the first error is told, else the first warning."""
+    least = parameters.number("carried")
+    found = recording.facts().get("lint", [])
+    expected = "lint finds neither an error nor a warning"
+    for finding in sorted(found, key=lambda finding: bool(finding["warning"])):
+        file, _, line = finding["place"].rpartition(":")
+        more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
+        what = "warning" if finding["warning"] else "error"
+        return Finding(False, expected, f"{what} in {PurePath(file).name}, line {line}: {finding['sentence']}{more}")
+    carried = sum(bridge.to_ros + bridge.to_gz > 0 for bridge in bridges(recording))
+    if carried < least:
+        measured = f"only {carried} of your bridges carried a message, so there was little to check"
+        return Finding(False, expected, measured, gated=True)
+    return Finding(True, expected, "nothing found")

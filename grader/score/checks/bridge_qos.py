@@ -1,0 +1,37 @@
+"""`bridge_qos`: does the bridge offer a ROS topic with the quality of service that is wanted?
+
+kind = "bridge_qos"
+ros_topic = "/image"
+depth = [1, 2]            # messages kept for a slow listener: at least, at most
+reliability = "RELIABLE"  # optional
+at_least = 10             # messages that must have gone through, so that nothing earns nothing
+"""
+
+from __future__ import annotations
+
+from grader.record.reading import Recording
+from grader.score.check import Finding, check_kind
+from grader.score.graphs import bridges
+from grader.table import Table
+
+
+@check_kind("bridge_qos")
+def bridge_qos(recording: Recording, parameters: Table) -> Finding:
+    """Pass if every bridge that publishes on the topic offers this depth and reliability."""
+    topic = parameters.text("ros_topic")
+    low, high = parameters.numbers("depth", [2])
+    reliability = parameters.text("reliability") if parameters.has("reliability") else None
+    least = parameters.number("at_least", above=0)
+    span = f"{low:g}" if low == high else f"{low:g} to {high:g}"
+    expected = f"{topic} keeps {span} message{'' if high == 1 else 's'}" + (f", {reliability}" if reliability else "")
+    made = [bridge for bridge in bridges(recording) if bridge.ros_topic == topic and bridge.publisher_qos]
+    if sum(bridge.to_ros for bridge in made) < least:
+        return Finding(False, expected, f"no messages go to {topic}", gated=True)
+    for bridge in made:
+        offer = bridge.publisher_qos
+        assert offer is not None
+        if not low <= offer.depth <= high:
+            return Finding(False, expected, f"{bridge.place}: {topic} keeps {offer.depth} messages (publisher_queue)")
+        if reliability and offer.reliability != reliability:
+            return Finding(False, expected, f"{bridge.place}: {topic} is offered as {offer.reliability}")
+    return Finding(True, expected, "so it does")

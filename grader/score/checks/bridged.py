@@ -1,0 +1,114 @@
+"""`bridged`: does the student's bridge join one topic of ROS with one of Gazebo, so that messages arrive?
+
+kind = "bridged"
+ros_topic = "/scan"
+ros_type = "sensor_msgs/msg/LaserScan"
+gz_topic = "/lidar"
+gz_type = "gz.msgs.LaserScan"
+direction = "GZ_TO_ROS"
+at_least = 10             # messages that must go through
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from grader.record.reading import Recording
+from grader.score.check import Finding, check_kind
+from grader.score.graphs import WAYS, Bridged, bridges, did_you_mean
+from grader.table import Table
+
+KEYS = ("ros_topic", "ros_type", "gz_topic", "gz_type", "direction")
+CLOCK = "/clock"
+
+
+@check_kind("bridged")
+def bridged(recording: Recording, parameters: Table) -> Finding:
+    """Pass if a bridge has these names and types and this direction, and `at_least` messages were heard beyond it."""
+    wanted = {key: parameters.text(key) for key in KEYS[:-1]}
+    wanted["direction"] = parameters.choice("direction", WAYS)
+    least = parameters.number("at_least", above=0)
+    facts = recording.facts()
+    made = bridges(recording)
+    arrow = {"GZ_TO_ROS": "<-", "ROS_TO_GZ": "->"}.get(wanted["direction"], "<->")
+    expected = f"{wanted['ros_topic']} ({wanted['ros_type']}) {arrow} {wanted['gz_topic']} ({wanted['gz_type']})"
+    candidates = [bridge for bridge in made if bridge.ros_topic == wanted["ros_topic"]]
+    if not candidates:
+        return Finding(False, expected, _not_there(wanted, made))
+    faults = [_fault(bridge, wanted, facts) for bridge in candidates]
+    if all(faults):
+        return Finding(False, expected, faults[0])
+    bridge = candidates[faults.index("")]
+    went = bridge.to_ros if wanted["direction"] == "GZ_TO_ROS" else bridge.to_gz
+    if went < least:
+        return _too_few(expected, bridge, went, made)
+    deaf = _deaf(bridge, facts) if wanted["direction"] == "GZ_TO_ROS" else ""
+    return Finding(not deaf, expected, deaf or f"{went} messages went through")
+
+
+def _not_there(wanted: dict[str, str], made: list[Bridged]) -> str:
+    """Why nothing is bridged to that ROS topic."""
+    ros, gz = wanted["ros_topic"], wanted["gz_topic"]
+    for bridge in made:
+        if (bridge.ros_topic, bridge.gz_topic) == (gz, ros):
+            return f"{bridge.place}: the names are the wrong way round: {gz} is Gazebo's name, {ros} is that of ROS"
+        if bridge.gz_topic == gz:
+            return f"{bridge.place}: {gz} is called {bridge.ros_topic} in ROS here; the node uses {ros}"
+    near = did_you_mean(ros, [bridge.ros_topic for bridge in made], 0.8)
+    return f"no bridge has the ROS topic {ros}{near.replace('did you mean', 'is it')}"
+
+
+def _fault(bridge: Bridged, wanted: dict[str, str], facts: dict[str, Any]) -> str:
+    """What is wrong with a bridge to the right ROS topic; empty if nothing is."""
+    if bridge.gz_topic != wanted["gz_topic"]:
+        return f"{bridge.place}: {_wrong_gz_topic(bridge, wanted, facts.get('gz_topics', {}))}"
+    if bridge.ros_type != wanted["ros_type"]:
+        return f"{bridge.place}: {bridge.ros_topic} is {bridge.ros_type} here, but the node uses {wanted['ros_type']}"
+    if bridge.gz_type != wanted["gz_type"]:
+        return f"{bridge.place}: {bridge.gz_topic} is {bridge.gz_type} here, but in Gazebo it is {wanted['gz_type']}"
+    if bridge.direction == wanted["direction"]:
+        return ""
+    if bridge.direction == "BIDIRECTIONAL":
+        return f"{bridge.place}: {bridge.ros_topic} goes both ways (no direction means that); one way is right"
+    return f"{bridge.place}: {bridge.ros_topic} goes the wrong way, {bridge.direction}: {_why(wanted)}"
+
+
+def _wrong_gz_topic(bridge: Bridged, wanted: dict[str, str], gz: dict[str, Any]) -> str:
+    kind = "subscribers" if wanted["direction"] == "ROS_TO_GZ" else "publishers"
+    does = "listens to" if wanted["direction"] == "ROS_TO_GZ" else "publishes"
+    if "gz sim" in gz.get(bridge.gz_topic, {}).get(kind, []):
+        return f"{bridge.gz_topic} is not the Gazebo topic that belongs to {bridge.ros_topic}"
+    offered = [topic for topic, ends in gz.items() if "gz sim" in ends[kind]]
+    near = did_you_mean(bridge.gz_topic, [t for t in offered if wanted["gz_type"] in gz[t]["types"]], 0.3)
+    return f"nobody in Gazebo {does} {bridge.gz_topic}{near}"
+
+
+def _why(wanted: dict[str, str]) -> str:
+    if wanted["direction"] == "ROS_TO_GZ":
+        return "commands come from ROS, and Gazebo listens"
+    return "Gazebo publishes it, and ROS listens"
+
+
+def _too_few(expected: str, bridge: Bridged, went: int, made: list[Bridged]) -> Finding:
+    """Nothing or too little went through, although all is written as it should be."""
+    clock = any(b.ros_topic == CLOCK and b.to_ros for b in made)
+    if bridge.direction == "ROS_TO_GZ" and not clock:
+        measured = f"{went} messages went through: the node waits for {CLOCK}, which does not arrive"
+        return Finding(False, expected, measured, gated=True)
+    return Finding(False, expected, f"{bridge.place}: only {went} messages went through")
+
+
+def _deaf(bridge: Bridged, facts: dict[str, Any]) -> str:
+    """Why the node that listens to it hears nothing all the same; empty if it does."""
+    offer = bridge.publisher_qos
+    for end in facts.get("endpoints", []):
+        if (end["kind"], end["topic"]) != ("subscription", bridge.ros_topic) or offer is None:
+            continue
+        for policy, weak in (("reliability", "BEST_EFFORT"), ("durability", "VOLATILE")):
+            asked, offered = end[policy], getattr(offer, policy)
+            if asked not in (weak, "SYSTEM_DEFAULT", "BEST_AVAILABLE") and offered == weak:
+                return (
+                    f"{bridge.place}: {bridge.ros_topic} is offered with the {policy} {offered}, but the node asks for "
+                    f"{asked}: it hears nothing"
+                )
+    return ""

@@ -1,0 +1,117 @@
+"""`table_column`: is one column of the student's table right in every row?
+
+kind = "table_column"
+column = "gz_type"        # ros_type | gz_topic | gz_type | direction | publisher
+at_least = 5              # rows that must be right, so that an empty table earns nothing
+
+Rows for topics that do not go across, and topics without a row, are the business of `table_rows`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from grader.record.reading import Recording
+from grader.score.check import Finding, check_kind
+from grader.score.graphs import WAYS, Link, did_you_mean, links
+from grader.table import Table
+
+WORDS = {
+    "ros_type": "the ROS type",
+    "gz_topic": "the Gazebo topic",
+    "gz_type": "the Gazebo type",
+    "direction": "the direction",
+    "publisher": "the publishing node",
+}
+
+
+@check_kind("table_column")
+def table_column(recording: Recording, parameters: Table) -> Finding:
+    """Pass if no row is wrong in this column and at least `at_least` are right."""
+    column = parameters.choice("column", WORDS)
+    least = parameters.number("at_least")
+    facts = recording.facts()
+    truth = {link.ros_topic: link for link in links(recording)}
+    expected = f"{WORDS[column]} of every row is what the live graphs say"
+    right, first_wrong, empty = 0, "", 0
+    for row in facts.get("table", []):
+        link = truth.get(row["ros_topic"])
+        if link is None:
+            continue
+        said = row[column]
+        if not said:
+            empty += 1
+            first_wrong = first_wrong or f"line {row['line']}: {WORDS[column]} of {link.ros_topic} is not filled in"
+        elif _fits(column, said, link):
+            right += 1
+        else:
+            first_wrong = first_wrong or f"line {row['line']}: {EXPLAIN[column](said, link, facts)}"
+    if first_wrong:
+        return Finding(False, expected, first_wrong)
+    if right < least:
+        return Finding(False, expected, f"{right} rows say it; at least {least:g} are needed", gated=True)
+    return Finding(True, expected, f"{right} rows")
+
+
+def _fits(column: str, said: str, link: Link) -> bool:
+    if column == "publisher":
+        return said.lstrip("/") in link.publisher
+    if column == "gz_topic":
+        return f"/{said.lstrip('/')}" == link.gz_topic
+    return bool(said == getattr(link, column))
+
+
+def _ros_type(said: str, link: Link, facts: dict[str, Any]) -> str:
+    if said.startswith("gz.msgs."):
+        return f"{said} is Gazebo's type; {link.ros_topic} has another one in ROS, such as package/msg/Name"
+    known = sorted({kind for topic in facts["ros_topics"].values() for kind in topic["types"]})
+    return f"{link.ros_topic} does not carry {said} in ROS{did_you_mean(said, known)}"
+
+
+def _gz_type(said: str, link: Link, facts: dict[str, Any]) -> str:
+    if "/" in said:
+        return f"{said} is the ROS type; in Gazebo {link.gz_topic} has a type of its own, such as gz.msgs.Name"
+    known = sorted({kind for topic in facts["gz_topics"].values() for kind in topic["types"]})
+    return f"{link.gz_topic} does not carry {said} in Gazebo{did_you_mean(said, known)}"
+
+
+def _gz_topic(said: str, link: Link, facts: dict[str, Any]) -> str:
+    name = f"/{said.lstrip('/')}"
+    if name in facts["gz_topics"]:
+        return f"{name} is a topic of Gazebo, but not the one that {link.ros_topic} is joined with"
+    if name == link.ros_topic:
+        return f"{name} is what ROS calls it; Gazebo has no topic of that name{did_you_mean(name, _names(facts))}"
+    return f"Gazebo has no topic {name}{did_you_mean(name, _names(facts))}"
+
+
+def _names(facts: dict[str, Any]) -> list[str]:
+    return list(facts["gz_topics"])
+
+
+def _direction(said: str, link: Link, facts: dict[str, Any]) -> str:
+    if said not in WAYS:
+        return f"{said} is no direction{did_you_mean(said.upper(), list(WAYS))}; they are {', '.join(WAYS)}"
+    if said == "BIDIRECTIONAL":
+        return f"messages of {link.ros_topic} travel one way only, not both"
+    return f"messages of {link.ros_topic} travel the other way, not {said}"
+
+
+def _publisher(said: str, link: Link, facts: dict[str, Any]) -> str:
+    name = said.lstrip("/")
+    nodes = sorted({node for topic in facts["ros_topics"].values() for node in topic["publishers"]})
+    heard = facts["ros_topics"].get(link.ros_topic, {}).get("subscribers", [])
+    if name in heard:
+        return f"{name} listens to {link.ros_topic}; it does not publish there"
+    if name in nodes:
+        return f"{name} is a node, but it does not publish on {link.ros_topic}"
+    return f"no node called {name} is in the ROS graph; Gazebo itself is not in it{did_you_mean(name, nodes, 0.5)}"
+
+
+EXPLAIN: dict[str, Callable[[str, Link, dict[str, Any]], str]] = {
+    "ros_type": _ros_type,
+    "gz_topic": _gz_topic,
+    "gz_type": _gz_type,
+    "direction": _direction,
+    "publisher": _publisher,
+}

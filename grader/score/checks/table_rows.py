@@ -1,0 +1,51 @@
+"""`table_rows`: does the student's table have a row for every bridged topic, and no other?
+
+kind = "table_rows"
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+
+from grader.record.reading import Recording
+from grader.score.check import Finding, check_kind
+from grader.score.graphs import did_you_mean, links
+from grader.table import Table
+
+
+@check_kind("table_rows")
+def table_rows(recording: Recording, parameters: Table) -> Finding:
+    """Pass if the topics of the rows are exactly those that the bridge joins."""
+    facts = recording.facts()
+    rows = facts.get("table", [])
+    wanted = [link.ros_topic for link in links(recording)]
+    named = Counter(row["ros_topic"] for row in rows)
+    expected = f"one row for each of the {len(wanted)} topics that go across"
+    for row in rows:
+        topic, where = row["ros_topic"], f"line {row['line']}"
+        if not topic:
+            return Finding(False, expected, f"{where}: this row has no ros_topic")
+        if topic in wanted and named[topic] == 1:
+            continue
+        return Finding(False, expected, f"{where}: {_why(topic, named[topic], wanted, facts)}")
+    missing = [topic for topic in wanted if topic not in named]
+    if missing:
+        more = f" and {len(missing) - 1} more" if len(missing) > 1 else ""
+        return Finding(False, expected, f"there is no row for {missing[0]}{more}")
+    return Finding(True, expected, f"{len(rows)} rows")
+
+
+def _why(topic: str, times: int, wanted: list[str], facts: dict) -> str:
+    """What is wrong with a row for this topic."""
+    if topic in wanted:
+        return f"{topic} has {times} rows; one is enough"
+    ros, gz = facts.get("ros_topics", {}), facts.get("gz_topics", {})
+    if topic in ros:
+        return f"{topic} is a topic of ROS alone; nothing of it goes across the bridge"
+    near = did_you_mean(topic, wanted)
+    if topic in gz:
+        across = [b["ros_topic"] for b in facts["bridges"] if b["gz_topic"] == topic]
+        if across:
+            return f"{topic} is what Gazebo calls it; in ROS it is {across[0]}"
+        return f"{topic} is a topic of Gazebo alone; no bridge takes it to ROS"
+    return f"there is no topic {topic} in ROS{near}"

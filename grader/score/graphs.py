@@ -1,0 +1,100 @@
+"""What a recording says of both graphs: which bridges stood between them, and which way messages went.
+
+Read by the checks on tables and bridges (`checks/table_*.py`, `checks/bridge*.py`) from the facts that a run with the
+exercise's own node leaves (`run/graphs.py`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from difflib import get_close_matches
+from typing import Any
+
+from grader.record.reading import Recording
+
+WAYS = ("GZ_TO_ROS", "ROS_TO_GZ", "BIDIRECTIONAL")
+
+
+@dataclass(frozen=True)
+class Qos:
+    """What an endpoint offers or asks for."""
+
+    reliability: str
+    durability: str
+    depth: int
+
+
+@dataclass(frozen=True)
+class Bridged:
+    """One bridge of a run: as it was configured (`source` is `file:line`), and the messages that went each way."""
+
+    source: str
+    ros_topic: str
+    ros_type: str
+    gz_topic: str
+    gz_type: str
+    direction: str
+    to_ros: int
+    to_gz: int
+    publisher_qos: Qos | None
+    subscription_qos: Qos | None
+
+    @property
+    def place(self) -> str:
+        """Where it is written, in words."""
+        file, _, line = self.source.rpartition(":")
+        return f"{file}, line {line}" if file else self.source
+
+
+def bridges(recording: Recording) -> list[Bridged]:
+    """Return the bridges of a run, in the order of the file."""
+
+    def qos(raw: dict[str, Any] | None) -> Qos | None:
+        return Qos(**raw) if raw is not None else None
+
+    return [
+        Bridged(**raw | {"publisher_qos": qos(raw["publisher_qos"]), "subscription_qos": qos(raw["subscription_qos"])})
+        for raw in recording.facts().get("bridges", [])
+    ]
+
+
+@dataclass(frozen=True)
+class Link:
+    """One topic as it really was on both sides: a row of the table a student is to write."""
+
+    ros_topic: str
+    ros_type: str
+    gz_topic: str
+    gz_type: str
+    direction: str  # which way messages went; empty if none did
+    publisher: tuple[str, ...]  # ROS nodes that published on it
+
+
+def links(recording: Recording) -> list[Link]:
+    """Return the bridged topics, by ROS name. Types and publishers are those of the live graphs."""
+    facts = recording.facts()
+    ros, gz = facts.get("ros_topics", {}), facts.get("gz_topics", {})
+    found = []
+    for bridge in sorted(bridges(recording), key=lambda bridge: bridge.ros_topic):
+        ros_types = ros.get(bridge.ros_topic, {}).get("types", [])
+        gz_types = gz.get(bridge.gz_topic, {}).get("types", [])
+        publishers = ros.get(bridge.ros_topic, {}).get("publishers", [])
+        found.append(
+            Link(
+                bridge.ros_topic,
+                ros_types[0] if ros_types else bridge.ros_type,
+                bridge.gz_topic,
+                gz_types[0] if gz_types else bridge.gz_type,
+                {(True, False): "GZ_TO_ROS", (False, True): "ROS_TO_GZ", (True, True): "BIDIRECTIONAL"}.get(
+                    (bridge.to_ros > 0, bridge.to_gz > 0), ""
+                ),
+                tuple(publishers),
+            )
+        )
+    return found
+
+
+def did_you_mean(word: str, words: list[str], cutoff: float = 0.6) -> str:
+    """Return a clause that names the nearest of `words`, or nothing. Among equals the first in order wins."""
+    near = get_close_matches(word, sorted(set(words)), n=1, cutoff=cutoff)
+    return f" (did you mean {near[0]}?)" if near else ""
