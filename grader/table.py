@@ -16,24 +16,26 @@ from grader.errors import ManifestError, nearest
 
 
 class Table:
-    """`raw`, which stands at `where`; what its keys are called in errors is `noun`.
+    """`raw`, which stands at `where`; what its keys are called in errors is `noun`. `folder` is that of the file, for
+    keys that name files.
 
     Every getter takes the key and, for a key that may be left out, a default. Call `end()` when all were asked for.
     """
 
-    def __init__(self, raw: Any, where: str, noun: str = "key") -> None:
+    def __init__(self, raw: Any, where: str, noun: str = "key", folder: Path | None = None) -> None:
         if not isinstance(raw, dict):
             raise ManifestError(f"{where} must be a table, not {raw!r}")
         self._raw: dict[str, Any] = raw
         self.where = where
         self._noun = noun
+        self.folder = folder
         self._asked: set[str] = set()
 
     @staticmethod
     def load(path: Path) -> Table:
         """Read a TOML file."""
         try:
-            return Table(tomllib.loads(path.read_text(encoding="utf-8")), str(path))
+            return Table(tomllib.loads(path.read_text(encoding="utf-8")), str(path), folder=path.parent)
         except OSError as error:
             raise ManifestError(f"{path} cannot be read: {error.strerror}") from None
         except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
@@ -73,6 +75,13 @@ class Table:
             self.refuse(key, f"a finite number greater than {above:g}" if math.isfinite(above) else "a finite number")
         return value
 
+    def flag(self, key: str, *default: bool) -> bool:
+        """Return true or false."""
+        value = self.any(key, *default)
+        if not isinstance(value, bool):
+            self.refuse(key, "true or false")
+        return value
+
     def integer(self, key: str, *default: int) -> int:
         """Return a whole number."""
         value = self.any(key, *default)
@@ -105,19 +114,23 @@ class Table:
             raise ManifestError(f"{self.where}: {key} is {value!r}{nearest(value, names)}")
         return value
 
-    def pattern(self, key: str) -> re.Pattern[str]:
-        """Return a regular expression with a group."""
+    def regex(self, key: str) -> re.Pattern[str]:
+        """Return a regular expression."""
         try:
-            pattern = re.compile(self.text(key))
+            return re.compile(self.text(key))
         except re.error as error:
             raise ManifestError(f"{self.where}: {key} is no regular expression: {error}") from None
+
+    def pattern(self, key: str) -> re.Pattern[str]:
+        """Return a regular expression with a group."""
+        pattern = self.regex(key)
         if not pattern.groups:
             self.refuse(key, "a regular expression with a group, the answer")
         return pattern
 
     def table(self, key: str, *default: dict[str, Any]) -> Table:
         """Return a table inside this one."""
-        return Table(self.any(key, *default), f"{self.where}: {key}", self._noun)
+        return Table(self.any(key, *default), f"{self.where}: {key}", self._noun, self.folder)
 
     def free(self, key: str) -> dict[str, Any]:
         """Return a table as it is, for whoever knows its keys; empty if it is left out."""
@@ -131,7 +144,9 @@ class Table:
         value = self.any(key, *default)
         if not isinstance(value, list) or (not value and not default):
             self.refuse(key, "a list of tables")
-        return [Table(raw, f"{self.where}: {key} {number}", self._noun) for number, raw in enumerate(value, 1)]
+        return [
+            Table(raw, f"{self.where}: {key} {number}", self._noun, self.folder) for number, raw in enumerate(value, 1)
+        ]
 
     def names(self) -> list[str]:
         """Return the keys given, which are thereby asked for: for tables whose keys are free."""

@@ -3,18 +3,21 @@
 A kind is a function of the recording and the parameters its manifest gives; it registers itself with `@check_kind`. It
 asks for every parameter it knows, and what is left over is an author's typing mistake.
 A check's `gate` is handled here for every kind: without the gate's evidence no point is given, so that doing nothing
-earns nothing:
+earns nothing, and so that quality counts only after success. One gate, or a list of them:
 
     gate = { signal = "truth/robot/distance", reaches = 0.5, otherwise = "the robot never drove" }
+    gate = { signal = "truth/robot/x", falls_to = -1.0, otherwise = "the robot never drove back" }
+    gate = { check = "arrives", otherwise = "the robot never arrived" }      # another check must pass
 """
 
 from __future__ import annotations
 
 import importlib
 import pkgutil
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
+from pathlib import Path
 
 from grader.errors import ManifestError, nearest
 from grader.exercise import CheckSpec
@@ -37,7 +40,8 @@ class Band:
 class Finding:
     """What one check found: what was expected, what was measured, and at which simulated moment [s].
 
-    `gated` marks a check that failed only because its gate did: another check tells the reason.
+    `gated` marks a check that failed only because its gate did: another check tells the reason. `timing` marks a check
+    that, if it failed, saw the right thing at the wrong time or for the wrong time: perhaps a node asks another clock.
     """
 
     passed: bool
@@ -46,6 +50,7 @@ class Finding:
     at_s: float | None = None
     bands: tuple[Band, ...] = ()
     gated: bool = False
+    timing: bool = False
 
 
 Kind = Callable[[Recording, Table], Finding]
@@ -74,19 +79,72 @@ def check_kinds() -> dict[str, Kind]:
     return dict(_kinds)
 
 
-def perform(spec: CheckSpec, recording: Recording) -> Finding:
-    """Apply one check to a recording. Raises ManifestError if the manifest's parameters do not fit the kind."""
+def perform_all(specs: Sequence[CheckSpec], recording: Recording, folder: Path | None = None) -> list[Finding]:
+    """Apply all checks of an exercise, whose manifest lies in `folder`, to a recording.
+
+    Raises ManifestError if the manifest's parameters do not fit the kinds, or if gates wait for each other.
+    """
+    known = {spec.id: spec for spec in specs}
+    found: dict[str, Finding] = {}
+    waiting: list[str] = []
+
+    def finding_of(id: str) -> Finding:
+        if id in found:
+            return found[id]
+        if id in waiting:
+            raise ManifestError(
+                f"the gates of the checks {', '.join(waiting[waiting.index(id) :])} wait for each other"
+            )
+        if id not in known:
+            raise ManifestError(f"check {waiting[-1]!r}: its gate names no check: {id!r}{nearest(id, known)}")
+        waiting.append(id)
+        found[id] = perform(known[id], recording, folder, finding_of)
+        waiting.pop()
+        return found[id]
+
+    return [finding_of(spec.id) for spec in specs]
+
+
+def perform(
+    spec: CheckSpec,
+    recording: Recording,
+    folder: Path | None = None,
+    finding_of: Callable[[str], Finding] | None = None,
+) -> Finding:
+    """Apply one check to a recording; `finding_of` answers what another check found, for gates.
+
+    Raises ManifestError if the manifest's parameters do not fit the kind.
+    """
     kinds = check_kinds()
     if spec.kind not in kinds:
         raise ManifestError(f"check {spec.id!r} is of unknown kind {spec.kind!r}{nearest(spec.kind, kinds)}")
-    parameters = Table(spec.parameters, f"check {spec.id!r}", "parameter")
-    gate = parameters.table("gate") if parameters.has("gate") else None
+    parameters = Table(spec.parameters, f"check {spec.id!r}", "parameter", folder)
+    gates: list[Table] = []
+    if parameters.has("gate"):
+        several = isinstance(spec.parameters["gate"], list)
+        gates = parameters.tables("gate") if several else [parameters.table("gate")]
     finding = kinds[spec.kind](recording, parameters)
     parameters.end()
-    if gate is not None:
-        signal, reaches, otherwise = gate.text("signal"), gate.number("reaches"), gate.text("otherwise")
-        gate.end()
-        values = recording.signal(signal).values
-        if not len(values) or values.max() < reaches:
-            return replace(finding, passed=False, measured=otherwise, at_s=None, gated=True)
+    closed = [sentence for gate in gates if (sentence := _closed(gate, recording, finding_of))]
+    if closed:
+        return replace(finding, passed=False, measured=closed[0], at_s=None, gated=True)
     return finding
+
+
+def _closed(gate: Table, recording: Recording, finding_of: Callable[[str], Finding] | None) -> str:
+    """Return what to say because a gate is closed, or an empty string if it is open."""
+    if gate.has("check"):
+        other, otherwise = gate.text("check"), gate.text("otherwise")
+        gate.end()
+        return "" if finding_of is None or finding_of(other).passed else otherwise
+    signal = gate.text("signal")
+    values = recording.signal(signal).values
+    if gate.has("falls_to"):
+        limit = gate.number("falls_to")
+        evidence = bool(len(values) and values.min() <= limit)
+    else:
+        limit = gate.number("reaches")
+        evidence = bool(len(values) and values.max() >= limit)
+    otherwise = gate.text("otherwise")
+    gate.end()
+    return "" if evidence else otherwise

@@ -23,10 +23,11 @@ class Condition:
     @staticmethod
     def read_all(parameters: Table) -> list[Condition]:
         """Read the `conditions` of a check; a missing bound is no bound."""
-        return [Condition._read(table) for table in parameters.tables("conditions")]
+        return [Condition.read(table) for table in parameters.tables("conditions")]
 
     @staticmethod
-    def _read(table: Table) -> Condition:
+    def read(table: Table) -> Condition:
+        """Read one condition."""
         signal = table.text("signal")
         condition = Condition(
             signal,
@@ -73,11 +74,44 @@ def fulfilled(
     return edges, holds
 
 
+def window_of(recording: Recording, parameters: Table) -> tuple[float, float]:
+    """Read the `window` of a check [s]; the whole run if it is left out."""
+    start, end = parameters.numbers("window", [2], [0.0, recording.properties("run")["duration"]])
+    if not start < end:
+        parameters.refuse("window", "two times, the earlier one first")
+    return start, end
+
+
+def how_many(least: float, most: float) -> str:
+    """Return a number wanted, in words: `exactly 2`, `at least 1`, `at most 0`, `2 to 4`."""
+    if least == most:
+        return f"exactly {least:g}"
+    if np.isinf(most):
+        return f"at least {least:g}"
+    return f"{least:g} to {most:g}" if least > 0 else f"at most {most:g}"
+
+
 def value_at(recording: Recording, name: str, time: float) -> float | None:
     """Value of a signal at a time [s]: that of the last sample before it; None before the first."""
     signal = recording.signal(name)
     index = int(np.searchsorted(signal.times, round(time * 1e9), side="right")) - 1
     return float(signal.values[index]) if index >= 0 else None
+
+
+def shown_at(recording: Recording, conditions: list[Condition], at: float) -> str:
+    """Say what the signals of some conditions were at a time [s]."""
+
+    def one(condition: Condition) -> str:
+        if at >= recording.ended_s:
+            return f"the simulation ended at {recording.ended_s:.2f} s"
+        value = value_at(recording, condition.signal, at)
+        return (
+            f"{condition.name} was {told(value)}{condition.unit}"
+            if value is not None
+            else f"{condition.name} had no value"
+        )
+
+    return f"{', '.join(dict.fromkeys(map(one, conditions)))} at {at:.2f} s"
 
 
 def told(value: float) -> str:

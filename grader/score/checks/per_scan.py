@@ -22,10 +22,8 @@ import numpy as np
 
 from grader.record.reading import Recording
 from grader.score.check import Finding, check_kind
+from grader.score.events import log_lines
 from grader.table import Table
-
-# What the console format of the sandbox puts before a logger's message; a printed line lacks it.
-LOGGED = re.compile(r"^\[[A-Z]+\] \[[^\]]*\]: ")
 
 STATISTICS: dict[str, Callable[[np.ndarray], float]] = {
     "valid_count": lambda valid: float(len(valid)),
@@ -105,12 +103,11 @@ def _messages(recording: Recording, name: str) -> list[tuple[float, float]]:
 def _log_answers(recording: Recording, pattern: re.Pattern[str]) -> tuple[list[tuple[float, float]], int]:
     """All answers given in the log, and how many were printed instead of logged."""
     answers, printed = [], 0
-    for line in recording.lines("log/student"):
-        text, logged = LOGGED.subn("", line.text)
+    for at, text, logged in log_lines(recording):
         if match := pattern.search(text):
             printed += not logged
             if logged:
-                answers.append((line.time_ns / 1e9, _number(match.group(1))))
+                answers.append((at, _number(match.group(1))))
     return answers, printed
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from grader.record.reading import Recording
 from grader.score.check import Band, Finding, check_kind
-from grader.score.steps import Condition, fulfilled, told, value_at
+from grader.score.steps import Condition, fulfilled, shown_at, told
 from grader.table import Table
 
 STILL = 0.5  # [s] before the end: a command this late means that they never ceased
@@ -34,16 +34,8 @@ def stays_in_band(recording: Recording, parameters: Table) -> Finding:
     if holds.all():
         return Finding(True, expected, "so it did", end, bands)
     at = float(edges[:-1][~holds][0])
-    shown = ", ".join(_value(recording, c, at) for c in conditions)
-    measured = f"{shown} at {at:.2f} s{_last_command(recording, command, end)}"
-    return Finding(False, expected, measured, float(np.round(at, 3)), bands)
-
-
-def _value(recording: Recording, c: Condition, at: float) -> str:
-    if at >= recording.ended_s:
-        return f"the simulation ended at {recording.ended_s:.2f} s"
-    value = value_at(recording, c.signal, at)
-    return f"{c.name} was {told(value)}{c.unit}" if value is not None else f"{c.name} had no value"
+    measured = shown_at(recording, conditions, at) + _last_command(recording, command, end)
+    return Finding(False, expected, measured, float(np.round(at, 3)), bands, timing=True)
 
 
 def _last_command(recording: Recording, command: str | None, end: float) -> str:

@@ -35,7 +35,7 @@ def time_in_band(recording: Recording, parameters: Table) -> Finding:
         measured += "".join(f"; {c.name} {_usual(recording, c)}" for c in conditions)
     at = float(edges[1:][holds][-1]) if holds.any() else None
     bands = tuple(Band(c.signal, c.low, c.high, start, end) for c in conditions)
-    return Finding(bool(least <= total <= most), f"{wanted} {span}", measured, at, bands)
+    return Finding(bool(least <= total <= most), f"{wanted} {span}", measured, at, bands, timing=total > 0)
 
 
 def _usual(recording: Recording, c: Condition) -> str:

@@ -4,7 +4,7 @@ import pytest
 
 from grader.errors import ManifestError
 from grader.exercise import CheckSpec
-from grader.score.check import check_kind, check_kinds, perform
+from grader.score.check import check_kind, check_kinds, perform, perform_all
 
 SIGNAL = "truth/robot/x"
 
@@ -92,3 +92,57 @@ def test_a_failure_behind_a_closed_gate_is_told_as_such(record):
 def test_a_gate_that_lacks_a_key_is_a_manifest_error(record):
     with pytest.raises(ManifestError, match="'it': gate lacks the parameter 'reaches'"):
         perform(spec(signal=SIGNAL, band=[-1, 1], gate={"signal": SIGNAL}), record({SIGNAL: [(0, 0.0)]}))
+
+
+def test_every_one_of_several_gates_must_be_open(record):
+    back = {"signal": "truth/robot/x", "falls_to": -1.0, "otherwise": "it never drove back"}
+    for rows, told in (([0.9, -1.0], ""), ([0.9, -0.9], "it never drove back"), ([0.1, -1.0], "it never drove")):
+        signals = {
+            SIGNAL: [(0, 0.0), (8, 0.0)],
+            "truth/robot/distance": [(0, rows[0])],
+            "truth/robot/x": [(0, rows[1])],
+        }
+        finding = perform(spec(signal=SIGNAL, band=[-1, 1], gate=[GATE, back]), record(signals))
+        assert (finding.passed, finding.gated) == (not told, bool(told))
+        assert not told or finding.measured == told
+
+
+def chained(*gates):
+    """Checks a, b, ...; each passes by itself if its band begins below 1, and is gated by the check named."""
+    return [
+        CheckSpec(
+            id,
+            "A title",
+            10,
+            "change",
+            "A hint.",
+            {"signal": SIGNAL, "band": band} | ({"gate": {"check": gate, "otherwise": f"not {gate}"}} if gate else {}),
+        )
+        for id, band, gate in gates
+    ]
+
+
+def test_quality_counts_only_after_success(record):
+    recording = record({SIGNAL: [(0, 0.0), (8, 1.0)]})
+    good, bad = [0, 2], [5, 6]
+    found = perform_all(chained(("a", good, "b"), ("b", good, "c"), ("c", good, "")), recording)
+    assert [finding.passed for finding in found] == [True, True, True]
+    found = perform_all(chained(("a", good, "b"), ("b", good, "c"), ("c", bad, "")), recording)
+    assert [finding.passed for finding in found] == [False, False, False]
+    assert [(f.measured, f.gated) for f in found] == [("not b", True), ("not c", True), ("changed by 1.00", False)]
+
+
+def test_gates_that_wait_for_each_other_or_for_nothing(record):
+    recording = record({SIGNAL: [(0, 0.0), (8, 1.0)]})
+    with pytest.raises(ManifestError, match="the gates of the checks a, b wait for each other"):
+        perform_all(chained(("a", [0, 2], "b"), ("b", [0, 2], "a")), recording)
+    with pytest.raises(ManifestError, match=r"check 'alpha': its gate names no check: 'alph' .did you mean alpha"):
+        perform_all(chained(("alpha", [0, 2], "alph")), recording)
+
+
+def test_every_kind_says_how_it_is_written(root):
+    """The file of a kind is its manual: it begins with the kind's name and holds an example of it."""
+    for name in check_kinds():
+        text = (root / "grader/score/checks" / f"{name}.py").read_text()
+        assert f"`{name}`: " in text.splitlines()[0], name
+        assert f'kind = "{name}"' in text, name

@@ -1,0 +1,62 @@
+"""`final_pose`: does a model stand where it should at the end (or at another moment)?
+
+kind = "final_pose"
+model = "robot"
+near = [2.0, 1.0]         # x, y or x, y, z [m] in the world's frame, and how far from there it may be:
+radius = 0.25             # [m]; or a box instead of the two:
+x = [1.5, 2.5]
+y = [0.5, 1.5]
+heading = 1.57            # optional: [rad] about the upward axis, a full turn more or less is the same, and
+tolerance = 0.2           # how far from it it may be [rad]
+at = 7.0                  # optional: another moment than the end [s]
+
+A robot that never moved may stand there as well: give such a check a gate, or let the trials begin elsewhere.
+"""
+
+from __future__ import annotations
+
+import math
+
+from grader.record.reading import Recording
+from grader.score.check import Band, Finding, check_kind
+from grader.score.steps import told, value_at
+from grader.table import Table
+
+AXES = "xyz"
+
+
+@check_kind("final_pose")
+def final_pose(recording: Recording, parameters: Table) -> Finding:
+    """Pass if the model's true position, and its heading if asked for, lie in the region at the moment."""
+    model = parameters.text("model")
+    at = parameters.number("at", recording.properties("run")["duration"], above=0)
+    near = parameters.numbers("near", [2, 3]) if parameters.has("near") else []
+    radius = parameters.number("radius", above=0) if near else math.inf
+    box = {axis: parameters.numbers(axis, [2]) for axis in AXES if parameters.has(axis)}
+    heading = parameters.number("heading") if parameters.has("heading") else None
+    tolerance = parameters.number("tolerance", above=0) if heading is not None else math.inf
+    if not near and not box and heading is None:
+        parameters.refuse("near", "given, or x, y, z or heading instead of it")
+    wanted = [f"within {radius:g} m of ({', '.join(f'{v:g}' for v in near)})"] if near else []
+    wanted += [f"{axis} in {low:g} to {high:g} m" for axis, (low, high) in box.items()]
+    wanted += [f"heading within {tolerance:g} rad of {heading:g} rad"] if heading is not None else []
+    expected = f"{model}: {', '.join(wanted)} at {at:g} s"
+    bands = tuple(Band(f"truth/{model}/{axis}", low, high, at, at) for axis, (low, high) in box.items())
+    place = [value_at(recording, f"truth/{model}/{axis}", at) for axis in AXES]
+    yaw = value_at(recording, f"truth/{model}/yaw", at)
+    if None in place[:2] or at > recording.ended_s:
+        ended = f"the simulation ended at {recording.ended_s:.2f} s"
+        return Finding(False, expected, ended if at > recording.ended_s else "nothing is known of it", None, bands)
+    here = [value or 0.0 for value in place]
+    measured = f"it stood at ({', '.join(map(told, here[: max(2, len(near))]))})"
+    passed = all(low <= here[AXES.index(axis)] <= high for axis, (low, high) in box.items())
+    if near:
+        away = math.dist(near, here[: len(near)])
+        passed = passed and away <= radius
+        measured += f", {told(away)} m away"
+    if heading is not None:
+        # The heading on record is unwrapped: it counts full turns.
+        off = math.inf if yaw is None else abs(math.remainder(yaw - heading, 2 * math.pi))
+        passed = passed and off <= tolerance
+        measured += f", its heading {told(off)} rad off"
+    return Finding(passed, expected, measured, round(at, 3), bands)

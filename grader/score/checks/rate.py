@@ -1,0 +1,44 @@
+"""`rate`: how often do messages come on a topic, in simulated time?
+
+kind = "rate"
+topic = "cmd_vel"
+hertz = [9.0, 11.0]       # at least, at most; the second may be left out
+window = [1.0, 8.0]       # optional
+longest_gap = 0.3         # optional: [s] between two messages, the edges of the window included
+
+The rate is the number of messages in the window divided by its length.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from grader.record.reading import Recording
+from grader.score.check import Finding, check_kind
+from grader.score.steps import told, window_of
+from grader.table import Table
+
+
+@check_kind("rate")
+def rate(recording: Recording, parameters: Table) -> Finding:
+    """Pass if the rate lies within `hertz` and no gap is longer than `longest_gap`."""
+    topic = parameters.text("topic").strip("/")
+    least, *rest = parameters.numbers("hertz", [1, 2])
+    most = rest[0] if rest else np.inf
+    longest = parameters.number("longest_gap", above=0) if parameters.has("longest_gap") else np.inf
+    start, end = window_of(recording, parameters)
+    expected = f"at least {least:g}" if np.isinf(most) else f"{least:g} to {most:g}"
+    expected += f" messages a simulated second on /{topic}"
+    if np.isfinite(longest):
+        expected += f", never {longest:g} s without one"
+    times = recording.signal(f"topics/{topic}/count").times / 1e9
+    times = times[(times >= start) & (times <= end)]
+    if not len(times):
+        return Finding(False, expected, f"no message arrived between {start:g} and {end:g} s")
+    hertz = len(times) / (end - start)
+    edges = np.concatenate([[start], times, [end]])
+    gaps = np.diff(edges)
+    gap, at = float(gaps.max()), float(edges[gaps.argmax()])
+    measured = f"{told(hertz)} messages a simulated second; the longest gap was {told(gap)} s, from {told(at)} s on"
+    passed = bool(least <= hertz <= most and gap <= longest + 1e-9)
+    return Finding(passed, expected, measured, round(at, 3), timing=True)

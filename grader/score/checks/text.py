@@ -1,0 +1,66 @@
+r"""`text`: does the node say something, in its log or in a message?
+
+kind = "text"
+log = '^arrived at \S+'   # a pattern for lines of the node's logger; or
+topic = "state"           # for messages on this topic:
+field = "data"            #   which text field of theirs, and
+says = '^done$'           #   a pattern for it
+count = [1]               # at least, at most; at least one if left out. [0, 0] forbids it (give it a gate)
+window = [0.0, 8.0]       # optional
+"""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+
+from grader.printable import shown
+from grader.record.reading import Recording
+from grader.score.check import Finding, check_kind
+from grader.score.events import log_lines, texts
+from grader.score.steps import how_many, told, window_of
+from grader.table import Table
+
+LONGEST_QUOTE = 80  # characters of what was said that are told
+
+
+@check_kind("text")
+def text(recording: Recording, parameters: Table) -> Finding:
+    """Pass if as many lines or messages as `count` wants match the pattern in the window."""
+    if parameters.has("log") == parameters.has("topic"):
+        parameters.refuse("log", "given, or topic instead of it, but not both")
+    pattern: re.Pattern[str]
+    printed = 0
+    if parameters.has("log"):
+        pattern, where = parameters.regex("log"), "lines in the node's log"
+        said = []
+        for at, line, logged in log_lines(recording):
+            printed += not logged and bool(pattern.search(line))
+            if logged:
+                said.append((at, line))
+    else:
+        topic, field = parameters.text("topic").strip("/"), parameters.text("field", "data")
+        pattern, where = parameters.regex("says"), f"messages on /{topic}"
+        said = [(at, line) for at, line in texts(recording, topic, field) if line is not None]
+    least, *rest = parameters.numbers("count", [1, 2], [1.0])
+    most = rest[0] if rest else np.inf
+    start, end = window_of(recording, parameters)
+    matching = [(at, line) for at, line in said if pattern.search(line)]
+    due = [(at, line) for at, line in matching if start <= at <= end]
+    expected = f"{how_many(least, most)} {where} like {pattern.pattern!r}"
+    passed = bool(least <= len(due) <= most)
+    measured = f"{len(due)} of {len(said)}"
+    if due:
+        measured += f", the first at {told(due[0][0])} s: {shown(due[0][1], LONGEST_QUOTE)!r}"
+    elif matching:
+        measured += f"; one at {told(matching[0][0])} s, not between {start:g} and {end:g} s"
+    elif printed:
+        measured += (
+            f"; {printed} such lines were printed, not logged: use the node's logger, self.get_logger().info(...)"
+        )
+    elif said:
+        measured += f"; the last was {shown(said[-1][1], LONGEST_QUOTE)!r}"
+    moments = [at for at, _ in due or matching]
+    moment = round(moments[0], 3) if moments else None
+    return Finding(passed, expected, measured, moment, timing=bool(matching) and not due)

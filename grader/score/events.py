@@ -1,0 +1,94 @@
+"""Events: the first moment at which something is so. Checks of order and of "from then on" are made of them.
+
+An author writes one of these tables (`name` says in the report what it is; `after` [s] leaves out what came before):
+
+    { signal = "truth/robot/x", low = 1.0, name = "the robot passes the gate" }     # in the band, both bounds included
+    { topic = "cmd_vel" }                                                           # a message arrives
+    { topic = "state", says = "^done" }                                             # its text matches a pattern
+    { log = "arrived" }                                                             # a line of the node's log does
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from grader.record.reading import Recording
+from grader.score.steps import Condition
+from grader.table import Table
+
+# What the console format of the sandbox puts before a logger's message; a printed line lacks it.
+LOGGED = re.compile(r"^\[[A-Z]+\] \[[^\]]*\]: ")
+
+
+@dataclass(frozen=True)
+class Event:
+    """One of the four: a `condition`, a message on `topic` (whose text in `field` matches `pattern`), a log line."""
+
+    name: str
+    condition: Condition | None = None
+    topic: str = ""
+    field: str = "data"
+    pattern: re.Pattern[str] | None = None
+    after: float = 0.0
+
+    @staticmethod
+    def read(table: Table) -> Event:
+        """Read the table of an event. Raises ManifestError if it is none of the four, or two at once."""
+        after = table.number("after", 0.0)
+        given = [key for key in ("signal", "topic", "log") if table.has(key)]
+        if len(given) != 1:
+            table.refuse(given[0] if given else "signal", "the only one of the keys signal, topic and log")
+        if given == ["signal"]:
+            condition = Condition.read(table)
+            return Event(str(condition) if not table.has("name") else condition.name, condition, after=after)
+        if given == ["log"]:
+            pattern = table.regex("log")
+            event = Event(table.text("name", f"{pattern.pattern!r} in the node's log"), pattern=pattern, after=after)
+        else:
+            topic = table.text("topic").strip("/")
+            says = table.regex("says") if table.has("says") else None
+            default = f"a message on /{topic}" + (f" saying {says.pattern!r}" if says else "")
+            event = Event(table.text("name", default), None, topic, table.text("field", "data"), says, after)
+        table.end()
+        return event
+
+    def moments(self, recording: Recording) -> Iterator[float]:
+        """Yield every simulated moment [s] at which it is so, in order."""
+        for moment in self._all(recording):
+            if moment >= self.after:
+                yield moment
+
+    def first(self, recording: Recording, since: float = 0.0) -> float | None:
+        """Return the first such moment at or after `since` [s], or None."""
+        return next((moment for moment in self.moments(recording) if moment >= since), None)
+
+    def _all(self, recording: Recording) -> list[float]:
+        if self.condition is not None:
+            signal = recording.signal(self.condition.signal)
+            held = (signal.values >= self.condition.low) & (signal.values <= self.condition.high)
+            return [float(time) for time in signal.times[held] / 1e9]
+        if self.pattern is None:
+            return [float(time) for time in recording.signal(f"topics/{self.topic}/count").times / 1e9]
+        if not self.topic:
+            return [at for at, text, _ in log_lines(recording) if self.pattern.search(text)]
+        return [at for at, text in texts(recording, self.topic, self.field) if text and self.pattern.search(text)]
+
+
+def log_lines(recording: Recording) -> Iterator[tuple[float, str, bool]]:
+    """Yield (time [s], text, whether it came from a logger) of every line the node wrote."""
+    for line in recording.lines("log/student"):
+        text, logged = LOGGED.subn("", line.text)
+        yield line.time_ns / 1e9, text, bool(logged)
+
+
+def texts(recording: Recording, topic: str, field: str) -> Iterator[tuple[float, str | None]]:
+    """Yield (time [s], what the text field said) of every message on a topic; a text is on record when it changes."""
+    lines = recording.lines(f"topics/{topic}/{field}")
+    starts = [line.time_ns for line in lines]
+    for time in recording.signal(f"topics/{topic}/count").times:
+        index = int(np.searchsorted(starts, time, side="right")) - 1
+        yield float(time / 1e9), lines[index].text if index >= 0 else None

@@ -1,0 +1,60 @@
+"""`count` and `rate`: numbers of messages, in bands and in simulated time."""
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+X = "topics/cmd_vel/linear/x"
+COUNT = "topics/cmd_vel/count"
+
+
+@pytest.mark.parametrize(
+    ("count", "passed"), [([3], True), ([4], False), ([0, 3], True), ([0, 2], False), ([3, 3], True)]
+)
+def test_the_number_in_the_band(record, found, count, passed):
+    recording = record({X: [(1, 0.5), (2, 0.45), (3, 0.55), (4, 0.56), (5, -1.0)]})
+    finding = found("count", recording, signal=X, low=0.45, high=0.55, count=count)
+    assert finding.passed is passed
+    assert finding.measured.startswith("3 of 5")
+    assert ("mostly -0.22" in finding.measured) is not passed
+
+
+def test_only_the_window_counts(record, found):
+    recording = record({X: [(1, 0.5), (2, 0.5), (3, 0.5)]})
+    assert found("count", recording, signal=X, count=[2, 2], window=[1.5, 3.0]).passed
+    assert found("count", recording, signal=X, count=[1], window=[4.0, 5.0]).measured == "nothing was recorded on it"
+
+
+def every(seconds, until=8.0):
+    return {COUNT: [(round(i * seconds, 6), 1.0) for i in range(int(until / seconds))]}
+
+
+@pytest.mark.parametrize(("seconds", "passed"), [(0.1, True), (0.05, False), (0.2, False)])
+def test_the_rate_is_in_simulated_time(record, found, seconds, passed):
+    finding = found("rate", record(every(seconds)), topic="/cmd_vel", hertz=[9.0, 11.0])
+    assert finding.passed is passed
+    assert finding.measured.startswith(f"{1 / seconds:.2f} messages a simulated second")
+    assert finding.expected == "9 to 11 messages a simulated second on /cmd_vel"
+
+
+def test_a_gap_is_told_also_at_the_end(record, found):
+    short = record(every(0.1, until=7.0))
+    assert found("rate", short, topic="cmd_vel", hertz=[8.0]).passed
+    finding = found("rate", short, topic="cmd_vel", hertz=[8.0], longest_gap=0.3)
+    assert not finding.passed
+    assert "the longest gap was 1.10 s, from 6.90 s on" in finding.measured and finding.at_s == 6.9
+
+
+def test_silence_has_no_rate(record, found):
+    finding = found("rate", record(), topic="cmd_vel", hertz=[0.0])
+    assert (finding.passed, finding.measured) == (False, "no message arrived between 0 and 8 s")
+
+
+@settings(deadline=None, max_examples=15, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.lists(st.floats(0, 8), min_size=1, max_size=30, unique=True))
+def test_the_rate_is_the_number_over_the_time(record, found, times):
+    recording = record({COUNT: [(time, 1.0) for time in sorted(times)]})
+    number = len({round(time * 1e9) for time in times})
+    exact = len(times) / 8
+    assert found("rate", recording, topic="cmd_vel", hertz=[exact - 1e-9, exact + 1e-9]).passed or number != len(times)
+    assert not found("rate", recording, topic="cmd_vel", hertz=[exact + 0.1]).passed
