@@ -27,6 +27,10 @@ class RefusedError(UsageError):
     """
 
 
+class UnreadableError(UsageError):
+    """The machine did not let us read a submission (exit code 2); in a class this is not the student's loss."""
+
+
 class ManifestError(CourseError):
     """An exercise's own files are wrong: the author must mend them (exit code 3, never the student's loss)."""
 

@@ -15,7 +15,7 @@ from pathlib import Path, PurePosixPath
 from typing import NamedTuple
 
 from grader.archive import LARGEST_ARCHIVE, MOST_MEMBERS, Member, Tree, damaged, is_archive, open_archive
-from grader.errors import RefusedError, UsageError, nearest
+from grader.errors import RefusedError, UnreadableError, UsageError, nearest
 from grader.exercise import Exercise
 from grader.kinds.kind import find_kind
 from grader.printable import shown
@@ -72,7 +72,11 @@ def folder_tree(folder: Path) -> Tree:
     """
     tree: Tree = {}
     seen = 0
-    for parent, folders, names in os.walk(folder):
+
+    def unreadable(error: OSError) -> None:
+        raise UnreadableError(f"{shown(str(error.filename), 200)} cannot be read: {error.strerror}")
+
+    for parent, folders, names in os.walk(folder, onerror=unreadable):
         folders[:] = sorted(name for name in folders if not is_junk(name))
         seen += len(folders) + len(names)
         if seen > MOST_MEMBERS:
@@ -82,13 +86,22 @@ def folder_tree(folder: Path) -> Tree:
             inside = path.relative_to(folder).as_posix()
             if is_junk(name) or not _is_utf8(inside):
                 continue
-            try:
-                status = path.lstat()
-            except OSError:
-                continue
-            if stat.S_ISREG(status.st_mode):
-                tree[inside] = Member(status.st_size, partial(_read, path, name, ()))
+            member = folder_member(path)
+            if member is not None and member.refusal is None:
+                tree[inside] = member
     return tree
+
+
+def folder_member(path: Path) -> Member | None:
+    """A file as a member of its folder; None if it is gone. What is no regular file has its refusal."""
+    try:
+        status = path.lstat()
+    except OSError:
+        return None
+    refusal = None
+    if not stat.S_ISREG(status.st_mode):
+        refusal = "is a link" if stat.S_ISLNK(status.st_mode) else "is a device or a pipe"
+    return Member(status.st_size, partial(_read, path, path.name, ()), refusal)
 
 
 def is_junk(name: str) -> bool:
@@ -99,18 +112,20 @@ def is_junk(name: str) -> bool:
 def select(tree: Tree, exercise: Exercise, where: str, *, nested: bool = False) -> Selection:
     """Find in a folder or archive the file an exercise asks for and read it, with all that lies beside and below it.
 
-    It may lie anywhere if it is there only once. One single file is the one meant, whatever it is called, and one
-    single archive is looked into. Raises UsageError if it is not there, RefusedError if something is not to be read.
+    It may lie anywhere if it is there only once. A file that is the only one of its kind is the one meant, whatever it
+    is called, and a single archive is looked into. Raises UsageError if it is not there, RefusedError if something is
+    not to be read.
     """
     tree = {n: m for n, m in tree.items() if not any(map(is_junk, PurePosixPath(n).parts)) and _is_utf8(n)}
     for name, member in sorted(tree.items()):
         if member.refusal:
             raise RefusedError(f"{where} holds {shown(name)!r}, which {member.refusal}; send plain files")
-    only = next(iter(tree), "") if len(tree) == 1 else ""
-    if only and is_archive(only) and not nested:
-        archive = open_archive(PurePosixPath(only).name, _content(tree[only], only, where, LARGEST_ARCHIVE))
-        return select(archive, exercise, f"{where}: {shown(only)}", nested=True)
-    main = _main(tree, exercise, where, only)
+    archives = [name for name in tree if is_archive(name)]
+    if len(archives) == 1 and not nested and not _named(tree, exercise.file):
+        data = _content(tree[archives[0]], archives[0], where, LARGEST_ARCHIVE)
+        archive = open_archive(PurePosixPath(archives[0]).name, data)
+        return select(archive, exercise, f"{where}: {shown(archives[0])}", nested=True)
+    main = _main(tree, exercise, where)
     base = str(PurePosixPath(main).parent)
     inside = {name if base == "." else name[len(base) + 1 :]: name for name in tree if base in (".", *_above(name))}
     chosen = {short: name for short, name in inside.items() if name == main or not _stands_in(short)}
@@ -126,12 +141,16 @@ def select(tree: Tree, exercise: Exercise, where: str, *, nested: bool = False) 
     return Selection(base, PurePosixPath(main).name, files)
 
 
-def _main(tree: Tree, exercise: Exercise, where: str, only: str) -> str:
+def _named(tree: Tree, wanted: str) -> list[str]:
+    return sorted(name for name in tree if PurePosixPath(name).name == wanted)
+
+
+def _main(tree: Tree, exercise: Exercise, where: str) -> str:
     """The name in `tree` of the file asked for."""
     wanted = exercise.file
     if wanted in tree:
         return wanted
-    found = sorted(name for name in tree if PurePosixPath(name).name == wanted)
+    found = _named(tree, wanted)
     of_course = [name for name in found if name.endswith(f"exercises/{exercise.name}/{wanted}")]  # a student's copy
     for candidates in (of_course, found):
         if len(candidates) == 1:
@@ -139,10 +158,11 @@ def _main(tree: Tree, exercise: Exercise, where: str, only: str) -> str:
     if found:
         raise UsageError(f"{where} holds {wanted} {len(found)} times: {shown(', '.join(found))}; keep one")
     suffixes = find_kind(exercise.kind).suffixes
-    if only.endswith(suffixes):
-        return only
-    names = [PurePosixPath(name).name for name in tree if name.endswith(suffixes)]
-    raise UsageError(f"{where} holds no {wanted}, the file {exercise.name} asks for{nearest(wanted, names)}")
+    names = [name for name in tree if name.endswith(suffixes)]
+    if len(names) == 1:
+        return names[0]
+    near = nearest(wanted, [shown(PurePosixPath(name).name) for name in names])
+    raise UsageError(f"{where} holds no {wanted}, the file {exercise.name} asks for{near}")
 
 
 def _above(name: str) -> list[str]:
@@ -181,7 +201,7 @@ def _read(path: Path, wanted: str, suffixes: tuple[str, ...], largest: int) -> b
         raise UsageError(f"there is no file {path}{nearest(path.name, _files(path.parent, suffixes))}") from None
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
-        raise UsageError(f"{str(path)[:200]!r} cannot be read: {reason}") from None
+        raise UnreadableError(f"{str(path)[:200]!r} cannot be read: {reason}") from None
 
 
 def _is_utf8(name: str) -> bool:

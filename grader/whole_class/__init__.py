@@ -1,0 +1,1 @@
+"""Grades a class: find the submissions, grade each in a process of its own, keep a journal, write the gradebook."""

@@ -1,0 +1,237 @@
+"""Finds the submissions of a class in a folder or a zip, as learning platforms hand them out, and whose they are.
+
+One folder, file or archive a student; the names that Canvas, Moodle, Blackboard and Gradescope give are understood.
+Files of one student that lie side by side belong together. Nothing is read before `Found.read` is called, so that one
+submission is in memory at a time. Called by `grade_all.py`.
+"""
+
+from __future__ import annotations
+
+import re
+import zipfile
+from collections.abc import Callable
+from contextlib import ExitStack
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path, PurePosixPath
+from typing import Any, NamedTuple
+
+import yaml
+
+from grader.archive import LONGEST_PART, Member, Tree, damaged, is_archive, plain_name, zip_members
+from grader.errors import RefusedError, UsageError
+from grader.exercise import Exercise
+from grader.intake import Selection, folder_member, folder_tree, is_junk, select
+from grader.kinds.kind import find_kind
+from grader.printable import shown
+
+METADATA = "submission_metadata.yml"  # Gradescope's, beside the folders of an export
+LARGEST_METADATA = 4 << 20  # [bytes]
+
+# A platform's name for what a student handed in. `file` is what the student called it.
+MOODLE = re.compile(r"(?P<student>.+?)_(?P<id>\d+)_assignsubmission_(?:file|onlinetext)_?(?P<file>.*)", re.DOTALL)
+CANVAS = re.compile(r"(?P<student>.+?)(?:_LATE)?_(?P<id>\d+)_\d{2,}_(?P<file>.+)", re.DOTALL)
+BLACKBOARD = re.compile(r".+_(?P<student>[^_]+)_attempt_(?P<when>\d{4}(?:-\d\d){5})(?:_(?P<file>.+)|\.txt)", re.DOTALL)
+AGAIN = re.compile(r"-\d+(?=\.[^.]*$)")  # Canvas counts what was handed in again: teleop_node-2.py
+
+
+@dataclass(frozen=True)
+class Found:
+    """What one student handed in. `student` is unique in the class; `source` is its name as it was found.
+
+    `read` returns the file asked for and all that goes with it. It raises UsageError, or RefusedError, if there is
+    nothing to grade in it, and UnreadableError if the machine cannot read it.
+    """
+
+    student: str
+    id: str
+    source: str
+    read: Callable[[], Selection]
+
+
+class _Owner(NamedTuple):
+    """Whose something is, told from its name; the same student's things have the same owner."""
+
+    student: str
+    id: str = ""
+
+
+@dataclass
+class _Group:
+    """What belongs to one owner, and how to get at it."""
+
+    source: str
+    trees: list[Callable[[], Tree]]
+    when: str = ""
+
+
+def find_submissions(path: Path, exercise: Exercise, stack: ExitStack) -> tuple[list[Found], list[str]]:
+    """Return the submissions of a class in the order of students' names, and the names of what is none.
+
+    `stack` closes what is read from later. Raises UsageError if there is nothing to be found or `path` cannot be read.
+    """
+    try:
+        top = _zip_top(path, stack) if path.is_file() else _folder_top(path)
+    except OSError as error:
+        raise UsageError(f"{path} cannot be read: {error.strerror or error}") from None
+    top, left_out = _unwrapped(top, exercise), []
+    names = _gradescope_names(top.pop(METADATA, None))
+    groups: dict[_Owner, _Group] = {}
+    suffixes = find_kind(exercise.kind).suffixes
+    for name, thing in sorted(top.items()):
+        owner, file, when = _owner(name, folder=callable(thing), names=names)
+        if not callable(thing) and not file.endswith(suffixes) and not is_archive(file) and not owner.id:
+            left_out.append(shown(name))
+            continue
+        tree = thing if callable(thing) else partial(_alone, file, thing)
+        group = groups.get(owner)
+        if group is None or when > group.when:  # a later attempt takes the place of an earlier one
+            groups[owner] = _Group(name, [tree], when)
+        elif when == group.when:
+            group.trees.append(tree)
+    if not groups:
+        raise UsageError(
+            f"there are no submissions in {path}: expected a folder, archive or {suffixes[0]} file for each student"
+        )
+    return _named(groups, exercise), left_out
+
+
+def _named(groups: dict[_Owner, _Group], exercise: Exercise) -> list[Found]:
+    """Give every student a name that is printable and nobody else's."""
+    names = [_label(owner.student) for owner in groups]
+    longer = [
+        f"{name} ({owner.id})" if names.count(name) > 1 and owner.id else name
+        for name, owner in zip(names, groups, strict=True)
+    ]
+    taken: set[str] = set()
+    found = []
+    for name, (owner, group) in zip(longer, groups.items(), strict=True):
+        label, number = name, 1
+        while label.casefold() in taken or (label == name and longer.count(name) > 1):
+            label, number = f"{name} [{number}]", number + 1
+        taken.add(label.casefold())
+        source = _label(group.source)
+        found.append(Found(label, owner.id, source, partial(_read, group, exercise, source)))
+    return sorted(found, key=lambda each: (each.student.casefold(), each.student))
+
+
+def _label(name: str) -> str:
+    """A name as it is shown: foreign bytes and control codes replaced, not too long."""
+    clean = name.encode("utf-8", "surrogateescape").decode("utf-8", "replace")
+    return shown(clean, 120).strip() or "(no name)"
+
+
+def _read(group: _Group, exercise: Exercise, source: str) -> Selection:
+    tree: Tree = {}
+    for part in group.trees:
+        tree |= part()
+    wanted = PurePosixPath(exercise.file)
+    for name in [name for name in tree if AGAIN.search(name)]:
+        if AGAIN.sub("", name) == wanted.name and wanted.name not in tree:
+            tree[wanted.name] = tree.pop(name)
+    return select(tree, exercise, source)
+
+
+def _alone(name: str, member: Member) -> Tree:
+    return {name: member}
+
+
+Top = dict[str, "Callable[[], Tree] | Member"]  # name -> a folder's tree when asked, or a file
+
+
+def _folder_top(path: Path) -> Top:
+    top: Top = {}
+    for each in path.iterdir():
+        if is_junk(each.name):
+            continue
+        if each.is_dir():
+            top[each.name] = partial(folder_tree, each)
+        elif (member := folder_member(each)) is not None:
+            top[each.name] = member
+    return top
+
+
+def _zip_top(path: Path, stack: ExitStack) -> Top:
+    """The things at the top of a zip. A member with an unsafe name is its owner's fault, not the class's."""
+    top: Top = {}
+    folders: dict[str, Tree] = {}
+    unsafe: dict[str, RefusedError] = {}
+    try:
+        for raw, member in zip_members(stack.enter_context(path.open("rb"))):
+            first, _, rest = raw.replace("\\", "/").removeprefix("./").partition("/")
+            if is_junk(first) and first != "..":
+                continue
+            try:
+                plain_name(raw, first or path.name)
+            except RefusedError as error:
+                unsafe[first[:LONGEST_PART]] = error
+                continue
+            if rest:
+                folders.setdefault(first, {})[plain_name(rest, first)] = member
+            else:
+                top[first] = member
+    except (zipfile.BadZipFile, NotImplementedError, ValueError, EOFError) as error:
+        raise damaged(str(path), error) from None
+    top |= {name: partial(dict, tree) for name, tree in folders.items()}
+    return top | {name: partial(_refuse, error) for name, error in unsafe.items()}
+
+
+def _refuse(error: RefusedError) -> Tree:
+    raise error
+
+
+def _unwrapped(top: Top, exercise: Exercise) -> Top:
+    """What is in the only folder of `top`, if that folder holds a class and not one student's work."""
+    (only,) = top.values() if len(top) == 1 else (None,)
+    if not callable(only):
+        return top
+    try:
+        tree = only()
+    except UsageError:
+        return top
+    inner: dict[str, Tree] = {}
+    files: Top = {}
+    for name, member in tree.items():
+        first, _, rest = name.partition("/")
+        if rest:
+            inner.setdefault(first, {})[rest] = member
+        else:
+            files[first] = member
+    holders = [
+        n for n, t in inner.items() if any(PurePosixPath(name).name == exercise.file or is_archive(name) for name in t)
+    ]
+    holders += [name for name in files if is_archive(name) or _owner(name, folder=False, names={})[0].id]
+    if (len(holders) < 2 and METADATA not in files) or exercise.file in files or "exercises" in inner:
+        return top
+    return files | {name: partial(dict, each) for name, each in inner.items() if not is_junk(name)}
+
+
+def _owner(name: str, *, folder: bool, names: dict[str, _Owner]) -> tuple[_Owner, str, str]:
+    """Whose the thing called `name` is, what its owner called it, and when it was handed in (as the name tells)."""
+    if name in names:
+        return names[name], name, ""
+    if match := MOODLE.fullmatch(name):
+        return _Owner(match["student"], match["id"]), match["file"] or name, ""
+    if match := BLACKBOARD.fullmatch(name):
+        return _Owner(match["student"], match["student"]), match["file"] or name, match["when"]
+    if not folder and (match := CANVAS.fullmatch(name)):
+        return _Owner(match["student"], match["id"]), match["file"], ""
+    if folder:
+        return _Owner(name), name, ""
+    return _Owner(PurePosixPath(name.removesuffix(".gz")).stem.removesuffix(".tar")), name, ""
+
+
+def _gradescope_names(member: object) -> dict[str, _Owner]:
+    """Who handed in what, from a Gradescope export; without it the folders' names stand for the students."""
+    if not isinstance(member, Member):
+        return {}
+    try:
+        raw: Any = yaml.safe_load(member.read(LARGEST_METADATA))
+        found = {}
+        for folder, about in raw.items():
+            people = about[":submitters"]
+            student = " & ".join(str(person.get(":name") or person.get(":email")) for person in people)
+            found[str(folder)] = _Owner(student, ";".join(str(person.get(":sid") or "") for person in people))
+        return found
+    except (yaml.YAMLError, UsageError, TypeError, KeyError, AttributeError, ValueError):
+        return {}
