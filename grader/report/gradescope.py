@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
+from grader.printable import storable
 from grader.record.reading import Recording
 from grader.report.node_log import node_log
 from grader.report.report import OUTCOMES, Report, points, told
@@ -21,7 +22,7 @@ FORMATS = {"output_format": "text", "test_output_format": "text", "test_name_for
 
 def as_gradescope(report: Report) -> str:
     """Return the report as the text of a Gradescope `results.json`. Raises UsageError if a recording is unreadable."""
-    return json.dumps(as_dict(report), indent=2) + "\n"
+    return json.dumps(storable(as_dict(report)), indent=2, allow_nan=False) + "\n"
 
 
 def as_dict(report: Report) -> dict[str, Any]:

@@ -6,16 +6,13 @@ run, so a case has no duration of its own; that of the suite is a fact about the
 
 from __future__ import annotations
 
-import re
 from xml.etree import ElementTree as XML
 
+from grader.printable import storable
 from grader.record.reading import Recording
 from grader.report.node_log import node_log
 from grader.report.report import Report, points, told
 from grader.score.score import CheckResult
-
-# What XML 1.0 cannot hold, not even escaped; and DEL to U+009F, which a terminal may obey.
-NOT_IN_XML = re.compile("[^\t\n\r -~\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 def as_junit(report: Report) -> str:
@@ -30,26 +27,28 @@ def as_junit(report: Report) -> str:
         "time": f"{report.host.wall_seconds if report.host else 0.0:.3f}",
     }
     root = XML.Element("testsuites", {"name": "course grade", **counts})
-    suite = XML.SubElement(root, "testsuite", {"name": _clean(report.exercise), **counts})
+    suite = XML.SubElement(root, "testsuite", {"name": storable(report.exercise), **counts})
     properties = XML.SubElement(suite, "properties")
     for name, value in _properties(report).items():
-        XML.SubElement(properties, "property", {"name": name, "value": _clean(value)})
+        XML.SubElement(properties, "property", {"name": name, "value": storable(value)})
     for check in report.score.checks:
         suite.append(_case(check, report, ran))
     said = node_log(Recording(report.shown_trial.recording)).as_text()
-    XML.SubElement(suite, "system-out").text = _clean(said)
+    XML.SubElement(suite, "system-out").text = storable(said)
     XML.indent(root)
     return '<?xml version="1.0" encoding="utf-8"?>\n' + XML.tostring(root, encoding="unicode") + "\n"
 
 
 def _case(check: CheckResult, report: Report, ran: bool) -> XML.Element:
-    names = {"classname": _clean(report.exercise), "name": _clean(check.spec.title), "time": "0.000"}
+    names = {"classname": storable(report.exercise), "name": storable(check.spec.title), "time": "0.000"}
     case = XML.Element("testcase", names)
     if not check.finding.passed:
         message = check.finding.measured if ran else report.score.diagnosis
         kind = check.spec.kind if ran else report.score.outcome
-        fault = XML.SubElement(case, "failure" if ran else "error", {"message": _clean(message), "type": _clean(kind)})
-        fault.text = _clean("\n".join(f"{name}: {value}" for name, value in told(check)))
+        fault = XML.SubElement(
+            case, "failure" if ran else "error", {"message": storable(message), "type": storable(kind)}
+        )
+        fault.text = storable("\n".join(f"{name}: {value}" for name, value in told(check)))
     return case
 
 
@@ -70,7 +69,3 @@ def _properties(report: Report) -> dict[str, str]:
     if report.host is not None:
         facts |= {"sandbox": report.host.sandbox, "pace": report.host.pace}
     return {name: value for name, value in facts.items() if value}
-
-
-def _clean(text: str) -> str:
-    return NOT_IN_XML.sub("\N{REPLACEMENT CHARACTER}", text)

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from grader.printable import storable
 from grader.score.score import CheckResult, Score
 
 # What each outcome means, in a sentence.
@@ -74,7 +75,7 @@ class Report:
 
     def as_json(self) -> str:
         """Return the report as JSON text; see README for the keys."""
-        return json.dumps(self.as_dict(), indent=2) + "\n"
+        return json.dumps(storable(self.as_dict()), indent=2, allow_nan=False) + "\n"
 
     def as_dict(self) -> dict[str, Any]:
         """Return the report as plain data. Host facts are null when a recording was scored again."""

@@ -7,7 +7,6 @@ page made from a recording that is scored again differs from the first in host f
 from __future__ import annotations
 
 import base64
-import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,7 +14,7 @@ from typing import Any
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
-from grader.printable import shown
+from grader.printable import shown, storable
 from grader.record.reading import Recording
 from grader.report.html.from_above import Map
 from grader.report.html.plot import key
@@ -29,7 +28,6 @@ LONGEST = 4000  # characters of one piece of text
 APART = 0.05  # [s] moments nearer than this are one
 MOST_VERDICTS = 4  # moments of failed checks that are drawn
 MAP, FRAME = 640, 360  # [pixels] width of the large drawing and of the small ones
-NOT_IN_HTML = re.compile("[^\t\n\r -~\xa0-\ud7ff\ue000-\ufdcf\ufdf0-\ufffd\U00010000-\U0010ffff]")
 JPEG, PNG = b"\xff\xd8\xff", b"\x89PNG\r\n"
 
 
@@ -120,7 +118,7 @@ def as_html(report: Report) -> str:
         points=points,
         key=key,
     )
-    return NOT_IN_HTML.sub("\N{REPLACEMENT CHARACTER}", text)
+    return str(storable(text))
 
 
 def _template() -> Any:

@@ -55,7 +55,7 @@ def plot(
     `alt` describes it to those who do not see it.
     """
     end_s = end_s if math.isfinite(end_s) and end_s > 0 else 1.0
-    until_s = min(until_s, end_s)
+    until_s = until_s if until_s < end_s else end_s
     curves = [_drawable(curve) for curve in curves]
     low, high = _range([*(c.values for c in curves), *_edges(areas)])
 
