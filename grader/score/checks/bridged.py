@@ -78,8 +78,7 @@ def _wrong_gz_topic(bridge: Bridged, wanted: dict[str, str], gz: dict[str, Any])
     does = "listens to" if wanted["direction"] == "ROS_TO_GZ" else "publishes"
     if "gz sim" in gz.get(bridge.gz_topic, {}).get(kind, []):
         return f"{bridge.gz_topic} is not the Gazebo topic that belongs to {bridge.ros_topic}"
-    offered = [topic for topic, ends in gz.items() if "gz sim" in ends[kind]]
-    near = did_you_mean(bridge.gz_topic, [t for t in offered if wanted["gz_type"] in gz[t]["types"]], 0.3)
+    near = did_you_mean(bridge.gz_topic, [wanted["gz_topic"]], 0.3)
     return f"nobody in Gazebo {does} {bridge.gz_topic}{near}"
 
 
