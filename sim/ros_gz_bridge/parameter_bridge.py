@@ -2,18 +2,16 @@
 
 It reads the command line and the YAML file (``config``), starts one ROS node and one Gazebo node, and lets
 ``bridge.Bridge`` work between them. Everything wrong is said before anything runs: one sentence a fault, exit
-code 2. Importing this module loads nothing heavy, so that ``main`` can hold back signals from the very start.
+code 2. Importing this module loads nothing heavy, so that ``ros_program.run`` has signals in hand from the start.
 """
 
 from __future__ import annotations
 
-import os
-import signal
 import sys
-import threading
-from collections.abc import Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
+
+from ros_gz_bridge.ros_program import UsageError, run, wait_for_signal
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -52,78 +50,25 @@ To check a file without starting anything: ros2 run ros_gz_bridge lint FILE
 
 _COMPAT = "--compat"
 _SWITCH_S = 0.001
-_STOP_SIGNALS = {signal.SIGINT, signal.SIGTERM}
-
-
-class _UsageError(Exception):
-    """Faults of the command line or the configuration, one sentence each."""
-
-    def __init__(self, errors: Iterable[str]) -> None:
-        self.errors = list(errors)
-        super().__init__("\n".join(self.errors))
 
 
 def main(argv: list[str] | None = None) -> int:
     """Run the bridge until SIGINT or SIGTERM: exit code 0; 2 if it could not start, 1 if it broke."""
-    # Signals are blocked in every thread and fetched by one sigwait: none is lost in a library's wait set,
-    # none
-    # strikes in the middle of setting up, and one the parent ignores (a shell's '&') is heard: Linux keeps a
-    # blocked signal whatever its handler.
-    signal.pthread_sigmask(signal.SIG_BLOCK, _STOP_SIGNALS)
-    argv = sys.argv if argv is None else ["parameter_bridge", *argv]
-    if len(argv) == 1 or {"-h", "--help"} & set(argv[1:]):
+    if not (sys.argv[1:] if argv is None else argv):
         print(HELP, end="")
-        return 0 if len(argv) > 1 else 2
-    try:
-        return _run(argv)
-    except _UsageError as error:
-        for sentence in error.errors:
-            print(f"parameter_bridge: {sentence}", file=sys.stderr)
         return 2
+    return run("parameter_bridge", "ros_gz_bridge", _bridge, HELP, argv, lasting=True, pictures=True)
 
 
-def _run(argv: list[str]) -> int:
-    import rclpy
-    from rclpy.impl.implementation_singleton import rclpy_implementation
-    from rclpy.signals import SignalHandlerOptions
-    from rclpy.utilities import remove_ros_args
-
-    from ros_gz_bridge.bridge import error_text
-
-    context = rclpy.Context()
-    try:
-        texts = remove_ros_args(argv)[1:]
-        rclpy.init(args=argv, context=context, signal_handler_options=SignalHandlerOptions.NO)
-    except rclpy_implementation.UnknownROSArgsError as error:
-        raise _UsageError([f"ROS does not know these arguments after --ros-args: {error}"]) from None
-    except Exception as error:
-        raise _UsageError([f"ROS did not start: {error_text(error)}"]) from None
-    try:
-        try:
-            node = rclpy.create_node(
-                "ros_gz_bridge", context=context, automatically_declare_parameters_from_overrides=True
-            )
-        except Exception as error:
-            raise _UsageError([f"ROS did not start: {error_text(error)}"]) from None
-        try:
-            return _bridge(node, [text for text in texts if text != _COMPAT], compat=_COMPAT in texts)
-        finally:
-            node.destroy_node()
-    finally:
-        context.try_shutdown()
-
-
-def _bridge(node: Node, texts: list[str], compat: bool) -> int:
+def _bridge(node: Node, texts: list[str]) -> int:
     """Set the bridges up, wait for a signal, take them down."""
-    from rclpy.executors import SingleThreadedExecutor
-
     from gz.transport import Node as GzNode
     from ros_gz_bridge import bridged_topics, parameters
     from ros_gz_bridge.bridge import Bridge, BridgeError, HeaderOverrides
     from ros_gz_bridge.watch import Watch, Watcher
 
     given = parameters.read_parameters(node)
-    config = _configured(node, texts, given, compat)
+    config = _configured(node, [text for text in texts if text != _COMPAT], given, compat=_COMPAT in texts)
     logger = node.get_logger()
     heartbeat = given.values["subscription_heartbeat"] / 1000
     overrides = HeaderOverrides(
@@ -143,57 +88,28 @@ def _bridge(node: Node, texts: list[str], compat: bool) -> int:
                 threaded=True,
             )
         except BridgeError as error:
-            raise _UsageError(error.errors) from None
+            raise UsageError(*error.errors) from None
         for sentence in [*parameters.advice(node, config.topics), *map(str, config.findings)]:
             logger.warning(sentence)
         bridged_topics.offer(node, config.topics)
         parameters.declare(node)
         # A thread that converts an image gives way to the one that has a clock in hand after this time.
         sys.setswitchinterval(_SWITCH_S)
-        executor = SingleThreadedExecutor(context=node.context)
-        executor.add_node(node)
-        spinner = _Spinner(executor)
-        spinner.start()
         watcher = Watcher(Watch(bridge, gz_node, logger), heartbeat)
         watcher.start()
         count = len(config.topics) + len(config.services)
         logger.info(f"ready: {count} bridge{'s' if count != 1 else ''}")
-        signal.sigwait(_STOP_SIGNALS)
-        watcher.stop()
-        executor.shutdown(timeout_sec=0.5)
-        spinner.join(0.5)
-        bridge.close()
-    return 1 if spinner.broken else 0
-
-
-class _Spinner(threading.Thread):
-    """Runs the ROS callbacks; ends the process if the executor breaks."""
-
-    def __init__(self, executor: Any) -> None:
-        super().__init__(name="ros_executor", daemon=True)
-        self._executor = executor
-        self.broken = False
-
-    def run(self) -> None:
-        """Spin until the executor is shut down."""
-        from rclpy.executors import ExternalShutdownException, ShutdownException
-
-        from ros_gz_bridge.bridge import error_text
-
         try:
-            self._executor.spin()
-        except (ExternalShutdownException, ShutdownException):
-            pass
-        except Exception as error:
-            self.broken = True
-            print(f"parameter_bridge: the ROS executor broke: {error_text(error)}", file=sys.stderr)
-            os.kill(os.getpid(), signal.SIGTERM)
+            return wait_for_signal(node)
+        finally:
+            watcher.stop()
+            bridge.close()
 
 
 def _configured(node: Node, texts: list[str], given: Any, compat: bool) -> Config:
     """The bridges of the command line, of the parameters and of the file; what is left in ``findings`` is advice.
 
-    Raises ``_UsageError`` with every error, unless ``compat`` turns them into warnings.
+    Raises ``UsageError`` with every error, unless ``compat`` turns them into warnings.
     """
     from ros_gz_bridge.arguments import read_arguments
     from ros_gz_bridge.checks import check, private_gz_names
@@ -219,7 +135,7 @@ def _configured(node: Node, texts: list[str], given: Any, compat: bool) -> Confi
         config.include(file)
     if not (config.topics or config.services or config.findings):
         sentence = "nothing to bridge; give bridges as arguments or -p config_file:=FILE (see --help)"
-        raise _UsageError([sentence])
+        raise UsageError(sentence)
     config.findings += [each for each in check(config.topics, config.services) if each not in config.findings]
     if given.values["expand_gz_topic_names"]:
         _expand(config, node)
@@ -229,7 +145,7 @@ def _configured(node: Node, texts: list[str], given: Any, compat: bool) -> Confi
         config = config.tolerant()
     errors: list[Finding] = [finding for finding in config.findings if not finding.warning]
     if errors:
-        raise _UsageError(map(str, errors))
+        raise UsageError(*map(str, errors))
     return config
 
 

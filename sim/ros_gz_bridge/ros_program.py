@@ -1,13 +1,16 @@
 """A ROS program of one node: its arguments, its signals, its faults in one sentence, its exit code.
 
-Used by the executables of ``ros_gz_sim``, ``ros_gz_image`` and ``robot_state_publisher``. ``run`` starts ROS, makes the
+Used by ``parameter_bridge`` and the executables of ``ros_gz_sim``, ``ros_gz_image`` and ``robot_state_publisher``.
+``run`` starts ROS, makes the
 node with the parameters of the command line, and hands both to the program's own function. Importing this module
 loads nothing heavy, so that signals are in hand from the start.
 """
 
 from __future__ import annotations
 
+import contextlib
 import os
+import re
 import signal
 import sys
 import threading
@@ -22,7 +25,11 @@ _INTERRUPTED = 130
 
 
 class UsageError(Exception):
-    """The arguments make no sense: one sentence, exit code 2."""
+    """The arguments make no sense: one sentence for each fault, exit code 2."""
+
+    def __init__(self, *sentences: str) -> None:
+        super().__init__("\n".join(sentences))
+        self.sentences = sentences
 
 
 class Failure(Exception):
@@ -37,25 +44,30 @@ def run(
     argv: list[str] | None = None,
     *,
     lasting: bool = False,
+    pictures: bool = False,
 ) -> int:
     """Call ``work(node, arguments without ROS's own)``; return its exit code, 2 for a usage error, 1 for a failure.
 
     A ``lasting`` program ends with ``wait_for_signal`` and exit code 0; another one is interrupted by SIGINT and
-    SIGTERM wherever it is, with exit code 130.
+    SIGTERM wherever it is, with exit code 130. One that sends ``pictures`` gets room for them in shared memory.
     """
     argv = sys.argv if argv is None else [program, *argv]
     if {"-h", "--help", "-help"} & set(argv[1:]):
         print(help_text, end="")
         return 0
     if lasting:
+        # Blocked in every thread and fetched by one sigwait: none is lost in a library's wait set, none strikes in
+        # the middle of setting up, and one the parent ignores (a shell's '&') is heard: Linux keeps a blocked signal
+        # whatever its handler.
         signal.pthread_sigmask(signal.SIG_BLOCK, _STOP_SIGNALS)
     else:
         for number in _STOP_SIGNALS:
             signal.signal(number, _interrupt)
     try:
-        return _with_node(node_name, work, argv)
+        return _with_node(node_name, work, argv, pictures)
     except UsageError as error:
-        print(f"{program}: {error}", file=sys.stderr)
+        for sentence in error.sentences:
+            print(f"{program}: {sentence}", file=sys.stderr)
         return 2
     except Failure as error:
         print(f"{program}: {error}", file=sys.stderr)
@@ -71,20 +83,24 @@ def _interrupt(*_: object) -> None:
     raise KeyboardInterrupt
 
 
-def _with_node(node_name: str, work: Callable[[Node, list[str]], int], argv: list[str]) -> int:
+def _with_node(node_name: str, work: Callable[[Node, list[str]], int], argv: list[str], pictures: bool) -> int:
     import rclpy
     from rclpy.impl.implementation_singleton import rclpy_implementation
     from rclpy.signals import SignalHandlerOptions
     from rclpy.utilities import remove_ros_args
 
+    from ros_gz_bridge.shared_memory import room_for_pictures
+
     context = rclpy.Context()
     try:
-        rclpy.init(args=argv, context=context, signal_handler_options=SignalHandlerOptions.NO)
         arguments = remove_ros_args(argv)[1:]
-        node = rclpy.create_node(node_name, context=context, automatically_declare_parameters_from_overrides=True)
+        rclpy.init(args=argv, context=context, signal_handler_options=SignalHandlerOptions.NO)
+        with room_for_pictures() if pictures else contextlib.nullcontext():
+            node = rclpy.create_node(node_name, context=context, automatically_declare_parameters_from_overrides=True)
     except rclpy_implementation.UnknownROSArgsError as error:
         raise UsageError(f"ROS does not know these arguments after --ros-args: {error}") from None
     except Exception as error:
+        context.try_shutdown()
         raise UsageError(f"ROS did not start: {first_line(error)}") from None
     try:
         return work(node, arguments)
@@ -94,8 +110,9 @@ def _with_node(node_name: str, work: Callable[[Node, list[str]], int], argv: lis
 
 
 def first_line(error: BaseException) -> str:
-    """The first line of an error's text, or its type if it says nothing."""
-    return next(iter(str(error).splitlines()), "").strip() or type(error).__name__
+    """The first line of an error's text without places in ROS's C sources, or its type if it says nothing."""
+    line = next(iter(str(error).splitlines()), "").strip()
+    return re.sub(r", at /\S+:\d+", "", line) or type(error).__name__
 
 
 class Spinner:

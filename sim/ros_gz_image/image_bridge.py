@@ -36,7 +36,7 @@ _OF_NODES = {"use_sim_time", "start_type_description_service"}
 
 def main(argv: list[str] | None = None) -> int:
     """Bridge until SIGINT or SIGTERM: exit code 0; 2 for arguments that make no sense, 1 if it broke."""
-    return run("image_bridge", "ros_gz_image", _bridge, HELP, argv, lasting=True)
+    return run("image_bridge", "ros_gz_image", _bridge, HELP, argv, lasting=True, pictures=True)
 
 
 def _bridge(node: Node, topics: list[str]) -> int:
