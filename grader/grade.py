@@ -47,17 +47,20 @@ def grade(
     seed: int = 0,
     pace: str = "lockstep",
     trials: tuple[Trial, ...] | None = None,
+    sandbox: str = "auto",
     started: float | None = None,
 ) -> Report:
     """Grade the submission at a path (None: the student's own copy) and leave its recordings in the folder `out`.
 
-    `trials` are those of the exercise if None; `seed` is added to the seed of each. `started` is the
+    `trials` are those of the exercise if None; `seed` is added to the seed of each. `sandbox` is a
+    level of `grader.run.sandbox`. `started` is the
     `time.monotonic()` [s] at which the command began, for the report. Raises UsageError for a submission that cannot be
     read; a submission that is wrong is graded, not raised.
     """
     started = time.monotonic() if started is None else started
     submission = take_in(exercise, submission_path)
-    played = [play(exercise, submission, trial, pace, out) for trial in numbered(trials or exercise.trials, seed)]
+    asked = numbered(trials or exercise.trials, seed)
+    played = [play(exercise, submission, trial, pace, out, sandbox) for trial in asked]
     facts = [each.host for each in played if each.host is not None]
     host = HostFacts(
         "; ".join(dict.fromkeys(each.sandbox for each in facts)),
@@ -68,14 +71,16 @@ def grade(
     return make_report(played, exercise, shown(str(submission.path), LONGEST_PATH), host)
 
 
-def play(exercise: Exercise, submission: Submission, trial: Trial, pace: str, out: Path) -> Played:
+def play(
+    exercise: Exercise, submission: Submission, trial: Trial, pace: str, out: Path, sandbox: str = "auto"
+) -> Played:
     """Run one trial of a submission and score its recording, which is left in the folder `out`."""
     from grader.run.session import record_unrunnable, run
 
     path = recording_path(exercise, trial, out)
     in_trial = trial.applied_to(exercise)
     if submission.fault is None:
-        result = run(in_trial, submission, trial, pace, path)
+        result = run(in_trial, submission, trial, pace, path, sandbox)
     else:
         result = record_unrunnable(in_trial, submission, trial, path)
     with result.recorder as recorder:

@@ -37,6 +37,13 @@ def grade_command(
             help="public (those of the exercise), hidden (those of its solution's trials.toml), all, or a file."
         ),
     ] = "public",
+    sandbox: Annotated[
+        str,
+        typer.Option(help="How firmly the submission is locked in: auto (the best that works here), A, B, C or D."),
+    ] = "auto",
+    demand: Annotated[
+        str | None, typer.Option(help="Refuse to grade in a sandbox below this level, such as B for official grading.")
+    ] = None,
     out: Annotated[Path | None, typer.Option(help="Folder for the recordings. Default: runs/EXERCISE.")] = None,
     json: Annotated[Path | None, typer.Option(help="Write the report as JSON to this file.")] = None,
     html: Annotated[Path | None, typer.Option(help="Write the report as one HTML page, with plots.")] = None,
@@ -44,6 +51,11 @@ def grade_command(
     junit: Annotated[Path | None, typer.Option(help="Write the report as JUnit XML.")] = None,
 ) -> None:
     """Grade one submission. Exit code 0: full marks, 1: less, 2: nothing to grade, 3: the grader's fault."""
+    from grader.run.sandbox import choose, enter_early
+
+    level = choose(sandbox, demand)
+    enter_early(level)  # before there are threads
+
     from grader.grade import PACES, grade, recording_path
     from grader.report.outputs import Outputs
     from grader.report.terminal import print_report
@@ -56,7 +68,7 @@ def grade_command(
     outputs = Outputs(json, html, gradescope, junit)
     graded = submission or chosen.starter
     outputs.check([recording_path(chosen, trial, out) for trial in asked], [graded, graded / chosen.file])
-    report = grade(chosen, submission, out, seed=seed, pace=pace, trials=asked, started=STARTED)
+    report = grade(chosen, submission, out, seed=seed, pace=pace, trials=asked, sandbox=level, started=STARTED)
     print_report(report)
     outputs.write(report)
     raise typer.Exit(0 if report.full_marks else 1)

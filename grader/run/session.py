@@ -17,7 +17,7 @@ from grader.exercise import MANIFEST, Exercise
 from grader.kinds.kind import find_kind
 from grader.printable import shown
 from grader.run.domain import Domain
-from grader.run.sandbox import LEVEL, Sandbox
+from grader.run.sandbox import AUTO, Sandbox
 from grader.run.student import Student
 from grader.submission import Submission
 from grader.trial import Trial
@@ -44,14 +44,16 @@ def record_unrunnable(exercise: Exercise, submission: Submission, trial: Trial, 
     recorder = Recorder(path, exercise.robot)
     recorder.text("log/grader", submission.fault or "", "ERROR")
     write_properties(recorder, exercise, submission, trial, {"fault": submission.fault})
-    return RunResult(recorder, LEVEL, "none", 0.0)
+    return RunResult(recorder, "none", "none", 0.0)
 
 
-def run(exercise: Exercise, submission: Submission, trial: Trial, pace: str, path: Path) -> RunResult:
+def run(
+    exercise: Exercise, submission: Submission, trial: Trial, pace: str, path: Path, level: str = AUTO
+) -> RunResult:
     """Run a submission and write its recording, still open for verdicts, to `path` (`.part` until closed).
 
-    `pace` is `lockstep` or `realtime`. Nothing is left running and no temporary file is left behind, whatever
-    happens. Raises ManifestError if the exercise's own files are wrong.
+    `pace` is `lockstep` or `realtime`, `level` that of the sandbox. Nothing is left running and no temporary file is
+    left behind, whatever happens. Raises ManifestError if the exercise's own files are wrong.
     """
     kind = find_kind(exercise.kind)
     cast = kind.cast(exercise, submission)
@@ -61,7 +63,7 @@ def run(exercise: Exercise, submission: Submission, trial: Trial, pace: str, pat
     }
     with contextlib.ExitStack() as stack:
         domain = stack.enter_context(Domain())
-        sandbox = Sandbox(domain.id)
+        sandbox = Sandbox(domain.id, level)
         stack.callback(sandbox.close)
         student = Student(sandbox.stage(cast.files), cast.program, sandbox, topics)
         stack.callback(student.close)
@@ -82,7 +84,7 @@ def run(exercise: Exercise, submission: Submission, trial: Trial, pace: str, pat
         with recorder.abandoned_on_error():
             facts = stage.play(recorder)
             write_properties(recorder, exercise, submission, trial, cast.facts | facts)
-        return RunResult(recorder, LEVEL, stage.pace_name, stage.wall_seconds)
+        return RunResult(recorder, sandbox.level, stage.pace_name, stage.wall_seconds)
 
 
 @contextlib.contextmanager

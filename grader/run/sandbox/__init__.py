@@ -5,10 +5,19 @@
 `grader/run/inside/`.
 """
 
-from grader.run.sandbox.environment import ros_environment
+from grader.run.sandbox.environment import WHEEL_VARIABLES, ros_environment
 from grader.run.sandbox.level import AUTO, LEVELS, choose, level_module
 from grader.run.sandbox.order import LIMITS
-from grader.run.sandbox.sandbox import Sandbox
+from grader.run.sandbox.sandbox import Sandbox, enter_early
 
-__all__ = ["AUTO", "LEVELS", "LIMITS", "Sandbox", "choose", "level_module", "ros_environment"]
-LEVEL = "D"
+__all__ = [
+    "AUTO",
+    "LEVELS",
+    "LIMITS",
+    "WHEEL_VARIABLES",
+    "Sandbox",
+    "choose",
+    "enter_early",
+    "level_module",
+    "ros_environment",
+]

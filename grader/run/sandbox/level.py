@@ -15,6 +15,7 @@ import os
 import platform
 import sys
 import tempfile
+from functools import cache
 from pathlib import Path
 from typing import Protocol, cast
 
@@ -68,19 +69,30 @@ def choose(wanted: str = AUTO, demand: str | None = None) -> str:
     return best
 
 
+@cache
 def best_level() -> tuple[str, dict[str, str]]:
-    """Return the best level that works here, and why each better one does not; from the cache if it is known."""
-    from grader.run.sandbox.probe import try_levels
+    """Return the best level that works here, and why each better one does not; found out once a boot."""
+    from grader.run.sandbox.probe import try_level, try_levels
 
     path, key = _cache(), _fingerprint()
     with contextlib.suppress(OSError, ValueError, KeyError, TypeError):
         known = json.loads(path.read_text())[key]
         if known["level"] in LEVELS:
             return known["level"], dict(known["why"])
-    level, why, certain = try_levels()
+    level, why, certain = try_levels(try_level)
     if certain:
-        _remember(path, key, level, why)
+        remember(level, why)
     return level, why
+
+
+def remember(level: str, why: dict[str, str]) -> None:
+    """Keep what was found out, in place of what was known before; a cache that cannot be written is none."""
+    path = _cache()
+    with contextlib.suppress(OSError):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.NamedTemporaryFile("w", dir=path.parent, delete=False) as file:
+            json.dump({_fingerprint(): {"level": level, "why": why}}, file)
+        Path(file.name).replace(path)
 
 
 def _cache() -> Path:
@@ -97,19 +109,10 @@ def _fingerprint() -> str:
         status = Path("/proc/self/status").read_text().splitlines()
         parts += [line for line in status if line.startswith(("CapEff", "CapBnd", "NoNewPrivs", "Seccomp:"))]
     with contextlib.suppress(OSError):
-        parts += [str(Path("/proc/self/ns", name).readlink()) for name in ("user", "mnt")]
+        parts += [Path("/proc/self/uid_map").read_text(), str(Path("/proc/self/ns/mnt").readlink())]
     here = Path(__file__).parent
     for file in sorted([*here.rglob("*.py"), *(here.parent / "inside").glob("*.py")]):
         parts.append(f"{file} {file.stat().st_mtime_ns}")
     with contextlib.suppress(OSError):
         parts.append(str(Path(sys.prefix, "lib").stat().st_mtime_ns))
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()
-
-
-def _remember(path: Path, key: str, level: str, why: dict[str, str]) -> None:
-    """Keep one answer, in place of older ones; a cache that cannot be written is none."""
-    with contextlib.suppress(OSError):
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.NamedTemporaryFile("w", dir=path.parent, delete=False) as file:
-            json.dump({key: {"level": level, "why": why}}, file)
-        Path(file.name).replace(path)

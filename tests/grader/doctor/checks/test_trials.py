@@ -2,7 +2,7 @@
 
 import pytest
 
-from grader.doctor.checks import dds, gz_transport, physics, recordings, renderer
+from grader.doctor.checks import dds, gz_transport, physics, recordings, renderer, sandbox
 
 
 def test_no_middleware(probes_with, monkeypatch):
@@ -63,3 +63,14 @@ def test_a_driver_may_be_missing_or_broken(probes_with, monkeypatch, code, statu
     monkeypatch.setattr(renderer, "_CODE", code)
     verdict = renderer.examine(probes_with())
     assert (verdict.status, word in verdict.seen) == (status, True), verdict
+
+
+def test_the_best_sandbox_that_works_is_told(probes_with, monkeypatch):
+    told = sandbox.examine(probes_with())
+    assert told.seen.startswith("level ") and told.status in ("ok", "warning")
+    remembered = []
+    monkeypatch.setattr(sandbox, "remember", lambda level, why: remembered.append((level, sorted(why))))
+    monkeypatch.setattr(sandbox, "_CODE", "import sys; print('' if sys.argv[1] == 'C' else 'no such thing here')")
+    told = sandbox.examine(probes_with())
+    assert told.status == "warning" and told.seen.startswith("level C") and "Not A: no such thing here" in told.seen
+    assert remembered == [("C", ["A", "B"])]
