@@ -1,0 +1,135 @@
+"""`course grade-all EXERCISE DIR_OR_ZIP --out DIR`: grade a class; after a kill the same command goes on."""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from grader.errors import UsageError
+from grader.exercise import find_exercise
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from grader.whole_class.class_run import ClassRun
+    from grader.whole_class.found import Found
+
+REPORTS = ("html", "gradescope", "junit")
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    app.command(name="grade-all")(grade_all_command)
+
+
+def grade_all_command(
+    exercise: Annotated[str, typer.Argument(help="Exercise, such as 03_teleop or 03.")],
+    submissions: Annotated[
+        Path, typer.Argument(metavar="DIR_OR_ZIP", help="A folder, file or archive for each student, or a zip of them.")
+    ],
+    out: Annotated[Path, typer.Option(help="Folder for the gradebook, and a folder with reports for each student.")],
+    jobs: Annotated[int | None, typer.Option(min=1, help="Gradings at the same time. Default: one a core.")] = None,
+    dask: Annotated[
+        str | None, typer.Option(help="Grade on Dask's workers: tcp://HOST:PORT of a scheduler, or local:N.")
+    ] = None,
+    seed: Annotated[int, typer.Option(help="As for course grade.")] = 0,
+    trials: Annotated[str, typer.Option(help="As for course grade: public, hidden, all, or a file.")] = "public",
+    html: Annotated[bool, typer.Option("--html", help="Also write each report as a page.")] = False,
+    gradescope: Annotated[bool, typer.Option("--gradescope", help="Also write each results.json.")] = False,
+    junit: Annotated[bool, typer.Option("--junit", help="Also write each report as JUnit XML.")] = False,
+) -> None:
+    """Grade a class. Exit code 0: all are graded, 2: usage, 3: some could not be, for reasons that are not theirs."""
+    from rich.console import Console
+
+    from grader.whole_class.class_run import ClassRun
+    from grader.whole_class.found import find_submissions
+
+    if jobs is not None and dask is not None:
+        raise UsageError("--jobs is for this machine and --dask for Dask's workers; give one of them")
+    chosen = find_exercise(exercise)
+    _check_places(submissions, out)
+    console = Console(stderr=True)
+    wanted = tuple(name for name, asked in zip(REPORTS, (html, gradescope, junit), strict=True) if asked)
+    run = ClassRun(chosen, out, seed, trials, wanted)
+    with ExitStack() as stack:
+        found, left_out = find_submissions(submissions, chosen, stack)
+        if left_out:
+            console.print(f"left out, because they are no submissions: {', '.join(left_out)}", markup=False)
+        results = _graded(run, found, jobs, dask, console)
+    failed = [result for result in results if result["outcome"] == "infra"]
+    _print_summary(results, failed, chosen.max_score, out)
+    raise typer.Exit(3 if failed else 0)
+
+
+def _check_places(submissions: Path, out: Path) -> None:
+    """What is written must not lie among what is read, or a second run would grade the first one's files."""
+    if not submissions.exists():
+        raise UsageError(f"there is no {submissions}; give a folder or a zip with the submissions")
+    source, target = submissions.resolve(), out.resolve()
+    if target == source or target.is_relative_to(source):
+        raise UsageError(f"--out {out} lies among the submissions in {submissions}; give a folder elsewhere")
+
+
+def _graded(
+    run: ClassRun, found: list[Found], jobs: int | None, dask: str | None, console: Console
+) -> list[dict[str, Any]]:
+    """Run the class, with a bar where there is a terminal and a line for each student where there is none."""
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    progress = Progress(*columns, console=console, disable=not console.is_terminal)
+    bar = progress.add_task("starting", total=len(found))
+    count = 0
+
+    def told(result: dict[str, Any], anew: bool) -> None:
+        nonlocal count
+        count += 1
+        progress.update(bar, advance=1, description=_cut(result["student"]))
+        line = f"{count}/{len(found)}  {_line(result, run.exercise.max_score)}{'' if anew else '  (done before)'}"
+        if not console.is_terminal or result["outcome"] == "infra":
+            console.print(line, markup=False, highlight=False, soft_wrap=True)
+
+    with progress:
+        return run.grade(found, told, jobs=jobs or len(os.sched_getaffinity(0)), dask=dask)
+
+
+def _line(result: dict[str, Any], most: float) -> str:
+    points = "not graded" if result["score"] is None else f"{result['score']:g}/{most:g}"
+    outcome = "" if result["outcome"] == "graded" else f"  ({result['outcome']})"
+    why = f"  {result['diagnosis']}" if result["outcome"] in ("infra", "protocol") else ""
+    return f"{result['student']}  {points}{outcome}{why}"
+
+
+def _cut(student: str) -> str:
+    from rich.markup import escape
+
+    return escape(student if len(student) <= 30 else f"{student[:29]}…")
+
+
+def _print_summary(results: list[dict[str, Any]], failed: list[dict[str, Any]], most: float, out: Path) -> None:
+    from statistics import fmean, median
+
+    from rich.console import Console
+
+    from grader.whole_class.gradebook import GRADEBOOK
+
+    console = Console()
+    scores = sorted(result["score"] for result in results if result["score"] is not None)
+    outcomes = Counter(result["outcome"] for result in results)
+    counted = ", ".join(f"{count} {name}" for name, count in sorted(outcomes.items()))
+    console.print(f"{len(results)} submissions: {counted}", markup=False, highlight=False)
+    if scores:
+        full = sum(score >= most for score in scores)
+        text = f"full marks: {full}, median: {median(scores):g} of {most:g}, mean: {fmean(scores):.1f}"
+        console.print(text, markup=False, highlight=False)
+    for result in failed:
+        text = f"not graded, and not the student's fault: {result['student']}: {result['diagnosis']}"
+        console.print(text, markup=False, highlight=False, soft_wrap=True)
+    if failed:
+        console.print("The same command tries these again.", highlight=False)
+    console.print(f"gradebook: {out / GRADEBOOK}", markup=False, highlight=False, soft_wrap=True)

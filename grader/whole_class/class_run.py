@@ -1,0 +1,260 @@
+"""A class from first to last: read a submission, grade it unless the journal has it, keep what came out, go on.
+
+`commands/grade_all.py` calls `ClassRun.grade`, with threads here or Dask's workers to grade in; the gradebook follows
+from the journal. What fails for reasons of ours is tried again and in the end listed, never scored; what a student lost
+is never tried again.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+import os
+import re
+import shutil
+import stat
+import tempfile
+from collections import deque
+from collections.abc import Callable, Iterable
+from concurrent.futures import FIRST_COMPLETED, CancelledError, Executor, Future, ThreadPoolExecutor, wait
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from grader import bundle
+from grader.errors import InfrastructureError, RefusedError, UnreadableError, UsageError
+from grader.exercise import Exercise
+from grader.printable import shown
+from grader.trial import chosen_trials
+from grader.whole_class.dask_cluster import dask_executor
+from grader.whole_class.found import Found
+from grader.whole_class.gradebook import GRADEBOOK, as_csv, write_gradebook
+from grader.whole_class.grading import REPORT, Graded, Job, Setup, grade_one, gradings_end_here
+from grader.whole_class.journal import JOURNAL, Journal
+from grader.whole_class.versions import versions
+
+ATTEMPTS = 3  # at one submission, if the fault is ours
+HOPELESS = 6  # submissions in a row that cannot be graded at first, with none before that could: we stop
+START_UP, PER_TRIAL, WALL_FACTOR = 60.0, 30.0, 2.0  # [s], [s] and wall seconds per simulated second of a grading
+PART = ".part-"
+LONGEST_FOLDER = 80  # [bytes] of a student's folder
+
+Result = dict[str, Any]
+
+
+@dataclass
+class ClassRun:
+    """One class to grade: what, into which folder, and how. `reports` are formats beside JSON."""
+
+    exercise: Exercise
+    out: Path
+    seed: int = 0
+    trials: str = "public"
+    reports: tuple[str, ...] = ()
+    options: tuple[str, ...] = ()  # more of `course grade`
+
+    def __post_init__(self) -> None:
+        files, choice = bundle.bundle(self.exercise, self.trials)
+        trials = chosen_trials(self.exercise, self.trials)
+        seconds = sum(PER_TRIAL + WALL_FACTOR * (trial.duration or self.exercise.duration) for trial in trials)
+        options = ("--seed", str(self.seed), "--trials", choice, *self.options)
+        self.setup = Setup(self.exercise.name, files, options, self.reports, START_UP + seconds, None)
+        self._same = [self.exercise.name, bundle.digest(files), options, self.reports, versions()]
+        self._hopeless = 0
+
+    def grade(
+        self,
+        found: Iterable[Found],
+        told: Callable[[Result, bool], None],
+        *,
+        jobs: int = 1,
+        dask: str | None = None,
+    ) -> list[Result]:
+        """Grade all submissions and write the gradebook; the results, in the order of `found`.
+
+        `jobs` gradings run at a time, or as many as there are workers at the Dask address. `told(result, anew)` is
+        called for each as it is done; not `anew`: an earlier run had done it. Raises UsageError if the folder cannot be
+        used, InfrastructureError if nothing can be graded here.
+        """
+        with ExitStack() as stack:
+            journal = stack.enter_context(self._open())
+            executor, slots = self._here(jobs, stack) if dask is None else stack.enter_context(dask_executor(dask))
+            results: dict[str, Result] = {}
+            todo = deque((each, 1) for each in found)
+            order = [each.student for each, _ in todo]
+            running: dict[Future[Graded], tuple[Found, Result, str, int]] = {}
+            stack.callback(lambda: [future.cancel() for future in running])
+            while todo or running:
+                while todo and len(running) < slots + 1:  # one waits, so that nobody waits for us
+                    each, attempt = todo.popleft()
+                    result, job, anew = self._prepare(each, journal)
+                    if job is None:
+                        results[each.student] = result
+                        told(result, anew)
+                    else:
+                        running[executor.submit(grade_one, self.setup, job)] = (each, result, job.key, attempt)
+                for future in wait(running, return_when=FIRST_COMPLETED).done if running else ():
+                    each, result, key, attempt = running.pop(future)
+                    graded = _outcome(future)
+                    self._watch(graded, attempt)
+                    if graded.report is None and attempt < ATTEMPTS:
+                        todo.append((each, attempt + 1))
+                        continue
+                    self._keep(result, graded, key, journal)
+                    results[each.student] = result
+                    told(result, True)
+            ordered = [results[student] for student in order]
+            write_gradebook(self.out, as_csv(self.exercise, ordered))
+            return ordered
+
+    def _open(self) -> Journal:
+        """The folder of the class, made if need be, and its journal."""
+        try:
+            self.out.mkdir(parents=True, exist_ok=True)
+            strangers = any(self.out.iterdir()) and not (self.out / JOURNAL).exists()
+        except OSError as error:
+            raise UsageError(f"{self.out} cannot be used: {error.strerror}") from None
+        if strangers:
+            raise UsageError(f"{self.out} is not empty and not from an earlier run; give a folder that is new or empty")
+        journal = Journal(self.out)
+        for part in self.out.glob(f"{PART}*"):
+            shutil.rmtree(part, ignore_errors=True)
+        return journal
+
+    def _here(self, jobs: int, stack: ExitStack) -> tuple[Executor, int]:
+        """Threads of this process, each of which waits for one grading."""
+        folder = work_folder(self.out)
+        stack.callback(shutil.rmtree, folder, ignore_errors=True)
+        self.setup = dataclasses.replace(self.setup, folder=str(folder))
+        executor = ThreadPoolExecutor(jobs)
+        stack.callback(executor.shutdown, cancel_futures=True)
+        stack.enter_context(gradings_end_here())
+        return executor, jobs
+
+    def _prepare(self, found: Found, journal: Journal) -> tuple[Result, Job | None, bool]:
+        """Read a submission: its result if there is nothing to grade any more, else a blank one and the job.
+
+        And whether the result is new; if not, an earlier run had graded it.
+        """
+        result = self._blank(found)
+        try:
+            chosen = found.read()
+        except UnreadableError as error:
+            return result | {"diagnosis": shown(str(error))}, None, True
+        except UsageError as error:
+            outcome = "protocol" if isinstance(error, RefusedError) else "student_error"
+            nothing = {check.id: 0 for check in self.exercise.checks}
+            result |= {"score": 0, "outcome": outcome, "points": nothing, "diagnosis": shown(str(error))}
+            self._store(result, {REPORT: self._unread(result)})
+            return result, None, True
+        result["sha256"] = bundle.digest(chosen.files)
+        identity = [found.student, found.id, found.source, chosen.main, result["sha256"], *self._same]
+        key = hashlib.sha256(json.dumps(identity, sort_keys=True).encode()).hexdigest()
+        done = journal.done.get(key)
+        if done is not None and (self.out / done["folder"] / REPORT).is_file():
+            return done, None, False
+        return result, Job(found.student, key, found.source, chosen.main, chosen.files), True
+
+    def _blank(self, found: Found) -> Result:
+        return {
+            "student": found.student,
+            "id": found.id,
+            "submission": found.source,
+            "score": None,
+            "outcome": "infra",
+            "points": {},
+            "diagnosis": "",
+            "sha256": "",
+            "truth_sha256": "",
+            "folder": folder_name(found.student),
+        }
+
+    def _unread(self, result: Result) -> bytes:
+        """The JSON report on a submission that could not even be taken in."""
+        report = {
+            "exercise": self.exercise.name,
+            "submission": result["submission"],
+            "score": 0,
+            "max_score": self.exercise.max_score,
+            "outcome": result["outcome"],
+            "diagnosis": result["diagnosis"],
+            "checks": [],
+            "trials": [],
+        }
+        return (json.dumps(report, indent=2) + "\n").encode()
+
+    def _watch(self, graded: Graded, attempt: int) -> None:
+        """Stop early where nothing can be graded at all, instead of trying everybody three times."""
+        if graded.report is not None:
+            self._hopeless = -1
+        elif self._hopeless >= 0 and attempt == 1:
+            self._hopeless += 1
+            if self._hopeless >= HOPELESS:
+                raise InfrastructureError(
+                    f"nothing can be graded here: {HOPELESS} gradings in a row failed, the last because "
+                    f"{graded.fault}; nobody has lost anything, `course doctor` may know more"
+                )
+
+    def _keep(self, result: Result, graded: Graded, key: str, journal: Journal) -> None:
+        report = graded.report
+        if report is None:
+            result["diagnosis"] = f"not graded: {graded.fault}"
+            return
+        result |= {name: report[name] for name in ("score", "outcome", "diagnosis", "truth_sha256")}
+        result["points"] = {check["id"]: check["points"] for check in report["checks"]}
+        self._store(result, graded.files)
+        journal.add(key, result)
+
+    def _store(self, result: Result, files: dict[str, bytes]) -> None:
+        """Put a student's files in their folder, all or none, before the journal says that they are there."""
+        target, part = self.out / result["folder"], self.out / f"{PART}{result['folder']}"
+        try:
+            part.mkdir()
+            for name, data in files.items():
+                with (part / name).open("wb") as stream:
+                    stream.write(data)
+                    stream.flush()
+                    os.fsync(stream.fileno())
+            if target.exists():
+                shutil.rmtree(target)
+            part.rename(target)
+        except OSError as error:
+            raise InfrastructureError(f"{target} cannot be written: {error.strerror}; nothing is lost") from None
+
+
+def _outcome(future: Future[Graded]) -> Graded:
+    """What a grading came to, also if it never came back."""
+    try:
+        return future.result()
+    except CancelledError:
+        return Graded(None, fault="it was cancelled")
+    except Exception as error:  # a worker that died, a connection that broke: never the student's
+        return Graded(None, fault=shown(f"{type(error).__name__}: {error}"))
+
+
+def folder_name(student: str) -> str:
+    """A name for a student's folder that is safe everywhere, the same every time, and nobody else's."""
+    safe = re.sub(r"[^\w.,()@ -]", "_", student).strip(" .").replace("..", "_")
+    while len(safe.encode()) > LONGEST_FOLDER:
+        safe = safe[:-1]
+    if safe == student and safe.casefold() not in (GRADEBOOK, JOURNAL):
+        return safe
+    return f"{safe or 'student'}-{hashlib.sha256(student.encode()).hexdigest()[:8]}"
+
+
+def work_folder(out: Path) -> Path:
+    """Where gradings of a class work on this machine: found again, and emptied, by the next run into the same folder.
+
+    Raises InfrastructureError if somebody else has put something in its place.
+    """
+    name = hashlib.sha256(str(out.resolve()).encode("utf-8", "surrogateescape")).hexdigest()[:12]
+    folder = Path(tempfile.gettempdir()) / f"course-class-{os.getuid()}-{name}"
+    if folder.exists() or folder.is_symlink():
+        status = folder.lstat()
+        if status.st_uid != os.getuid() or not stat.S_ISDIR(status.st_mode):
+            raise InfrastructureError(f"{folder} is not ours; remove it, or set TMPDIR to another folder")
+        shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(mode=0o700, exist_ok=True)
+    return folder

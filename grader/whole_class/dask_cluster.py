@@ -1,0 +1,78 @@
+"""The same job list on more than one machine: Dask's workers grade, its scheduler hands out. None of it is ours.
+
+Workers need the course installed, in the same version; nothing else is shared, submissions go there and recordings
+come back as bytes. Used by `class_run.py` for `--dask`.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import tempfile
+from collections.abc import Iterator
+from concurrent.futures import Executor
+
+from grader.errors import UsageError
+from grader.printable import shown
+from grader.whole_class.versions import versions
+
+CONNECT = 15.0  # [s] to reach a scheduler
+
+
+@contextlib.contextmanager
+def dask_executor(address: str) -> Iterator[tuple[Executor, int]]:
+    """Connect to a scheduler (`tcp://host:port`) or start workers here (`local:N`): an executor, and how many it runs.
+
+    Raises UsageError if Dask is not installed, nobody answers, or a worker is not what this machine is.
+    """
+    try:
+        from distributed import Client, LocalCluster
+    except ImportError:
+        raise UsageError("--dask needs Dask, which is not installed: pip install 'gz-ros2-course[dask]'") from None
+    with contextlib.ExitStack() as stack:
+        if address.startswith("local:"):
+            count = address.removeprefix("local:")
+            if not count.isascii() or not count.isdecimal() or not 1 <= int(count) <= 1000:
+                raise UsageError(f"--dask {shown(address)}: expected local:N with the number of workers, as local:2")
+            scratch = stack.enter_context(
+                tempfile.TemporaryDirectory(prefix="course-dask-", ignore_cleanup_errors=True)
+            )
+            cluster = LocalCluster(
+                n_workers=int(count),
+                threads_per_worker=1,
+                dashboard_address=None,
+                worker_dashboard_address=None,
+                local_directory=scratch,
+                silence_logs="CRITICAL",
+            )
+            target = stack.enter_context(cluster)
+        elif "://" in address:
+            target = address
+        else:
+            raise UsageError(f"--dask {shown(address)}: expected tcp://HOST:PORT of a scheduler, or local:N")
+        try:
+            client = stack.enter_context(Client(target, timeout=CONNECT, set_as_default=False))
+        except (OSError, TimeoutError, ValueError) as error:
+            raise UsageError(f"no Dask scheduler answers at {shown(address)}: {shown(str(error))}") from None
+        slots = sum(client.nthreads().values())
+        if not slots:
+            raise UsageError(f"the Dask scheduler at {shown(address)} has no workers; start some with dask worker")
+        _check_versions(client.run(_worker_versions, on_error="return"))
+        yield stack.enter_context(client.get_executor(pure=False, retries=0)), slots
+
+
+def _worker_versions() -> dict[str, str]:
+    return versions()
+
+
+def _check_versions(of_workers: dict[str, object]) -> None:
+    """Equal submissions must get equal scores wherever they are graded. Raises UsageError if a worker differs."""
+    ours = versions()
+    for worker, theirs in sorted(of_workers.items()):
+        if not isinstance(theirs, dict):
+            raise UsageError(f"the Dask worker {worker} cannot grade; is the course installed there? ({theirs})")
+        for package, version in ours.items():
+            if theirs.get(package) != version:
+                raise UsageError(
+                    f"the Dask worker {worker} has {package} {theirs.get(package)}, but here it is {version}; "
+                    "install the same on both"
+                )

@@ -1,0 +1,58 @@
+"""The gradebook of a class as CSV: one line a student, points for each check, the first sentence of feedback.
+
+Made from the journal's results alone and free of times and paths of this machine: the same submissions give the same
+bytes. Names and sentences are foreign text: what a spreadsheet would take for a formula begins with an apostrophe.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from grader.exercise import Exercise
+from grader.printable import shown
+
+GRADEBOOK = "gradebook.csv"
+FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "\N{FULLWIDTH EQUALS SIGN}", "\N{FULLWIDTH PLUS SIGN}",
+           "\N{FULLWIDTH HYPHEN-MINUS}", "\N{FULLWIDTH COMMERCIAL AT}")  # fmt: skip
+LONGEST_CELL = 2_000  # [characters]
+
+
+def as_csv(exercise: Exercise, results: Iterable[dict[str, Any]]) -> str:
+    """Return the gradebook. A result that is nobody's score (`infra`) has empty cells where points would be."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    ids = [check.id for check in exercise.checks]
+    head = ["student", "id", "submission", "score", "max_score", "outcome", *ids]
+    writer.writerow([cell(name) for name in [*head, "diagnosis", "submission_sha256", "truth_sha256", "folder"]])
+    for result in results:
+        points = result["points"]
+        row = [result["student"], result["id"], result["submission"], result["score"], exercise.max_score]
+        row += [result["outcome"], *(points.get(id) for id in ids), result["diagnosis"]]
+        writer.writerow([cell(each) for each in [*row, result["sha256"], result["truth_sha256"], result["folder"]]])
+    return text.getvalue()
+
+
+def cell(value: object) -> str:
+    """A value as a cell that no spreadsheet takes for a formula: numbers as they are, None empty, text guarded."""
+    if value is None:
+        return ""
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        return f"{value:.10g}"
+    text = shown(str(value), LONGEST_CELL)
+    return f"'{text}" if str(value).startswith(FORMULA) or text.lstrip().startswith(FORMULA) else text
+
+
+def write_gradebook(folder: Path, text: str) -> Path:
+    """Put the gradebook into its place in one go: a reader sees the old one or the new one, never a part."""
+    path, part = folder / GRADEBOOK, folder / f".{GRADEBOOK}.part"
+    with part.open("w", encoding="utf-8", newline="") as stream:
+        stream.write(text)
+        stream.flush()
+        os.fsync(stream.fileno())
+    part.replace(path)
+    return path

@@ -1,0 +1,213 @@
+"""Grades one submission of a class: a fresh `course grade` in a process group and a folder of its own, with a deadline.
+
+`grade_one` gets bytes and gives bytes, so that it works the same in a thread here and on a Dask worker that shares no
+files with us. Whatever goes wrong around the grading is a fault of ours, told in `Graded.fault`, never a score.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import psutil
+
+from grader import bundle
+from grader.printable import shown
+
+PR_SET_CHILD_SUBREAPER = 36
+LARGEST_FILE = 256 << 20  # [bytes] of a recording or report that is brought back
+GRACE = 3.0  # [s] between SIGINT, SIGTERM and SIGKILL
+ERROR_TAIL = 4096  # [bytes] of what a failed grading says that are looked at
+REPORT = "report.json"
+RECORDINGS = "recordings"
+
+
+@dataclass(frozen=True)
+class Setup:
+    """What all gradings of a class have in common. `deadline` [s] is for one grading."""
+
+    exercise: str
+    course: dict[str, bytes]  # the exercise's files below a course's root
+    options: tuple[str, ...]  # of `course grade`
+    reports: tuple[str, ...]  # formats beside JSON
+    deadline: float
+    folder: str | None = None  # where working folders are made; None: where this machine keeps temporary ones
+
+
+@dataclass(frozen=True)
+class Job:
+    """One student's submission, read."""
+
+    student: str
+    key: str  # names submission, exercise, options and versions: equal keys, equal results
+    source: str
+    main: str
+    files: dict[str, bytes] = field(repr=False)
+
+
+@dataclass(frozen=True)
+class Graded:
+    """What came out: the JSON report and the files that belong to it (relative names), or why there is none."""
+
+    report: dict[str, Any] | None
+    files: dict[str, bytes] = field(default_factory=dict, repr=False)
+    fault: str | None = None
+
+
+class _Running:
+    """The gradings that run in this process now, so that all of them can be ended from outside."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._processes: set[subprocess.Popen[bytes]] = set()
+        self.stopped = False
+
+    def start(self, command: list[str], **options: Any) -> subprocess.Popen[bytes]:
+        with self._lock:
+            if self.stopped:
+                raise InterruptedError("the class was interrupted")
+            process = subprocess.Popen(command, start_new_session=True, **options)
+            self._processes.add(process)
+            return process
+
+    def ended(self, process: subprocess.Popen[bytes]) -> None:
+        """Forget a process, and kill what it left behind: orphans come to us, in other sessions than ours."""
+        with self._lock:
+            self._processes.discard(process)
+            running = {each.pid for each in self._processes}
+        for child in psutil.Process().children():
+            with contextlib.suppress(psutil.Error, OSError):
+                if child.pid not in running and os.getsid(child.pid) != os.getsid(0) and child.pid != process.pid:
+                    child.kill()
+                    child.wait(GRACE)
+
+    def begin(self) -> None:
+        self.stopped = False
+
+    def stop(self) -> None:
+        with self._lock:
+            self.stopped = True
+            processes = list(self._processes)
+        for process in processes:
+            end(process)
+
+
+RUNNING = _Running()
+
+
+@contextlib.contextmanager
+def gradings_end_here() -> Iterator[None]:
+    """On the way out every grading of this process is ended, and none that was asked for begins."""
+    RUNNING.begin()
+    try:
+        yield
+    finally:
+        RUNNING.stop()
+
+
+def grade_one(setup: Setup, job: Job) -> Graded:
+    """Grade one submission; called in a thread of this process or of a Dask worker."""
+    ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1)  # should a grading be killed, its orphans become ours to sweep
+    try:
+        folder = Path(tempfile.mkdtemp(prefix="course-class-", dir=setup.folder))
+    except OSError as error:
+        return Graded(None, fault=f"no temporary folder: {error.strerror}")
+    try:
+        return _grade(setup, job, folder)
+    except OSError as error:
+        return Graded(None, fault=f"{type(error).__name__}: {error}")
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def _grade(setup: Setup, job: Job, folder: Path) -> Graded:
+    bundle.write(setup.course, folder / "course")
+    bundle.write(job.files, folder / "submission")
+    (folder / "tmp").mkdir()
+    submission = folder / "submission"
+    # A single file may have any name; a folder is searched for the one asked for.
+    given = submission / job.main if len(job.files) == 1 else submission
+    command = [sys.executable, "-P", "-m", "grader.whole_class.start", str(os.getpid()), "grade", setup.exercise]
+    command += ["--submission", str(given), "--out", RECORDINGS, "--json", REPORT, *setup.options]
+    for name in setup.reports:
+        command += [f"--{name}", _report_name(name)]
+    with (folder / "stderr").open("w+b") as errors:
+        process = RUNNING.start(
+            command,
+            cwd=folder,
+            env=os.environ | {"COURSE_ROOT": str(folder / "course"), "TMPDIR": str(folder / "tmp")},
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=errors,
+        )
+        try:
+            late = False
+            try:
+                process.wait(setup.deadline)
+            except subprocess.TimeoutExpired:
+                late = True
+        finally:
+            end(process)
+            RUNNING.ended(process)
+        if late:
+            return Graded(None, fault=f"the grading was not done after {setup.deadline:g} s")
+        errors.seek(max(0, errors.tell() - ERROR_TAIL))
+        said = shown(errors.read().decode(errors="replace").strip().rpartition("\n")[2])
+    if process.returncode not in (0, 1):
+        how = f"signal {-process.returncode}" if process.returncode < 0 else f"exit code {process.returncode}"
+        return Graded(None, fault=f"the grading ended with {how}{': ' if said else ''}{said}")
+    return _bring_back(setup, job, folder)
+
+
+def end(process: subprocess.Popen[bytes]) -> None:
+    """End a grading and its process group: SIGINT, SIGTERM, SIGKILL. What has ended by itself is only reaped."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
+        if process.poll() is not None:
+            break
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(process.pid, number)
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            process.wait(GRACE)
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+
+
+def _report_name(name: str) -> str:
+    return {"html": "report.html", "gradescope": "results.json", "junit": "junit.xml"}[name]
+
+
+def _bring_back(setup: Setup, job: Job, folder: Path) -> Graded:
+    """Read report and recordings. Our temporary folder is nobody's business: paths are made relative to it."""
+    paths = [folder / REPORT, *(folder / _report_name(name) for name in setup.reports)]
+    paths += sorted((folder / RECORDINGS).glob("*.rrd"))
+    files: dict[str, bytes] = {}
+    for path in paths:
+        if path.stat().st_size > LARGEST_FILE:
+            return Graded(None, fault=f"{path.name} has {path.stat().st_size} bytes; at most {LARGEST_FILE} are kept")
+        data = path.read_bytes()
+        files[path.name] = data if path.suffix == ".rrd" else data.replace(f"{folder}/".encode(), b"")
+    try:
+        report = json.loads(files[REPORT])
+        report["submission"] = job.source
+        for place in (report, *report["trials"]):
+            place["recording"] = Path(place["recording"]).name
+        score, most = report["score"], report["max_score"]
+        if not (isinstance(score, int | float) and 0 <= score <= most and isinstance(report["outcome"], str)):
+            raise ValueError(f"score {score!r} of {most!r}")
+    except (ValueError, KeyError, TypeError) as error:
+        return Graded(None, fault=f"the grading left no report that can be read: {error}")
+    files[REPORT] = (json.dumps(report, indent=2) + "\n").encode()
+    return Graded(report, files)

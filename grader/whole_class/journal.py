@@ -1,0 +1,83 @@
+"""The journal of a class: one line for each submission that is done, on disk before the next thing happens.
+
+It is only ever appended to. Whoever kills the run loses what was not finished, and nothing else: the next run reads the
+journal, cuts off a line that was torn, and grades what is missing. The gradebook is written from it alone.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import json
+import os
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from grader.errors import UsageError
+
+JOURNAL = "journal.jsonl"
+
+
+class Journal:
+    """An open journal; nobody else can open it meanwhile. `done` maps the keys of finished jobs to their results."""
+
+    def __init__(self, folder: Path) -> None:
+        """Open or begin the journal of a folder. Raises UsageError if another run holds it or it cannot be written."""
+        self.path = folder / JOURNAL
+        try:
+            self._file = self.path.open("a+b", buffering=0)
+        except OSError as error:
+            raise UsageError(f"{self.path} cannot be written: {error.strerror}") from None
+        try:
+            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            self._file.close()
+            raise UsageError(
+                f"another course grade-all is at work in {folder}; wait for it, or give another --out"
+            ) from None
+        self.done: dict[str, dict[str, Any]] = {}
+        self._read()
+        _sync_folder(folder)
+
+    def _read(self) -> None:
+        self._file.seek(0)
+        data = self._file.read()
+        whole = data.rfind(b"\n") + 1
+        for line in data[:whole].splitlines():
+            try:
+                entry = json.loads(line)
+                self.done[entry["key"]] = entry["result"]
+            except (ValueError, KeyError, TypeError):
+                continue  # a disk's fault: that submission is graded again
+        if whole != len(data):
+            self._file.truncate(whole)
+            os.fsync(self._file.fileno())
+
+    def add(self, key: str, result: dict[str, Any]) -> None:
+        """Write down that a job is done. When this returns it is on disk."""
+        line = json.dumps({"key": key, "result": result}, sort_keys=True).encode() + b"\n"
+        while line:  # a disk that is nearly full takes a part
+            line = line[self._file.write(line) :]
+        os.fsync(self._file.fileno())
+        self.done[key] = result
+
+    def close(self) -> None:
+        """Let others have it."""
+        self._file.close()
+
+    def __enter__(self) -> Journal:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+
+def _sync_folder(folder: Path) -> None:
+    """Put the names in a folder on disk, too."""
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)

@@ -1,0 +1,27 @@
+"""The program of one grading in a class: `course`, which ends when the process that started it has gone.
+
+Started by `grading.py` as `python -m grader.whole_class.start PARENT grade ...`; PARENT is the starter's process id.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import signal
+import sys
+
+PR_SET_PDEATHSIG = 1
+
+
+def main() -> None:
+    """Ask to be told of the starter's death, look whether it still lives, and be `course`."""
+    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)  # `course` closes everything on SIGTERM
+    if os.getppid() != int(sys.argv.pop(1)):
+        sys.exit(3)
+    from grader.course import main as course
+
+    course()
+
+
+if __name__ == "__main__":
+    main()
