@@ -34,10 +34,12 @@ from pathlib import Path
 from types import TracebackType
 
 from grader.errors import UsageError, nearest
+from grader.printable import shown
 from grader.run.domain import Domain
 from grader.run.sandbox import ros_environment
 
 GRACE = 3.0  # [s] between SIGINT, SIGTERM and SIGKILL
+LONGEST_COMMAND = 100  # [characters] of a command in the list of what runs
 LOOK_AGAIN = 0.02  # [s] how often the output of a program is looked at
 # Becomes the command after asking Linux (prctl 1, PR_SET_PDEATHSIG) for a SIGTERM when the process that started it
 # is gone: a kernel that is killed cannot clean up. Run without site packages, so it takes only milliseconds.
@@ -214,7 +216,7 @@ class Playground:
     def __repr__(self) -> str:
         if not self._open:
             return "<playground: closed, nothing is running>"
-        lines = [f"  process {program.pid}  {program.command}" for program in self.running] or ["  nothing"]
+        lines = [f"  process {p.pid}  {shown(p.command, LONGEST_COMMAND)}" for p in self.running] or ["  nothing"]
         return "\n".join([f"running with ROS_DOMAIN_ID={self.domain}, GZ_PARTITION={self.partition}:", *lines])
 
     def __enter__(self) -> Playground:

@@ -1,4 +1,7 @@
-"""Every chapter's notebook runs from its first cell to its last in a real kernel, and cleans up after itself."""
+"""Every chapter's notebook keeps to the pattern, runs in a real kernel, bears a second run of each cell, and cleans up.
+
+`chapters/README.md` says the rules in words.
+"""
 
 import ast
 import asyncio
@@ -6,6 +9,7 @@ import ctypes
 import importlib.util
 import re
 import shutil
+import time
 from pathlib import Path
 
 import nbformat
@@ -16,6 +20,12 @@ from nbclient import NotebookClient
 ROOT = Path(__file__).parents[2]
 NOTEBOOKS = sorted((ROOT / "chapters").glob("*/*.ipynb"))
 CELL_DEADLINE = 120  # [s]
+LONGEST_RUN = 90  # [s] of a whole chapter on two cores that do nothing else
+FEWEST_PREDICTIONS = 4
+FEWEST_PICTURES = 3
+PREDICTION, DESCRIPTION, CHECK = "> **Predict.**", "**In the picture:**", "## Check my work"
+# What of the course's own code a student may meet: everything else stands in the notebook.
+OF_THE_COURSE = {"grader.playground", "grader.record.reading"}
 PR_SET_CHILD_SUBREAPER = 36
 
 each_notebook = pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
@@ -32,8 +42,22 @@ def code_cells(path):
 
 
 def python_of(cell):
-    """The Python of a cell; lines for the shell become `pass`."""
-    return re.sub(r"^(\s*)[!%].*$", r"\1pass", cell.source, flags=re.MULTILINE)
+    """The Python of a cell; lines for the shell and for the notebook become `pass`, files are Python or nothing."""
+    if cell.source.startswith("%%writefile"):
+        first, _, rest = cell.source.partition("\n")
+        return rest if first.endswith(".py") else ""
+    return re.sub(r"^(\s*)(\w+ = )?[!%].*$", r"\1pass", cell.source, flags=re.MULTILINE)
+
+
+def shell_lines(cell):
+    """The commands a cell gives to the shell."""
+    return re.findall(r"^\s*(?:\w+ = )?!(.*)$", cell.source, flags=re.MULTILINE)
+
+
+def pairs(path):
+    """Each cell with the one after it."""
+    cells = read(path).cells
+    return list(zip(cells, cells[1:], strict=False))
 
 
 def test_there_are_chapters():
@@ -81,6 +105,56 @@ def test_imports_only_what_is_there(path):
                 assert importlib.util.find_spec(name), f"cell {cell.id} imports {name}, which is not installed"
 
 
+@each_notebook
+def test_no_hidden_code(path):
+    """Nodes, plots and helpers stand in the notebook: only the playground and recordings come from the course."""
+    for cell in code_cells(path):
+        for node in ast.walk(ast.parse(python_of(cell))):
+            if isinstance(node, ast.ImportFrom) and node.module and node.module.partition(".")[0] == "grader":
+                assert node.module in OF_THE_COURSE, f"cell {cell.id} imports {node.module}"
+
+
+@each_notebook
+def test_predictions_come_right_before_their_experiments(path):
+    predictions = [(cell, after) for cell, after in pairs(path) if PREDICTION in cell.source]
+    assert len(predictions) >= FEWEST_PREDICTIONS
+    for cell, after in predictions:
+        assert after.cell_type == "code", f"cell {cell.id} predicts, but no experiment follows"
+        assert cell.source.rpartition("\n\n")[2].startswith(PREDICTION), f"cell {cell.id} goes on after its prediction"
+
+
+@each_notebook
+def test_what_topics_there_are_is_asked_before_it_is_shown(path):
+    for cell, after in pairs(path):
+        if after.cell_type == "code" and any(re.match(r"(ros2|gz) topic (list|-l)", c) for c in shell_lines(after)):
+            assert PREDICTION in cell.source, f"cell {after.id} shows topics without a prediction"
+
+
+@each_notebook
+def test_every_picture_is_described_in_words(path):
+    pictures = [(cell, after) for cell, after in pairs(path) if "plt.show()" in cell.source]
+    assert len(pictures) >= FEWEST_PICTURES
+    for cell, after in pictures:
+        assert after.source.startswith(DESCRIPTION), f"cell {cell.id} shows a picture that is not described"
+
+
+@each_notebook
+def test_work_is_checked_by_the_grader_itself(path):
+    checks = [(cell, after) for cell, after in pairs(path) if CHECK in cell.source]
+    assert len(checks) == 1
+    assert shell_lines(checks[0][1])[0].startswith(f"course grade {path.stem}")
+
+
+@each_notebook
+def test_the_file_to_edit_is_named_and_shown(path):
+    import tomllib
+
+    manifest = tomllib.loads((ROOT / "exercises" / path.stem / "exercise.toml").read_text())
+    prose = "".join(cell.source for cell in read(path).cells if cell.cell_type == "markdown")
+    assert f"exercises/{path.stem}/{manifest['file']}" in prose
+    assert any(manifest["file"] in cell.source for cell in code_cells(path)), "no cell shows the file"
+
+
 @pytest.fixture
 def descendants():
     """Function giving the processes that came from this one during the test, orphans included."""
@@ -103,13 +177,22 @@ def commands(processes):
     return [" ".join(process.cmdline()) for process in processes]
 
 
-@each_notebook
-def test_runs_from_first_to_last_cell_and_leaves_nothing_running(path, tmp_path, descendants):
-    folder = tmp_path / path.parent.name
-    shutil.copytree(path.parent, folder, ignore=shutil.ignore_patterns("runs", "recorded_run", ".ipynb_checkpoints"))
-    client = NotebookClient(
-        read(folder / path.name), timeout=CELL_DEADLINE, resources={"metadata": {"path": str(folder)}}
-    )
+def execute(path, tmp_path, descendants, times):
+    """Run a notebook in a copy of the course, each code cell so many `times`; return what the cells put out.
+
+    The cells themselves must have ended what they started, not the end of the kernel.
+    """
+    traces = shutil.ignore_patterns("runs", "*.py", ".ipynb_checkpoints")
+    shutil.copytree(path.parent, tmp_path / "chapters" / path.stem, ignore=traces)
+    shutil.copytree(ROOT / "exercises", tmp_path / "exercises", ignore=shutil.ignore_patterns("runs", "__pycache__"))
+    folder = tmp_path / "chapters" / path.stem
+    notebook = read(folder / path.name)
+    notebook.cells = [
+        nbformat.from_dict(cell | {"id": f"{cell.id}-{number}"})
+        for cell in notebook.cells
+        for number in range(times if cell.cell_type == "code" else 1)
+    ]
+    client = NotebookClient(notebook, timeout=CELL_DEADLINE, resources={"metadata": {"path": str(folder)}})
 
     async def run():
         async with client.async_setup_kernel():
@@ -117,11 +200,36 @@ def test_runs_from_first_to_last_cell_and_leaves_nothing_running(path, tmp_path,
             assert kernel, "the kernel is a process of its own"
             for index, cell in enumerate(client.nb.cells):
                 await client.async_execute_cell(cell, index)
-            # The cells themselves must have ended what they started, not the end of the kernel.
             assert commands(set(descendants()) - kernel) == []
 
     asyncio.run(run())
     assert commands(descendants()) == []
-    printed = [cell for cell in client.nb.cells if cell.cell_type == "code" and cell.outputs]
-    report = "".join(output.get("text", "") for cell in printed for output in cell.outputs)
-    assert "score: " in re.sub(r"\x1b\[[0-9;]*m", "", report), "the notebook has graded its exercise"
+    for cell in client.nb.cells:
+        if cell.cell_type == "code":
+            said = printed(cell)
+            for trouble in ("Traceback (most recent call last)", "internal error", "command not found", "No such file"):
+                assert trouble not in said, f"cell {cell.id} prints:\n{said}"
+            pictures = [output for output in cell.outputs if "image/png" in output.get("data", {})]
+            assert bool(pictures) == ("plt.show()" in cell.source), f"cell {cell.id} shows {len(pictures)} pictures"
+    report = "".join(printed(cell) for cell in client.nb.cells if cell.cell_type == "code")
+    assert report.count("score: ") == times, "the notebook has graded its exercise"
+
+
+def printed(cell):
+    text = "".join(output.get("text", "") for output in cell.outputs)
+    return re.sub(r"\x1b\[[0-9;]*m", "", text)
+
+
+@pytest.mark.slow
+@each_notebook
+def test_runs_from_first_to_last_cell_and_leaves_nothing_running(path, tmp_path, descendants):
+    begin = time.monotonic()
+    execute(path, tmp_path, descendants, times=1)
+    assert time.monotonic() - begin < LONGEST_RUN
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(4 * LONGEST_RUN)
+@each_notebook
+def test_every_cell_may_be_run_again_at_once(path, tmp_path, descendants):
+    execute(path, tmp_path, descendants, times=2)
