@@ -7,6 +7,7 @@ gz_topic = "/lidar"
 gz_type = "gz.msgs.LaserScan"
 direction = "GZ_TO_ROS"
 at_least = 10             # messages that must go through
+same = ["/lidar/again"]   # optional: other Gazebo topics with the same messages
 """
 
 from __future__ import annotations
@@ -28,6 +29,7 @@ def bridged(recording: Recording, parameters: Table) -> Finding:
     wanted = {key: parameters.text(key) for key in KEYS[:-1]}
     wanted["direction"] = parameters.choice("direction", WAYS)
     least = parameters.number("at_least", above=0)
+    same = [wanted["gz_topic"], *(parameters.texts("same") if parameters.has("same") else [])]
     facts = recording.facts()
     made = bridges(recording)
     arrow = {"GZ_TO_ROS": "<-", "ROS_TO_GZ": "->"}.get(wanted["direction"], "<->")
@@ -35,7 +37,7 @@ def bridged(recording: Recording, parameters: Table) -> Finding:
     candidates = [bridge for bridge in made if bridge.ros_topic == wanted["ros_topic"]]
     if not candidates:
         return Finding(False, expected, _not_there(wanted, made))
-    faults = [_fault(bridge, wanted, facts) for bridge in candidates]
+    faults = [_fault(bridge, wanted, same, facts) for bridge in candidates]
     if all(faults):
         return Finding(False, expected, faults[0])
     bridge = candidates[faults.index("")]
@@ -58,9 +60,9 @@ def _not_there(wanted: dict[str, str], made: list[Bridged]) -> str:
     return f"no bridge has the ROS topic {ros}{near.replace('did you mean', 'is it')}"
 
 
-def _fault(bridge: Bridged, wanted: dict[str, str], facts: dict[str, Any]) -> str:
+def _fault(bridge: Bridged, wanted: dict[str, str], same: list[str], facts: dict[str, Any]) -> str:
     """What is wrong with a bridge to the right ROS topic; empty if nothing is."""
-    if bridge.gz_topic != wanted["gz_topic"]:
+    if bridge.gz_topic not in same:
         return f"{bridge.place}: {_wrong_gz_topic(bridge, wanted, facts.get('gz_topics', {}))}"
     if bridge.ros_type != wanted["ros_type"]:
         return f"{bridge.place}: {bridge.ros_topic} is {bridge.ros_type} here, but the node uses {wanted['ros_type']}"

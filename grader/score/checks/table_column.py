@@ -80,13 +80,10 @@ def _gz_topic(said: str, link: Link, facts: dict[str, Any]) -> str:
     name = f"/{said.lstrip('/')}"
     if name in facts["gz_topics"]:
         return f"{name} is a topic of Gazebo, but not the one that {link.ros_topic} is joined with"
+    near = did_you_mean(name, [link.gz_topic], 0.3)
     if name == link.ros_topic:
-        return f"{name} is what ROS calls it; Gazebo has no topic of that name{did_you_mean(name, _names(facts))}"
-    return f"Gazebo has no topic {name}{did_you_mean(name, _names(facts))}"
-
-
-def _names(facts: dict[str, Any]) -> list[str]:
-    return list(facts["gz_topics"])
+        return f"{name} is what ROS calls it; Gazebo has no topic of that name{near}"
+    return f"Gazebo has no topic {name}{near}"
 
 
 def _direction(said: str, link: Link, facts: dict[str, Any]) -> str:
