@@ -136,6 +136,12 @@ def grading():
 
 
 @pytest.fixture(scope="session")
+def running():
+    """The same for any command."""
+    return run_course
+
+
+@pytest.fixture(scope="session")
 def clean():
     return assert_nothing_left
 

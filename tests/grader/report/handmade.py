@@ -1,6 +1,7 @@
 """What reports are made of: checks, scores, a recording made by hand, and texts nobody would want to read."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import rerun as rr
@@ -8,6 +9,7 @@ from hypothesis import strategies as st
 
 from grader.exercise import CheckSpec
 from grader.record.recorder import Recorder
+from grader.report.report import HostFacts, Report, TrialReport
 from grader.score.check import Band, Finding
 from grader.score.score import CheckResult, Score
 
@@ -69,3 +71,19 @@ def write_run(path, *, lines=(), facts=None, world=True, speed=0.5, seconds=DURA
             facts=json.dumps({"sim_seconds": seconds, "listened": TWIST} | (facts or {})),
         )  # fmt: skip
     return path
+
+
+SCORE = score_of(result("good", True), result("bad", False), diagnosis="The bad one: was 0.5.")
+REPORT = Report(  # its recording is nowhere
+    exercise="03_teleop",
+    title="Drive",
+    submission="/home/me/teleop_node.py",
+    recording=Path("runs/03_teleop.rrd"),
+    score=SCORE,
+    max_score=100,
+    sim_seconds=8.0,
+    seed=3,
+    versions={"mujoco": "4.0.0"},
+    host=HostFacts("D", "lockstep", 0.5, 2.0),
+    trials=(TrialReport("public", 3, SCORE, Path("runs/03_teleop.rrd"), "ab" * 32),),
+)

@@ -210,7 +210,7 @@ def test_a_flood_is_shortened(make_report):
     assert len(text) < 200_000
 
 
-@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(texts=st.lists(nasty, min_size=6, max_size=6), line=st.text(st.characters(codec="utf-8")))
 def test_whatever_a_student_writes_is_text(make_report, texts, line):
     measured, expected, diagnosis, submission, note, name = texts
