@@ -39,6 +39,8 @@ def grade_all_command(
     ] = None,
     seed: Annotated[int, typer.Option(help="As for course grade.")] = 0,
     trials: Annotated[str, typer.Option(help="As for course grade: public, hidden, all, or a file.")] = "public",
+    sandbox: Annotated[str, typer.Option(help="As for course grade: auto, A, B, C or D.")] = "auto",
+    demand: Annotated[str | None, typer.Option(help="As for course grade: the least level, such as B.")] = None,
     html: Annotated[bool, typer.Option("--html", help="Also write each report as a page.")] = False,
     gradescope: Annotated[bool, typer.Option("--gradescope", help="Also write each results.json.")] = False,
     junit: Annotated[bool, typer.Option("--junit", help="Also write each report as JUnit XML.")] = False,
@@ -55,7 +57,7 @@ def grade_all_command(
     _check_places(submissions, out)
     console = Console(stderr=True)
     wanted = tuple(name for name, asked in zip(REPORTS, (html, gradescope, junit), strict=True) if asked)
-    run = ClassRun(chosen, out, seed, trials, wanted)
+    run = ClassRun(chosen, out, seed, trials, wanted, sandbox, demand)
     with ExitStack() as stack:
         found, left_out = find_submissions(submissions, chosen, stack)
         if left_out:

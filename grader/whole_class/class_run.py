@@ -27,6 +27,7 @@ from grader import bundle
 from grader.errors import InfrastructureError, RefusedError, UnreadableError, UsageError
 from grader.exercise import Exercise
 from grader.printable import shown
+from grader.run.sandbox import choose
 from grader.trial import chosen_trials
 from grader.whole_class.dask_cluster import dask_executor
 from grader.whole_class.found import Found
@@ -53,13 +54,15 @@ class ClassRun:
     seed: int = 0
     trials: str = "public"
     reports: tuple[str, ...] = ()
-    options: tuple[str, ...] = ()  # more of `course grade`
+    sandbox: str = "auto"
+    demand: str | None = None
 
     def __post_init__(self) -> None:
         files, choice = bundle.bundle(self.exercise, self.trials)
         trials = chosen_trials(self.exercise, self.trials)
         seconds = sum(PER_TRIAL + WALL_FACTOR * (trial.duration or self.exercise.duration) for trial in trials)
-        options = ("--seed", str(self.seed), "--trials", choice, *self.options)
+        options = ("--seed", str(self.seed), "--trials", choice, "--sandbox", self.sandbox)
+        options += ("--demand", self.demand) if self.demand else ()
         self.setup = Setup(self.exercise.name, files, options, self.reports, START_UP + seconds, None)
         self._same = [self.exercise.name, bundle.digest(files), options, self.reports, versions()]
         self._hopeless = 0
@@ -125,9 +128,11 @@ class ClassRun:
 
     def _here(self, jobs: int, stack: ExitStack) -> tuple[Executor, int]:
         """Threads of this process, each of which waits for one grading."""
+        level = choose(self.sandbox, self.demand)  # once, so that all submissions get the same
         folder = work_folder(self.out)
         stack.callback(shutil.rmtree, folder, ignore_errors=True)
-        self.setup = dataclasses.replace(self.setup, folder=str(folder))
+        options = (*self.setup.options, "--sandbox", level)
+        self.setup = dataclasses.replace(self.setup, folder=str(folder), options=options)
         executor = ThreadPoolExecutor(jobs)
         stack.callback(executor.shutdown, cancel_futures=True)
         stack.enter_context(gradings_end_here())

@@ -25,6 +25,7 @@ def dask_executor(address: str) -> Iterator[tuple[Executor, int]]:
     Raises UsageError if Dask is not installed, nobody answers, or a worker is not what this machine is.
     """
     try:
+        import dask
         from distributed import Client, LocalCluster
     except ImportError:
         raise UsageError("--dask needs Dask, which is not installed: pip install 'gz-ros2-course[dask]'") from None
@@ -36,6 +37,7 @@ def dask_executor(address: str) -> Iterator[tuple[Executor, int]]:
             scratch = stack.enter_context(
                 tempfile.TemporaryDirectory(prefix="course-dask-", ignore_cleanup_errors=True)
             )
+            stack.enter_context(dask.config.set(temporary_directory=scratch))
             cluster = LocalCluster(
                 n_workers=int(count),
                 threads_per_worker=1,

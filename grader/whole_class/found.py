@@ -21,7 +21,7 @@ import yaml
 from grader.archive import LONGEST_PART, Member, Tree, damaged, is_archive, plain_name, zip_members
 from grader.errors import RefusedError, UsageError
 from grader.exercise import Exercise
-from grader.intake import Selection, folder_member, folder_tree, is_junk, select
+from grader.intake import JUNK, Selection, folder_member, folder_tree, is_junk, select
 from grader.kinds.kind import find_kind
 from grader.printable import shown
 
@@ -79,9 +79,12 @@ def find_submissions(path: Path, exercise: Exercise, stack: ExitStack) -> tuple[
     groups: dict[_Owner, _Group] = {}
     suffixes = find_kind(exercise.kind).suffixes
     for name, thing in sorted(top.items()):
+        if name.startswith(".") and name.strip("."):  # a hidden folder; nobody's, but not to be passed over in silence
+            left_out.append(_label(name))
+            continue
         owner, file, when = _owner(name, folder=callable(thing), names=names)
         if not callable(thing) and not file.endswith(suffixes) and not is_archive(file) and not owner.id:
-            left_out.append(shown(name))
+            left_out.append(_label(name))
             continue
         tree = thing if callable(thing) else partial(_alone, file, thing)
         group = groups.get(owner)
@@ -142,7 +145,7 @@ Top = dict[str, "Callable[[], Tree] | Member"]  # name -> a folder's tree when a
 def _folder_top(path: Path) -> Top:
     top: Top = {}
     for each in path.iterdir():
-        if is_junk(each.name):
+        if _is_trace(each.name, folder=each.is_dir()):
             continue
         if each.is_dir():
             top[each.name] = partial(folder_tree, each)
@@ -159,21 +162,26 @@ def _zip_top(path: Path, stack: ExitStack) -> Top:
     try:
         for raw, member in zip_members(stack.enter_context(path.open("rb"))):
             first, _, rest = raw.replace("\\", "/").removeprefix("./").partition("/")
-            if is_junk(first) and first != "..":
+            if _is_trace(first, folder=bool(rest)):
                 continue
             try:
-                plain_name(raw, first or path.name)
+                plain_name(raw, _label(first))
             except RefusedError as error:
                 unsafe[first[:LONGEST_PART]] = error
                 continue
             if rest:
-                folders.setdefault(first, {})[plain_name(rest, first)] = member
+                folders.setdefault(first, {})[plain_name(rest, _label(first))] = member
             else:
                 top[first] = member
     except (zipfile.BadZipFile, NotImplementedError, ValueError, EOFError) as error:
         raise damaged(str(path), error) from None
     top |= {name: partial(dict, tree) for name, tree in folders.items()}
     return top | {name: partial(_refuse, error) for name, error in unsafe.items()}
+
+
+def _is_trace(name: str, *, folder: bool) -> bool:
+    """Whether a thing at the top is what a system or a tool leaves behind; hidden folders may be more than that."""
+    return name in JUNK or name == ".git" or (name.startswith(".") and not folder)
 
 
 def _refuse(error: RefusedError) -> Tree:
@@ -201,6 +209,8 @@ def _unwrapped(top: Top, exercise: Exercise) -> Top:
         n for n, t in inner.items() if any(PurePosixPath(name).name == exercise.file or is_archive(name) for name in t)
     ]
     holders += [name for name in files if is_archive(name) or _owner(name, folder=False, names={})[0].id]
+    if not any(PurePosixPath(name).name == exercise.file for name in tree):
+        holders += [name for name in files if name.endswith(find_kind(exercise.kind).suffixes)]
     if (len(holders) < 2 and METADATA not in files) or exercise.file in files or "exercises" in inner:
         return top
     return files | {name: partial(dict, each) for name, each in inner.items() if not is_junk(name)}
