@@ -1,4 +1,4 @@
-"""Drives both robots of the yard and listens to all their sensors. It runs on simulated time: without /clock it waits."""
+"""Drives both robots of the yard and listens to all their sensors; without /clock its time stands still."""
 
 import rclpy
 from geometry_msgs.msg import Twist
