@@ -168,6 +168,10 @@ class Bridge:
                 errors.append(sentence(service, f"cannot offer {service.name}: {error_text(error)}"))
         if errors:
             raise BridgeError(errors)
+        for incoming in self._to_ros:
+            incoming.look_for_echoes(self._to_gz)
+        for outgoing in self._to_gz:
+            outgoing.look_for_echoes(self._to_ros)
         for link in self._links():
             if not link.entry.lazy:
                 link.connect()

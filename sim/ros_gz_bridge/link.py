@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 import time
 from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -61,9 +62,14 @@ class Link:
         self.gz_topic = bridge._gz_name(row.entry.gz_topic)
         self._pair = row.pair
         self._status = row.status
+        self._hears_itself = False
         self._closed = False
         self._unsaid: Counter[str] = Counter()
         self._said_at: float | None = None
+
+    def look_for_echoes(self, others: Iterable[Link]) -> None:
+        """Find out whether one of ``others``, which go the other way, joins the same Gazebo topic."""
+        self._hears_itself = any(other.gz_topic == self.gz_topic for other in others)
 
     def _count(self, field: str) -> None:
         with self._bridge._status_lock:
@@ -169,7 +175,7 @@ class GzToRos(Link):
     def _on_message(self, gz: Any) -> None:
         if not self.connected:
             return
-        if self._bridge._gz_echo.is_echo(self.gz_topic, gz):
+        if self._hears_itself and self._bridge._gz_echo.is_echo(self.gz_topic, gz):
             self._count("echoes")
             return
         try:
@@ -256,11 +262,14 @@ class RosToGz(Link):
         except Exception as error:
             self._drop(pair.ros_type, self.entry.ros_topic, str(error))
             return
-        self._bridge._announce(pair)
-        with self._bridge._gz_echo.publishing(self.gz_topic, gz):
+        if self._hears_itself:
+            with self._bridge._gz_echo.publishing(self.gz_topic, gz):
+                taken = self._publisher.publish(gz)
+        else:
             taken = self._publisher.publish(gz)
         if taken:
             self._count("ros_to_gz")
+            self._bridge._announce(pair)
         else:
             self._drop(pair.ros_type, self.entry.ros_topic, f"gz.transport refused it on {self.entry.gz_topic}")
 

@@ -1,7 +1,8 @@
 """How fast parameter_bridge is, against what the two hops it joins cost without it, and how steady under a camera.
 
 A hop of Gazebo's wire is measured with a bare ZeroMQ pair, a hop of ROS with rclpy alone, both with the same payload; a
-bridged message makes both, so their sum is the reference.
+bridged message makes both, so their sum is the reference. The three take turns many times, each time for a moment, so
+that all see the same machine.
 """
 
 import contextlib
@@ -24,22 +25,21 @@ from rosgraph_msgs.msg import Clock
 from tests.bench.bridge_pair import GZ, ROS, Ros, sent, stamp, until
 from tests.bench.row import Row
 
-ROUNDS = 5
-PLAN = {"Twist": (300, 200), "LaserScan": (300, 200), "Image": (60, 30)}
-"""Kind -> (messages, hertz) of one round."""
+TURNS = 10
+PLAN = {"Twist": (50, 200), "LaserScan": (50, 200), "Image": (12, 30)}
+"""Kind -> (messages, hertz) of one turn."""
 WANTED = {"Twist": 1.5, "LaserScan": 1.5, "Image": 2.0}
-HD_SECONDS, HD_HERTZ, CLOCK_HERTZ = 10, 30, 1000
-IDLE_SECONDS = 10
+HD_SECONDS, HD_HERTZ, CLOCK_HERTZ = 5, 30, 1000
+PATIENCE_S = 3.0
 ROOT = Path(__file__).parents[2]
 BRIDGES = [
     "/b/twist@geometry_msgs/msg/Twist[gz.msgs.Twist",
-    "/b/scan@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan",
+    "/b/laserscan@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan",
     "/b/image@sensor_msgs/msg/Image[gz.msgs.Image",
     "/b/hd@sensor_msgs/msg/Image[gz.msgs.Image",
     "/b/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock",
     "/b/command@geometry_msgs/msg/Twist]gz.msgs.Twist",
 ]
-TOPICS = {"Twist": "/b/twist", "LaserScan": "/b/scan", "Image": "/b/image"}
 
 
 class Process:
@@ -56,12 +56,17 @@ class Process:
         )
         self.port = self.answer()["port"]
 
-    def order(self, do, kind="Twist", topic="", **more):
+    def order(self, do, kind, topic, **more):
         self.process.stdin.write(json.dumps({"do": do, "kind": kind, "topic": topic, **more}) + "\n")
         self.process.stdin.flush()
 
     def answer(self):
         return json.loads(self.process.stdout.readline())
+
+    def ask(self, do, topic, **more):
+        self.order(do, "", topic, **more)
+        (answer,) = self.answer().values()
+        return answer
 
     def close(self):
         self.process.stdin.close()
@@ -74,7 +79,7 @@ class Process:
 
 
 @contextlib.contextmanager
-def running_bridge(*arguments):
+def running_bridge(*arguments, **environment):
     """A parameter_bridge that is ready."""
     process = subprocess.Popen(
         [sys.executable, "-m", "ros_gz_bridge.parameter_bridge", *arguments],
@@ -82,6 +87,7 @@ def running_bridge(*arguments):
         stdout=subprocess.DEVNULL,
         text=True,
         start_new_session=True,
+        env={**os.environ, **environment},
     )
     try:
         for line in process.stderr:
@@ -98,6 +104,30 @@ def running_bridge(*arguments):
             process.wait(10)
 
 
+class Arrivals:
+    """How long each message took that arrived here [ns]; `take` waits for the next so many."""
+
+    def __init__(self):
+        self._took = []
+        self._changed = threading.Condition()
+
+    def add(self, message):
+        took = time.monotonic_ns() - sent(message)
+        with self._changed:
+            self._took.append(took)
+            self._changed.notify()
+
+    def take(self, count):
+        """Median [s] of what arrived until so many have, or none more has for some seconds."""
+        with self._changed:
+            known = -1
+            while known < len(self._took) < count:
+                known = len(self._took)
+                self._changed.wait(PATIENCE_S)
+            took, self._took = self._took, []
+        return statistics.median(took) * 1e-9
+
+
 class Bench:
     """The two sides of a bridge: this process is ROS's, another one Gazebo's."""
 
@@ -105,49 +135,46 @@ class Bench:
         self.other = other
         self.ros = Ros()
         self.context = zmq.Context()
+        self.sockets, self.arrivals = {}, {}
+        for kind in PLAN:
+            self.sockets[kind] = socket = self.context.socket(zmq.SUB)
+            socket.rcvhwm = 0
+            socket.rcvtimeo = 60_000
+            socket.connect(f"tcp://127.0.0.1:{other.port}")
+            socket.subscribe(f"/bare/{kind}".encode())
+            for topic in (f"/b/{kind.lower()}", f"/direct/{kind.lower()}"):
+                self.arrivals[topic] = Arrivals()
+                self.ros.node.create_subscription(ROS[kind], topic, self.arrivals[topic].add, 10)
+        other.order("listen", "Twist", "/b/command")
+        self.publisher = self.ros.node.create_publisher(ROS["Twist"], "/b/command", 10)
+        until(self.publisher.get_subscription_count)
 
-    def ros_hop(self, kind, topic, do):
+    def hop(self, kind, topic, do):
         """Median [s] from sending in the other process to the callback here."""
         count, rate = PLAN[kind]
-        took, done = [], threading.Event()
-
-        def take(message):
-            took.append(time.monotonic_ns() - sent(message))
-            if len(took) == count:
-                done.set()
-
-        subscription = self.ros.node.create_subscription(ROS[kind], topic, take, 10)
-        until(subscription.get_publisher_count if do == "gz" else lambda: True)
         self.other.order(do, kind, topic, count=count, rate=rate)
-        done.wait(60)
-        self.ros.node.destroy_subscription(subscription)
-        return statistics.median(took) * 1e-9
+        return self.arrivals[topic].take(count)
+
+    def both_hops(self, kind):
+        return self.bare_hop(kind) + self.hop(kind, f"/direct/{kind.lower()}", "direct")
 
     def bare_hop(self, kind):
         count, rate = PLAN[kind]
-        took, topic = [], f"/{uuid.uuid4()}"
-        with contextlib.closing(self.context.socket(zmq.SUB)) as socket:
-            socket.rcvhwm = 0
-            socket.rcvtimeo = 60_000
-            socket.connect(f"tcp://127.0.0.1:{self.other.port}")
-            socket.subscribe(topic.encode())
-            self.other.order("bare", kind, topic, count=count, rate=rate)
-            while len(took) < count:
-                took.append(sent(GZ[kind].FromString(socket.recv_multipart()[2])))
-                took[-1] = time.monotonic_ns() - took[-1]
+        took, receive = [], self.sockets[kind].recv_multipart
+        self.other.order("zeromq", kind, f"/bare/{kind}", count=count, rate=rate)
+        for _ in range(count):
+            message = GZ[kind].FromString(receive()[2])
+            took.append(time.monotonic_ns() - sent(message))
         return statistics.median(took) * 1e-9
 
-    def to_gazebo(self, publisher):
+    def to_gazebo(self):
         count, rate = PLAN["Twist"]
-        message = ROS["Twist"]()
-        pause = threading.Event()
-        self.other.order("listen", "Twist", "/b/command", count=count)
-        pause.wait(1.5)  # nothing tells on this side that the other process listens to the bridge
+        message, pause = ROS["Twist"](), threading.Event()
         for _ in range(count):
             stamp(message)
-            publisher.publish(message)
+            self.publisher.publish(message)
             pause.wait(1 / rate)
-        return statistics.median(self.other.answer()["latencies"]) * 1e-9
+        return statistics.median(self.other.ask("latencies", "/b/command", count=count)) * 1e-9
 
     def close(self):
         self.ros.close()
@@ -168,36 +195,50 @@ def environment():
 
 
 def rows() -> Iterator[Row]:
-    with environment():
-        with contextlib.closing(Process()) as other, contextlib.closing(Bench(other)) as bench:
-            with running_bridge(*BRIDGES):
-                yield from _latencies(bench)
-            yield from _camera_and_clock(bench, other)
-        yield _idle()
+    with environment(), contextlib.ExitStack() as stack:
+        idle = stack.enter_context(running_bridge(*BRIDGES, GZ_PARTITION=f"idle-{uuid.uuid4()}", ROS_DOMAIN_ID="101"))
+        ready = time.monotonic()
+        stack.enter_context(running_bridge(*BRIDGES))
+        other = stack.enter_context(contextlib.closing(Process()))
+        bench = stack.enter_context(contextlib.closing(Bench(other)))
+        for _ in range(2):  # each path once: endpoints find one another, caches fill
+            _turn(bench)
+        turns = [_turn(bench) for _ in range(TURNS // 2)]
+        busy = _busy(idle), time.monotonic()  # it has said by now what it misses
+        assert busy[1] - ready > 7, "the idle bridge is still starting"
+        turns += [_turn(bench) for _ in range(TURNS // 2)]
+        for name, wanted in (
+            *((f"Gazebo to ROS, {kind}", WANTED[kind]) for kind in PLAN),
+            ("ROS to Gazebo, Twist", 1.5),
+        ):
+            yield _row(name, [turn[name] for turn in turns], wanted)
+        yield from _camera_and_clock(bench, other)
+        share = (_busy(idle) - busy[0]) / (time.monotonic() - busy[1])
+        yield Row(f"idle bridge of {len(BRIDGES)} topics", f"{share * 100:.2f} % of a core", "-", "-", "at most 1 %")
 
 
-def _latencies(bench):
-    commands = []
+def _turn(bench):
+    """Everything once: name of the row -> (bridged, its two hops) [s]."""
+    took = {}
     for kind in PLAN:
-        rounds = []
-        for _ in range(ROUNDS):  # by turns, so that all see the same machine
-            hops = bench.bare_hop(kind) + bench.ros_hop(kind, f"/direct/{kind.lower()}", "ros")
-            rounds.append((bench.ros_hop(kind, TOPICS[kind], "gz"), hops))
-        yield _row(f"Gazebo to ROS, {kind}, median", rounds, WANTED[kind])
-    publisher = bench.ros.node.create_publisher(ROS["Twist"], "/b/command", 10)
-    until(publisher.get_subscription_count)
-    for _ in range(ROUNDS):
-        hops = bench.bare_hop("Twist") + bench.ros_hop("Twist", "/direct/twist", "ros")
-        commands.append((bench.to_gazebo(publisher), hops))
-    yield _row("ROS to Gazebo, Twist, median", commands, WANTED["Twist"])
+        hops = bench.both_hops(kind)
+        took[f"Gazebo to ROS, {kind}"] = bench.hop(kind, f"/b/{kind.lower()}", "gz"), hops
+        if kind == "Twist":
+            took["ROS to Gazebo, Twist"] = bench.to_gazebo(), hops
+    return took
 
 
-def _row(name, rounds, wanted):
-    """Each round is compared with its own reference: what else runs on the machine comes and goes."""
-    measured, reference = (statistics.median(each) for each in zip(*rounds, strict=True))
-    ratio = statistics.median(own / hops for own, hops in rounds)
+def _busy(process):
+    times = process.cpu_times()
+    return times.user + times.system
+
+
+def _row(name, turns, wanted):
+    """Each turn is compared with its own reference: what else runs on the machine comes and goes."""
+    measured, reference = (statistics.median(each) for each in zip(*turns, strict=True))
+    ratio = statistics.median(own / hops for own, hops in turns)
     return Row(
-        name,
+        f"{name}, median",
         f"{measured * 1e6:.0f} us",
         f"a ZeroMQ hop and an rclpy hop: {reference * 1e6:.0f} us",
         f"{ratio:.2f}",
@@ -206,31 +247,23 @@ def _row(name, rounds, wanted):
 
 
 def _camera_and_clock(bench, other):
-    """A full HD camera and a fast clock at once; camera, its listener and clock in processes of their own."""
-    with (
-        running_bridge(*BRIDGES),
-        contextlib.closing(Process()) as camera,
-        contextlib.closing(Process()) as viewer,
-    ):
+    """A full HD camera and a fast clock at once; camera, its two listeners and clock in processes of their own."""
+    frames = HD_SECONDS * HD_HERTZ
+    with contextlib.closing(Process()) as camera, contextlib.closing(Process()) as viewer:
+        alone = _camera_alone(camera, viewer, frames)
         times = []
-
-        def tick(message: Clock) -> None:
-            times.append(time.monotonic())
-
-        subscription = bench.ros.node.create_subscription(Clock, "/b/clock", tick, 1000)
+        subscription = bench.ros.node.create_subscription(
+            Clock, "/b/clock", lambda _: times.append(time.monotonic()), 1000
+        )
         until(subscription.get_publisher_count)
-        alone = _camera_alone(camera, viewer)
         viewer.order("take", "HD", "/b/hd")
-        threading.Event().wait(2)  # for DDS and Gazebo to find one another; nothing announces it
-        frames, ticks = HD_SECONDS * HD_HERTZ, (HD_SECONDS + 5) * CLOCK_HERTZ
-        other.order("gz", "Clock", "/b/clock", count=ticks, rate=CLOCK_HERTZ)
-        until(lambda: len(times) > 100)
+        other.order("gz", "Clock", "/b/clock", count=(HD_SECONDS + 3) * CLOCK_HERTZ, rate=CLOCK_HERTZ)
+        until(lambda: len(times) > CLOCK_HERTZ)  # time enough for DDS to connect the viewer; nothing announces it
         camera.order("gz", "HD", "/b/hd", count=frames, rate=HD_HERTZ)
         started = time.monotonic()
-        threading.Event().wait(HD_SECONDS)
-        arrived = _all_taken(viewer, frames)
-        within = [each for each in times if started <= each <= started + HD_SECONDS]
-        gaps = sorted(later - before for before, later in itertools.pairwise(within))
+        arrived = _all_taken(viewer, "/b/hd", frames)
+        ended = started + HD_SECONDS
+        gaps = sorted(b - a for a, b in itertools.pairwise(each for each in times if started <= each <= ended))
         bench.ros.node.destroy_subscription(subscription)
     yield Row(
         f"1920x1080 rgb8 at {HD_HERTZ} Hz for {HD_SECONDS} s",
@@ -248,33 +281,18 @@ def _camera_and_clock(bench, other):
     )
 
 
-def _camera_alone(camera, viewer):
+def _camera_alone(camera, viewer, frames):
     """How many frames arrive without bridge and clock."""
-    frames = HD_SECONDS * HD_HERTZ
     viewer.order("take", "HD", "/direct/hd")
-    camera.order("ros", "HD", "/direct/hd", count=frames, rate=HD_HERTZ)
-    threading.Event().wait(HD_SECONDS)
-    return _all_taken(viewer, frames)
+    camera.order("direct", "HD", "/direct/hd", count=frames, rate=HD_HERTZ)
+    return _all_taken(viewer, "/direct/hd", frames)
 
 
-def _all_taken(viewer, frames):
-    """How many frames have arrived, once all have or none came for 3 s."""
-    arrived, last = 0, time.monotonic()
-    while arrived < frames and time.monotonic() - last < 3:
-        threading.Event().wait(0.2)
-        viewer.order("taken")
-        now = viewer.answer()["arrived"]
-        if now > arrived:
+def _all_taken(viewer, topic, frames):
+    """How many frames have arrived when they have been sent, and all are there or none came for a second."""
+    sent_by, arrived, last = time.monotonic() + HD_SECONDS, 0, time.monotonic()
+    while arrived < frames and (time.monotonic() < sent_by or time.monotonic() - last < 1):
+        threading.Event().wait(0.1)
+        if (now := viewer.ask("count", topic)) > arrived:
             arrived, last = now, time.monotonic()
     return arrived
-
-
-def _idle():
-    with running_bridge(*BRIDGES) as bridge:
-        pause = threading.Event()
-        pause.wait(6.5)  # until it has said what it misses
-        before = bridge.cpu_times()
-        pause.wait(IDLE_SECONDS)
-        after = bridge.cpu_times()
-    busy = (after.user + after.system - before.user - before.system) / IDLE_SECONDS
-    return Row(f"idle bridge of {len(BRIDGES)} topics", f"{busy * 100:.2f} % of a core", "-", "-", "at most 1 %")

@@ -111,63 +111,85 @@ def until(condition, seconds=30):
         pause.wait(0.01)
 
 
-def main():
-    gc.freeze()
-    ros, node, context, publishers = Ros(), Node(), zmq.Context(), {}
-    bare = context.socket(zmq.XPUB)
-    bare.sndhwm = 0
-    port = bare.bind_to_random_port("tcp://127.0.0.1")
-    print(json.dumps({"port": port}), flush=True)
-    for line in sys.stdin:
-        order = json.loads(line)
-        kind, topic = order["kind"], order["topic"]
-        match order["do"]:
-            case "gz":
-                message = gz_example(kind)
-                publisher = publishers.setdefault(("gz", topic), None) or node.advertise(topic, type(message))
-                publishers["gz", topic] = publisher
-                assert publisher.wait_for_subscribers(timeout=30)
-                send = publisher.publish
-            case "ros":
-                message = ros_example(kind)
-                publisher = publishers.get(("ros", topic)) or ros.node.create_publisher(type(message), topic, 10)
-                publishers["ros", topic] = publisher
-                until(publisher.get_subscription_count)
-                send = publisher.publish
-            case "bare":
-                message = gz_example(kind)
-                while b"\x01" + topic.encode() != bare.recv():
-                    pass
-                frames = topic.encode(), f"tcp://127.0.0.1:{port}".encode(), message.DESCRIPTOR.full_name.encode()
+class Pair:
+    """The orders this process understands; endpoints stay, once made."""
 
-                def send(message, frames=frames):
-                    bare.send_multipart((frames[0], frames[1], message.SerializeToString(), frames[2]))
+    def __init__(self):
+        self.ros, self.node, self.bare = Ros(), Node(), zmq.Context().socket(zmq.XPUB)
+        self.bare.sndhwm = 0
+        self.port = self.bare.bind_to_random_port("tcp://127.0.0.1")
+        self.publishers, self.heard, self.taken, self.bare_topics = {}, {}, {}, set()
 
-            case "listen":  # on Gazebo's side; tells the latencies when all have come
-                times = []
+    def gz(self, order):
+        """Publish with gz.transport."""
+        message = gz_example(order["kind"])
+        if ("gz", order["topic"]) not in self.publishers:
+            self.publishers["gz", order["topic"]] = self.node.advertise(order["topic"], type(message))
+        publisher = self.publishers["gz", order["topic"]]
+        assert publisher.wait_for_subscribers(timeout=30)
+        self._send(order, message, publisher.publish)
 
-                def take(message, times=times, count=order["count"]):
-                    times.append(time.monotonic_ns() - sent(message))
-                    if len(times) == count:
-                        print(json.dumps({"latencies": times}), flush=True)
+    def direct(self, order):
+        """Publish with rclpy."""
+        message = ros_example(order["kind"])
+        if ("ros", order["topic"]) not in self.publishers:
+            self.publishers["ros", order["topic"]] = self.ros.node.create_publisher(type(message), order["topic"], 10)
+        publisher = self.publishers["ros", order["topic"]]
+        until(publisher.get_subscription_count)
+        self._send(order, message, publisher.publish)
 
-                node.unsubscribe(topic)
-                node.subscribe(GZ[kind], topic, take)
-                continue
-            case "take":  # on ROS's side; tells how many have come when asked
-                arrived = []
-                ros.node.create_subscription(ROS[kind], topic, lambda data, arrived=arrived: arrived.append(1), 10)
-                continue
-            case "taken":
-                print(json.dumps({"arrived": len(arrived)}), flush=True)
-                continue
+    def zeromq(self, order):
+        """Publish on the bare socket, with the frames that Gazebo's messages have."""
+        message, topic = gz_example(order["kind"]), order["topic"].encode()
+        while topic not in self.bare_topics:
+            self.bare_topics.add(self.bare.recv()[1:])
+        address, kind = f"tcp://127.0.0.1:{self.port}".encode(), message.DESCRIPTOR.full_name.encode()
+        self._send(
+            order,
+            message,
+            lambda message: self.bare.send_multipart((topic, address, message.SerializeToString(), kind)),
+        )
 
-        def stamped(message=message, send=send):
+    def _send(self, order, message, send):
+        def stamped():
             stamp(message)
             send(message)
 
         threading.Thread(target=paced, args=(order["count"], order["rate"], stamped)).start()
-    ros.close()
+
+    def listen(self, order):
+        """Hear a topic of Gazebo."""
+        heard = self.heard[order["topic"]] = []
+        self.node.subscribe(
+            GZ[order["kind"]], order["topic"], lambda message: heard.append(time.monotonic_ns() - sent(message))
+        )
+
+    def latencies(self, order):
+        """Tell what was heard since the last time [ns], once so many messages have come or 5 s have passed."""
+        heard, pause, end = self.heard[order["topic"]], threading.Event(), time.monotonic() + 5
+        while len(heard) < order["count"] and time.monotonic() < end:
+            pause.wait(0.005)
+        print(json.dumps({"latencies": heard}), flush=True)
+        heard.clear()
+
+    def take(self, order):
+        """Count the messages of a topic of ROS."""
+        taken = self.taken[order["topic"]] = []
+        self.ros.node.create_subscription(ROS[order["kind"]], order["topic"], lambda _: taken.append(1), 10)
+
+    def count(self, order):
+        """Tell how many were taken."""
+        print(json.dumps({"count": len(self.taken[order["topic"]])}), flush=True)
+
+
+def main():
+    gc.freeze()
+    pair = Pair()
+    print(json.dumps({"port": pair.port}), flush=True)
+    for line in sys.stdin:
+        order = json.loads(line)
+        getattr(pair, order["do"])(order)
+    pair.ros.close()
 
 
 if __name__ == "__main__":
