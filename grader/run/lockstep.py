@@ -1,9 +1,11 @@
-"""Keeps simulated time and a student's node in step: a tick ends when nothing is left to do.
+"""Keeps simulated time and the student's nodes in step: a tick ends when nothing is left to do.
 
-The simulator publishes one message at a time and waits until the student's process has taken it and is idle, and
-until everything that process published has arrived here. Nothing depends on the speed of the machine. A node that
-cannot be followed (it blocks, or never spins) is paced to the wall clock for as long as that lasts: it is never
-waited for in vain for more than `PATIENCE` at a time. `RealTime` is the same interface without the waiting.
+The simulator publishes one message at a time and waits until the student's processes have taken it and are idle, and
+until everything they published has arrived. What several processes send to each other, or at the same time to the
+simulator, would be a race: they hold it, and are told to release it one message at a time, always in the same order.
+Nothing depends on the speed of the machine. A node that cannot be followed (it blocks, or never spins) is paced to the
+wall clock for as long as that lasts: it is never waited for in vain for more than `PATIENCE` at a time. `RealTime` is
+the same interface without the waiting.
 """
 
 from __future__ import annotations
@@ -12,8 +14,10 @@ import time
 from collections import Counter
 from typing import Any, Protocol
 
-from grader.run.participant import qos_can_match
-from grader.run.student import Endpoint, Student
+from grader.run.box.course_box.watch import HOUSEKEEPING, qos_can_match
+from grader.run.participant import Participant
+from grader.run.progress import Endpoint
+from grader.run.student import Student
 
 PATIENCE = 3.0  # [s] of wall time a node may need for one message before it is paced
 GIVING_UP = 3  # after so many times it is paced for the rest of the run
@@ -55,6 +59,16 @@ def can_match(endpoint: Endpoint, ears: Ears) -> bool:
     )
 
 
+def will_match(publisher: Endpoint, subscription: Endpoint) -> bool:
+    """Whether DDS will connect a publisher with a subscription of the student's own."""
+    return (
+        publisher.topic == subscription.topic
+        and publisher.type == subscription.type
+        and not (publisher.reliability == "BEST_EFFORT" and subscription.reliability == "RELIABLE")
+        and not (publisher.durability == "VOLATILE" and subscription.durability == "TRANSIENT_LOCAL")
+    )
+
+
 class RealTime:
     """Paces simulated time to the wall clock and waits for nobody."""
 
@@ -68,38 +82,46 @@ class RealTime:
         self._lost: Counter[str] = Counter()  # published by the student, never arrived
 
     def await_ready(self) -> bool:
-        """Wait until the node spins and DDS has matched its endpoints; False if it does not within `START_UP`."""
+        """Wait until every node spins and DDS has matched its endpoints; False if none does within `START_UP`."""
         deadline = time.monotonic() + START_UP
-        while self.student.running and not (self.student.progress and self.student.progress.endpoints):
-            if time.monotonic() > deadline:
+        while self.student.running and (not self.student.participants or self.student.starting):
+            now = time.monotonic()
+            for each in self.student.participants:
+                if each.starting:
+                    each.tell({"ping": True})  # one that has closed its socket notices it only now
+                    each.follows = now < each.since + START_UP
+            if now > deadline and not self.student.participants:
                 return False
             self.student.wait(LOOK_ROUND * 10)
             self.ears.pump()
             self.everything_arrived()
         self.await_matches(time.monotonic() + MATCHING)
-        return self.student.running
+        return self.student.running and bool(self.student.endpoints)
+
+    def welcome(self) -> None:
+        """Let a process that has come meanwhile take part; in real time nobody waits."""
 
     def await_matches(self, deadline: float) -> None:
         """Wait until every endpoint that can match has matched on both sides."""
-        while self.student.running and time.monotonic() < deadline:
-            endpoints = self.student.progress.endpoints if self.student.progress else ()
-            wanted = Counter((e.topic, e.kind) for e in endpoints if can_match(e, self.ears))
-            if all(self.ears.matched(topic, kind) >= n for (topic, kind), n in wanted.items()) and all(
-                e.matched for e in endpoints if can_match(e, self.ears)
-            ):
-                return
+        while self.student.running and time.monotonic() < deadline and not self._matched():
             self.student.wait(LOOK_ROUND)
             self.ears.pump()
 
+    def _matched(self) -> bool:
+        endpoints = self.student.endpoints
+        wanted = Counter((e.topic, e.kind) for e in endpoints if can_match(e, self.ears))
+        return all(self.ears.matched(topic, kind) >= n for (topic, kind), n in wanted.items()) and all(
+            e.matched for e in endpoints if can_match(e, self.ears)
+        )
+
     def everything_arrived(self) -> bool:
-        """Whether all that the student's process says it published is here; answers it if it waits for that."""
-        published = self.student.progress.published if self.student.progress else {}
+        """Whether all that the student's processes say they published is here; answers who waits for that."""
 
         def arrived() -> bool:
             received = self.ears.received
             return all(
                 received[topic] + self._lost[topic] >= count
-                for topic, count in published.items()
+                for topic, count in self._total("published").items()
                 if self.ears.listens(topic)
             )
 
@@ -107,9 +129,21 @@ class RealTime:
             self.ears.pump()
             if not arrived():
                 return False
-        if self.student.wants_answer:
-            self.student.answer()
+        for each in self.student.participants:
+            if each.wants_answer and not each.waiting_for_release:
+                if each.progress and each.progress.held:
+                    each.release()
+                else:
+                    each.answer()
         return True
+
+    def _total(self, what: str) -> Counter[str]:
+        """Sum of one of the counters of all processes, also those that have ended."""
+        total: Counter[str] = Counter()
+        for each in self.student.participants:
+            if each.progress is not None:
+                total.update(getattr(each.progress, what))
+        return total
 
     def send(self, topic: str, publisher: Any, message: Any, now_ns: int) -> None:
         """Publish one message of the simulator at simulated time `now_ns` [ns]."""
@@ -136,14 +170,21 @@ class RealTime:
 
 
 class LockStep(RealTime):
-    """Waits after every message until the student's node has dealt with it."""
+    """Waits after every message until the student's nodes have dealt with it.
+
+    `holding`: the processes have been started so that they hold what they send. Otherwise they are told when there is
+    more than one.
+    """
 
     name = "lockstep"
 
-    def __init__(self, student: Student, ears: Ears) -> None:
+    def __init__(self, student: Student, ears: Ears, holding: bool = False) -> None:
         super().__init__(student, ears)
-        self._sent: Counter[str] = Counter()  # messages the student's process must have taken
-        self._seen_endpoints: tuple[Endpoint, ...] | None = None
+        self._holding = holding
+        self._sent: Counter[str] = Counter()  # messages the student's processes must have taken
+        self._untaken: Counter[str] = Counter()  # of those and their own: never taken (or taken and never counted)
+        self._layout: tuple[int, ...] = ()
+        self._participants: list[Participant] = []
         self._pending: tuple[str, Any, Any] | None = None
         self._now_ns = 0
         self._free = False  # paced at the moment
@@ -152,8 +193,53 @@ class LockStep(RealTime):
     def await_ready(self) -> bool:
         """As in real time; a node that does not become ready is paced from the start."""
         ready = super().await_ready()
+        self._look_around()
         self._free = not ready
         return ready
+
+    def welcome(self) -> None:
+        """Let time stand still while a process that has come meanwhile starts up."""
+        if self.student.running and self.student.starting and not self._free:
+            RealTime.await_ready(self)
+        if not self._free and self._look_around():
+            self.await_matches(time.monotonic() + MATCHING)
+
+    def _look_around(self) -> bool:
+        """Whether processes or endpoints have come or gone since the last call."""
+        if self.student.layout == self._layout:
+            return False
+        self._layout = self.student.layout
+        self._participants = self.student.followed
+        if not self._holding and len(self._participants) > 1:
+            self._holding = True
+            self._tell({"hold": True})
+        if any(p.gone for p in self.student.participants):
+            self._write_off()
+        return True
+
+    def _tell(self, order: dict[str, Any]) -> None:
+        for each in self.student.participants:
+            if not each.gone:
+                each.tell(order)
+
+    def _matched(self) -> bool:
+        if not super()._matched():
+            return False
+        if not self._holding:
+            return True
+        endpoints = self.student.endpoints
+        publishers = [e for e in endpoints if e.kind == "publisher" and e.topic not in HOUSEKEEPING]
+        subscriptions = [e for e in endpoints if e.kind == "subscription" and e.topic not in HOUSEKEEPING]
+        full = all(
+            e.matched >= can_match(e, self.ears) + sum(will_match(e, other) for other in subscriptions)
+            for e in publishers
+        ) and all(
+            e.matched >= can_match(e, self.ears) + sum(will_match(other, e) for other in publishers)
+            for e in subscriptions
+        )
+        if not full:
+            self._tell({"look": True})
+        return full
 
     def send(self, topic: str, publisher: Any, message: Any, now_ns: int) -> None:
         """Publish one message; what nobody subscribes to is not published at all."""
@@ -161,9 +247,7 @@ class LockStep(RealTime):
         self._pending = None
         if not self.student.running:
             return
-        progress = self.student.progress
-        if progress is not None and progress.endpoints is not self._seen_endpoints:
-            self._seen_endpoints = progress.endpoints
+        if self._look_around():
             self.await_matches(time.monotonic() + MATCHING)
         readers = self.ears.matched(topic, "subscription")
         if not readers:
@@ -178,27 +262,38 @@ class LockStep(RealTime):
 
     def settle(self) -> None:
         """Wait until the message just sent was taken and its consequences have arrived."""
-        if self._pending is None or self._free:
+        if self._free or not (self._pending or self._holding):
             return
-        topic, publisher, message = self._pending
+        if not self._await_settled():
+            return
+        self._pending = None
+        while self._holding and (holder := next((p for p in self._participants if _holds(p)), None)) is not None:
+            holder.release()
+            if not self._await_settled():
+                return
+
+    def _await_settled(self) -> bool:
+        """Wait until nothing is on its way and everybody is idle; False if that was in vain."""
         deadline = time.monotonic() + PATIENCE
         resend = time.monotonic() + CLOCK_AGAIN
         while not self._settled():
             if not self.student.running:
                 self._take_last_words()
-                return
+                return False
             if not self.student.wait(LOOK_ROUND):
                 self.ears.pump()
             now = time.monotonic()
             if now > deadline:
                 self._fall_out_of_step()
-                return
-            if topic == CLOCK and now > resend:
+                return False
+            if self._pending and self._pending[0] == CLOCK and now > resend:
+                _, publisher, message = self._pending
                 publisher.publish(message)
                 resend = now + CLOCK_AGAIN
+        return True
 
     def close_tick(self, tick: float) -> None:
-        """Nothing to wait for in step; a node that fell out of step gets its tick of wall time."""
+        """Nothing to wait for in step; nodes that fell out of step get their tick of wall time."""
         if not self._free or not self.student.running:
             return
         self.paced_ticks += 1
@@ -206,17 +301,46 @@ class LockStep(RealTime):
         if self._failures < GIVING_UP and self._settled():
             self._free = False
             self._due = None
+            if self._holding:
+                self._tell({"hold": True})
 
     def _settled(self) -> bool:
-        progress = self.student.progress
-        if progress is None or not self.everything_arrived():
+        if self._look_around():
+            self.await_matches(time.monotonic() + MATCHING)
+        if not self._participants or not self.everything_arrived():
             return False
-        if progress.clock is not None and progress.clock < self._now_ns:
+        for each in self._participants:
+            progress = each.progress
+            if progress is None or not progress.idle or each.waiting_for_release:
+                return False
+            if progress.clock is not None and progress.clock < self._now_ns:
+                return False
+        taken = self._total("taken")
+        due = self._due_to_be_taken()
+        if any(taken[topic] + self._untaken[topic] < count for topic, count in due.items()):
             return False
-        return all(progress.taken.get(topic, 0) >= count for topic, count in self._sent.items())
+        if self._holding:  # a late subscription may have got more than was sent to it
+            self._untaken.update({topic: count - taken[topic] - self._untaken[topic] for topic, count in due.items()})
+        return True
+
+    def _due_to_be_taken(self) -> Counter[str]:
+        """How many messages the student's processes must have taken: the simulator's, and those from each other."""
+        if not self._holding:
+            return self._sent
+        due = self._sent + self._total("delivered")
+        for topic, count in self._total("published").items():
+            if self.ears.listens(topic):
+                due[topic] -= count  # one of the readers is ours
+        return due
+
+    def _write_off(self) -> None:
+        """What was not taken by now counts as lost: who was to take it has gone, or does not answer."""
+        taken = self._total("taken")
+        for topic, count in self._due_to_be_taken().items():
+            self._untaken[topic] = max(self._untaken[topic], count - taken[topic])
 
     def _take_last_words(self) -> None:
-        """The process has ended: wait for what it published just before."""
+        """The processes have ended: wait for what they published just before."""
         deadline = time.monotonic() + PATIENCE
         while time.monotonic() < deadline and not self.everything_arrived():
             pass
@@ -225,10 +349,11 @@ class LockStep(RealTime):
         """Stop waiting: what was not taken by now counts as lost, and time goes on at the pace of the wall."""
         self._free = True
         self._failures += 1
-        progress = self.student.progress
-        if progress is None:
-            return
-        for topic in self._sent:
-            self._sent[topic] = progress.taken.get(topic, 0)
-        for topic, count in progress.published.items():
+        self._tell({"free": True})
+        self._write_off()
+        for topic, count in self._total("published").items():
             self._lost[topic] = max(0, count - self.ears.received[topic])
+
+
+def _holds(participant: Participant) -> bool:
+    return not participant.gone and participant.progress is not None and participant.progress.held > 0

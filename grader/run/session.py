@@ -18,7 +18,7 @@ from grader.kinds.kind import find_kind
 from grader.printable import shown
 from grader.run.domain import Domain
 from grader.run.sandbox import AUTO, Sandbox
-from grader.run.student import Student
+from grader.run.student import Student, node_command
 from grader.submission import Submission
 from grader.trial import Trial
 
@@ -65,7 +65,8 @@ def run(
         domain = stack.enter_context(Domain())
         sandbox = Sandbox(domain.id, level)
         stack.callback(sandbox.close)
-        student = Student(sandbox.stage(cast.files), cast.program, sandbox, topics)
+        folder = sandbox.stage(cast.files)
+        student = Student(node_command(folder / cast.program), sandbox, topics, shown=str(folder))
         stack.callback(student.close)
         stack.enter_context(_environment(sandbox.grader_environment()))
 

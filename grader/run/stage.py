@@ -22,7 +22,7 @@ from grader.record.scene import Scene
 from grader.run.ears import Ears
 from grader.run.graphs import both_graphs
 from grader.run.lockstep import LockStep, RealTime
-from grader.run.student import Endpoint, Student
+from grader.run.student import Student
 from grader.run.trial_world import load_trial_world
 from grader.trial import ScriptedCommand, Trial
 from gz.sim.errors import SimError
@@ -69,7 +69,7 @@ class Stage:
         self._out_of_time = False
         self._tampered = False  # it publishes what only the simulator may: nothing that follows would count
         self._endpoints: dict[tuple[str, str, str, str], dict[str, Any]] = {}
-        self._seen_endpoints: tuple[Endpoint, ...] | None = None
+        self._layout: tuple[int, ...] = ()
         self._messages: Counter[str] = Counter()
         self.wall_seconds = 0.0
 
@@ -98,6 +98,7 @@ class Stage:
         return self._facts(ready) | graphs
 
     def _tick(self) -> None:
+        self._pace.welcome()
         while self._script and self._script[0].at * 1e9 <= self._world.sim_time_ns:
             self._command(self._script.pop(0))
         try:
@@ -145,10 +146,9 @@ class Stage:
         for line in self._student.take_lines():
             level = LEVELS.get(line.partition(" ")[0], "INFO")
             self._recorder.text("log/student", line, level)
-        progress = self._student.progress
-        if progress is not None and progress.endpoints is not self._seen_endpoints:
-            self._seen_endpoints = progress.endpoints
-            for e in progress.endpoints:
+        if self._student.layout != self._layout:
+            self._layout = self._student.layout
+            for e in self._student.endpoints:
                 self._tampered |= e.kind == "publisher" and e.topic in self._ears.offered and not self._given
                 # Whether it had matched yet when it was first seen differs between equal runs.
                 self._endpoints.setdefault((e.kind, e.topic, e.type, e.node), asdict(e) | {"matched": None})

@@ -1,7 +1,8 @@
-"""The submission's process as the grader sees it: started in its sandbox, read from, and always ended.
+"""The submission's processes as the grader sees them: started in a sandbox, read from, and always ended.
 
-Everything it writes comes through two pipes, its progress (see `participant.py`) through a socket. The pipes are
-emptied before a progress report is read, so a log line is on record before the tick that produced it is closed.
+Everything they write comes through two pipes, the progress of each (see `participant.py`) through a socket of its own.
+The pipes are emptied before a progress report is read, so a log line is on record before the tick that produced it is
+closed.
 """
 
 from __future__ import annotations
@@ -14,103 +15,61 @@ import signal
 import socket
 import subprocess
 import sys
-from dataclasses import dataclass, field, fields
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import psutil
 
-from grader.run import participant
+from grader.run.box.course_box import channel, watch
+from grader.run.participant import Participant
+from grader.run.progress import Endpoint
 from grader.run.sandbox import Sandbox
 
 LONGEST_LINE = 2_000  # [characters] of one line that are kept
 MOST_LINES = 20_000  # kept per run; the rest is counted
-MOST_READ = 1 << 20  # [bytes] of a pipe, and
-MOST_REPORTS = 1_000  # of the socket, taken at once: who writes without end does not keep the grader from going on
+MOST_READ = 1 << 20  # [bytes] of a pipe, taken at once: who writes without end does not keep the grader
+SOCKET = "participants"  # its name
+MOST_PARTICIPANTS = 100  # processes that are followed
 SHOWN_FOLDER = b"/submission"  # what the folder of a submission is called in its log
 GRACE = 1.5  # [s] between SIGINT, SIGTERM and SIGKILL
-
-
-@dataclass(frozen=True)
-class Endpoint:
-    """A publisher or subscription of the student's node."""
-
-    node: str
-    kind: str  # publisher | subscription
-    topic: str
-    type: str
-    reliability: str
-    durability: str
-    matched: int
-
-
-@dataclass(frozen=True)
-class Progress:
-    """What the student's process last said about itself. Untrusted."""
-
-    clock: int | None = None  # [ns] simulated time its nodes have seen; None: none follows /clock
-    taken: dict[str, int] = field(default_factory=dict)
-    published: dict[str, int] = field(default_factory=dict)
-    flushes: int = 0  # how often it has asked to be told that everything arrived
-    endpoints: tuple[Endpoint, ...] = ()
-
-    @staticmethod
-    def parse(data: bytes, before: Progress | None) -> Progress | None:
-        """Read one report; None if it is not one. Endpoints it does not mention are as `before`."""
-        try:
-            raw = json.loads(data)
-            clock = raw["clock"]
-            return Progress(
-                clock=None if clock is None else _count(clock),
-                taken={str(k): _count(v) for k, v in raw["taken"].items()},
-                published={str(k): _count(v) for k, v in raw["published"].items()},
-                flushes=_count(raw["flushes"]),
-                endpoints=tuple(_endpoint(e) for e in raw["endpoints"])
-                if "endpoints" in raw
-                else before.endpoints
-                if before
-                else (),
-            )
-        except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
-            return None
-
-
-def _count(value: Any) -> int:
-    if type(value) is not int:
-        raise TypeError(f"{value!r} is no count")
-    return value
-
-
-def _endpoint(raw: dict[str, Any]) -> Endpoint:
-    endpoint = Endpoint(**raw)
-    for each in fields(Endpoint):
-        if type(getattr(endpoint, each.name)) is not (int if each.name == "matched" else str):
-            raise TypeError(f"{each.name} of an endpoint is {getattr(endpoint, each.name)!r}")
-    return endpoint
+BOX = Path(__file__).parent / "box"  # what runs in the submission's processes, seen there under the same name
 
 
 class Student:
-    """One running submission.
+    """One running submission: a process and whatever it starts.
 
-    `progress` is its latest report (None before the first), `exit_code` is None while it runs.
+    `exit_code` is that of the first process, None while it runs. `participants` are the processes that have said
+    hello, the first process first. `asked(participant, message)` gets what they ask for.
     """
 
-    def __init__(self, folder: Path, program: str, sandbox: Sandbox, topics: dict[str, dict[str, str]]) -> None:
-        """Start the file `program` of a staged folder with simulated time switched on.
+    def __init__(
+        self,
+        command: Sequence[str],
+        sandbox: Sandbox,
+        topics: dict[str, dict[str, str]],
+        environment: Mapping[str, str] | None = None,
+        asked: Callable[[Participant, dict[str, Any]], None] | None = None,
+        shown: str = "",
+    ) -> None:
+        """Start a command in a box.
 
-        `topics` says what the grader has an end for: for each kind of endpoint of the student's node (publisher,
-        subscription) the topics on which one is waited for, and their ROS types.
+        `topics` says what the grader has an end for: for each kind of endpoint of a student's node (publisher,
+        subscription) the topics on which one is waited for, and their ROS types. `shown` is a folder that is called
+        `/submission` in the log.
         """
-        ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-        ours.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 20)
-        environment = {participant.SOCKET_FD: str(theirs.fileno()), participant.TOPICS: json.dumps(topics)}
+        outside, inside = sandbox.door
+        self._listener = _listener(outside)
+        variables = {
+            channel.SOCKET: str(inside / SOCKET),
+            watch.TOPICS: json.dumps(topics),
+            "PYTHONPATH": str(BOX),
+            **(environment or {}),
+        }
+        self._asked = asked or _unasked
         self._children_before = _children()
-        self._folder = str(folder).encode()
-        command = [sys.executable, "-P", participant.__file__, str(folder / program)]
-        command += ["--ros-args", "-p", "use_sim_time:=true"]
-        self._process = sandbox.start(command, environment, (theirs.fileno(),))
-        theirs.close()
-        self._channel = ours
+        self._folder = shown.encode()
+        self._process = sandbox.start(list(command), variables)
         self._selector = selectors.DefaultSelector()
         self._partial: dict[int, bytes] = {}
         self._pipes = [self._process.stdout, self._process.stderr]
@@ -118,12 +77,10 @@ class Student:
             os.set_blocking(pipe.fileno(), False)
             self._partial[pipe.fileno()] = b""
             self._selector.register(pipe, selectors.EVENT_READ)
-        self._channel.setblocking(False)
-        self._selector.register(self._channel, selectors.EVENT_READ)
+        self._selector.register(self._listener, selectors.EVENT_READ)
+        self.participants: list[Participant] = []
         self._lines: list[str] = []
         self._line_count = 0
-        self.progress: Progress | None = None
-        self._answered = 0
         self.exit_code: int | None = None
         self.hid = False  # it closed its end of the socket and lived on
 
@@ -144,22 +101,30 @@ class Student:
         ready = self._selector.select(timeout)
         for pipe in self._pipes:
             self._drain(pipe.fileno())
-        self._read_progress()
-        if self._channel.fileno() not in self._selector.get_map() or self._process.poll() is not None:
+        self._read_participants()
+        if (self.participants and self.participants[0].gone) or self._process.poll() is not None:
             self._reap()
         return bool(ready)
 
     @property
-    def wants_answer(self) -> bool:
-        """Whether it waits to be told that everything it published has arrived."""
-        return self.progress is not None and self.progress.flushes > self._answered
+    def followed(self) -> list[Participant]:
+        """The processes with nodes that spin, sorted by name: the same order in equal runs."""
+        return sorted((p for p in self.participants if p.progress and not p.gone), key=lambda p: p.name)
 
-    def answer(self) -> None:
-        """Tell it that everything it published has arrived."""
-        if self.progress is not None:
-            self._answered = self.progress.flushes
-            with contextlib.suppress(OSError):
-                self._channel.send(b"arrived")
+    @property
+    def layout(self) -> tuple[int, ...]:
+        """Something that changes when a process or an endpoint comes or goes."""
+        return tuple(-1 if p.gone else id(p.progress.endpoints) if p.progress else 0 for p in self.participants)
+
+    @property
+    def starting(self) -> bool:
+        """Whether a process is on its way to become one that is followed."""
+        return not self.participants or any(p.starting for p in self.participants)
+
+    @property
+    def endpoints(self) -> tuple[Endpoint, ...]:
+        """All endpoints of the nodes of all processes, as last reported."""
+        return tuple(e for p in self.followed if p.progress for e in p.progress.endpoints)
 
     def take_lines(self) -> list[str]:
         """Return the lines written since the last call."""
@@ -188,25 +153,26 @@ class Student:
     def _keep(self, line: bytes) -> None:
         self._line_count += 1
         if self._line_count <= MOST_LINES:
-            line = line.replace(self._folder, SHOWN_FOLDER)  # where it lies differs between equal runs
+            if self._folder:
+                line = line.replace(self._folder, SHOWN_FOLDER)  # where it lies differs between equal runs
             self._lines.append(line.decode(errors="replace")[:LONGEST_LINE])
 
-    def _read_progress(self) -> None:
-        for _ in range(MOST_REPORTS):
-            if self._channel.fileno() not in self._selector.get_map():
-                return
+    def _read_participants(self) -> None:
+        while True:
             try:
-                data = self._channel.recv(1 << 20)
-            except BlockingIOError:
-                return
-            except ConnectionError:
-                data = b""
-            if not data:
-                self._selector.unregister(self._channel)
-                return
-            progress = Progress.parse(data, self.progress)
-            if progress is not None:
-                self.progress = progress
+                accepted, _ = self._listener.accept()
+            except OSError:
+                break
+            if len(self.participants) >= MOST_PARTICIPANTS:
+                accepted.close()
+                continue
+            self.participants.append(Participant(accepted, len(self.participants), self._asked))
+            self._selector.register(accepted, selectors.EVENT_READ)
+        for each in self.participants:
+            if not each.gone:
+                each.read()
+                if each.gone:
+                    self._selector.unregister(each.channel)
 
     def _reap(self) -> None:
         """The process has exited, or closed its end of the socket to hide; then it is ended."""
@@ -217,13 +183,14 @@ class Student:
             self.stop()
         for pipe in self._pipes:
             self._drain(pipe.fileno())
-        self._read_progress()
+        self._read_participants()
         self.exit_code = self._process.returncode
 
     def stop(self) -> None:
         """End the process group and every descendant: SIGINT, then SIGTERM, then SIGKILL."""
-        with contextlib.suppress(OSError):
-            self._channel.shutdown(socket.SHUT_WR)  # nobody is going to answer it any more
+        for each in self.participants:
+            with contextlib.suppress(OSError):
+                each.channel.shutdown(socket.SHUT_WR)  # nobody is going to answer it any more
         if self._process.poll() is None:
             for escalation in (signal.SIGINT, signal.SIGTERM):
                 self._process.signal(escalation)
@@ -248,9 +215,35 @@ class Student:
         """End the process if it still runs and close every descriptor."""
         self.stop()
         self._selector.close()
-        self._channel.close()
+        self._listener.close()
+        for each in self.participants:
+            each.close()
         for pipe in self._pipes:
             pipe.close()
+
+
+def node_command(file: Path) -> list[str]:
+    """Return the command that runs a Python file with an rclpy node, with simulated time switched on."""
+    return [sys.executable, "-P", "-m", "course_box.node", str(file), "--ros-args", "-p", "use_sim_time:=true"]
+
+
+def _listener(folder: Path) -> socket.socket:
+    """Return a listening socket in a folder, which may have a long path."""
+    listener = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    (folder / SOCKET).unlink(missing_ok=True)
+    descriptor = os.open(folder, os.O_PATH | os.O_DIRECTORY)
+    try:
+        listener.bind(f"/proc/self/fd/{descriptor}/{SOCKET}")
+    finally:
+        os.close(descriptor)
+    (folder / SOCKET).chmod(0o666)  # the box may have a user of its own
+    listener.listen(MOST_PARTICIPANTS)
+    listener.setblocking(False)
+    return listener
+
+
+def _unasked(asking: Participant, message: dict[str, Any]) -> None:
+    """Nothing is served."""
 
 
 def _children() -> set[psutil.Process]:

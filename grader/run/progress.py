@@ -1,0 +1,77 @@
+"""What a process of the submission says about itself, read with suspicion: its counts and its endpoints."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field, fields
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Endpoint:
+    """A publisher or subscription of one of the student's nodes."""
+
+    node: str
+    kind: str  # publisher | subscription
+    topic: str
+    type: str
+    reliability: str
+    durability: str
+    matched: int
+
+
+@dataclass(frozen=True)
+class Progress:
+    """What a process last said about itself. Untrusted."""
+
+    clock: int | None = None  # [ns] simulated time its nodes have seen; None: none follows /clock
+    idle: bool = True  # all its executors are asleep, or it waits for an answer
+    taken: dict[str, int] = field(default_factory=dict)
+    published: dict[str, int] = field(default_factory=dict)
+    delivered: dict[str, int] = field(default_factory=dict)  # as published, times the number of readers
+    held: int = 0  # messages that wait to be released
+    released: int = 0
+    flushes: int = 0  # how often it has asked to be told that everything arrived
+    endpoints: tuple[Endpoint, ...] = ()
+
+    @staticmethod
+    def parse(data: bytes, before: Progress | None) -> Progress | None:
+        """Read one report; None if it is not one. Endpoints it does not mention are as `before`."""
+        try:
+            raw = json.loads(data)
+            clock = raw["clock"]
+            return Progress(
+                clock=None if clock is None else _count(clock),
+                idle=raw["idle"] is True,
+                taken=_counts(raw["taken"]),
+                published=_counts(raw["published"]),
+                delivered=_counts(raw["delivered"]),
+                held=_count(raw["held"]),
+                released=_count(raw["released"]),
+                flushes=_count(raw["flushes"]),
+                endpoints=tuple(_endpoint(e) for e in raw["endpoints"])
+                if "endpoints" in raw
+                else before.endpoints
+                if before
+                else (),
+            )
+        except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+            return None
+
+
+def _counts(raw: dict[Any, Any]) -> dict[str, int]:
+    return {str(name): _count(number) for name, number in raw.items()}
+
+
+def _count(value: Any) -> int:
+    if type(value) is not int:
+        raise TypeError(f"{value!r} is no count")
+    return value
+
+
+def _endpoint(raw: dict[str, Any]) -> Endpoint:
+    endpoint = Endpoint(**raw)
+    for each in fields(Endpoint):
+        if type(getattr(endpoint, each.name)) is not (int if each.name == "matched" else str):
+            raise TypeError(f"{each.name} of an endpoint is {getattr(endpoint, each.name)!r}")
+    return endpoint
