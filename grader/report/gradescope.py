@@ -12,7 +12,7 @@ from typing import Any
 from grader.printable import storable
 from grader.record.reading import Recording
 from grader.report.node_log import node_log
-from grader.report.report import OUTCOMES, Report, points, told
+from grader.report.report import OUTCOMES, Report, points
 from grader.score.score import CheckResult
 
 LINES = 20  # of the node's log, from its end, below the verdict
@@ -34,7 +34,7 @@ def as_dict(report: Report) -> dict[str, Any]:
         **FORMATS,
         "visibility": "visible",
         "stdout_visibility": "hidden",  # it says the same once more
-        "tests": [_test(number, check) for number, check in enumerate(report.score.checks, start=1)],
+        "tests": [_test(number, check, report) for number, check in enumerate(report.score.checks, start=1)],
         "extra_data": {key: data[key] for key in ("exercise", "outcome", "truth_sha256", "versions")}
         | {"trials": [{key: trial[key] for key in trial if key != "recording"} for trial in data["trials"]]},
     }
@@ -44,14 +44,14 @@ def as_dict(report: Report) -> dict[str, Any]:
     return results
 
 
-def _test(number: int, check: CheckResult) -> dict[str, Any]:
+def _test(number: int, check: CheckResult, report: Report) -> dict[str, Any]:
     return {
         "number": str(number),
         "name": check.spec.title,
         "score": check.points,
         "max_score": check.spec.points,
         "status": "passed" if check.finding.passed else "failed",
-        "output": "\n".join(f"{name}: {value}" for name, value in told(check)),
+        "output": "\n".join(f"{name}: {value}" for name, value in report.told(check)),
         "extra_data": {"id": check.spec.id},
     }
 

@@ -11,7 +11,7 @@ from xml.etree import ElementTree as XML
 from grader.printable import storable
 from grader.record.reading import Recording
 from grader.report.node_log import node_log
-from grader.report.report import Report, points, told
+from grader.report.report import Report, points
 from grader.score.score import CheckResult
 
 
@@ -48,7 +48,7 @@ def _case(check: CheckResult, report: Report, ran: bool) -> XML.Element:
         fault = XML.SubElement(
             case, "failure" if ran else "error", {"message": storable(message), "type": storable(kind)}
         )
-        fault.text = storable("\n".join(f"{name}: {value}" for name, value in told(check)))
+        fault.text = storable("\n".join(f"{name}: {value}" for name, value in report.told(check)))
     return case
 
 

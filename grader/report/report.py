@@ -19,6 +19,7 @@ OUTCOMES = {
     "student_error": "The program could not run, or ended with an error.",
     "timeout": "The program never began to work, or held everything up.",
     "memory": "The program ran out of memory.",
+    "output": "The program printed more than anybody can read, and was ended.",
     "protocol": "The program closed the connection it is followed by.",
     "tamper": "The program published what only the simulator may; nothing counts.",
     "infra": "The machine or the grader failed; this is no verdict on the program.",
@@ -69,9 +70,25 @@ class Report:
         return self.score.points >= self.max_score
 
     @property
+    def measured(self) -> bool:
+        """Whether the checks saw anything: the submission could be run, and what it did counts."""
+        return bool(self.sim_seconds) and self.score.outcome != "tamper"
+
+    @property
     def shown_trial(self) -> TrialReport:
         """The trial to look at: the first that lost points, else the first."""
         return next((trial for trial in self.trials if trial.score.points < self.max_score), self.trials[0])
+
+    def told(self, check: CheckResult) -> list[tuple[str, str]]:
+        """Return what there is to say about one check, by name: expected, measured, when, and the hint if it failed.
+
+        There is no hint where nothing was measured: something else is to be mended first.
+        """
+        finding = check.finding
+        lines = [("expected", finding.expected), ("measured", finding.measured)]
+        if finding.at_s is not None:
+            lines.append(("when", f"{finding.at_s:.2f} s of simulated time"))
+        return [*lines, ("hint", check.spec.hint)] if self.measured and not finding.passed else lines
 
     def as_json(self) -> str:
         """Return the report as JSON text; see README for the keys."""
@@ -129,12 +146,3 @@ class Report:
 def points(value: float) -> str:
     """Return points as they are written: no more digits than they have, no traces of binary fractions."""
     return f"{round(value, 3):g}"
-
-
-def told(check: CheckResult) -> list[tuple[str, str]]:
-    """Return what there is to say about one check, by name: expected, measured, when, and the hint if it failed."""
-    finding = check.finding
-    lines = [("expected", finding.expected), ("measured", finding.measured)]
-    if finding.at_s is not None:
-        lines.append(("when", f"{finding.at_s:.2f} s of simulated time"))
-    return lines if finding.passed else [*lines, ("hint", check.spec.hint)]

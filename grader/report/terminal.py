@@ -19,7 +19,7 @@ from rich.text import Text
 from grader.printable import shown
 from grader.record.reading import Recording
 from grader.report.node_log import node_log
-from grader.report.report import Report, points, told
+from grader.report.report import Report, points
 from grader.score.score import CheckResult
 
 NO_LIMIT = 1 << 20
@@ -72,7 +72,7 @@ def _print(report: Report, console: Console) -> None:
         _print_last_lines(report, console)
     console.print()
     for check in score.checks:
-        _print_check(check, console, brief=not report.sim_seconds)
+        _print_check(check, report, console)
     if len(report.trials) > 1:
         console.print(_text("\n", ("trials", "bold")))
         rows = Table.grid(padding=(0, 2, 0, 0))
@@ -93,19 +93,19 @@ def _print(report: Report, console: Console) -> None:
         console.print(_text("recording: ", str(trial.recording)), soft_wrap=True)
 
 
-def _print_check(check: CheckResult, console: Console, *, brief: bool) -> None:
-    """Print one check. `brief`: nothing was run, and the diagnosis says why; expectations and hints are for later."""
+def _print_check(check: CheckResult, report: Report, console: Console) -> None:
+    """Print one check. Where nothing was measured the diagnosis says why, and expectations are for later."""
     finding = check.finding
     earned = f"{points(check.points)}/{points(check.spec.points)}"
     console.print(_hanging(_text(MARKS[finding.passed]), _text(check.spec.title, "  ", (earned, "bold"))))
-    if brief:
+    if not report.measured:
         return
     if finding.passed:
         when = "" if finding.at_s is None else f", at {finding.at_s:.2f} s"
         line = _text((f"{finding.measured}{when}; expected: {finding.expected}", "dim"))
         console.print(Padding(line, (0, 0, 0, INDENT)))
         return
-    for name, text in told(check):
+    for name, text in report.told(check):
         console.print(Padding(_hanging(_text(f"{name}:"), _text(text), 10), (0, 0, 0, INDENT)))
 
 

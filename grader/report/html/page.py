@@ -104,7 +104,7 @@ def as_html(report: Report) -> str:
         outcome=OUTCOMES.get(report.score.outcome, report.score.outcome),
         several=several,
         shown_trial=f" (trial {shown_trial.name})" if several else "",
-        checks=[_check_row(check, trials) for check in report.score.checks],
+        checks=[_check_row(check, report) for check in report.score.checks],
         trials=[_trial_row(trial, maps[trial.name]) for trial in trials],
         plots=[group for check in report.score.checks if (group := _plots(check, trials, recordings)).figures],
         speeds=speeds_of(recording, _robot(recording)),
@@ -138,8 +138,8 @@ def _plain(value: Any) -> Any:
     return value if isinstance(value, Markup) or not isinstance(value, str) else shown(value, LONGEST)
 
 
-def _check_row(check: CheckResult, trials: tuple[TrialReport, ...]) -> CheckRow:
-    finding = check.finding
+def _check_row(check: CheckResult, report: Report) -> CheckRow:
+    finding, told = check.finding, dict(report.told(check))
     return CheckRow(
         word=_word(finding.passed),
         title=check.spec.title,
@@ -148,8 +148,8 @@ def _check_row(check: CheckResult, trials: tuple[TrialReport, ...]) -> CheckRow:
         expected=finding.expected,
         measured=finding.measured,
         when="" if finding.at_s is None else f"{finding.at_s:.2f} s",
-        hint="" if finding.passed else check.spec.hint,
-        trial="" if finding.passed else _decisive(check, trials)[0].name,
+        hint=told.get("hint", ""),
+        trial="" if finding.passed else _decisive(check, report.trials)[0].name,
     )
 
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 
 from grader.exercise import CheckSpec
-from grader.report.report import points, told
+from grader.report.report import points
 from grader.score.check import Finding
 from grader.score.score import CheckResult
 from tests.grader.report.handmade import REPORT, nasty, result, score_of
@@ -70,11 +70,14 @@ def test_the_trial_to_look_at_is_the_first_that_lost_points():
 
 
 def test_what_there_is_to_say_about_a_check():
-    assert told(result("bad", False)) == [
-        ("expected", "is 0.5"), ("measured", "was 0.5"), ("when", "1.25 s of simulated time"),
-        ("hint", "Hint for bad."),
-    ]  # fmt: skip
-    assert told(result("good", True, at_s=None)) == [("expected", "is 0.5"), ("measured", "was 0.5")]
+    bad, good = result("bad", False), result("good", True, at_s=None)
+    brief = [("expected", "is 0.5"), ("measured", "was 0.5")]
+    when = ("when", "1.25 s of simulated time")
+    assert REPORT.told(bad) == [*brief, when, ("hint", "Hint for bad.")]
+    assert REPORT.told(good) == brief
+    tampered = dataclasses.replace(REPORT, score=dataclasses.replace(REPORT.score, outcome="tamper"))
+    for report in (tampered, dataclasses.replace(REPORT, sim_seconds=0.0)):
+        assert report.told(bad) == [*brief, when], "something else is to be mended first"
 
 
 @pytest.mark.parametrize(("value", "text"), [(60.0, "60"), (0.1 + 0.2, "0.3"), (12.5, "12.5"), (100, "100")])
