@@ -98,7 +98,7 @@ def zip_members(stream: BinaryIO) -> Iterator[tuple[str, Member]]:
     """
     archive = zipfile.ZipFile(stream)
     for info in archive.infolist():
-        if not info.is_dir():
+        if not info.filename.endswith("/"):
             yield _zip_name(info), Member(info.file_size, _zip_reader(archive, info), _zip_refusal(info))
 
 

@@ -96,8 +96,12 @@ def _graded(
         if not console.is_terminal or result["outcome"] == "infra":
             console.print(line, markup=False, highlight=False, soft_wrap=True)
 
-    with progress:
-        return run.grade(found, told, jobs=jobs or len(os.sched_getaffinity(0)), dask=dask)
+    try:
+        with progress:
+            return run.grade(found, told, jobs=jobs or len(os.sched_getaffinity(0)), dask=dask)
+    except (KeyboardInterrupt, SystemExit):
+        console.print(f"stopped: {count} of {len(found)} are done; the same command goes on from there")
+        raise
 
 
 def _line(result: dict[str, Any], most: float) -> str:
