@@ -1,4 +1,4 @@
-"""How long each chapter's notebook takes from its first cell to its last, against starting a kernel and a playground."""
+"""How long each chapter's notebook takes from first cell to last, against starting a kernel and a playground."""
 
 import asyncio
 import shutil
