@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -14,7 +15,7 @@ from grader.exercise import course_root, exercise_names, find_exercise
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from grader.verify import Verification
+    from grader.verify.proof import Verification
 
 
 def register(app: typer.Typer) -> None:
@@ -25,11 +26,18 @@ def register(app: typer.Typer) -> None:
 def verify_command(
     exercise: Annotated[str | None, typer.Argument(help="Exercise; all of them if left out.")] = None,
     out: Annotated[Path | None, typer.Option(help="Keep the recordings in this folder.")] = None,
+    jobs: Annotated[int, typer.Option(min=1, help="Grade so many variants at once. Default: one for each core.")] = len(
+        os.sched_getaffinity(0)
+    ),
+    mutants: Annotated[bool, typer.Option(help="Also spoil each solution in one place at a time.")] = True,
 ) -> None:
     """Prove that solutions earn full marks, starters nothing, and rejected variants lose what they declare."""
     from rich.console import Console
 
-    from grader.verify import orphans, verify
+    from grader.verify import orphans
+    from grader.verify.jobs import pool
+    from grader.verify.mutants import MOST
+    from grader.verify.proof import verify
 
     console = Console()
     root = course_root()
@@ -39,22 +47,36 @@ def verify_command(
         raise ManifestError(f"no public half in exercises/: {named}")
     names = [find_exercise(exercise).name] if exercise else known
     proven = True
-    with tempfile.TemporaryDirectory(prefix="course-verify-") as folder:
+    with tempfile.TemporaryDirectory(prefix="course-verify-") as folder, pool(jobs) as workers:
         for name in names:
             result = None
-            for result in verify(find_exercise(name), (out or Path(folder)) / name):
-                proof = result.proofs[-1]
-                verdict = "[red]WRONG[/red]" if proof.faults else "[green]ok[/green]"
-                console.print(f"{verdict}  {name}  {proof.variant.name}", highlight=False)
+            for result in verify(find_exercise(name), (out or Path(folder)) / name, workers, MOST if mutants else 0):
+                print_last(result, console)
             if result is not None:
                 print_matrix(result, console)
+                print_mutants(result, console)
+                print_faults(result, console)
                 proven = proven and result.proven
     raise typer.Exit(0 if proven else 1)
 
 
-def print_matrix(result: Verification, console: Console) -> None:
-    """Print which variant fails which check, and everything that is wrong."""
+def print_last(result: Verification, console: Console) -> None:
+    """Print what became of the variant or mutant graded last."""
     from rich.markup import escape
+
+    name = result.exercise.name
+    if not result.mutants:
+        proof = result.proofs[-1]
+        verdict = "[red]WRONG[/red]" if proof.faults else "[green]ok[/green]"
+        console.print(f"{verdict}  {name}  {proof.variant.name}", highlight=False)
+    else:
+        last = result.mutants[-1]
+        verdict = "[green]killed[/green]" if last.failed else "[yellow]SURVIVED[/yellow]"
+        console.print(f"{verdict}  {name}  mutant {escape(last.mutant.change)}", highlight=False, soft_wrap=True)
+
+
+def print_matrix(result: Verification, console: Console) -> None:
+    """Print which variant fails which check, and by how many each check is failed."""
     from rich.table import Table
 
     checks = result.exercise.checks
@@ -63,12 +85,49 @@ def print_matrix(result: Verification, console: Console) -> None:
     for number, _ in enumerate(checks, 1):
         table.add_column(str(number), justify="center")
     table.add_column("points", justify="right")
+    table.add_column("found out in")
     for proof in result.proofs:
         marks = ["x" if check.id in proof.failed else "." for check in checks]
-        table.add_row(proof.variant.name, *marks, f"{proof.report.score.points:g}/{result.exercise.max_score:g}")
+        points = f"{proof.report.score.points:g}/{result.exercise.max_score:g}"
+        trials = [t.name for t in proof.report.trials if t.score.points < result.exercise.max_score]
+        every = len(trials) == len(proof.report.trials)
+        table.add_row(proof.variant.name, *marks, points, "" if every or not trials else ", ".join(trials))
+    kills = [result.killed_by(check.id) for check in checks]
+    table.add_section()
+    table.add_row("rejected variants that fail it", *(str(variants) for variants, _ in kills))
+    if result.mutants:
+        table.add_row(f"of {len(result.mutants)} mutants fail it", *(str(mutants) for _, mutants in kills))
     console.print(table)
     for number, check in enumerate(checks, 1):
         console.print(f"  {number}  {check.id} ({check.points:g} points)", highlight=False)
+
+
+def print_mutants(result: Verification, console: Console) -> None:
+    """Print the mutants that nobody noticed, with their places."""
+    from rich.markup import escape
+
+    if not result.mutants:
+        return
+    dead = len(result.mutants) - len(result.survivors)
+    console.print(f"  {dead} of {len(result.mutants)} mutants of the solution were found out", highlight=False)
+    for mutant in result.survivors:
+        place = f"solutions/{result.exercise.name}/{mutant.file}:{mutant.line}"
+        console.print(
+            f"[yellow]survivor[/yellow]  {escape(place)}  {mutant.operator}: {escape(mutant.change)}",
+            highlight=False,
+            soft_wrap=True,
+        )
+    if result.survivors:
+        console.print(
+            "  A survivor earns full marks: sharpen a check, or declare it right in expect.toml, [mutants] equivalent.",
+            highlight=False,
+        )
+
+
+def print_faults(result: Verification, console: Console) -> None:
+    """Print everything that is wrong."""
+    from rich.markup import escape
+
     for fault in result.faults:
         console.print(f"[red]WRONG[/red]  {result.exercise.name}: {escape(fault)}", highlight=False)
     for proof in result.proofs:

@@ -2,9 +2,11 @@
 
 import math
 
+import numpy as np
 import pytest
 
 from grader.score.checks.per_scan import per_scan as kind
+from grader.score.checks.per_scan import scans
 from grader.table import Table
 
 
@@ -117,3 +119,11 @@ def test_printed_answers_do_not_count_and_are_told_apart(scanned):
 def test_lines_that_do_not_match_are_no_answers(scanned):
     lines = sorted([*logged("starting"), *logged("avg=1.50m")])
     assert per_scan(scanned(lines=lines), LOG).passed
+
+
+def test_a_limit_is_the_number_that_a_message_can_hold(record):
+    """0.12 in a message is the float32 nearest to it, which is less than 0.12: a ray of that length is on the limit."""
+    signals = {f"topics/lidar/scan/range_{n}": [(0, v)] for n, v in (("min", 0.12), ("max", 6.0))}
+    near = float(np.float32(0.12))
+    recording = record(signals, arrays={"topics/lidar/scan/ranges": [(0, [near, 1.0, 2.0])]})
+    assert scans(recording, "lidar/scan", "minimum")[0].answers == (1.0, near)

@@ -1,0 +1,9 @@
+"""The instructor's proof that an exercise grades as it says.
+
+`declared.py` reads what the private half declares, `proof.py` compares it with what grading gives, `mutants/` spoils
+the solution in one place at a time, `jobs.py` grades in several processes.
+"""
+
+from grader.verify.declared import FEWEST_ACCEPTED, FEWEST_REJECTED, Variant, orphans, twin, variants
+
+__all__ = ["FEWEST_ACCEPTED", "FEWEST_REJECTED", "Variant", "orphans", "twin", "variants"]

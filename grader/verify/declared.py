@@ -1,0 +1,117 @@
+"""What the private half of an exercise declares: its variants, what they must lose, which mutants change nothing.
+
+The private half is the exercise's twin in `solutions/`: the solved file, `accepted/STYLE/`, `rejected/FAULT/`,
+`trials.toml` (hidden parameters, see `grader/trial.py`) and `expect.toml`:
+
+    [rejected.never_stops]
+    fails = ["five_seconds", "stops"]        # exactly these checks
+    words = ["Twist of zeros"]               # stand in its first line of feedback
+    trial = "from_the_north"                 # optional: full marks in public, found out in this hidden trial only
+
+    [mutants]
+    equivalent = ["24: 0.1 -> 0.2"]          # a mutant that `course verify` reports as a survivor, but that is right
+
+Nothing may be missing or orphaned.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from grader.errors import ManifestError, nearest
+from grader.exercise import Exercise
+from grader.table import Table
+from grader.trial import chosen_trials
+
+FEWEST_ACCEPTED = 2
+FEWEST_REJECTED = 4
+EXPECT = "expect.toml"
+
+
+@dataclass(frozen=True)
+class Variant:
+    """One file to grade, the checks it must fail (the starter: all), and words its first line of feedback must hold.
+
+    `trial` names the hidden trial that alone finds it out.
+    """
+
+    name: str
+    file: Path
+    fails: frozenset[str]
+    words: tuple[str, ...] = ()
+    trial: str | None = None
+
+
+def twin(exercise: Exercise) -> Path:
+    """Return the folder with an exercise's private half."""
+    return exercise.twin
+
+
+def variants(exercise: Exercise) -> list[Variant]:
+    """Return everything `expect.toml` and the folders declare. Raises ManifestError for what does not fit together."""
+    folder = exercise.twin
+    path, expect = _expectations(exercise)
+    expected = expect.table("rejected")
+    every = frozenset(check.id for check in exercise.checks)
+    found = [
+        Variant("starter", exercise.starter, every),
+        Variant("solution", folder / exercise.file, frozenset()),
+    ]
+    found += [Variant(f"accepted/{p.name}", p / exercise.file, frozenset()) for p in _folders(folder / "accepted")]
+    rejected = {p.name: p for p in _folders(folder / "rejected")}
+    declared = expected.names()
+    for name in declared:
+        if name not in rejected:
+            raise ManifestError(f"{path}: no folder rejected/{name}{nearest(name, rejected)}")
+    for name, variant in rejected.items():
+        if name not in declared:
+            raise ManifestError(f"{variant} is not declared in {EXPECT}{nearest(name, declared)}")
+        entry = expected.table(name)
+        entry.where = f"{path}: rejected.{name}"
+        loses, words = frozenset(entry.texts("fails")), tuple(entry.texts("words"))
+        trial = _hidden_trial(exercise, entry) if entry.has("trial") else None
+        entry.end()
+        for check in sorted(loses - every):
+            raise ManifestError(f"{entry.where} names no check of {exercise.name}: {check}{nearest(check, every)}")
+        found.append(Variant(f"rejected/{name}", variant / exercise.file, loses, words, trial))
+    for each in found:
+        if not each.file.is_file():
+            names = [p.name for p in each.file.parent.iterdir()] if each.file.parent.is_dir() else []
+            raise ManifestError(f"{each.file.parent} has no {exercise.file}{nearest(exercise.file, names)}")
+    return found
+
+
+def equivalent_mutants(exercise: Exercise) -> tuple[str, ...]:
+    """Return the mutants that the author declares to be right answers, such as `24: 0.1 -> 0.2`."""
+    _, expect = _expectations(exercise)
+    return tuple(expect.table("mutants").texts("equivalent")) if expect.has("mutants") else ()
+
+
+def _expectations(exercise: Exercise) -> tuple[Path, Table]:
+    """Read `expect.toml` and refuse what it must not hold."""
+    path = exercise.twin / EXPECT
+    if not path.is_file():
+        raise ManifestError(f"{exercise.twin} has no {EXPECT}, which says what each rejected variant must lose")
+    expect = Table.load(path)
+    expect.table("rejected")
+    if expect.has("mutants"):
+        mutants = expect.table("mutants")
+        mutants.texts("equivalent")
+        mutants.end()
+    expect.end()
+    return path, expect
+
+
+def _hidden_trial(exercise: Exercise, entry: Table) -> str:
+    hidden = [trial.name for trial in chosen_trials(exercise, "all") if trial not in exercise.trials]
+    return entry.choice("trial", hidden)
+
+
+def orphans(root: Path, names: list[str]) -> list[Path]:
+    """Return the folders of `solutions/` that are the twin of no exercise."""
+    return [path for path in _folders(root / "solutions") if path.name not in names]
+
+
+def _folders(path: Path) -> list[Path]:
+    return sorted(p for p in path.iterdir() if p.is_dir()) if path.is_dir() else []

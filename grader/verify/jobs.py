@@ -1,0 +1,127 @@
+"""Grades in several processes at once, each of them used again and again; results come in the order asked for.
+
+A worker's life is tied to ours: it ends when we do, and what it runs ends with it. One job at a time needs no worker.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import multiprocessing
+import os
+import signal
+import sys
+import tempfile
+from collections.abc import Iterator, Sequence
+from concurrent.futures import Future, ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol
+
+from grader.errors import InfrastructureError
+from grader.exercise import Exercise
+from grader.grade import grade
+from grader.report.report import Report
+from grader.trial import Trial
+
+PR_SET_PDEATHSIG = 1
+
+
+@dataclass(frozen=True)
+class Job:
+    """One grading: `file` is what is submitted; the recordings go to the folder `out`.
+
+    `trials` are lists: a later one is run only while those before earned full marks.
+    """
+
+    exercise: Exercise
+    file: Path
+    out: Path
+    trials: tuple[tuple[Trial, ...], ...]
+
+    def run(self) -> Report:
+        """Grade it."""
+        report = None
+        for number, trials in enumerate(self.trials):
+            report = grade(self.exercise, self.file, self.out / str(number) if number else self.out, trials=trials)
+            if not report.full_marks:
+                break
+        assert report is not None
+        return report
+
+
+class Pool(Protocol):
+    """Whoever grades."""
+
+    def reports(self, jobs: Sequence[Job]) -> Iterator[Report]:
+        """Yield the report on each job, in their order."""
+
+
+class Here:
+    """Grades one after another in this process."""
+
+    def reports(self, jobs: Sequence[Job]) -> Iterator[Report]:
+        """Yield the report on each job as soon as it is asked for."""
+        return (job.run() for job in jobs)
+
+
+class Workers:
+    """Grades in `count` processes."""
+
+    def __init__(self, count: int, folder: str) -> None:
+        """Start with temporary files in `folder`, which is the caller's to remove: a killed worker cannot."""
+        spawn = multiprocessing.get_context("spawn")  # a fork would inherit the threads of DDS and of the recorder
+        self._pool = ProcessPoolExecutor(count, mp_context=spawn, initializer=_begin, initargs=(os.getpid(), folder))
+
+    def reports(self, jobs: Sequence[Job]) -> Iterator[Report]:
+        """Yield the report on each job; all are under way from the first one on.
+
+        Raises what grading raises, InfrastructureError if a worker died.
+        """
+        futures: list[Future[Report]] = [self._pool.submit(_run, job) for job in jobs]
+        try:
+            for future in futures:
+                yield future.result()
+        except BrokenProcessPool:
+            raise InfrastructureError("a process that graded variants was killed; was memory short?") from None
+        finally:
+            for future in futures:
+                future.cancel()
+
+    def close(self, *, at_once: bool) -> None:
+        """End the workers; `at_once` means that nobody waits for what they do."""
+        if at_once:
+            for process in multiprocessing.active_children():
+                process.terminate()
+        self._pool.shutdown(wait=True, cancel_futures=True)
+
+
+@contextlib.contextmanager
+def pool(count: int) -> Iterator[Pool]:
+    """Grade in `count` processes for as long as the block lasts; nothing is left running after it."""
+    if count == 1:
+        yield Here()
+        return
+    with tempfile.TemporaryDirectory(prefix="course-workers-", ignore_cleanup_errors=True) as folder:
+        workers = Workers(count, folder)
+        try:
+            yield workers
+        except BaseException:
+            workers.close(at_once=True)
+            raise
+        workers.close(at_once=False)
+
+
+def _begin(parent: int, folder: str) -> None:
+    """A worker's first act: to end with its parent, and in order."""
+    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+    if os.getppid() != parent:
+        sys.exit(3)
+    tempfile.tempdir = folder
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C in a terminal reaches the parent as well, which ends us
+    signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
+
+
+def _run(job: Job) -> Report:
+    return job.run()

@@ -1,0 +1,9 @@
+"""Mutants of a solution: the same file, spoilt in one place. What the checks do not notice they do not check.
+
+`python.py` and `yaml.py` know the places; a file is mutated by what its name ends in. `proof.py` grades what is chosen
+here.
+"""
+
+from grader.verify.mutants.mutant import MOST, Mutant, choose, mutants_of
+
+__all__ = ["MOST", "Mutant", "choose", "mutants_of"]

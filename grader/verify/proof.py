@@ -1,0 +1,156 @@
+"""Grades everything an exercise declares and compares: `course verify` prints what comes out.
+
+Solution and accepted variants earn full marks in every trial, the starter nothing in any; each rejected variant loses
+exactly what it declares, in the trials in which it declares it, and is told why. A check that no rejected variant fails
+proves nothing and is a fault. Then the solution is spoilt in one place at a time (`mutants/`): a mutant that keeps full
+marks is a survivor, which is a warning.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from grader.exercise import Exercise
+from grader.report.report import Report
+from grader.score.score import Score
+from grader.trial import chosen_trials
+from grader.verify.declared import FEWEST_ACCEPTED, FEWEST_REJECTED, Variant, equivalent_mutants, variants
+from grader.verify.jobs import Job, Pool
+from grader.verify.mutants import MOST, Mutant, choose, mutants_of
+
+REJECTED = "rejected/"
+
+
+@dataclass
+class Proof:
+    """What became of one variant. `failed` are the checks it failed in any trial."""
+
+    variant: Variant
+    failed: frozenset[str]
+    report: Report
+    faults: list[str] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class MutantProof:
+    """What became of one mutant; one that failed nothing survived."""
+
+    mutant: Mutant
+    failed: frozenset[str]
+
+
+@dataclass
+class Verification:
+    """What became of an exercise: a row for each variant, and what is wrong with the exercise as a whole."""
+
+    exercise: Exercise
+    proofs: list[Proof] = field(default_factory=list)
+    faults: list[str] = field(default_factory=list)
+    mutants: list[MutantProof] = field(default_factory=list)
+
+    @property
+    def proven(self) -> bool:
+        """Whether nothing at all is wrong. Mutants that survive are no fault."""
+        return not self.faults and not any(proof.faults for proof in self.proofs)
+
+    @property
+    def survivors(self) -> list[Mutant]:
+        """The mutants that no check noticed."""
+        return [proof.mutant for proof in self.mutants if not proof.failed]
+
+    def killed_by(self, check: str) -> tuple[int, int]:
+        """How many rejected variants and how many mutants fail a check."""
+        rejected = [proof for proof in self.proofs if proof.variant.name.startswith(REJECTED)]
+        return sum(check in proof.failed for proof in rejected), sum(check in m.failed for m in self.mutants)
+
+
+def verify(exercise: Exercise, out: Path, pool: Pool, most_mutants: int = MOST) -> Iterator[Verification]:
+    """Grade every variant and mutant; yield the growing result after each, the complete one last.
+
+    The recordings go to the folder `out`. Raises ManifestError if the halves do not fit together.
+    """
+    result = Verification(exercise)
+    declared = variants(exercise)
+    for kind, fewest in (("accepted", FEWEST_ACCEPTED), ("rejected", FEWEST_REJECTED)):
+        count = sum(v.name.startswith(f"{kind}/") for v in declared)
+        if count < fewest:
+            result.faults.append(f"{count} {kind} variants, at least {fewest} are needed")
+    for check in exercise.checks:
+        if not any(check.id in v.fails for v in declared if v.name.startswith(REJECTED)):
+            result.faults.append(f"no rejected variant fails the check {check.id}: it proves nothing")
+    every = chosen_trials(exercise, "all")
+    mutants = _mutants(exercise, result, most_mutants)
+    jobs = [Job(exercise, v.file, out / v.name, (every,)) for v in declared]
+    hidden = tuple(trial for trial in every if trial not in exercise.trials)
+    for number, mutant in enumerate(mutants, 1):
+        folder = out / "mutants" / str(number)
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / exercise.file).write_bytes(mutant.content)
+        # What the public trials find out needs no hidden ones.
+        trials = (exercise.trials, hidden) if hidden else (exercise.trials,)
+        jobs.append(Job(exercise, folder / exercise.file, folder, trials))
+    reports = pool.reports(jobs)
+    for variant in declared:
+        result.proofs.append(judge(exercise, variant, next(reports)))
+        yield result
+    for mutant in mutants:
+        result.mutants.append(MutantProof(mutant, failed_in(next(reports).score)))
+        yield result
+
+
+def _mutants(exercise: Exercise, result: Verification, most: int) -> list[Mutant]:
+    """Choose the mutants of the solution; one that is declared to be right but does not exist is a fault."""
+    if not most:
+        return []
+    found = mutants_of(exercise.file, (exercise.twin / exercise.file).read_bytes())
+    equivalent = equivalent_mutants(exercise)
+    known = {mutant.change for mutant in found}
+    result.faults += [
+        f"no mutant of the solution is {each!r}, as [mutants] declares" for each in equivalent if each not in known
+    ]
+    return choose([mutant for mutant in found if mutant.change not in equivalent], most)
+
+
+def failed_in(score: Score) -> frozenset[str]:
+    """Return the ids of the checks that a score says were failed."""
+    return frozenset(check.spec.id for check in score.checks if not check.finding.passed)
+
+
+def judge(exercise: Exercise, variant: Variant, report: Report) -> Proof:
+    """Compare what a variant declares with the report on it."""
+    failed = failed_in(report.score)
+    proof = Proof(variant, failed, report)
+    for check in sorted(failed - variant.fails):
+        measured = next(c.finding.measured for c in report.score.checks if c.spec.id == check)
+        proof.faults.append(f"fails {check}, which it must pass: {measured}")
+    proof.faults += [f"passes {check}, which it must fail" for check in sorted(variant.fails - failed)]
+    if not proof.faults:
+        proof.faults += _trials(exercise, variant, report)
+    told = " ".join([report.score.diagnosis, *(c.finding.measured + c.spec.hint for c in report.score.checks)])
+    first = report.score.diagnosis
+    for word in variant.words:
+        if word not in first:
+            where = "only further down" if word in told else "nowhere"
+            proof.faults.append(f"its first line of feedback does not say {word!r} ({where} does it stand): {first!r}")
+    return proof
+
+
+def _trials(exercise: Exercise, variant: Variant, report: Report) -> Iterator[str]:
+    """Whether the right trials found the variant out. Students practise with the public ones alone."""
+    public = {trial.name for trial in exercise.trials}
+    by_name = {trial.name: failed_in(trial.score) for trial in report.trials}
+    in_public = frozenset().union(*(failed for name, failed in by_name.items() if name in public))
+    if variant.name == "starter":
+        for trial in report.trials:
+            if trial.score.points:
+                yield f"earns {trial.score.points:g} points in the trial {trial.name}; a starter earns nothing"
+    elif variant.trial is None:
+        for check in sorted(variant.fails - in_public):
+            yield f'passes {check} in public; say trial = "..." if only a hidden trial can find it out'
+    else:
+        for check in sorted(in_public):
+            yield f"fails {check} in public already, but declares trial = {variant.trial!r}"
+        for check in sorted(variant.fails - by_name.get(variant.trial, frozenset())):
+            yield f"passes {check} in the trial {variant.trial}, which must find it out"

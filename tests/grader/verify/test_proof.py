@@ -1,0 +1,108 @@
+"""What a report on a variant is held against: checks, trials, words. The reports are made by hand."""
+
+from pathlib import Path
+
+import pytest
+
+from grader.exercise import CheckSpec, find_exercise
+from grader.report.report import Report, TrialReport
+from grader.score.check import Finding
+from grader.score.combined import combined
+from grader.score.score import CheckResult, Score
+from grader.trial import Trial
+from grader.verify.declared import Variant
+from grader.verify.mutants import Mutant
+from grader.verify.proof import MutantProof, Verification, judge
+
+CHECKS = ("a", "b")
+
+
+@pytest.fixture
+def exercise(root):
+    import dataclasses
+
+    given = find_exercise("03", root)
+    specs = tuple(CheckSpec(id, f"Check {id}", 10, "change", "A hint.") for id in CHECKS)
+    return dataclasses.replace(given, checks=specs, trials=(Trial("open", 0), Trial("wide", 1)))
+
+
+def report(exercise, **failed):
+    """A report with a trial for each name; `failed` says which checks failed in it."""
+
+    def scored(lost):
+        checks = tuple(CheckResult(spec, Finding(spec.id not in lost, "so", "not so")) for spec in exercise.checks)
+        return Score(checks, "graded", "Check: not so. A hint." if lost else "", "hash")
+
+    scores = {name: scored(lost) for name, lost in failed.items()}
+    trials = tuple(TrialReport(name, 0, score, Path("x.rrd"), "hash") for name, score in scores.items())
+    whole = combined(list(scores.items()))
+    return Report(exercise.name, "Title", "node.py", Path("x.rrd"), whole, 20, 8.0, 0, {}, None, trials)
+
+
+def faults(exercise, variant, **failed):
+    return judge(exercise, variant, report(exercise, **failed)).faults
+
+
+def variant(name="rejected/x", fails="a", words=(), trial=None):
+    return Variant(name, Path("node.py"), frozenset(fails), words, trial)
+
+
+def test_a_variant_that_loses_what_it_declares(exercise):
+    assert faults(exercise, variant(), open="a", wide="a", hidden="a") == []
+    assert faults(exercise, variant(), open="a", wide="", hidden="") == [], "one public trial is enough"
+
+
+def test_more_or_less_than_declared(exercise):
+    assert faults(exercise, variant(fails="a"), open="ab") == ["fails b, which it must pass: not so"]
+    assert faults(exercise, variant(fails="ab"), open="a") == ["passes b, which it must fail"]
+
+
+def test_what_only_a_hidden_trial_finds_out_must_be_declared(exercise):
+    assert faults(exercise, variant(), open="", wide="", hidden="a") == [
+        'passes a in public; say trial = "..." if only a hidden trial can find it out'
+    ]
+    hidden = variant(trial="hidden")
+    assert faults(exercise, hidden, open="", wide="", hidden="a") == []
+    assert faults(exercise, hidden, open="", wide="", hidden="a", more="a") == []
+    assert faults(exercise, hidden, open="a", wide="", hidden="a") == [
+        "fails a in public already, but declares trial = 'hidden'"
+    ]
+    assert faults(exercise, hidden, open="", wide="", hidden="", more="a") == [
+        "passes a in the trial hidden, which must find it out"
+    ]
+
+
+def test_a_starter_earns_nothing_in_any_trial(exercise):
+    starter = variant("starter", "ab")
+    assert faults(exercise, starter, open="ab", wide="ab") == []
+    assert faults(exercise, starter, open="a", wide="b") == [
+        "earns 10 points in the trial open; a starter earns nothing",
+        "earns 10 points in the trial wide; a starter earns nothing",
+    ]
+
+
+def test_a_solution_must_pass_in_every_trial(exercise):
+    solution = variant("solution", "")
+    assert faults(exercise, solution, open="", wide="", hidden="") == []
+    (fault,) = faults(exercise, solution, open="", wide="", hidden="b")
+    assert fault == "fails b, which it must pass: in the trial hidden: not so"
+
+
+def test_words_stand_in_the_first_line(exercise):
+    assert faults(exercise, variant(words=("not so", "hint")), open="a") == []
+    first = "'Check: not so. A hint.'"
+    assert faults(exercise, variant(words=("wheel",)), open="a") == [
+        f"its first line of feedback does not say 'wheel' (nowhere does it stand): {first}"
+    ]
+
+
+def test_kills_are_counted_by_check(exercise):
+    result = Verification(exercise)
+    for name, lost in (("starter", "ab"), ("rejected/x", "a"), ("rejected/y", "ab"), ("accepted/z", "b")):
+        result.proofs.append(judge(exercise, variant(name, lost), report(exercise, open=lost)))
+    mutant = Mutant("node.py", 1, "sign", "1", "-1", b"")
+    result.mutants = [MutantProof(mutant, frozenset("a")), MutantProof(mutant, frozenset())]
+    assert [result.killed_by(check) for check in CHECKS] == [(2, 1), (1, 0)]
+    assert result.survivors == [mutant]
+    result.proofs.pop()
+    assert result.proven is not any(proof.faults for proof in result.proofs)
