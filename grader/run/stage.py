@@ -175,6 +175,7 @@ class Stage:
             "lines_dropped": self._student.dropped_lines,
             "messages_not_recorded": {t: n - MOST_MESSAGES for t, n in self._messages.items() if n > MOST_MESSAGES},
             "hid": self._student.hid,
+            "limit": self._student.limit,
             "unstable": self._unstable,
             "out_of_time": self._out_of_time and self._world.sim_time_ns < round(self._exercise.duration * 1e9),
             "out_of_step": bool(self._pace.paced_ticks),

@@ -29,6 +29,7 @@ from grader.run.sandbox import Sandbox
 LONGEST_LINE = 2_000  # [characters] of one line that are kept
 MOST_LINES = 20_000  # kept per run; the rest is counted
 MOST_READ = 1 << 20  # [bytes] of a pipe, taken at once: who writes without end does not keep the grader
+MOST_OUTPUT = 64 << 20  # [bytes] that may be written; more ends the submission
 SOCKET = "participants"  # its name
 MOST_PARTICIPANTS = 100  # processes that are followed
 SHOWN_FOLDER = b"/submission"  # what the folder of a submission is called in its log
@@ -81,6 +82,7 @@ class Student:
         self.participants: list[Participant] = []
         self._lines: list[str] = []
         self._line_count = 0
+        self._written = 0  # [bytes]
         self.exit_code: int | None = None
         self.hid = False  # it closed its end of the socket and lived on
 
@@ -88,6 +90,11 @@ class Student:
     def running(self) -> bool:
         """True until the process was seen to end."""
         return self.exit_code is None
+
+    @property
+    def limit(self) -> str | None:
+        """What it had too much of, for which it was ended: memory, processes, disk or output; None if nothing."""
+        return "output" if self._written > MOST_OUTPUT else self._process.broken_limit
 
     @property
     def dropped_lines(self) -> int:
@@ -139,6 +146,9 @@ class Student:
             except BlockingIOError:
                 return
             left -= len(data)
+            self._written += len(data)
+            if self._written > MOST_OUTPUT:
+                self._process.kill()
             if not data:
                 self._selector.unregister(fd)
                 rest = self._partial.pop(fd)

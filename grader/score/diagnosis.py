@@ -15,6 +15,14 @@ from grader.record.reading import Recording
 
 FRAME = re.compile(r'\s+File "(.*)", line (\d+)')
 
+# What a program did that was ended for having too much of something.
+LIMITS = {
+    "memory": "and all it started used more than 2 GiB of memory together",
+    "processes": "started more than 128 processes",
+    "disk": "wrote more files, or larger ones, than its folder may hold (64 MiB)",
+    "output": "printed more than 64 MiB: more than anybody can read",
+}
+
 # Every ROS 2 node has these; they say nothing about the exercise.
 OWN_TOPICS = frozenset({"/rosout", "/parameter_events", "/clock"})
 
@@ -23,7 +31,8 @@ def outcome_of(recording: Recording) -> str:
     """Return what kind of run it was.
 
     `tamper`: it published what only the simulator may; `protocol`: it closed the descriptors it was given; `memory`: it
-    ran out of memory; `student_error`: it could not run, or crashed; `timeout`: it never spun, or held everything up;
+    ran out of memory; `output`: it wrote more than anybody can read; `student_error`: it could not run, or crashed;
+    `timeout`: it never spun, or held everything up;
     `infra`: the node given with the exercise did not do its part; `graded`: none of these.
     """
     facts = recording.facts()
@@ -35,6 +44,8 @@ def outcome_of(recording: Recording) -> str:
         return "student_error"
     if facts.get("hid"):
         return "protocol"
+    if limit := facts.get("limit"):
+        return limit if limit in ("memory", "output") else "student_error"
     if facts.get("exit_code") not in (None, 0):
         memory = any(line.text.startswith("MemoryError") for line in recording.lines("log/student"))
         return "memory" if memory else "student_error"
@@ -56,6 +67,12 @@ def diagnose(recording: Recording) -> str:
 
 def _cannot_run(recording: Recording, facts: dict[str, Any]) -> str:
     return str(facts["fault"]) if facts.get("fault") else ""
+
+
+def _broke_a_limit(recording: Recording, facts: dict[str, Any]) -> str:
+    limit = facts.get("limit")
+    when = f" at {facts['exit_at']:.2f} s of simulated time" if facts.get("exit_at") is not None else ""
+    return f"Your program {LIMITS[limit]}; it was ended{when}." if limit in LIMITS else ""
 
 
 def _died(recording: Recording, facts: dict[str, Any]) -> str:
@@ -216,6 +233,7 @@ def _given_failed(recording: Recording, facts: dict[str, Any]) -> str:
 LOOKS = (
     _tampered,
     _cannot_run,
+    _broke_a_limit,
     _died,
     _ended_early,
     _never_spun,

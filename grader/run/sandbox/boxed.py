@@ -11,6 +11,7 @@ import subprocess
 from typing import IO
 
 from grader.errors import InfrastructureError
+from grader.run.sandbox.watch import Watch
 
 LONGEST_MESSAGE = 1 << 16  # [bytes]
 
@@ -32,6 +33,7 @@ class Boxed:
         self._told: int | None = None
         self._error = ""
         self._killed = False
+        self.watch: Watch | None = None  # set by whoever started it
         if channel is not None:
             channel.setblocking(False)
 
@@ -56,6 +58,11 @@ class Boxed:
     def returncode(self) -> int | None:
         """None while it runs."""
         return self.poll()
+
+    @property
+    def broken_limit(self) -> str | None:
+        """The limit of the whole submission for which it was ended (see `watch.py`), or None."""
+        return self.watch.broken if self.watch is not None else None
 
     @property
     def running(self) -> bool:
@@ -89,6 +96,8 @@ class Boxed:
     def close(self) -> None:
         """Give the channel back; the process has been ended before."""
         self._process.wait()
+        if self.watch is not None:
+            self.watch.close()
         if self._channel is not None:
             self._channel.close()
 

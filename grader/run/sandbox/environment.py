@@ -8,22 +8,30 @@ from pathlib import Path
 KEPT_VARIABLES = ("PATH", "LANG", "LC_ALL", "TZ", "SSL_CERT_FILE")
 # Set by the ROS wheels when they restart Python; one without the other breaks `import rclpy`.
 WHEEL_VARIABLES = ("_ROS_WHEELS_BOOTSTRAP_COMPLETE", "LD_LIBRARY_PATH")
+LOOPBACK_PROFILE = Path(__file__).parents[1] / "inside" / "loopback.xml"
 CONSOLE_FORMAT = "[{severity}] [{name}]: {message}"  # no wall-clock stamp: the same run gives the same lines
 
 
-def ros_environment(domain: int, log_dir: Path, private_network: bool = False) -> dict[str, str]:
-    """Environment variables that keep one run's ROS graph on loopback and in its own domain.
-
-    In a private network there is nothing but a loopback, so discovery need not be told to stay there. It must not:
-    asked for LOCALHOST, Fast DDS prefers shared memory whatever FASTDDS_BUILTIN_TRANSPORTS says, and a box has its own.
-    """
+def ros_environment(domain: int, log_dir: Path) -> dict[str, str]:
+    """Environment variables that keep one run's ROS graph on this machine and in its own domain."""
     return {
         "ROS_DOMAIN_ID": str(domain),
-        "ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET" if private_network else "LOCALHOST",
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
         "RMW_IMPLEMENTATION": "rmw_fastrtps_cpp",
         "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4",
         "ROS_LOG_DIR": str(log_dir),
     }
+
+
+def box_environment(domain: int, log_dir: Path, private_network: bool) -> dict[str, str]:
+    """As `ros_environment`, for both ends of a box: UDP on loopback only.
+
+    Asked for LOCALHOST, rmw_fastrtps uses shared memory, too, whatever FASTDDS_BUILTIN_TRANSPORTS says: a box has its
+    own, so nothing would arrive; and elsewhere segments stay behind when a process is killed. In a private network
+    there is nothing but a loopback; in the machine's, a profile of Fast DDS keeps to it.
+    """
+    values = ros_environment(domain, log_dir) | {"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"}
+    return values if private_network else values | {"FASTRTPS_DEFAULT_PROFILES_FILE": str(LOOPBACK_PROFILE)}
 
 
 def student_environment(domain: int, home: Path, private_network: bool) -> dict[str, str]:
@@ -33,7 +41,7 @@ def student_environment(domain: int, home: Path, private_network: bool) -> dict[
         kept |= {k: os.environ[k] for k in WHEEL_VARIABLES}
     return (
         kept
-        | ros_environment(domain, home / "log", private_network)
+        | box_environment(domain, home / "log", private_network)
         | {
             "HOME": str(home),
             "TMPDIR": str(home),

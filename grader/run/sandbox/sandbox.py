@@ -18,11 +18,12 @@ from pathlib import Path
 
 from grader.errors import InfrastructureError
 from grader.run.sandbox.boxed import Boxed
-from grader.run.sandbox.environment import ros_environment, student_environment
+from grader.run.sandbox.environment import box_environment, student_environment
 from grader.run.sandbox.level import AUTO, choose, level_module
 from grader.run.sandbox.network import NetworkError, PrivateNetwork
 from grader.run.sandbox.order import HOST, LIMITS, MOST_PROCESSES, OPEN_DEVICES, OPEN_FOLDERS, Order, init_command
-from grader.run.sandbox.view import DOOR, HOME, SUBMISSION, view
+from grader.run.sandbox.view import DOOR, HOME, SUBMISSION, TMP_FILES, TMP_SIZE, view
+from grader.run.sandbox.watch import Watch, descendants
 
 PR_SET_CHILD_SUBREAPER = 36
 WITHOUT_NETWORK = "C"  # the best level for a process that cannot enter a private network (any more)
@@ -68,7 +69,7 @@ class Sandbox:
 
     def grader_environment(self) -> dict[str, str]:
         """What the grader's own ROS context needs."""
-        return ros_environment(self.domain, self.folder / "grader-log", self._module.PRIVATE_NETWORK)
+        return box_environment(self.domain, self.folder / "grader-log", self._module.PRIVATE_NETWORK)
 
     def student_environment(self) -> dict[str, str]:
         """The whole environment of the submission's process."""
@@ -103,6 +104,7 @@ class Sandbox:
         `command` begins with the path of a program; `environment` is added to `student_environment()`; `pass_fds` keep
         their numbers. A box that cannot be built is an InfrastructureError when its process is asked for its end.
         """
+        before = frozenset(descendants(os.getpid()))
         order = self._order(list(command), self.student_environment() | dict(environment), tuple(pass_fds))
         if not (self._module.WALLS or self._module.LANDLOCK):
             boxed = Boxed(_spawn(order.command, order.environment, self.home, pass_fds), self.level, None, False)
@@ -118,6 +120,10 @@ class Sandbox:
             with contextlib.suppress(OSError):  # it has ended already, and will be asked why
                 ours.send(order.for_init().as_json())
         self._boxes.append(boxed)
+        if self._module.WALLS:  # what is in the box stays below its outermost process
+            boxed.watch = Watch(boxed.pid, boxed.kill)
+        else:
+            boxed.watch = Watch(os.getpid(), boxed.kill, before, self.home, TMP_SIZE, TMP_FILES)
         return boxed
 
     def _order(self, command: list[str], environment: dict[str, str], descriptors: tuple[int, ...]) -> Order:

@@ -3,6 +3,7 @@
 import resource
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -23,11 +24,11 @@ def test_the_environment_is_cleared_but_for_what_is_needed(sandbox, monkeypatch)
     monkeypatch.setenv("SECRET_TOKEN", "swordfish")
     monkeypatch.setenv("PYTHONPATH", "/somewhere")
     monkeypatch.setenv("ROS_DOMAIN_ID", "7")
-    monkeypatch.setenv("FASTRTPS_DEFAULT_PROFILES_FILE", "/somewhere.xml")
+    monkeypatch.setenv("FASTDDS_DEFAULT_PROFILES_FILE", "/somewhere.xml")
     given = sandbox.student_environment()
-    assert not {"SECRET_TOKEN", "PYTHONPATH", "FASTRTPS_DEFAULT_PROFILES_FILE", "COURSE_ROOT"} & given.keys()
+    assert not {"SECRET_TOKEN", "PYTHONPATH", "FASTDDS_DEFAULT_PROFILES_FILE", "COURSE_ROOT"} & given.keys()
     assert given["ROS_DOMAIN_ID"] == "42"
-    assert given["ROS_AUTOMATIC_DISCOVERY_RANGE"] == "LOCALHOST"
+    assert "127.0.0.1" in Path(given["FASTRTPS_DEFAULT_PROFILES_FILE"]).read_text()
 
 
 def test_home_and_temporary_files_are_inside(sandbox):
