@@ -54,7 +54,7 @@ def plot(
 
     `alt` describes it to those who do not see it.
     """
-    end_s = end_s if math.isfinite(end_s) and end_s > 0 else 1.0
+    end_s = end_s if 0 < end_s < HUGE else 1.0
     until_s = until_s if until_s < end_s else end_s
     curves = [_drawable(curve) for curve in curves]
     low, high = _range([*(c.values for c in curves), *_edges(areas)])
@@ -106,7 +106,7 @@ def key(index: int) -> Markup:
 def ticks(low: float, high: float) -> list[float]:
     """Return at most MOST_TICKS + 1 round numbers from `low` to `high`: multiples of 1, 2 or 5 times a power of ten."""
     span = high - low
-    if not (math.isfinite(span) and span > 0):
+    if not 1 / HUGE < span <= 4 * HUGE:
         return [low]
     power = 10.0 ** math.floor(math.log10(span / MOST_TICKS))
     step = next((s for s in (power, 2 * power, 5 * power) if s > 0 and span / s <= MOST_TICKS), 10 * power)

@@ -6,7 +6,7 @@ from xml.etree import ElementTree as XML
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from grader.report.html.plot import (
@@ -122,6 +122,10 @@ def test_it_says_in_words_what_it_shows():
     bounds=st.lists(st.tuples(numbers, numbers, numbers, numbers), max_size=3),
     at=numbers, end=numbers, until=numbers,
 )  # fmt: skip
+@example(samples=[(0.0, 1.0)], bounds=[], at=0.0, end=1.0, until=math.nan)
+@example(samples=[(0.0, math.inf), (1.0, -math.inf)], bounds=[], at=math.nan, end=5e-324, until=1.0)
+@example(samples=[(0.0, 0.0)], bounds=[(-math.inf, math.inf, -math.inf, math.inf)], at=1e308, end=1.8e308, until=1.0)
+@example(samples=[(0.0, 0.0)], bounds=[(0.0, 1.0, 0.0, 1.0)], at=1.0, end=1.79e308, until=1.0)
 def test_no_number_breaks_it(samples, bounds, at, end, until):
     areas = [Area(*sorted(b[:2]), *b[2:]) for b in bounds if not any(math.isnan(v) for v in b)]
     picture = drawn([curve(*sorted(samples))], areas, Moment(at, False), end, until)
