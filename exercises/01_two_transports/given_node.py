@@ -23,6 +23,7 @@ class Patrol(Node):
         self.create_subscription(LaserScan, "/scan", self.on_scan, 10)
         self.create_subscription(Odometry, "/odom", self.on_odometry, 10)
         self.speed = 0.0
+        self.started = False
 
     def on_odometry(self, odometry):
         self.speed = odometry.twist.twist.linear.x
@@ -38,6 +39,9 @@ class Patrol(Node):
         command.linear.x = 0.0 if blocked else 0.5
         command.angular.z = 0.6 if blocked else 0.0
         self.command.publish(command)
+        if not self.started:
+            self.started = True
+            self.get_logger().info("on patrol")
         self.state.publish(String(data=f"{'turning' if blocked else 'driving'} at {self.speed:.2f} m/s"))
 
 
