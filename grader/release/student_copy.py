@@ -24,7 +24,9 @@ FILES = ("pyproject.toml", "constraints.txt", "LICENSE", ".gitignore")
 AUTHORS_ONLY = (
     "grader/scaffold",
     "grader/release",
+    "grader/package",
     "grader/commands/new.py",
+    "grader/commands/package.py",
     "grader/commands/release.py",
 )
 TRACES = ("__pycache__", "*.pyc", "*.rrd", "*.rrd.part", "runs", "recorded_run", "*.egg-info", "*~", "*.orig", "*.bak")

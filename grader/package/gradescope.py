@@ -1,0 +1,87 @@
+"""Makes the zip that Gradescope builds an autograder from: the course's programs, one exercise, its hidden trials.
+
+`setup.sh` installs the course when the autograder is built, `run_autograder` grades one submission and always leaves
+a `results.json`. Both look for everything below `/autograder`, or below AUTOGRADER_ROOT. Solutions are not part of it.
+Called by `course package`.
+"""
+
+from __future__ import annotations
+
+import shlex
+import stat
+import zipfile
+from pathlib import Path
+
+from grader.bundle import bundle
+from grader.errors import UsageError
+from grader.exercise import Exercise
+from grader.intake import is_junk
+from grader.run.sandbox import level_module
+from grader.trial import TRIALS, chosen_trials
+
+HERE = Path(__file__).parent
+CHECKOUT = Path(__file__).parents[2]
+CODE = ("sim", "grader")
+FILES = ("pyproject.toml", "constraints.txt", "LICENSE")
+TRACES = (".pyc", ".rrd", ".part", ".orig", ".bak", "~")
+PROGRAMS = ("setup.sh", "run_autograder")
+START_UP, PER_TRIAL, WALL_FACTOR = 60.0, 30.0, 2.0  # [s], [s] and wall seconds per simulated second of a grading
+WHEN = (1980, 1, 1, 0, 0, 0)  # of every file in the zip: the same exercise gives the same bytes
+
+
+def package(exercise: Exercise, target: Path, trials: str | None = None, demand: str | None = None) -> list[str]:
+    """Write the zip; return the names in it. `trials` as for `course grade`; None: all there are, hidden ones too.
+
+    Raises UsageError if the zip cannot be written, if there are no such trials, or without a checkout of the course.
+    """
+    if demand is not None:
+        level_module(demand)
+    if trials is None:
+        trials = "all" if (exercise.twin / TRIALS).is_file() else "public"
+    asked = chosen_trials(exercise, trials)
+    seconds = START_UP + sum(PER_TRIAL + WALL_FACTOR * (trial.duration or exercise.duration) for trial in asked)
+    files, choice = bundle(exercise, trials)
+    options = ["--trials", choice, *(["--demand", demand] if demand else [])]
+    values = {"DEADLINE": f"{seconds:.0f}", "EXERCISE": shlex.quote(exercise.name), "OPTIONS": shlex.join(options)}
+    contents = {f"course/{name}": data for name, data in (_programs() | files).items()}
+    contents["course/README.md"] = f"Autograder of {exercise.name}: {exercise.title}\n".encode()
+    for name in PROGRAMS:
+        text = (HERE / name).read_text(encoding="utf-8")
+        for key, value in values.items():
+            text = text.replace(f"@{key}@", value)
+        contents[name] = text.encode()
+    _write(target, contents)
+    return sorted(contents)
+
+
+def _programs() -> dict[str, bytes]:
+    missing = [name for name in (*CODE, *FILES) if not (CHECKOUT / name).exists()]
+    if missing:
+        raise UsageError(f"{CHECKOUT} lacks {missing[0]}; package from a checkout of the course, not an installation")
+    found = {name: (CHECKOUT / name).read_bytes() for name in FILES}
+    for top in CODE:
+        for path in sorted((CHECKOUT / top).rglob("*")):
+            inside = path.relative_to(CHECKOUT)
+            if path.is_file() and not any(map(is_junk, inside.parts)) and not path.name.endswith(TRACES):
+                found[inside.as_posix()] = path.read_bytes()
+    return found
+
+
+def _write(target: Path, contents: dict[str, bytes]) -> None:
+    """Write the zip in one go: what is at `target` is complete or what it was before."""
+    part = target.with_name(f".{target.name}.part")
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        if target.is_dir():
+            raise UsageError(f"{target} is a folder; give the name of a file, such as {target / 'autograder.zip'}")
+        with zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED) as archive:
+            for name, data in sorted(contents.items()):
+                info = zipfile.ZipInfo(name, WHEN)
+                info.compress_type = zipfile.ZIP_DEFLATED
+                info.external_attr = (stat.S_IFREG | (0o755 if name in PROGRAMS else 0o644)) << 16
+                archive.writestr(info, data)
+        part.replace(target)
+    except OSError as error:
+        raise UsageError(f"{target} cannot be written: {error.strerror}") from None
+    finally:
+        part.unlink(missing_ok=True)
