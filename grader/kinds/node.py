@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from grader.errors import ManifestError
 from grader.kinds.kind import Cast, Kind
 from grader.printable import shown
+from grader.wall_clock import wall_clock
 
 if TYPE_CHECKING:
     from grader.exercise import Exercise
@@ -45,7 +46,8 @@ def cast(exercise: Exercise, submission: Submission) -> Cast:
         entries = load_yaml(exercise.bridge)
     except (ConfigError, OSError) as error:
         raise ManifestError(str(error)) from None
-    return Cast(submission.main, submission.files, entries)
+    clocks = [{"file": shown(submission.main)} | place for place in wall_clock(submission.files[submission.main])]
+    return Cast(submission.main, submission.files, entries, {"wall_clock": clocks} if clocks else {})
 
 
 KIND = Kind((".py",), fault, cast)

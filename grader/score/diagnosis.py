@@ -150,7 +150,9 @@ def _publishers(recording: Recording, facts: dict[str, Any]) -> str:
             return f"{topic} is published as {mine[0]['type']}, but {kind} is expected; DDS connects equal types only."
         twins = [e["topic"] for e in published if e["type"] == kind]
         if near := get_close_matches(topic, topics, n=1, cutoff=0.6) or twins:
-            return f"Nothing is published on {topic}; your node publishes on {near[0]} instead."
+            nodes = [e["node"] for e in published if e["topic"] == near[0]]
+            why = _why(topic, near[0], nodes)
+            return f"Nothing is published on {topic}; your node publishes on {near[0]} instead.{why}"
         return f"Your node has no publisher on {topic} ({kind})."
     return ""
 
@@ -166,7 +168,8 @@ def _subscriptions(recording: Recording, facts: dict[str, Any]) -> str:
             near = get_close_matches(e["topic"], offered, n=1, cutoff=0.3)
             near = near or [topic for topic, offer in offered.items() if offer == e["type"]]
             hint = f"; did you mean {near[0]}?" if near else ""
-            return f"Your node subscribes to {e['topic']}, where nobody publishes{hint}"
+            why = _why(near[0], e["topic"], [e["node"]]) if near else ""
+            return f"Your node subscribes to {e['topic']}, where nobody publishes{hint}{why}"
         if kind != e["type"]:
             return f"Your node subscribes to {e['topic']} as {e['type']}, but it carries {kind}."
         if e["durability"] == "TRANSIENT_LOCAL":
@@ -174,6 +177,22 @@ def _subscriptions(recording: Recording, facts: dict[str, Any]) -> str:
                 f"Your subscription to {e['topic']} asks for the durability TRANSIENT_LOCAL, which the bridge does not "
                 "offer: it gets nothing. Use the default, VOLATILE."
             )
+    return ""
+
+
+def _why(wanted: str, used: str, nodes: list[str]) -> str:
+    """Why a topic has the name it has: ROS puts names that do not begin with a slash into a namespace."""
+    for node in nodes:
+        namespace = node.rpartition("/")[0]
+        if used == node + wanted:
+            return f" The ~ in its name stands for {node}: leave it out."
+        if namespace and used == namespace + wanted:
+            return (
+                f" Your node lives in the namespace {namespace}, and a name that does not begin with a slash is put "
+                f"into it: write {wanted}."
+            )
+    if used != wanted and used.endswith(wanted):
+        return f" On the ROS side it is called {wanted}: topics of ROS and of Gazebo may have different names."
     return ""
 
 

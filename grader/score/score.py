@@ -11,6 +11,7 @@ import numpy as np
 from grader.exercise import CheckSpec, Exercise
 from grader.record.reading import Recording
 from grader.score.check import Finding, perform_all
+from grader.score.clocks import clock_fault
 from grader.score.diagnosis import diagnose, outcome_of
 
 NOT_RUN = Finding(False, "a file that runs", "nothing was run")
@@ -59,7 +60,8 @@ def score(recording: Recording, exercise: Exercise) -> Score:
     diagnosis = diagnose(recording)
     if failed and not diagnosis:
         worst = max(failed, key=lambda check: (not check.finding.gated, check.spec.points))
-        diagnosis = f"{worst.spec.title}: {worst.finding.measured}. {worst.spec.hint}"
+        clock = clock_fault(recording, [check.finding for check in failed])
+        diagnosis = f"{clock} {worst.spec.title}: {worst.finding.measured}. {worst.spec.hint}".lstrip()
     return Score(checks, outcome, diagnosis if failed else "", truth_sha256(recording, exercise.robot))
 
 

@@ -143,12 +143,22 @@ def test_the_topics_every_node_has_are_not_taken_for_the_students(told):
     assert publishers(told, *own) == f"Your node has no publisher on /cmd_vel ({TWIST})."
 
 
-@pytest.mark.parametrize("topic", ["/cmdvel", "/teleop/cmd_vel", "/model/robot/cmd_vel", "/something/else"])
-def test_a_publisher_on_another_topic(told, topic):
-    assert (
-        publishers(told, endpoint(topic))
-        == f"Nothing is published on /cmd_vel; your node publishes on {topic} instead."
-    )
+@pytest.mark.parametrize(
+    ("topic", "node", "why"),
+    [
+        ("/cmdvel", "/teleop", ""),
+        ("/something/else", "/teleop", ""),
+        ("/teleop/cmd_vel", "/teleop", " The ~ in its name stands for /teleop: leave it out."),
+        ("/model/robot/cmd_vel", "/teleop", " On the ROS side it is called /cmd_vel: topics of ROS and of Gazebo may"),
+        ("/robot1/cmd_vel", "/robot1/teleop", " Your node lives in the namespace /robot1, and a name that does not"),
+        ("/robot1/teleop/cmd_vel", "/robot1/teleop", " The ~ in its name stands for /robot1/teleop"),
+    ],
+)
+def test_a_publisher_on_another_topic(told, topic, node, why):
+    sentence = publishers(told, endpoint(topic) | {"node": node})
+    start = f"Nothing is published on /cmd_vel; your node publishes on {topic} instead."
+    assert sentence.startswith(start + why)
+    assert why or sentence == start
 
 
 def test_a_publisher_of_another_type(told):
@@ -170,6 +180,8 @@ def test_a_subscription_to_nothing(told):
     assert sentence == "Your node subscribes to /lidar/scn, where nobody publishes; did you mean /lidar/scan?"
     _, sentence = told(endpoint("/q", SCAN, "subscription"))
     assert "did you mean /lidar/scan?" in sentence, "by its type"
+    _, sentence = told(endpoint("/robot1/lidar/scan", SCAN, "subscription") | {"node": "/robot1/listener"})
+    assert "did you mean /lidar/scan? Your node lives in the namespace /robot1" in sentence
 
 
 def test_a_subscription_to_its_own_publisher_is_nobodys_fault(told):

@@ -1,0 +1,41 @@
+"""Whether a node that did the right thing at the wrong time asks another clock than that of the simulation."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from grader.printable import shown
+from grader.record.reading import Recording
+from grader.score.check import Finding
+
+
+def clock_fault(recording: Recording, findings: Iterable[Finding]) -> str:
+    """Return one sentence about the clock a node asks; empty if no check failed for reasons of time.
+
+    What is known: the places in the file that ask the wall clock (the fact `wall_clock`), and which nodes never
+    subscribed to /clock, as a node does that uses simulated time.
+    """
+    if not any(finding.timing and not finding.passed and not finding.gated for finding in findings):
+        return ""
+    facts = recording.facts()
+    for place in facts.get("wall_clock", []):
+        where = f"{place['file']}, line {place['line']}"
+        if place["waits"]:
+            sentence = (
+                f"{where}: {place['call']} waits by the clock on the wall, but time is simulated here: use a timer"
+            )
+        else:
+            sentence = (
+                f"{where}: {place['call']} asks the clock on the wall, but time is simulated here: ask the node's own "
+                "clock, self.get_clock().now()"
+            )
+        return shown(f"{sentence}.")
+    endpoints = [] if facts.get("given") else facts.get("endpoints", [])
+    follows = {e["node"] for e in endpoints if e["kind"] == "subscription" and e["topic"] == "/clock"}
+    for node in sorted({e["node"] for e in endpoints} - follows):
+        return shown(
+            f"Your node {node} does not follow simulated time: its parameter use_sim_time is not true, so its clock "
+            "and its timers run by the clock on the wall. Call rclpy.init() without arguments of your own, and leave "
+            "use_sim_time as it was given."
+        )
+    return ""

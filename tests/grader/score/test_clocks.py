@@ -1,0 +1,47 @@
+"""The clock is blamed only where the right thing happened at the wrong time, and where another clock is asked."""
+
+import pytest
+
+from grader.score.check import Finding
+from grader.score.clocks import clock_fault
+
+LATE = Finding(False, "so", "not so", timing=True)
+ASKED = {"wall_clock": [{"file": "node.py", "line": 7, "call": "time.time()", "waits": False}]}
+
+
+def ends(*nodes, clock=True):
+    found = [{"node": n, "kind": "publisher", "topic": "/cmd_vel", "type": "t"} for n in nodes]
+    return found + [{"node": n, "kind": "subscription", "topic": "/clock", "type": "t"} for n in nodes if clock]
+
+
+def test_the_place_is_told(record):
+    assert clock_fault(record(facts=ASKED), [LATE]) == (
+        "node.py, line 7: time.time() asks the clock on the wall, but time is simulated here: ask the node's own "
+        "clock, self.get_clock().now()."
+    )
+    sleeps = {"wall_clock": [ASKED["wall_clock"][0] | {"call": "time.sleep()", "waits": True}]}
+    assert "time.sleep() waits by the clock on the wall" in clock_fault(record(facts=sleeps), [LATE])
+
+
+@pytest.mark.parametrize(
+    "finding",
+    [
+        Finding(False, "so", "not so"),
+        Finding(True, "so", "so", timing=True),
+        Finding(False, "so", "gated", timing=True, gated=True),
+    ],
+)
+def test_who_failed_for_another_reason_is_not_told_of_clocks(record, finding):
+    assert clock_fault(record(facts=ASKED | {"endpoints": ends("/n", clock=False)}), [finding]) == ""
+
+
+def test_a_node_that_does_not_follow_the_clock(record):
+    facts = {"endpoints": ends("/good") + ends("/bad", clock=False)}
+    sentence = clock_fault(record(facts=facts), [LATE])
+    assert "Your node /bad does not follow simulated time" in sentence and "use_sim_time" in sentence
+    assert clock_fault(record(facts={"endpoints": ends("/good", "/too")}), [LATE]) == ""
+    assert clock_fault(record(facts=facts | {"given": True}), [LATE]) == "", "it is not the student's"
+
+
+def test_nothing_known_nothing_said(record):
+    assert clock_fault(record(), [LATE]) == ""
