@@ -25,7 +25,7 @@ def wall_clock(content: bytes) -> list[dict[str, Any]]:
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return []
     names = _imported(tree)
-    found = []
+    found: list[dict[str, Any]] = []
     for node in ast.walk(tree):
         if isinstance(node, ast.Call) and (call := _dotted(node.func, names)) in ASKED | WAITED:
             ros = call == "rclpy.clock.Clock" and any("ROS_TIME" in ast.unparse(each) for each in _arguments(node))
@@ -36,7 +36,7 @@ def wall_clock(content: bytes) -> list[dict[str, Any]]:
 
 def _imported(tree: ast.Module) -> dict[str, str]:
     """Return what each imported name stands for: `from time import monotonic as now` gives now: time.monotonic."""
-    names = {}
+    names: dict[str, str] = {}
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):
             names |= {alias.asname or alias.name.partition(".")[0]: alias.name for alias in node.names if alias.asname}
