@@ -70,9 +70,10 @@ def test_a_curve_ends_with_the_simulation():
     assert corners(path.get("d"))[-1][0] == x_of(3)
 
 
-def test_a_peak_between_two_pixels_is_not_lost():
+@pytest.mark.parametrize("peak", range(5000, 5010))
+def test_a_peak_between_two_pixels_is_not_lost(peak):
     samples = [(i / 1000, 0.0) for i in range(10_000)]
-    samples[5000] = (5.0, 1.0)
+    samples[peak] = (peak / 1000, 1.0)
     (path,) = drawn([curve(*samples)]).findall("path")
     heights = {y for _, y in corners(path.get("d"))}
     assert len(heights) == 2
