@@ -45,7 +45,7 @@ def python_of(cell):
     if cell.source.startswith("%%writefile"):
         first, _, rest = cell.source.partition("\n")
         return rest if first.endswith(".py") else ""
-    return re.sub(r"^(\s*)(\w+ = )?[!%].*$", r"\1pass", cell.source, flags=re.MULTILINE)
+    return re.sub(r"^(\s*)(\w+ = )?[!%](.*\\\n)*.*$", r"\1pass", cell.source, flags=re.MULTILINE)
 
 
 def shell_lines(cell):
