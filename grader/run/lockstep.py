@@ -15,13 +15,13 @@ from collections import Counter
 from typing import Any, Protocol
 
 from grader.run.box.course_box.watch import HOUSEKEEPING, qos_can_match
+from grader.run.children import START_UP
 from grader.run.participant import Participant
 from grader.run.progress import Endpoint
 from grader.run.student import Student
 
 PATIENCE = 3.0  # [s] of wall time a node may need for one message before it is paced
 GIVING_UP = 3  # after so many times it is paced for the rest of the run
-START_UP = 10.0  # [s] of wall time from process start to a node that spins
 MATCHING = 5.0  # [s] of wall time for DDS to match the endpoints of a new node; a lost announcement costs 3 s
 CLOCK_AGAIN = 0.05  # [s] /clock is best effort on the student's side, so it is sent again until it was seen
 LOOK_ROUND = 0.002  # [s] how long to listen to the student before listening to ROS

@@ -22,7 +22,7 @@ MOST_AT_ONCE = 1_000  # messages taken in one go: who sends without end does not
 class Participant:
     """A connection. `progress` is its latest report (None before the first), `gone` is set at its end.
 
-    `asked(participant, message)` is called with every message that is neither a hello nor a report.
+    `asked(participant, message)` is called with every message that is not a report.
     """
 
     def __init__(
@@ -36,6 +36,8 @@ class Participant:
         self.progress: Progress | None = None
         self.gone = False
         self.follows = True  # False: no reports are expected of it
+        self.uses_ros = False  # it has imported rclpy
+        self.waits = False  # it does nothing but wait, for its children or for events
         self._asked = asked
         self._answered = 0
         self._released = 0
@@ -51,7 +53,8 @@ class Participant:
     @property
     def starting(self) -> bool:
         """Whether a first report with endpoints is still to come."""
-        return self.follows and not self.gone and not (self.progress and self.progress.endpoints)
+        joined = self.progress is not None and bool(self.progress.endpoints)
+        return self.follows and not (joined or self.gone or (self.waits and not self.uses_ros))
 
     @property
     def waiting_for_release(self) -> bool:
@@ -101,12 +104,12 @@ class Participant:
             return
         try:
             message = json.loads(data)
-            hello = message.get("hello")
-            if hello is None:
-                self._asked(self, message)
-            else:
+            if hello := message.get("hello"):
                 self.pid, self.group = int(hello["pid"]), int(hello["group"])
                 self.command = tuple(str(word) for word in hello["command"])
+            self.uses_ros |= "ros" in message
+            self.waits = "waiting" in message
+            self._asked(self, message)
         except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
             return  # nothing that anybody of ours would send
 

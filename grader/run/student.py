@@ -22,6 +22,7 @@ from typing import Any
 import psutil
 
 from grader.run.box.course_box import channel, watch
+from grader.run.children import Children
 from grader.run.participant import Participant
 from grader.run.progress import Endpoint
 from grader.run.sandbox import Sandbox
@@ -80,6 +81,7 @@ class Student:
             self._selector.register(pipe, selectors.EVENT_READ)
         self._selector.register(self._listener, selectors.EVENT_READ)
         self.participants: list[Participant] = []
+        self._children = Children()
         self._lines: list[str] = []
         self._line_count = 0
         self._written = 0  # [bytes]
@@ -126,7 +128,7 @@ class Student:
     @property
     def starting(self) -> bool:
         """Whether a process is on its way to become one that is followed."""
-        return not self.participants or any(p.starting for p in self.participants)
+        return not self.participants or self._children.changing or any(p.starting for p in self.participants)
 
     @property
     def endpoints(self) -> tuple[Endpoint, ...]:
@@ -176,13 +178,18 @@ class Student:
             if len(self.participants) >= MOST_PARTICIPANTS:
                 accepted.close()
                 continue
-            self.participants.append(Participant(accepted, len(self.participants), self._asked))
+            self.participants.append(Participant(accepted, len(self.participants), self._hear))
             self._selector.register(accepted, selectors.EVENT_READ)
         for each in self.participants:
             if not each.gone:
                 each.read()
                 if each.gone:
                     self._selector.unregister(each.channel)
+                    self._children.leave(each.pid)
+
+    def _hear(self, who: Participant, message: dict[str, Any]) -> None:
+        self._children.hear(message)
+        self._asked(who, message)
 
     def _reap(self) -> None:
         """The process has exited, or closed its end of the socket to hide; then it is ended."""

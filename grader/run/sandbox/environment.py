@@ -8,7 +8,7 @@ from pathlib import Path
 KEPT_VARIABLES = ("PATH", "LANG", "LC_ALL", "TZ", "SSL_CERT_FILE")
 # Set by the ROS wheels when they restart Python; one without the other breaks `import rclpy`.
 WHEEL_VARIABLES = ("_ROS_WHEELS_BOOTSTRAP_COMPLETE", "LD_LIBRARY_PATH")
-LOOPBACK_PROFILE = Path(__file__).parents[1] / "inside" / "loopback.xml"
+PROFILES = Path(__file__).parents[1] / "inside"
 CONSOLE_FORMAT = "[{severity}] [{name}]: {message}"  # no wall-clock stamp: the same run gives the same lines
 
 
@@ -28,10 +28,11 @@ def box_environment(domain: int, log_dir: Path, private_network: bool) -> dict[s
 
     Asked for LOCALHOST, rmw_fastrtps uses shared memory, too, whatever FASTDDS_BUILTIN_TRANSPORTS says: a box has its
     own, so nothing would arrive; and elsewhere segments stay behind when a process is killed. In a private network
-    there is nothing but a loopback; in the machine's, a profile of Fast DDS keeps to it.
+    there is nothing but a loopback; in the machine's, a profile of Fast DDS keeps to it. Both announce often.
     """
-    values = ros_environment(domain, log_dir) | {"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"}
-    return values if private_network else values | {"FASTRTPS_DEFAULT_PROFILES_FILE": str(LOOPBACK_PROFILE)}
+    profile = PROFILES / ("private.xml" if private_network else "loopback.xml")
+    values = {"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET", "FASTRTPS_DEFAULT_PROFILES_FILE": str(profile)}
+    return ros_environment(domain, log_dir) | values
 
 
 def student_environment(domain: int, home: Path, private_network: bool) -> dict[str, str]:

@@ -12,8 +12,12 @@ from importlib.machinery import ModuleSpec
 from types import ModuleType
 from typing import Any
 
-# Once the module on the left is loaded, `install()` of the one on the right is called.
-AFTER = {"rclpy": "participant"}
+# Once the module on the left is loaded, the function on the right is called.
+AFTER = {
+    "rclpy": ("participant", "install"),
+    "subprocess": ("children", "install"),
+    "asyncio.base_events": ("children", "install_in_event_loops"),
+}
 
 
 class Hooks:
@@ -38,13 +42,14 @@ class Hooks:
 class _Loader:
     """Loads as another loader does, then calls a function of ours."""
 
-    def __init__(self, loader: Any, then: str) -> None:
+    def __init__(self, loader: Any, then: tuple[str, str]) -> None:
         self._loader = loader
         self._then = then
 
     def exec_module(self, module: ModuleType) -> None:
         self._loader.exec_module(module)
-        importlib.import_module(f"{__package__}.{self._then}").install()
+        name, function = self._then
+        getattr(importlib.import_module(f"{__package__}.{name}"), function)()
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._loader, name)

@@ -8,11 +8,13 @@ is trusted: a process that lies about itself only spoils its own run.
 from __future__ import annotations
 
 import atexit
+import contextlib
 import copy
 import json
 import os
 import runpy
 import sys
+import threading
 import time
 import traceback
 from pathlib import Path
@@ -38,6 +40,7 @@ def install() -> None:
     _watch_executors(_watch)
     _watch_messages(_watch)
     _watch_services(_watch)
+    channel().send({"ros": True})
     _watch.listen()
     atexit.register(_watch.flush)
     sys.excepthook = lambda kind, error, trace: print_traceback(error)
@@ -63,9 +66,14 @@ def _watch_executors(watch: Watch) -> None:
             def ended(running: list[Any] = running) -> bool:
                 return condition() or all(future.done() for future in running)
 
+            # What is left of an earlier look ends in a timeout, too; only a new look says that there is nothing to do.
+            old = patience == 0.0 and executor._cb_iter is not None
             try:
                 found = wait(executor, patience, nodes, ended if running and patience else condition)
             except TimeoutException:
+                executor._cb_iter = None
+                if old:
+                    continue
                 if patience and deadline is not None and time.monotonic() >= deadline:
                     raise
             except ConditionReachedException:
@@ -149,15 +157,18 @@ def _watch_services(watch: Watch) -> None:
 
     take_request, take_response = Executor._take_service, Executor._take_client
     call, respond = Client.call, Service.send_response
+    caller = threading.local()
 
     def watched_take_request(executor: Any, service: Any) -> Any:
         callback = take_request(executor, service)
-        watch.count(watch.taken, f"request {service.service_name}")
+        if _took(callback, "request_and_header"):
+            watch.count(watch.taken, f"request {service.service_name}")
         return callback
 
     def watched_take_response(executor: Any, client: Any) -> Any:
         callback = take_response(executor, client)
-        watch.count(watch.taken, f"response {client.service_name}")
+        if _took(callback, "header_and_response"):
+            watch.count(watch.taken, f"response {client.service_name}")
         return callback
 
     def watched_call_async(client: Any, request: Any) -> Any:
@@ -165,6 +176,8 @@ def _watch_services(watch: Watch) -> None:
             raise TypeError
         asked = copy.deepcopy(request)
         future = Future()
+        if calling := getattr(caller, "calling", None):
+            future.add_done_callback(lambda _: calling.close())
         future.add_done_callback(client.remove_pending_request)
 
         def send() -> None:
@@ -181,8 +194,14 @@ def _watch_services(watch: Watch) -> None:
         return future
 
     def watched_call(client: Any, *args: Any, **kwargs: Any) -> Any:
-        with watch.blocked():
-            return call(client, *args, **kwargs)
+        # Until the response is here, which the future of `call_async` is told first.
+        with contextlib.ExitStack() as calling:
+            calling.enter_context(watch.blocked())
+            caller.calling = calling
+            try:
+                return call(client, *args, **kwargs)
+            finally:
+                caller.calling = None
 
     def watched_respond(service: Any, response: Any, header: Any) -> None:
         if not isinstance(response, service.srv_type.Response):
@@ -199,6 +218,17 @@ def _watch_services(watch: Watch) -> None:
     Client.call_async = watched_call_async
     Client.call = watched_call
     Service.send_response = watched_respond
+
+
+def _took(callback: Any, pair: str) -> bool:
+    """Whether something was there: a client is woken by the responses of others, too, and takes nothing then.
+
+    `callback` is what the executor is going to run, which has what was taken as the variable `pair`.
+    """
+    if callback is None:
+        return False
+    variables = dict(zip(callback.__code__.co_freevars, callback.__closure__ or (), strict=False))
+    return pair in variables and None not in variables[pair].cell_contents
 
 
 def print_traceback(error: BaseException) -> None:

@@ -1,0 +1,62 @@
+"""Which processes a submission has started, as far as it tells: who is about to join, and who has just left.
+
+Fed by `Student` with what `box/course_box/children.py` says. A process that is starting up cannot say anything yet, and
+what its parent does about its end takes a moment; simulated time stands still meanwhile.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from typing import Any
+
+START_UP = 10.0  # [s] of wall time for a process to say hello, and then to have a node that spins
+LEAVING = 1.0  # [s] for its parent to notice that it has ended
+MOST_CHILDREN = 1_000
+SHELLS = ("sh", "dash", "bash", "env")  # they may become a Python
+
+
+@dataclass
+class Child:
+    """One process. `state` is `starting`, `here` (it has said hello), `left`, `ended`, `silent` (it never speaks)."""
+
+    pid: int  # as it is seen in the box
+    state: str
+    since: float  # [s] monotonic
+    code: int | None = None
+
+
+class Children:
+    """All processes that were told of, by their number in the box."""
+
+    def __init__(self) -> None:
+        self._children: dict[int, Child] = {}
+
+    def hear(self, message: dict[str, Any]) -> None:
+        """Take note of a message. What is malformed raises TypeError, KeyError or ValueError."""
+        now = time.monotonic()
+        if (started := message.get("started")) and len(self._children) < MOST_CHILDREN:
+            program = str(started["program"])
+            speaks = program.startswith("python") or program in SHELLS
+            self._children[int(started["pid"])] = Child(int(started["pid"]), "starting" if speaks else "silent", now)
+        elif ended := message.get("ended"):
+            child = self._children.get(int(ended["pid"]))
+            if child is not None:
+                child.state, child.code = "ended", int(ended["code"])
+        elif hello := message.get("hello"):
+            for pid in (int(hello["pid"]), int(hello["group"])):
+                if (child := self._children.get(pid)) and child.state in ("starting", "left"):
+                    child.state = "here"
+
+    def leave(self, pid: int) -> None:
+        """The process with this number has closed its socket: it ends, or becomes another program."""
+        child = self._children.get(pid)
+        if child is not None and child.state == "here":
+            child.state, child.since = "left", time.monotonic()
+
+    @property
+    def changing(self) -> bool:
+        """Whether one is about to say hello, or to be missed by its parent."""
+        now = time.monotonic()
+        patience = {"starting": START_UP, "left": LEAVING}
+        return any(now < child.since + patience.get(child.state, 0.0) for child in self._children.values())
