@@ -15,13 +15,13 @@ from grader.score.score import CheckResult, Score
 
 # What each outcome means, in a sentence.
 OUTCOMES = {
-    "graded": "The program ran to the end and was graded.",
-    "student_error": "The program could not run, or ended with an error.",
-    "timeout": "The program never began to work, or held everything up.",
-    "memory": "The program ran out of memory.",
-    "output": "The program printed more than anybody can read, and was ended.",
-    "protocol": "The program closed the connection it is followed by.",
-    "tamper": "The program published what only the simulator may; nothing counts.",
+    "graded": "The submission ran to the end and was graded.",
+    "student_error": "The submission could not run, or ended with an error.",
+    "timeout": "The submission never began to work, or held everything up.",
+    "memory": "The submission ran out of memory.",
+    "output": "The submission printed more than anybody can read, and was ended.",
+    "protocol": "The submission closed the connection it is followed by.",
+    "tamper": "The submission published what only the simulator may; nothing counts.",
     "infra": "The machine or the grader failed; this is no verdict on the program.",
 }
 

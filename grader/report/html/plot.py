@@ -17,6 +17,7 @@ WIDTH, HEIGHT = 720, 190
 LEFT, RIGHT, TOP, BOTTOM = 62, 14, 20, 34  # margins around the plotting area
 HUGE = 1e150  # larger values are drawn as this: their differences must stay finite
 MOST_TICKS = 6
+FLAT = 1e-6  # what varies less is a constant with the noise of computing
 COLUMN = 0.5  # pixels that samples may lie apart to be drawn as one
 
 
@@ -138,7 +139,7 @@ def _range(values: Sequence[np.ndarray]) -> tuple[float, float]:
         return 0.0, 1.0
     low, high = float(every.min()), float(every.max())
     room = 0.08 * (high - low)
-    if room <= 1e-9 * max(abs(low), abs(high)) or room < 1e-150:  # a constant: it is drawn in the middle
+    if high - low < max(FLAT, 1e-9 * max(abs(low), abs(high))):  # a constant: it is drawn in the middle
         room = max(abs(low), abs(high), 1.0) * 0.1
     return low - room, high + room
 

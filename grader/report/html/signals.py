@@ -38,10 +38,10 @@ def figures_of(check: CheckResult, recording: Recording) -> list[Figure]:
     """Return a plot for each signal that a check looked at and that was recorded."""
     finding, parameters = check.finding, check.spec.parameters
     bands = {name: [b for b in finding.bands if b.signal == name] for name in [b.signal for b in finding.bands]}
-    gate = parameters.get("gate")
-    if finding.gated and isinstance(gate, dict):  # what it failed for is the gate alone
-        bands = {str(gate.get("signal")): []}
-    named = list(bands) or list(_texts({k: v for k, v in parameters.items() if k != "gate"}))
+    areas = {name: [Area(b.low, b.high, b.start, b.end) for b in bands] for name, bands in bands.items()}
+    if finding.gated:  # what it failed for is the gate alone
+        areas = _gates(parameters.get("gate"), _end(recording)) or areas
+    named = list(areas) or list(_texts({key: value for key, value in parameters.items() if key != "gate"}))
     moment = None if finding.at_s is None else Moment(finding.at_s, finding.passed)
     behind = parameters.get("command")
     recorded = set(recording.signals())  # lists of numbers are none
@@ -53,12 +53,18 @@ def figures_of(check: CheckResult, recording: Recording) -> list[Figure]:
         curves = [_curve(recording, name, title)]
         if isinstance(behind, str) and behind != name and not figures and behind in recorded:
             curves.append(_curve(recording, behind, _name(behind, {}, recording)))
-        areas = [Area(b.low, b.high, b.start, b.end) for b in bands.get(name, [])]
-        if finding.gated and isinstance(gate, dict):
-            reaches = gate.get("reaches")
-            areas = [Area(float(reaches), math.inf, 0.0, _end(recording))] if isinstance(reaches, int | float) else []
-        figures.append(_figure(recording, title, curves, areas, moment))
+        figures.append(_figure(recording, title, curves, areas.get(name, []), moment))
     return figures[:MOST_FIGURES]
+
+
+def _gates(gate: Any, end: float) -> dict[str, list[Area]]:
+    """Return where the signals of a check's gate or gates should have come, by signal."""
+    areas: dict[str, list[Area]] = {}
+    for each in gate if isinstance(gate, list) else [gate]:
+        if isinstance(each, dict) and isinstance(each.get("signal"), str):
+            low, high = float(each.get("reaches", -math.inf)), float(each.get("falls_to", math.inf))
+            areas.setdefault(each["signal"], []).append(Area(low, high, 0.0, end))
+    return areas
 
 
 def speeds_of(recording: Recording, robot: str) -> list[Figure]:

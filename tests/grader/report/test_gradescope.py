@@ -57,13 +57,13 @@ def test_it_holds_every_check(make_report):
 def test_the_first_line_is_the_diagnosis_and_the_last_ones_what_the_node_said(make_report):
     data = read(as_gradescope(make_report(lines=[(i / 100, f"line {i}") for i in range(100)])))
     lines = data["output"].splitlines()
-    assert lines[:2] == ["The bad one: was 0.5.", "50 of 100 points. The program ran to the end and was graded."]
+    assert lines[:2] == ["The bad one: was 0.5.", "50 of 100 points. The submission ran to the end and was graded."]
     assert lines[-1].endswith("line 99") and "line 79" not in data["output"]
 
 
 def test_full_marks_need_no_words(make_report):
     report = make_report(score_of(result("a", True), result("b", True)), lines=[(1.0, "hello")])
-    assert read(as_gradescope(report))["output"] == "100 of 100 points. The program ran to the end and was graded."
+    assert read(as_gradescope(report))["output"] == "100 of 100 points. The submission ran to the end and was graded."
 
 
 def test_it_differs_from_the_first_in_host_facts_only(make_report):

@@ -270,3 +270,22 @@ def test_texts_and_lines_stand_out(palette):
 def test_there_are_three_palettes_and_each_colour_is_defined():
     assert len(palettes()) == 3
     assert set(re.findall(r"var\(--([\w-]+)\)", STYLE)) <= palettes()[0].keys()
+
+
+def gated(gate):
+    bad = result("bad", False, "it never drove", at_s=None, gated=True)
+    return score_of(dataclasses.replace(bad, spec=dataclasses.replace(bad.spec, parameters={"gate": gate})))
+
+
+@pytest.mark.parametrize(
+    ("gate", "wanted"),
+    [
+        ({"signal": "truth/robot/distance", "reaches": 5}, "at least 5, 0 s to 4 s"),
+        ([{"check": "x"}, {"signal": "truth/robot/x", "falls_to": -1.0}], "at most -1, 0 s to 4 s"),
+        ({"check": "x"}, "0.45 to 0.55"),
+    ],
+)
+def test_a_check_that_failed_at_its_gate_shows_the_gate(make_report, gate, wanted):
+    text = as_html(make_report(gated(gate)))
+    read(text)
+    assert f"wanted: {wanted}" in text

@@ -118,6 +118,11 @@ def test_it_says_in_words_what_it_shows():
     assert (picture.get("role"), picture.get("aria-label")) == ("img", '"<speed>" & more')
 
 
+def test_the_noise_of_computing_is_not_blown_up():
+    (path,) = drawn([curve((0, 0.0), (1, 1e-17), (2, -1e-17))]).findall("path")
+    assert len({y for _, y in corners(path.get("d"))}) == 1
+
+
 @given(
     samples=st.lists(st.tuples(st.floats(0, 1e4), numbers), max_size=30),
     bounds=st.lists(st.tuples(numbers, numbers, numbers, numbers), max_size=3),
