@@ -73,6 +73,11 @@ def _warning(entry: BridgeEntry, sentence: str) -> Finding:
     return Finding(entry.source, sentence, warning=True)
 
 
+def _never(entry: BridgeEntry, sentence: str) -> Finding:
+    """An error about what can be set up, but can never do what it is for; the original bridges it."""
+    return Finding(entry.source, sentence, tolerated=True)
+
+
 @_check
 def _repeated(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
     """Two entries that would carry the same message over the same route twice."""
@@ -125,7 +130,13 @@ def _two_types_on_one_gz_topic(topics: Sequence[BridgeEntry], services: Sequence
 def _clock_to_gazebo(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
     """Who else advertises the clock makes Gazebo keep its own off the topic."""
     for entry in topics:
-        if entry.ros_type == _CLOCK and entry.direction is not Direction.GZ_TO_ROS:
+        if entry.ros_type == _CLOCK and entry.direction is Direction.ROS_TO_GZ:
+            yield _never(
+                entry,
+                f"gives Gazebo a clock on {entry.gz_topic}, but Gazebo makes its time itself and listens to none; "
+                "did you mean [ or direction: GZ_TO_ROS? (--compat bridges it all the same)",
+            )
+        elif entry.ros_type == _CLOCK and entry.direction is Direction.BIDIRECTIONAL:
             yield _warning(
                 entry,
                 f"publishes {entry.gz_topic} in Gazebo too, and Gazebo then keeps its own clock off that topic; "
@@ -161,16 +172,16 @@ def _against_the_stream(topics: Sequence[BridgeEntry], services: Sequence[Servic
             continue
         published = entry.gz_type in _PUBLISHED_BY_GAZEBO
         if published and entry.direction is Direction.ROS_TO_GZ:
-            yield _warning(
+            yield _never(
                 entry,
-                f"{entry.gz_type} is what Gazebo publishes, nothing in it listens to that; "
-                "did you mean [ or direction: GZ_TO_ROS?",
+                f"{entry.gz_type} is what Gazebo publishes, nothing in its world listens to that; "
+                "did you mean [ or direction: GZ_TO_ROS? (--compat bridges it all the same)",
             )
         elif published and entry.direction is Direction.BIDIRECTIONAL:
             yield _warning(
                 entry,
-                f"{entry.gz_type} is what Gazebo publishes, nothing in it listens to that; [ or direction: GZ_TO_ROS "
-                "is enough (without a direction a bridge goes both ways)",
+                f"{entry.gz_type} is what Gazebo publishes, nothing in its world listens to that; [ or direction: "
+                "GZ_TO_ROS is enough (without a direction a bridge goes both ways)",
             )
         elif entry.direction is Direction.GZ_TO_ROS and _COMMANDS.search(entry.gz_topic):
             yield _warning(

@@ -37,10 +37,8 @@ def entry(topic, types, direction=TO_ROS, source="b.yaml:1", **options):
     ("entries", "words"),
     [
         ([entry("/clock", CLOCK, BOTH)], "Gazebo then keeps its own clock off that topic"),
-        ([entry("/clock", CLOCK, TO_GZ)], "Gazebo then keeps its own clock off that topic"),
         ([entry("/sim/clock", CLOCK)], "nodes with use_sim_time listen to /clock"),
         ([entry("/clock", CLOCK), entry("/clock", CLOCK, gz_topic="/world/w/clock")], "a second clock on /clock"),
-        ([entry("/scan", SCAN, TO_GZ)], "did you mean [ or direction: GZ_TO_ROS?"),
         ([entry("/scan", SCAN, BOTH)], "is enough (without a direction a bridge goes both ways)"),
         ([entry("/model/a/cmd_vel", TWIST)], "did you mean ] or direction: ROS_TO_GZ?"),
         ([entry("/world/w/dynamic_pose/info", TF)], "carry no frames"),
@@ -74,6 +72,21 @@ def test_each_error_about_several_entries(entries, words):
     (finding,) = check(entries)
     assert not finding.warning
     assert words in finding.sentence
+
+
+@pytest.mark.parametrize("topic, types", [("/clock", CLOCK), ("/scan", SCAN)])
+def test_a_direction_that_can_never_work_stops_the_bridge(topic, types, tmp_path, capsys):
+    file = tmp_path / "b.yaml"
+    good = f"- topic_name: {topic}\n  ros_type_name: {types[0]}\n  gz_type_name: {types[1]}\n"
+    file.write_text(good + "  direction: ROS_TO_GZ\n")
+    assert main([str(file)]) == 2
+    first, last = capsys.readouterr().out.splitlines()
+    assert first.startswith(f"{file}:1: error: ")
+    assert "did you mean [ or direction: GZ_TO_ROS?" in first
+    assert last.startswith("1 error, 0 warnings")
+    assert main(["--compat", str(file)]) == 0
+    assert capsys.readouterr().out.splitlines()[-1] == "0 errors, 1 warning; 1 bridge can be made"
+    assert main([f"{topic}@{types[0]}]{types[1]}"]) == 2
 
 
 def test_good_bridges_pass_without_a_word():
