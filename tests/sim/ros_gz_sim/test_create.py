@@ -3,6 +3,7 @@
 import math
 import signal
 
+import psutil
 import pytest
 
 GROUND = "<include><uri>model://ground_plane</uri></include><include><uri>model://sun</uri></include>"
@@ -169,3 +170,26 @@ def test_an_interrupt_ends_the_wait(programs, world, number):
     waiting.wait_for("Waiting for world 'nowhere'")
     assert waiting.stop(number) == 130
     assert "create: interrupted" in waiting.said
+
+
+@pytest.mark.parametrize("to_all", [True, False], ids=["ctrl-c", "only the launch"])
+def test_a_launch_whose_create_waits_ends_at_once(programs, world, to_all):
+    """Ctrl-C in a terminal reaches launch and create at the same moment; `kill` reaches the launch alone."""
+    file = programs.folder / "waits.launch.py"
+    file.write_text(
+        "from launch import LaunchDescription\n"
+        "from launch_ros.actions import Node\n"
+        "def generate_launch_description():\n"
+        "    words = ['-file', 'cube.sdf', '-world', 'nowhere', '-timeout', '600']\n"
+        "    return LaunchDescription([Node(package='ros_gz_sim', executable='create', arguments=words)])\n"
+    )
+    launch = programs.ros2("launch", file)
+    launch.wait_for("Waiting for world 'nowhere'")
+    family = psutil.Process(launch.process.pid).children(recursive=True)
+    assert family
+    for process in family if to_all else []:
+        process.send_signal(signal.SIGINT)
+    launch.stop()
+    assert "create: interrupted" in launch.said
+    assert "sending signal 'SIGTERM'" not in launch.said, "it had to be asked twice"
+    assert not [process for process in family if process.is_running()]
