@@ -25,10 +25,11 @@ demo: setup
 	@echo "Look at one:    $(BIN)/course show runs/demo/03_teleop.rrd"
 
 test: .venv/with-tools
-	$(BIN)/pytest -q
+	$(BIN)/pytest -q -m "not proof"
 
 verify: .venv/with-tools
 	$(BIN)/course verify
+	$(BIN)/pytest -q -m proof
 
 bench: .venv/with-tools
 	$(BIN)/python -m tests.bench
