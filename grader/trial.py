@@ -8,6 +8,7 @@ the same keys, all optional but the name:
     seed = 7                                # of sensor noise and of the scripted speeds
     world = "maze.sdf"                      # instead of the exercise's; a file beside this one, or a world's name
     duration = 10.0                         # [s] instead of the exercise's
+    tick = 0.25                             # [s] between two /clock messages, instead of the exercise's
     poses = { robot = [-2, 1, 0, 0, 0, 1.57] }      # where models stand: x y z [m], roll pitch yaw [rad]
     parameters = { speed = 0.4 }            # free: for the kind of submission (launch arguments) and `python` checks
 
@@ -76,6 +77,7 @@ class Trial:
     script: tuple[ScriptedCommand, ...] | None = None
     parameters: dict[str, Any] = field(default_factory=dict)
     place: tuple[int, int] = (1, 1)
+    tick: float | None = None  # [s] simulated time between two /clock messages
 
     def vary(self, command: ScriptedCommand) -> ScriptedCommand:
         """Return the command with its speeds scaled by factors drawn from this trial's seed."""
@@ -92,6 +94,7 @@ class Trial:
             exercise,
             world=exercise.world if self.world is None else self.world,
             duration=exercise.duration if self.duration is None else self.duration,
+            tick=exercise.tick if self.tick is None else self.tick,
             script=exercise.script if self.script is None else self.script,
         )
 
@@ -167,6 +170,7 @@ def _read(table: Table, where: Path) -> Trial:
         seed=table.integer("seed", 0),
         world=world,
         duration=table.number("duration", above=0) if table.has("duration") else None,
+        tick=table.number("tick", above=0) if table.has("tick") else None,
         poses={model: tuple(poses.numbers(model, [6])) for model in poses.names()},
         script=tuple(map(ScriptedCommand.read, table.tables("script", []))) if table.has("script") else None,
         parameters=table.free("parameters"),

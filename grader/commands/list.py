@@ -1,8 +1,16 @@
-"""`course list`: the exercises there are."""
+"""`course list [EXERCISE]`: the exercises there are, or the rubric of one."""
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Annotated
+
 import typer
+
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.table import Table
+
+    from grader.exercise import CheckSpec, Exercise
 
 
 def register(app: typer.Typer) -> None:
@@ -10,18 +18,63 @@ def register(app: typer.Typer) -> None:
     app.command(name="list")(list_command)
 
 
-def list_command() -> None:
-    """List the exercises with their points and the file each asks for."""
+def list_command(
+    exercise: Annotated[str | None, typer.Argument(help="Show what this exercise asks for and its rubric.")] = None,
+) -> None:
+    """List the exercises with their points and the file each asks for, or show the rubric of one."""
     from rich.console import Console
-    from rich.table import Table
 
     from grader.exercise import course_root, exercise_names, find_exercise
 
     root = course_root()
-    table = Table(show_edge=False, box=None, padding=(0, 2, 0, 0))
-    for heading in ("exercise", "points", "file", "title"):
-        table.add_column(heading, overflow="fold")
+    if exercise is not None:
+        print_rubric(find_exercise(exercise, root), Console())
+        return
+    table = plain_table("exercise", "points", "file", "title")
     for name in exercise_names(root):
-        exercise = find_exercise(name, root)
-        table.add_row(name, f"{exercise.max_score:g}", exercise.file, exercise.title)
+        each = find_exercise(name, root)
+        table.add_row(name, f"{each.max_score:g}", each.file, each.title)
     Console().print(table)
+
+
+def print_rubric(exercise: Exercise, console: Console) -> None:
+    """Print what an exercise asks for and a line for each check, as its manifest says them."""
+    from rich.markup import escape
+
+    summary = "\n\n".join(" ".join(part.split()) for part in exercise.summary.split("\n\n"))
+    console.print(f"[bold]{exercise.name}[/bold]  {escape(exercise.title)}\n\n{escape(summary)}\n")
+    console.print(f"file: {escape(exercise.file)}", highlight=False)
+    names = ", ".join(trial.name for trial in exercise.trials)
+    console.print(f"trials: {names}; a check passes if it passes in each of them\n", highlight=False)
+    table = plain_table("points", "check", "counts only if")
+    for check in exercise.checks:
+        table.add_row(f"{check.points:g}", escape(check.title), escape("; ".join(_gates(exercise, check))))
+    table.add_section()
+    table.add_row(f"{exercise.max_score:g}", "in all")
+    console.print(table)
+
+
+def _gates(exercise: Exercise, check: CheckSpec) -> list[str]:
+    """What must be so for a check to count, in words; a manifest that is wrong here is told when it is scored."""
+    titles = {each.id: each.title for each in exercise.checks}
+    given = check.parameters.get("gate", [])
+    gates = [gate for gate in (given if isinstance(given, list) else [given]) if isinstance(gate, dict)]
+    words = []
+    for gate in gates:
+        if "check" in gate:
+            words.append(f'"{titles.get(gate["check"], gate["check"])}" passes')
+        elif "falls_to" in gate:
+            words.append(f"{gate.get('signal')} falls to {gate['falls_to']}")
+        else:
+            words.append(f"{gate.get('signal')} reaches {gate.get('reaches')}")
+    return words
+
+
+def plain_table(*headings: str) -> Table:
+    """Return a table without lines."""
+    from rich.table import Table
+
+    table = Table(show_edge=False, box=None, padding=(0, 2, 0, 0))
+    for heading in headings:
+        table.add_column(heading, overflow="fold")
+    return table

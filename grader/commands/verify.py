@@ -119,7 +119,7 @@ def print_mutants(result: Verification, console: Console) -> None:
         )
     if result.survivors:
         console.print(
-            "  A survivor earns full marks: sharpen a check, or declare it right in expect.toml, [mutants] equivalent.",
+            "  A survivor earns full marks: sharpen a check, or declare it in expect.toml as \\[mutants] equivalent.",
             highlight=False,
         )
 

@@ -46,6 +46,19 @@ def test_the_list_shows_every_exercise_with_its_points(course):
     assert "04_lidar_listener" in outcome.stdout
 
 
+def test_the_list_of_one_exercise_is_its_rubric(course):
+    outcome = course("list", "03")
+    assert outcome.code == 0
+    assert "Velocity commands go to /cmd_vel" in outcome.words and "file: teleop_node.py" in outcome.stdout
+    assert re.search(r"20 +Stops and stays stopped +truth/robot/distance reaches 0.5", outcome.stdout)
+    assert re.search(r"100 +in all", outcome.stdout)
+    refused(course("list", "03_telepo"), "did you mean 03_teleop?")
+
+
+def test_trials_that_are_not_there(grade, root):
+    refused(grade("03", root / SOLUTION, "--trials", "hiden"), "no file hiden with hidden trials")
+
+
 def test_an_unknown_exercise_names_the_nearest(grade, root):
     refused(grade("03_telepo", root / SOLUTION), "'03_telepo'", "did you mean 03_teleop?")
 

@@ -43,6 +43,7 @@ name = "north"
 seed = 7
 world = "empty.sdf"
 duration = 3
+tick = 0.25
 poses = { robot = [-2, 1, 0, 0, 0, 1.5] }
 parameters = { speed = 0.4, names = ["a"] }
 
@@ -72,10 +73,11 @@ def test_every_key_is_read_and_only_the_name_is_needed(read):
         "north",
         7,
         "empty.sdf",
-        3,
-        {"robot": (-2, 1, 0, 0, 0, 1.5)},
-        (ScriptedCommand(1, "/cmd_vel", 0.3, 0),),
-        {"speed": 0.4, "names": ["a"]},
+        duration=3,
+        poses={"robot": (-2, 1, 0, 0, 0, 1.5)},
+        script=(ScriptedCommand(1, "/cmd_vel", 0.3, 0),),
+        parameters={"speed": 0.4, "names": ["a"]},
+        tick=0.25,
     )
     assert plain == Trial("as_it_is", 0)
 
@@ -86,7 +88,8 @@ def test_a_trial_changes_what_it_names_and_nothing_else(read, root):
     assert plain.applied_to(exercise) == exercise
     changed = north.applied_to(exercise)
     assert (changed.world, changed.duration, changed.script) == ("empty.sdf", 3, north.script)
-    kept = {"world": exercise.world, "duration": exercise.duration, "script": exercise.script}
+    assert changed.tick == 0.25
+    kept = {name: getattr(exercise, name) for name in ("world", "duration", "script", "tick")}
     assert dataclasses.replace(changed, **kept) == exercise
 
 
@@ -105,6 +108,7 @@ def test_an_empty_script_is_a_robot_nobody_drives(read):
         ("seed = 7", "seed = 7.5", "trial 'north': seed must be a whole number"),
         ("seed = 7", "sed = 7", "trial 'north': unknown key 'sed' .did you mean seed"),
         ("duration = 3", "duration = 0", "duration must be a finite number greater than 0"),
+        ("tick = 0.25", "tick = 0", "tick must be a finite number greater than 0"),
         ("[-2, 1, 0, 0, 0, 1.5]", "[-2, 1]", "poses: robot must be a list of 6 numbers"),
         ('parameters = { speed = 0.4, names = ["a"] }', "parameters = 3", "parameters must be a table"),
         ('name = "north"', 'name = "../north"', "name must be letters"),
