@@ -241,7 +241,7 @@ def _outcome(future: Future[Graded]) -> Graded:
 
 def folder_name(student: str) -> str:
     """A name for a student's folder that is safe everywhere, the same every time, and nobody else's."""
-    safe = re.sub(r"[^\w.,()@ -]", "_", student).strip(" .").replace("..", "_")
+    safe = re.sub(r"[^\w.,()@ -]", "_", student).strip(" .").lstrip("-@").replace("..", "_")
     while len(safe.encode()) > LONGEST_FOLDER:
         safe = safe[:-1]
     if safe == student and safe.casefold() not in (GRADEBOOK, JOURNAL):
