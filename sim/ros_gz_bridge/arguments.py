@@ -40,14 +40,21 @@ def parse_arguments(texts: Iterable[str]) -> list[BridgeEntry]:
 def read_arguments(texts: Iterable[str], *, lazy: bool = False) -> Config:
     """What several arguments ask for, faults included; raises nothing."""
     config = Config()
+    order: dict[str, int] = {}
     for text in texts:
+        order.setdefault(_place(text), len(order))
         config.add(_read(text, config.findings, lazy))
     config.findings.extend(check(config.topics, config.services))
+    config.findings.sort(key=lambda finding: order[finding.place])
     return config
 
 
+def _place(text: str) -> str:
+    return f"argument '{text}'" if len(text) <= 200 else f"argument '{text[:200]}...'"
+
+
 def _read(text: str, findings: list[Finding], lazy: bool = False) -> BridgeEntry | ServiceEntry | None:
-    where = f"argument '{text}'" if len(text) <= 200 else f"argument '{text[:200]}...'"
+    where = _place(text)
     if re.search(r"@[^@\[\]]*/srv/", text):
         entry, faults = _service(text, where)
         findings.extend(Finding(where, fault) for fault in faults)

@@ -118,6 +118,7 @@ def read_yaml(text: str | bytes, file_name: str = "<string>", *, lazy: bool = Fa
     for node in root.value:
         config.add(_entry(file_name, node, config.findings, lazy))
     config.findings.extend(check(config.topics, config.services))
+    config.findings.sort(key=lambda finding: int(finding.place.rpartition(":")[2]))  # by line
     return config
 
 

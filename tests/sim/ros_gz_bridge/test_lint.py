@@ -134,6 +134,22 @@ def test_every_error_of_every_file_is_listed(tmp_path, capsys):
     assert errors == [f"{bad}:5", f"{bad}:8", f"{worse}:1", f"{tmp_path}/none.yaml"]
 
 
+def test_findings_come_in_the_order_in_which_things_are_written(tmp_path, capsys):
+    file = tmp_path / "b.yaml"
+    odd = GOOD.replace("gz.msgs.Clock", "gz.msgs.Clok").replace("GZ_TO_ROS", "TO_ROS") + "  directon: x\n"
+    file.write_text(GOOD.replace("GZ_TO_ROS", "BIDIRECTIONAL").replace("/clock", "/c") + odd)
+    assert main([str(file)]) == 2
+    *lines, _ = capsys.readouterr().out.splitlines()
+    numbers = [int(line.split(":")[1]) for line in lines]
+    assert numbers == sorted(numbers)
+    assert len(numbers) > 3
+    scan, clock = "/scan@sensor_msgs/msg/LaserScan]gz.msgs.LaserScan", "/clock@rosgraph_msgs/msg/Clock"
+    assert main([scan, clock]) == 2
+    first, second, _ = capsys.readouterr().out.splitlines()
+    assert first.startswith(f"argument '{scan}'")
+    assert second.startswith(f"argument '{clock}'")
+
+
 def test_compat_is_as_lenient_as_the_original(tmp_path, capsys):
     file = tmp_path / "b.yaml"
     file.write_text(GOOD.replace("direction", "directon") + GOOD.replace("gz.msgs.Clock", "gz.msgs.Clok"))
