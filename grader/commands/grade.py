@@ -69,6 +69,8 @@ def grade_command(
     graded = submission or chosen.starter
     outputs.check([recording_path(chosen, trial, out) for trial in asked], [graded, graded / chosen.file])
     report = grade(chosen, submission, out, seed=seed, pace=pace, trials=asked, sandbox=level, started=STARTED)
-    print_report(report)
-    outputs.write(report)
+    try:
+        print_report(report)
+    finally:  # also for a terminal that has gone
+        outputs.write(report)
     raise typer.Exit(0 if report.full_marks else 1)

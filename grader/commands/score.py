@@ -30,6 +30,8 @@ def score_command(
     outputs = Outputs(json, html, gradescope, junit)
     outputs.check(inputs=[path for given in recordings for path in recordings_in(given)])
     report = grade_again(recordings)
-    print_report(report)
-    outputs.write(report)
+    try:
+        print_report(report)
+    finally:  # also for a terminal that has gone
+        outputs.write(report)
     raise typer.Exit(0 if report.full_marks else 1)

@@ -120,3 +120,10 @@ def test_a_recording_is_never_overwritten_by_a_report_on_it(course, graded):
     outcome = course("score", graded.recording, "--html", graded.recording)
     assert (outcome.code, "would overwrite what is graded" in outcome.words) == (2, True), outcome.output
     assert graded.recording.read_bytes() == before
+
+
+def test_a_terminal_that_has_gone_costs_no_report(course, graded, tmp_path):
+    prelude = "import sys; sys.stdout = open('/dev/full', 'w')"
+    outcome = course("score", graded.recording, "--json", tmp_path / "report.json", prelude=prelude)
+    assert outcome.report["score"] == 60
+    assert outcome.code and "No space left" in outcome.words
