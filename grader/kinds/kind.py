@@ -27,6 +27,8 @@ class Cast:
     `program` names the file among `files` that is started in the box. `entries` are the bridges that stand between the
     simulator and ROS from the beginning. `facts` go into the recording as they are. `given`: the program comes with
     the exercise, so what it does is never the student's fault, and both graphs are taken into the recording.
+    `launch`: the program is a launch file, which starts simulator and bridge itself; a trial's parameters are its
+    arguments.
     """
 
     program: str
@@ -34,6 +36,7 @@ class Cast:
     entries: list[BridgeEntry] = field(default_factory=list)
     facts: dict[str, Any] = field(default_factory=dict)
     given: bool = False
+    launch: bool = False
 
 
 @dataclass(frozen=True)

@@ -54,6 +54,10 @@ class Children:
         if child is not None and child.state == "here":
             child.state, child.since = "left", time.monotonic()
 
+    def codes(self) -> dict[int, int]:
+        """Exit code by process number, of those that have ended."""
+        return {child.pid: child.code for child in self._children.values() if child.code is not None}
+
     @property
     def changing(self) -> bool:
         """Whether one is about to say hello, or to be missed by its parent."""

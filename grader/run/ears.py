@@ -21,7 +21,7 @@ from rclpy.signals import SignalHandlerOptions
 
 from grader.errors import ManifestError
 from gz.transport import Node as GzNode
-from ros_gz_bridge.bridge import Bridge, BridgeEntry
+from ros_gz_bridge.bridge import Bridge, BridgeEntry, HeaderOverrides
 
 HOUSEKEEPING = ("/parameter_events", "/rosout")  # topics every node has
 UNKNOWN = "_NODE_NAME_UNKNOWN_"  # what rcl calls the node of an endpoint that has not told it yet
@@ -62,6 +62,8 @@ class Ears:
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self._node)
         self.held: list[tuple[str, Any, Any]] = []
+        self._gz_node = gz_node
+        self._observe = observe
         self.bridge = Bridge(self._node, gz_node, entries, publish=self._hold, heard=self._bridge_heard)
         self.offered = {e.ros_topic: e.ros_type for e in entries if e.direction.to_ros}
         self.listened = {e.ros_topic: e.ros_type for e in entries if e.direction.to_gz} | observe
@@ -69,6 +71,20 @@ class Ears:
         self._heard = heard
         for topic, kind in observe.items():
             self._node.create_subscription(message_class(kind), topic, self._tap(topic), QoSProfile(depth=TAP_DEPTH))
+        self._look_at_own()
+
+    def set_bridges(self, entries: list[BridgeEntry], overrides: HeaderOverrides | None = None) -> None:
+        """Let other bridges stand than before. Raises BridgeError, and none stands then."""
+        self.bridge.close()
+        self.bridge = Bridge(self._node, self._gz_node, [])
+        self.bridge = Bridge(
+            self._node, self._gz_node, entries, publish=self._hold, heard=self._bridge_heard, overrides=overrides
+        )
+        self.offered = {e.ros_topic: e.ros_type for e in entries if e.direction.to_ros}
+        self.listened = {e.ros_topic: e.ros_type for e in entries if e.direction.to_gz} | self._observe
+        self._look_at_own()
+
+    def _look_at_own(self) -> None:
         # One publisher and one subscription a topic, so one match on either side is a complete match.
         self._publishers = {p.topic_name: p for p in self._node.publishers if p.topic_name in self.offered}
         self._subscriptions = {s.topic_name: s for s in self._node.subscriptions if s.topic_name in self.listened}

@@ -51,6 +51,12 @@ class Participant:
         return (nodes[0] if nodes else " ".join(self.command), self.number)
 
     @property
+    def program(self) -> str:
+        """What people call the program: the file or module a Python runs."""
+        words = [word for word in self.command[1:] if word not in ("-m", "-P", "-c")]
+        return words[0].rpartition("/")[2] if words else ""
+
+    @property
     def starting(self) -> bool:
         """Whether a first report with endpoints is still to come."""
         joined = self.progress is not None and bool(self.progress.endpoints)

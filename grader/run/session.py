@@ -16,9 +16,11 @@ from grader.errors import ManifestError
 from grader.exercise import MANIFEST, Exercise
 from grader.kinds.kind import find_kind
 from grader.printable import shown
+from grader.run.box.course_box.hooks import SERVE
+from grader.run.box.course_box.watch import HOLD
 from grader.run.domain import Domain
 from grader.run.sandbox import AUTO, Sandbox
-from grader.run.student import Student, node_command
+from grader.run.student import Student, launch_command, node_command
 from grader.submission import Submission
 from grader.trial import Trial
 
@@ -66,17 +68,24 @@ def run(
         sandbox = Sandbox(domain.id, level)
         stack.callback(sandbox.close)
         folder = sandbox.stage(cast.files)
-        student = Student(node_command(folder / cast.program), sandbox, topics, shown=str(folder))
+        if not cast.launch:
+            student = Student(node_command(folder / cast.program), sandbox, topics, shown=str(folder))
+        else:
+            variables = {SERVE: "1"} | ({HOLD: "1"} if pace == "lockstep" else {})
+            command = launch_command(folder / cast.program, trial.parameters)
+            student = Student(command, sandbox, topics, variables, shown=str(folder))
         stack.callback(student.close)
         stack.enter_context(_environment(sandbox.grader_environment()))
 
         from grader.record.recorder import Recorder
+        from grader.run.launch_stage import LaunchStage
         from grader.run.properties import write_properties
         from grader.run.stage import Stage
         from ros_gz_bridge.entry import BridgeError
 
         try:
-            stage = Stage(exercise, trial, cast, domain.id, student, pace, stack)
+            kind_of_stage = LaunchStage if cast.launch else Stage
+            stage = kind_of_stage(exercise, trial, cast, domain.id, student, pace, stack)
         except BridgeError as error:
             if not kind.brings_bridge:
                 raise ManifestError(f"{exercise.folder / MANIFEST}: {error.errors[0]}") from None

@@ -27,6 +27,7 @@ from grader.run.trial_world import load_trial_world
 from grader.trial import ScriptedCommand, Trial
 from gz.sim.errors import SimError
 from gz.sim.server import Server
+from gz.sim.world import World
 from gz.transport import Node, NodeOptions, Scope
 
 MOST_MESSAGES = 20_000  # of one topic that are recorded; the rest is counted
@@ -48,19 +49,19 @@ class Stage:
         stack: ExitStack,
     ) -> None:
         self._exercise = exercise
+        self._trial = trial
         self._given = cast.given
+        self._stack = stack
         self._student = student
         partition = f"grader-{domain}"
         self._gz_nodes = [Node(NodeOptions(scope=Scope.PROCESS, partition=partition)) for _ in range(2)]
         for node in self._gz_nodes:
             stack.callback(node.close)
-        self._world = load_trial_world(exercise, trial, self._gz_nodes[0])
-        stack.callback(self._world.close)
-        self._server = Server(self._world, self._gz_nodes[0])
+        self._world: World | None = None
+        self._begin(cast, domain)
         self._ears = Ears(domain, self._gz_nodes[1], cast.entries, exercise.observe, self._record)
         stack.callback(self._ears.close)
-        self._pace = (LockStep if pace == "lockstep" else RealTime)(student, self._ears)
-        self._steps = round(exercise.tick * 1e9 / self._world.step_size_ns)
+        self._pace = self._paced(pace)
         self._scans = {e.ros_topic: e.gz_topic for e in cast.entries if e.ros_type == "sensor_msgs/msg/LaserScan"}
         self._script = [trial.vary(command) for command in exercise.script]
         self._script_publishers: dict[str, Any] = {}
@@ -73,6 +74,24 @@ class Stage:
         self._messages: Counter[str] = Counter()
         self.wall_seconds = 0.0
 
+    def _begin(self, cast: Cast, domain: int) -> None:
+        """What is there before the student's first message is read."""
+        self._open(load_trial_world(self._exercise, self._trial, self._gz_nodes[0]))
+
+    def _open(self, world: World) -> None:
+        """Let a world be the one that is run."""
+        self._stack.callback(world.close)
+        self._world = world
+        self._server = Server(world, self._gz_nodes[0])
+        self._steps = round(self._exercise.tick * 1e9 / world.step_size_ns)
+
+    def _paced(self, pace: str) -> RealTime:
+        return (LockStep if pace == "lockstep" else RealTime)(self._student, self._ears)
+
+    @property
+    def _now_ns(self) -> int:
+        return self._world.sim_time_ns if self._world is not None else 0
+
     @property
     def pace_name(self) -> str:
         """How simulated time went on: in lock-step, in real time, or partly fallen back to the wall clock."""
@@ -82,13 +101,14 @@ class Stage:
     def play(self, recorder: Recorder) -> dict[str, Any]:
         """Run to the exercise's end, recording everything; return the facts about the run."""
         self._recorder = recorder
+        assert self._world is not None
         self._scene = Scene(recorder, self._world)
         ready = self._pace.await_ready()
         self._collect()
         started = time.monotonic()
         end_ns = round(self._exercise.duration * 1e9)
         deadline = started + WALL_FACTOR * self._exercise.duration + WALL_GRACE
-        while self._world.sim_time_ns < end_ns and not (self._unstable or self._out_of_time or self._tampered):
+        while self._now_ns < end_ns and not (self._unstable or self._out_of_time or self._tampered):
             self._tick()
             self._out_of_time = time.monotonic() > deadline
         self.wall_seconds = time.monotonic() - started
@@ -99,7 +119,7 @@ class Stage:
 
     def _tick(self) -> None:
         self._pace.welcome()
-        while self._script and self._script[0].at * 1e9 <= self._world.sim_time_ns:
+        while self._script and self._script[0].at * 1e9 <= self._now_ns:
             self._command(self._script.pop(0))
         try:
             self._server.step(self._steps)
@@ -107,8 +127,14 @@ class Stage:
             self._unstable = str(error)
             self._recorder.text("log/grader", str(error), "ERROR")
             return
-        now = self._world.sim_time_ns
+        now = self._now_ns
         self._recorder.set_time(now)
+        self._deliver(now)
+        self._pace.close_tick(self._exercise.tick)
+        self._collect()
+
+    def _deliver(self, now: int) -> None:
+        """Send what the simulator has said, one message after the other, and record the truth beside it."""
         recorded = False
         for topic, publisher, message in self._ears.take_held():
             self._pace.send(topic, publisher, message, now)
@@ -122,8 +148,6 @@ class Stage:
         if not recorded:  # no bridge takes anything to ROS, not even /clock: still the world is on record
             self._scene.tick()
             self._student.wait(0)
-        self._pace.close_tick(self._exercise.tick)
-        self._collect()
 
     def _command(self, command: ScriptedCommand) -> None:
         publisher = self._script_publishers.get(command.topic)
@@ -144,8 +168,7 @@ class Stage:
     def _collect(self) -> None:
         """Take over what the student's process said and did since the last call."""
         for line in self._student.take_lines():
-            level = LEVELS.get(line.partition(" ")[0], "INFO")
-            self._recorder.text("log/student", line, level)
+            self._take(line)
         if self._student.layout != self._layout:
             self._layout = self._student.layout
             for e in self._student.endpoints:
@@ -153,9 +176,14 @@ class Stage:
                 # Whether it had matched yet when it was first seen differs between equal runs.
                 self._endpoints.setdefault((e.kind, e.topic, e.type, e.node), asdict(e) | {"matched": None})
         if not self._student.running and self._exit_at is None:
-            self._exit_at = self._world.sim_time_ns / 1e9
+            self._exit_at = self._now_ns / 1e9
             code = self._student.exit_code
             self._recorder.text("log/grader", f"the node's process ended with exit code {code}")
+
+    def _take(self, line: str) -> None:
+        """Take a line of the log."""
+        level = LEVELS.get(line.partition(" ")[0], "INFO")
+        self._recorder.text("log/student", line, level)
 
     def _facts(self, ready: bool) -> dict[str, Any]:
         """What scoring and diagnosis need to know beside the signals; the same for equal runs."""
@@ -164,7 +192,7 @@ class Stage:
             text = f"{count} commands on {topic} were not finite and were dropped"
             self._recorder.text("log/grader", text, "WARN")
         return {
-            "sim_seconds": self._world.sim_time_ns / 1e9,
+            "sim_seconds": self._now_ns / 1e9,
             "ready": ready,
             "exit_at": self._exit_at,
             "exit_code": self._student.exit_code if self._exit_at is not None else None,
@@ -177,6 +205,6 @@ class Stage:
             "hid": self._student.hid,
             "limit": self._student.limit,
             "unstable": self._unstable,
-            "out_of_time": self._out_of_time and self._world.sim_time_ns < round(self._exercise.duration * 1e9),
+            "out_of_time": self._out_of_time and self._now_ns < round(self._exercise.duration * 1e9),
             "out_of_step": bool(self._pace.paced_ticks),
         }

@@ -68,9 +68,9 @@ class Student:
             "PYTHONPATH": str(BOX),
             **(environment or {}),
         }
-        self._asked = asked or _unasked
+        self.asked = asked or _unasked
         self._children_before = _children()
-        self._folder = shown.encode()
+        self.folder = shown
         self._process = sandbox.start(list(command), variables)
         self._selector = selectors.DefaultSelector()
         self._partial: dict[int, bytes] = {}
@@ -165,8 +165,8 @@ class Student:
     def _keep(self, line: bytes) -> None:
         self._line_count += 1
         if self._line_count <= MOST_LINES:
-            if self._folder:
-                line = line.replace(self._folder, SHOWN_FOLDER)  # where it lies differs between equal runs
+            if self.folder:
+                line = line.replace(self.folder.encode(), SHOWN_FOLDER)  # where it lies differs between equal runs
             self._lines.append(line.decode(errors="replace")[:LONGEST_LINE])
 
     def _read_participants(self) -> None:
@@ -189,7 +189,7 @@ class Student:
 
     def _hear(self, who: Participant, message: dict[str, Any]) -> None:
         self._children.hear(message)
-        self._asked(who, message)
+        self.asked(who, message)
 
     def _reap(self) -> None:
         """The process has exited, or closed its end of the socket to hide; then it is ended."""
@@ -202,6 +202,15 @@ class Student:
             self._drain(pipe.fileno())
         self._read_participants()
         self.exit_code = self._process.returncode
+
+    def signal(self, number: signal.Signals) -> None:
+        """Send a signal as a terminal would: to the first process and what has stayed in its process group."""
+        self._process.signal(number)
+
+    def ended_programs(self) -> list[dict[str, Any]]:
+        """What has ended of the programs that said hello: `program` and exit `code`, as their parents tell."""
+        codes = self._children.codes()
+        return [{"program": p.program, "code": codes[p.pid]} for p in self.participants if p.pid in codes]
 
     def stop(self) -> None:
         """End the process group and every descendant: SIGINT, then SIGTERM, then SIGKILL."""
@@ -257,6 +266,13 @@ def _listener(folder: Path) -> socket.socket:
     listener.listen(MOST_PARTICIPANTS)
     listener.setblocking(False)
     return listener
+
+
+def launch_command(file: Path, arguments: Mapping[str, Any]) -> list[str]:
+    """Return the command that runs a launch file, as `ros2 launch FILE NAME:=VALUE ...` does."""
+    words = [f"{name}:={str(value).lower() if isinstance(value, bool) else value}" for name, value in arguments.items()]
+    ros2 = "import sys; from ros2.command_line import main; sys.exit(main())"
+    return [sys.executable, "-P", "-c", ros2, "launch", str(file), *words]
 
 
 def _unasked(asking: Participant, message: dict[str, Any]) -> None:

@@ -43,7 +43,7 @@ class Channel:
             with contextlib.suppress(OSError):
                 self._socket.send(text.encode(errors="replace"))
 
-    def listen(self, heard: Callable[[dict[str, Any] | None], None]) -> None:
+    def listen(self, heard: Callable[[dict[str, Any] | None], object]) -> None:
         """Call `heard` in a thread with every message, and with None when there will be no more."""
 
         def run() -> None:

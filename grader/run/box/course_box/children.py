@@ -19,7 +19,8 @@ def install() -> None:
     """Begin to tell; subprocess has just been imported."""
     import subprocess
 
-    start, ended = subprocess.Popen.__init__, subprocess.Popen._handle_exitstatus
+    process_class: Any = subprocess.Popen
+    start, ended = process_class.__init__, process_class._handle_exitstatus
 
     def told_start(process: Any, *args: Any, **kwargs: Any) -> None:
         start(process, *args, **kwargs)
@@ -37,17 +38,18 @@ def install() -> None:
 
         return wait
 
-    subprocess.Popen.__init__ = told_start  # type: ignore[method-assign]
-    subprocess.Popen._handle_exitstatus = told_end
+    process_class.__init__ = told_start
+    process_class._handle_exitstatus = told_end
     for name in ("_wait", "_communicate"):
-        setattr(subprocess.Popen, name, told_wait(getattr(subprocess.Popen, name)))
+        setattr(process_class, name, told_wait(getattr(process_class, name)))
 
 
 def install_in_event_loops() -> None:
     """Tell when an event loop is about to sleep; asyncio has just been imported."""
     from asyncio import base_events
 
-    once = base_events.BaseEventLoop._run_once
+    loops: Any = base_events.BaseEventLoop
+    once = loops._run_once
 
     def told_run_once(loop: Any) -> None:
         if not loop._ready and not loop._stopping:
@@ -58,7 +60,7 @@ def install_in_event_loops() -> None:
                 _wait_begins()
         once(loop)
 
-    base_events.BaseEventLoop._run_once = told_run_once
+    loops._run_once = told_run_once
 
 
 def _wait_begins() -> None:

@@ -1,0 +1,54 @@
+"""Questions to the grader that are answered: used by the programs of Gazebo that the grader serves.
+
+A process asks one thing at a time; the answer comes in the thread that listens.
+"""
+
+from __future__ import annotations
+
+import queue
+import threading
+from collections.abc import Callable
+from typing import Any
+
+from .channel import channel
+
+PATIENCE = 30.0  # [s] for the grader, which may be at work
+_answers: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
+_ended = threading.Event()
+_on_end: list[Callable[[], None]] = []
+
+
+def hear(message: dict[str, Any] | None) -> bool:
+    """Take a message of the grader; False if it is none of ours. None: there will be no more."""
+    if message is None:
+        _answers.put({"error": "the simulator has gone"})
+        _end()
+    elif "answer" in message:
+        _answers.put(message["answer"])
+    elif "end" in message:
+        _end()
+    else:
+        return False
+    return True
+
+
+def ask(question: dict[str, Any]) -> dict[str, Any]:
+    """Return the answer to a question."""
+    channel().send(question)
+    try:
+        return _answers.get(timeout=PATIENCE)
+    except queue.Empty:
+        return {"error": f"the simulator did not answer within {PATIENCE:g} s"}
+
+
+def when_ended(act: Callable[[], None]) -> None:
+    """Call something, in another thread, when the grader ends what was asked for."""
+    _on_end.append(act)
+    if _ended.is_set():
+        act()
+
+
+def _end() -> None:
+    _ended.set()
+    for act in _on_end:
+        act()
