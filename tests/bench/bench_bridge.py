@@ -24,6 +24,7 @@ from rosgraph_msgs.msg import Clock
 
 from tests.bench.bridge_pair import GZ, ROS, Ros, sent, stamp, until
 from tests.bench.row import Row
+from tests.bench.transport_pair import paced
 
 TURNS = 10
 PLAN = {"Twist": (50, 200), "LaserScan": (50, 200), "Image": (12, 30)}
@@ -169,11 +170,13 @@ class Bench:
 
     def to_gazebo(self):
         count, rate = PLAN["Twist"]
-        message, pause = ROS["Twist"](), threading.Event()
-        for _ in range(count):
+        message = ROS["Twist"]()
+
+        def send():
             stamp(message)
             self.publisher.publish(message)
-            pause.wait(1 / rate)
+
+        paced(count, rate, send)  # as the other process sends
         return statistics.median(self.other.ask("latencies", "/b/command", count=count)) * 1e-9
 
     def close(self):

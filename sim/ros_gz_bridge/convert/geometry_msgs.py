@@ -116,11 +116,13 @@ def not_finite(message: Any, *paths: str) -> str | None:
     bad = []
     for path in paths:
         value = operator.attrgetter(path)(message)
-        if not isinstance(value, float):
-            axes = "xyzw" if isinstance(value, Quaternion) else "xyz"
-            numbers = [(f"{path}.{axis}", getattr(value, axis)) for axis in axes]
-        else:
+        if isinstance(value, float):
             numbers = [(path, value)]
+        else:
+            axes = "xyzw" if isinstance(value, Quaternion) else "xyz"
+            if math.isfinite(sum([getattr(value, axis) for axis in axes])):
+                continue  # as almost always: a sum is finite only if all numbers are
+            numbers = [(f"{path}.{axis}", getattr(value, axis)) for axis in axes]
         bad += [f"{name} is {number}" for name, number in numbers if not math.isfinite(number)]
     return ", ".join(bad) or None
 
