@@ -33,6 +33,11 @@ def test_a_check_passes_only_if_it_passes_everywhere():
     assert verdict.diagnosis == "In the trial two: fault of two"
 
 
+def test_what_passes_everywhere_is_told_as_the_first_trial_found_it():
+    verdict = combined([("one", scored(True, name="one")), ("two", scored(True, name="two"))])
+    assert (verdict.checks[0].finding.measured, verdict.diagnosis) == ("in one", "")
+
+
 def test_what_fails_everywhere_is_told_as_the_first_trial_found_it():
     verdict = combined([("one", scored(False, name="one")), ("two", scored(False, name="two"))])
     assert (verdict.checks[0].finding.measured, verdict.diagnosis) == ("in one", "fault of one")
