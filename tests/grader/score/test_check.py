@@ -96,11 +96,16 @@ def test_a_gate_that_lacks_a_key_is_a_manifest_error(record):
 
 def test_every_one_of_several_gates_must_be_open(record):
     back = {"signal": "truth/robot/x", "falls_to": -1.0, "otherwise": "it never drove back"}
-    for rows, told in (([0.9, -1.0], ""), ([0.9, -0.9], "it never drove back"), ([0.1, -1.0], "it never drove")):
+    for rows, told in (
+        ([0.9, -1.0], ""),
+        ([0.9, -0.9], "it never drove back"),
+        ([0.1, -1.0], "it never drove"),
+        ([0.1, 0.0], "it never drove"),
+    ):
         signals = {
             SIGNAL: [(0, 0.0), (8, 0.0)],
             "truth/robot/distance": [(0, rows[0])],
-            "truth/robot/x": [(0, rows[1])],
+            "truth/robot/x": [(0, 0.0), (1, rows[1]), (2, 0.0)],
         }
         finding = perform(spec(signal=SIGNAL, band=[-1, 1], gate=[GATE, back]), record(signals))
         assert (finding.passed, finding.gated) == (not told, bool(told))

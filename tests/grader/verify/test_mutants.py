@@ -71,6 +71,20 @@ def test_qos_is_mutated_to_what_does_not_connect():
     assert "qos_profile_sensor_data" in qos[10] and "TRANSIENT_LOCAL" in qos[11]
 
 
+def test_comparisons_are_turned_round():
+    text = "a is None\nb is not None\nc in d\ne not in f\ng >= 1\nh != 2\nk = not m\n"
+    now = {mutant.line: mutant.now for mutant in changes(text).values() if mutant.operator in ("comparison", "logic")}
+    assert now == {
+        1: "a is not None",
+        2: "b is None",
+        3: "c not in d",
+        4: "e in f",
+        5: "g < 1",
+        6: "h == 2",
+        7: "(m)",
+    }
+
+
 def test_what_says_nothing_about_a_node_is_left_alone():
     told = " ".join(changes())
     for word in ("docstring", "teleop", "__main__", "num_threads", "1: "[:0] or "ä"):
@@ -137,5 +151,6 @@ def test_every_mutant_of_yaml_is_yaml():
 
 
 def test_a_file_of_another_sort_has_none():
+    assert [m.now for m in mutants_of("switch.yaml", b"lazy: false")] == ["true"]
     assert mutants_of("notes.txt", b"0.5") == []
     assert mutants_of("empty.yaml", b"") == mutants_of("empty.py", b"") == []
