@@ -14,6 +14,7 @@ from markupsafe import Markup, escape
 
 from grader.record.bodies import Body, bodies, chain_of, hull, placed
 from grader.record.reading import Recording
+from grader.score.steps import told
 
 WIDEST = 40.0  # [m] a world larger than this is shown around the path only
 MARGIN = 1.5  # [m] around the path when only that is shown
@@ -97,8 +98,8 @@ class Map:
         (x0, x1), (y0, y1) = ((s.values[0], s.values[-1]) for s in (self._x, self._y))
         distance = self._recording.signal(f"truth/{self._robot}/distance").values
         return (
-            f"Seen from above: the robot goes from x = {x0:.2f} m, y = {y0:.2f} m to x = {x1:.2f} m, y = {y1:.2f} m, "
-            f"{distance[-1] if len(distance) else 0.0:.2f} m in all."
+            f"Seen from above: the robot goes from x = {told(x0)} m, y = {told(y0)} m to x = {told(x1)} m, "
+            f"y = {told(y1)} m, {told(distance[-1] if len(distance) else 0.0)} m in all."
         )
 
     def where(self, time_s: float) -> str:
@@ -107,7 +108,7 @@ class Map:
         if not len(self._x):
             return ""
         x, y, yaw = (float(s.values[max(index, 0)]) for s in (self._x, self._y, self._yaw))
-        return f"x = {x:.2f} m, y = {y:.2f} m, heading {math.degrees(yaw):.0f}°"
+        return f"x = {told(x)} m, y = {told(y)} m, heading {round(math.degrees(yaw)) if math.isfinite(yaw) else 0}°"
 
     def _look(self) -> View:
         path = np.stack([self._x.values, self._y.values], axis=1)

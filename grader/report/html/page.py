@@ -85,7 +85,7 @@ class Picture:
 
     title: str
     alt: str
-    source: str
+    source: Markup
 
 
 def as_html(report: Report) -> str:
@@ -228,7 +228,7 @@ def _pictures(recording: Recording, moments: list[tuple[float, str]]) -> list[Pi
             if kind and data != seen:
                 seen = data
                 alt = f"Picture of {entity} at {at:.2f} s of simulated time."
-                source = f"data:image/{kind};base64,{base64.b64encode(data).decode()}"
+                source = Markup(f"data:image/{kind};base64,{base64.b64encode(data).decode()}")
                 found.append(Picture(f"{at:.2f} s. {title} ({entity})", alt, source))
     return found
 

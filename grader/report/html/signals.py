@@ -68,14 +68,19 @@ def _gates(gate: Any, end: float) -> dict[str, list[Area]]:
 
 
 def speeds_of(recording: Recording, robot: str) -> list[Figure]:
-    """Return the true speeds of the robot, each with the commands that student or script gave for it."""
+    """Return the true speeds of the robot, each with the commands that were given for it.
+
+    Of several topics with commands those that name the robot are its own.
+    """
+    topics = sorted(recording.facts().get("listened", {}))
+    own = [topic for topic in topics if robot in topic.split("/")] or topics
     figures = []
     for title, unit, truth, command in SPEEDS:
         name = f"truth/{robot}/{truth}"
         if not recording.has(name):
             continue
         curves = [_curve(recording, name, f"truth, {name}")]
-        for topic in sorted(recording.facts().get("listened", {})):
+        for topic in own:
             for signal in recording.entities(f"topics/{topic.strip('/')}", "Scalars:scalars"):
                 if signal.endswith(f"/{command}"):
                     curves.append(_curve(recording, signal, f"command, {signal.removeprefix('topics')}"))

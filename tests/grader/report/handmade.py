@@ -15,7 +15,7 @@ from grader.score.score import CheckResult, Score
 
 DURATION = 4.0
 TWIST = {"/cmd_vel": "geometry_msgs/msg/Twist"}
-JPEG = b"\xff\xd8\xff\xe0 not much of a picture"
+JPEG = b"\xff\xd8\xff\xe0 not much of a picture" + bytes(20_000)
 NASTY = [
     "<script>alert(1)</script>", "</pre><h1>", "{{ 7 * 7 }}", "{% raw %}", "]]>", "<!--", "&lt;", "'\"><img src=x>",
     "::error::no", "::set-output name=x::y", "##[group]", "##vso[task.complete]", "\x1b[2J", "\0", "\x9b31m", "\r",

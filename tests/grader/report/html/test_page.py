@@ -131,6 +131,11 @@ def test_a_plot_shows_band_and_moment_of_the_verdict(make_report):
     assert "command, /cmd_vel/linear/x" in text
 
 
+def test_of_several_robots_each_has_its_own_commands(make_report):
+    listened = {"listened": {topic: "geometry_msgs/msg/Twist" for topic in ("/cmd_vel", "/robot/cmd_vel")}}
+    assert "command, /cmd_vel/linear/x" not in as_html(make_report(facts=listened))
+
+
 def test_the_moments_of_the_run_are_drawn(make_report):
     text = as_html(make_report())
     parsed = read(text)
