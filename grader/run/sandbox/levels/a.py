@@ -11,7 +11,9 @@ ABOUT = "namespaces built by bubblewrap, a user of its own, a private network, l
 PRIVATE_NETWORK = True
 WALLS = "bubblewrap"
 LANDLOCK = False
-KEPT_BY_ROOT = ("CAP_SETUID", "CAP_SETGID", "CAP_SETPCAP")  # only until the submission starts
+# Only until the submission starts: to limit file systems in memory, to give up everything, to change the user.
+KEPT = ("CAP_SYS_ADMIN", "CAP_SETPCAP")
+KEPT_BY_ROOT = ("CAP_SETUID", "CAP_SETGID")
 
 
 def program() -> str | None:
@@ -34,7 +36,7 @@ def missing() -> str:
 def command(order: Order, init: list[str]) -> list[str]:
     """Return the command that runs `init` in the box."""
     # Root must give up every capability by name: bubblewrap lets it keep all, and a read-only mount is none then.
-    kept = ("CAP_SYS_ADMIN", *(KEPT_BY_ROOT if order.user is not None else ()))
+    kept = (*KEPT, *(KEPT_BY_ROOT if order.user is not None else ()))
     words = [str(program()), "--die-with-parent", "--as-pid-1", "--unshare-pid", "--unshare-ipc", "--unshare-uts"]
     words += ["--unshare-cgroup-try", "--hostname", order.host]
     if order.user is None:

@@ -1,0 +1,135 @@
+"""What the hostile tests share: workers that grade at one level, as root or as an ordinary user."""
+
+import dataclasses
+import json
+import os
+import selectors
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import psutil
+import pytest
+
+ROOT = Path(__file__).parents[2]
+SOLUTION = ROOT / "solutions/03_teleop/teleop_node.py"
+ORDINARY = 61_900  # from here on: users nobody is
+LONGEST = 120.0  # [s] for one answer
+
+
+@dataclasses.dataclass
+class Worker:
+    """A process that grades at `level`; as an ordinary user if `user` says so."""
+
+    level: str
+    user: int | None
+    folder: Path
+
+    def __post_init__(self):
+        self.tmp = self.folder / "tmp"
+        self.tmp.mkdir(mode=0o777)
+        for path in (self.folder, self.tmp):
+            path.chmod(0o777)
+        command = [sys.executable, str(Path(__file__).with_name("worker.py")), self.level]
+        if self.user is not None:
+            become = Path(__file__).with_name("ordinary_user.py")
+            command = [sys.executable, "-I", "-S", str(become), str(self.user), str(self.tmp), *command]
+        kept = {k: v for k, v in os.environ.items() if not k.startswith(("ROS_", "GZ_", "COURSE_"))}
+        self.errors = (self.folder / "errors").open("wb")
+        self.process = subprocess.Popen(
+            command,
+            bufsize=0,  # nothing read ahead: the selector below sees all there is
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=self.errors,
+            cwd=self.folder,
+            env=kept | {"TMPDIR": str(self.tmp), "COURSE_ROOT": str(ROOT), "PYTHONDONTWRITEBYTECODE": "1"},
+            start_new_session=True,
+        )
+        self.numbers = iter(range(10_000))
+
+    def grade(self, files):
+        """Grade a submission of some files (name -> text); what the worker tells about it."""
+        submission = self.folder / f"submission-{next(self.numbers)}"
+        submission.mkdir()
+        for name, text in files.items():
+            (submission / name).write_text(text)
+        out = self.tmp / "out"
+        self.process.stdin.write(json.dumps([str(submission), str(out)]).encode() + b"\n")
+        self.process.stdin.flush()
+        told = json.loads(self._line())
+        shutil.rmtree(out)
+        return told
+
+    def _line(self):
+        end = time.monotonic() + LONGEST
+        with selectors.DefaultSelector() as selector:
+            selector.register(self.process.stdout, selectors.EVENT_READ)
+            while time.monotonic() < end:
+                if selector.select(1.0):
+                    line = self.process.stdout.readline()
+                    if line.strip():
+                        return line
+                    if not line:
+                        break
+        raise AssertionError(f"the worker is gone: {(self.folder / 'errors').read_text()[-2000:]}")
+
+    def left(self):
+        """What is left of its boxes: processes and shared memory of their users, temporary files."""
+        users = {self.user} if self.user is not None else set(range(61_001, 61_102))
+        found = [p for p in psutil.process_iter() if is_of(p, users) and p.pid != self.process.pid]
+        mine = {p.pid for p in psutil.Process(self.process.pid).children(recursive=True)}
+        processes = [p for p in found if self.user is not None or p.pid in mine]
+        # Of the grader itself: a file of a tracing library, one a user.
+        memory = [p for p in Path("/dev/shm").iterdir() if owner(p) in users and "lttng" not in p.name]
+        return [*processes, *memory, *(p for p in self.tmp.iterdir() if p.name not in (".cache", ".config", "out"))]
+
+    def close(self):
+        self.process.stdin.close()
+        try:
+            self.process.wait(20)
+        except subprocess.TimeoutExpired:
+            os.killpg(self.process.pid, signal.SIGKILL)
+            self.process.wait()
+        self.process.stdout.close()
+        self.errors.close()
+
+
+def owner(path):
+    try:
+        return path.lstat().st_uid
+    except OSError:
+        return None
+
+
+def is_of(process, users):
+    try:
+        return process.uids().real in users and process.status() != psutil.STATUS_ZOMBIE
+    except psutil.Error:
+        return False
+
+
+@pytest.fixture(scope="session")
+def solution():
+    return SOLUTION.read_text()
+
+
+@pytest.fixture(scope="session")
+def workers():
+    """`workers(level, user)`: the worker of that kind, started when first asked for."""
+    running = {}
+
+    def call(level, user):
+        if (level, user) not in running:
+            folder = Path(tempfile.mkdtemp(prefix="hostile-"))  # pytest's own folders are closed to other users
+            running[level, user] = Worker(level, user, folder)
+        return running[level, user]
+
+    yield call
+    for worker in running.values():
+        worker.close()
+        shutil.rmtree(worker.folder)
