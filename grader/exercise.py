@@ -59,8 +59,10 @@ class Exercise:
 
     @property
     def manifest_sha256(self) -> str:
-        """SHA-256 of the manifest's text; a recording keeps that of its run."""
-        return hashlib.sha256((self.folder / MANIFEST).read_bytes()).hexdigest()
+        """SHA-256 of the manifest and of the files its `python` checks name; a recording keeps that of its run."""
+        files = {str(c.parameters.get("function")).partition(":")[0] for c in self.checks if c.kind == "python"}
+        paths = [self.folder / MANIFEST, *(self.folder / name for name in sorted(files))]
+        return hashlib.sha256(b"".join(path.read_bytes() for path in paths if path.is_file())).hexdigest()
 
     @property
     def max_score(self) -> float:

@@ -115,6 +115,11 @@ def grade_again(paths: Path | Sequence[Path], root: Path | None = None) -> Repor
     notes = []
     if any(run.get("manifest_sha256", exercise.manifest_sha256) != exercise.manifest_sha256 for run in runs):
         notes.append(f"The manifest of {exercise.name} has changed since this run; it is scored by what it says now.")
+    if len(runs) == 1 and runs[0].get("trial_count", 1) > 1:
+        notes.append(
+            f"This is the trial {runs[0]['trial']} alone, one of {runs[0]['trial_count']} of its grading; give the "
+            "folder of all recordings for the score that counts."
+        )
     return make_report(played, exercise, runs[0]["submission"], notes=notes)
 
 

@@ -1,5 +1,6 @@
 """Exercise manifests: what is read, and that every mistake is told with the file and the key."""
 
+import hashlib
 import shutil
 
 import pytest
@@ -220,3 +221,14 @@ def test_the_shipped_exercises_load_and_give_a_hundred_points(name, root, tmp_pa
 def test_an_unknown_kind_of_submission_is_told_with_the_nearest(folder):
     with pytest.raises(ManifestError, match=r"kind is 'nod' \((known|did you mean).*node"):
         load_exercise(folder('kind = "nod"\n' + GOOD))
+
+
+def test_the_hash_of_a_manifest_is_also_over_its_functions(folder):
+    plain = load_exercise(folder()).manifest_sha256
+    assert plain == hashlib.sha256(GOOD.encode()).hexdigest()
+    path = folder(GOOD.replace('kind = "change"', 'kind = "python"\nfunction = "checks.py:one"', 1))
+    hashes = []
+    for text in ("def one(): pass", "def one(): return 1"):
+        (path / "checks.py").write_text(text)
+        hashes.append(load_exercise(path).manifest_sha256)
+    assert len({plain, *hashes}) == 3

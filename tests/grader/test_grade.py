@@ -33,7 +33,9 @@ def test_a_folder_stands_for_the_recordings_in_it(recorded, root):
     first, second = recorded("a", 1, 2), recorded("b", 2, 2)
     assert recordings_in(first.parent) == sorted([first, second])
     assert [trial.name for trial in grade_again(first.parent, root).trials] == ["a", "b"]
-    assert grade_again(first, root).trials[0].name == "a", "one of them alone is scored alone"
+    alone = grade_again(first, root)
+    assert alone.trials[0].name == "a", "one of them alone is scored alone"
+    assert any("This is the trial a alone, one of 2" in note for note in alone.notes)
 
 
 @pytest.mark.parametrize(
