@@ -18,6 +18,7 @@ from grader.score.steps import told
 
 WIDEST = 40.0  # [m] a world larger than this is shown around the path only
 MARGIN = 1.5  # [m] around the path when only that is shown
+FOOT = 20  # [pixels] below the world, for the ruler
 ARROW = 0.35  # [m] length of the arrow that shows the robot's heading
 FAR = 1e5  # [pixels] nothing is drawn farther away
 MOST_POINTS = 360  # of a scan
@@ -66,9 +67,10 @@ class Map:
             flat = points[:, :2].tolist()
             return [(_pixels((x - view.left) * scale), _pixels((view.top - y) * scale)) for x, y in flat]
 
-        box = f"0 0 {width} {height:.0f}"
+        below = height + FOOT
+        box = f"0 0 {width} {below:.0f}"
         parts = [f'<svg class="map" viewBox="{box}" role="img" aria-label="{escape(alt)}">']
-        parts.append(f'<rect class="floor" width="{width}" height="{height:.0f}"/>')
+        parts.append(f'<rect class="floor" width="{width}" height="{below:.0f}"/>')
         for body, outline in self._standing:
             parts.append(_polygon(body, spots(outline)))
         path = np.stack([self._x.values, self._y.values], axis=1)
@@ -88,7 +90,7 @@ class Map:
             parts.append(f'<circle class="start" cx="{x:.1f}" cy="{y:.1f}" r="6"/>')
             anchor = "end" if x > width / 2 else "start"
             parts.append(f'<text class="tick" x="{x:.1f}" y="{y - 10:.1f}" text-anchor="{anchor}">start</text>')
-        parts.append(_ruler(scale, width, height))
+        parts.append(_ruler(scale, width, below))
         return Markup("".join([*parts, "</svg>"]))
 
     def told(self) -> str:
@@ -169,7 +171,7 @@ def _area(outline: np.ndarray) -> float:
 def _ruler(scale: float, width: float, height: float) -> str:
     """Return a line of a round length, so that distances can be read off."""
     length = next((m for m in (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0) if m * scale > 0.12 * width), 50.0)
-    x, y = 10.0, height - 10.0
+    x, y = 10.0, height - 8.0
     right = x + length * scale
     line = f'<path class="ruler" d="M{x:.1f} {y - 4:.1f}V{y:.1f}H{right:.1f}V{y - 4:.1f}"/>'
     return f'{line}<text class="tick" x="{right + 6:.1f}" y="{y:.1f}">{length:g} m</text>'

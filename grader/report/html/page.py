@@ -221,15 +221,15 @@ def _pictures(recording: Recording, moments: list[tuple[float, str]]) -> list[Pi
     """Return the recorded camera frames at the moments worth a look."""
     found = []
     for entity in [*recording.entities("world", "EncodedImage"), *recording.entities("topics", "EncodedImage")]:
-        seen = b""
+        seen, name = b"", entity.removeprefix("topics")
         for at, title in moments:
             data = recording.picture_at(entity, round(at * 1e9))
             kind = "jpeg" if data.startswith(JPEG) else "png" if data.startswith(PNG) else ""
             if kind and data != seen:
                 seen = data
-                alt = f"Picture of {entity} at {at:.2f} s of simulated time."
+                alt = f"Picture of {name} at {at:.2f} s of simulated time."
                 source = Markup(f"data:image/{kind};base64,{base64.b64encode(data).decode()}")
-                found.append(Picture(f"{at:.2f} s. {title} ({entity})", alt, source))
+                found.append(Picture(f"{at:.2f} s. {title} ({name})", alt, source))
     return found
 
 

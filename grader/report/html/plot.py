@@ -17,6 +17,7 @@ WIDTH, HEIGHT = 720, 190
 LEFT, RIGHT, TOP, BOTTOM = 62, 14, 20, 34  # margins around the plotting area
 HUGE = 1e150  # larger values are drawn as this: their differences must stay finite
 MOST_TICKS = 6
+NARROWEST = 10.0  # pixels of a band that can be seen
 FLAT = 1e-6  # what varies less is a constant with the noise of computing
 COLUMN = 0.5  # pixels that samples may lie apart to be drawn as one
 
@@ -71,7 +72,9 @@ def plot(
     for area in areas:
         left, right = x(area.start), x(area.end)
         above, below = y(min(area.high, high)), y(max(area.low, low))
-        width, height = max(right - left, 3.0), max(below - above, 2.0)
+        if right - left < NARROWEST:  # wanted at one moment, where the line of the verdict stands
+            left, right = left - NARROWEST / 2, left + NARROWEST / 2
+        width, height = right - left, max(below - above, 2.0)
         parts.append(f'<rect class="band" x="{left:.1f}" y="{above:.1f}" width="{width:.1f}" height="{height:.1f}"/>')
     for value in ticks(low, high):
         level = f"{y(value):.1f}"

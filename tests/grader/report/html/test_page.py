@@ -152,7 +152,7 @@ def test_the_moments_of_the_run_are_drawn(make_report):
 def test_camera_frames_are_shown_if_they_were_recorded(make_report):
     pictures = read(as_html(make_report())).all("img")
     assert len({picture["src"] for picture in pictures}) == 4
-    assert pictures[0]["alt"] == "Picture of topics/camera/image at 0.00 s of simulated time."
+    assert pictures[0]["alt"] == "Picture of /camera/image at 0.00 s of simulated time."
 
 
 def test_what_is_no_picture_is_left_out(make_report, monkeypatch):
