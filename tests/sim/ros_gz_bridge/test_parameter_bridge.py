@@ -187,4 +187,4 @@ def test_a_broken_file_lists_all_its_faults(ros_domain, tmp_path):
     done = run("--ros-args", "-p", f"config_file:={file}")
     assert done.returncode == 2
     places = [line.split(": ")[1] for line in done.stderr.splitlines()]
-    assert places == [f"{file}:5", f"{file}:3", f"{file}:10"]
+    assert places == [f"{file}:3", f"{file}:5", f"{file}:10"]
