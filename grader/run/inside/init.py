@@ -7,17 +7,20 @@ Linux ends everything in the box. Without, it becomes the submission.
 
 from __future__ import annotations
 
-import contextlib
-import json
+# What the modules `signal` and `socket` are made of; those would take longer to import than all else here.
+import _signal as signal  # type: ignore[import-not-found]
+import marshal
 import os
 import resource
 import select
-import signal
-import socket
 import sys
-from typing import Any, NoReturn
+from _socket import AF_UNIX, SOCK_STREAM, socket, socketpair
 
 from grader.run.inside import kernel, landlock, seccomp, walls
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any, NoReturn
 
 LARGEST = 1 << 20  # [bytes] of a message
 FAILED = 125  # exit code of a box that could not be built
@@ -25,10 +28,10 @@ FAILED = 125  # exit code of a box that could not be built
 
 def main() -> None:
     """Take the order from the socket named in argv[1] and carry it out."""
-    channel = socket.socket(fileno=int(sys.argv[1]))
-    channel.set_inheritable(False)
+    channel = socket(fileno=int(sys.argv[1]))
+    os.set_inheritable(channel.fileno(), False)
     try:
-        order = json.loads(channel.recv(LARGEST))
+        order = marshal.loads(channel.recv(LARGEST))
         kernel.prctl(kernel.PR_SET_PDEATHSIG, signal.SIGKILL)
         if order["walls"] == "own":
             walls.build(order["root"], order["places"])
@@ -37,9 +40,8 @@ def main() -> None:
         if order["walls"]:
             _supervise(order, channel)
         _become(order)
-    except (OSError, ValueError, KeyError) as error:
-        with contextlib.suppress(OSError):
-            channel.send(json.dumps({"error": str(error)}).encode())
+    except (OSError, ValueError, KeyError, EOFError) as error:
+        _tell(channel, "error", error)
         os._exit(FAILED)
 
 
@@ -62,11 +64,12 @@ def _become(order: dict[str, Any]) -> NoReturn:
     os.execve(order["command"][0], order["command"], order["environment"])
 
 
-def _supervise(order: dict[str, Any], channel: socket.socket) -> NoReturn:
+def _supervise(order: dict[str, Any], channel: socket) -> NoReturn:
     """Start the submission and stay until it ends or nobody listens any more."""
-    wake, woken = socket.socketpair()
+    wake, woken = socketpair(AF_UNIX, SOCK_STREAM)
     for end in (wake, woken):
         end.setblocking(False)
+        os.set_inheritable(end.fileno(), False)
     signal.set_wakeup_fd(woken.fileno(), warn_on_full_buffer=False)
     signal.signal(signal.SIGCHLD, lambda *_: None)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
@@ -78,7 +81,7 @@ def _supervise(order: dict[str, Any], channel: socket.socket) -> NoReturn:
             os.setsid()
             _become(order)
         except OSError as error:
-            channel.send(json.dumps({"error": str(error)}).encode())
+            _tell(channel, "error", error)
         finally:
             os._exit(FAILED)
     kernel.drop_capabilities(order["user"], order["group"])
@@ -89,18 +92,22 @@ def _supervise(order: dict[str, Any], channel: socket.socket) -> NoReturn:
     while True:
         ready, _, _ = select.select([channel, wake], [], [])
         if wake in ready:
-            with contextlib.suppress(BlockingIOError):
+            try:  # noqa: SIM105 - contextlib takes its time, too
                 wake.recv(4096)
+            except BlockingIOError:
+                pass
             _collect(child, channel)
         if channel in ready:
             told = channel.recv(16)
             if not told:
                 os._exit(0)
-            with contextlib.suppress(ProcessLookupError, PermissionError):
+            try:  # noqa: SIM105
                 os.killpg(child, told[0])
+            except (ProcessLookupError, PermissionError):
+                pass
 
 
-def _collect(child: int, channel: socket.socket) -> None:
+def _collect(child: int, channel: socket) -> None:
     """Reap every process that has ended; the end of the submission's is the end of the box."""
     while True:
         try:
@@ -110,9 +117,16 @@ def _collect(child: int, channel: socket.socket) -> None:
         if not ended:
             return
         if ended == child:
-            with contextlib.suppress(OSError):
-                channel.send(json.dumps({"exit": os.waitstatus_to_exitcode(status)}).encode())
+            _tell(channel, "exit", os.waitstatus_to_exitcode(status))
             os._exit(0)
+
+
+def _tell(channel: socket, what: str, value: Any) -> None:
+    """Tell the grader the exit code of the submission, or why there is no box."""
+    try:  # noqa: SIM105
+        channel.send(f"{what} {value}".encode(errors="replace"))
+    except OSError:
+        pass  # it is gone, and with it soon this
 
 
 if __name__ == "__main__":

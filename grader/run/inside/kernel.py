@@ -9,6 +9,8 @@ import ctypes
 import os
 import struct
 
+SIGKILL = 9
+
 LIBC = ctypes.CDLL(None, use_errno=True)
 
 CLONE_NEWNS = 0x00020000

@@ -10,9 +10,12 @@ import errno
 import os
 import stat
 import struct
-from collections.abc import Iterable
 
 from grader.run.inside.kernel import LIBC, checked
+
+TYPE_CHECKING = False  # the module `typing` would take longer to import than all else here
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 SYS_CREATE_RULESET, SYS_ADD_RULE, SYS_RESTRICT_SELF = 444, 445, 446
 VERSION, PATH_BENEATH = 1, 1

@@ -7,11 +7,12 @@ Called by `init.py` at level B; at level A bubblewrap has done the same before.
 from __future__ import annotations
 
 import os
-import signal
-from pathlib import Path
-from typing import Any
 
 from grader.run.inside import kernel
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
 
 HERE = kernel.MS_NOSUID | kernel.MS_NODEV
 
@@ -25,18 +26,18 @@ def build(root: str, places: list[dict[str, Any]]) -> None:
     spaces = kernel.CLONE_NEWNS | kernel.CLONE_NEWPID | kernel.CLONE_NEWIPC | kernel.CLONE_NEWUTS
     if user:
         kernel.unshare(spaces | kernel.CLONE_NEWUSER)
-        Path("/proc/self/setgroups").write_text("deny")
-        Path("/proc/self/uid_map").write_text(f"{user} {user} 1")
-        Path("/proc/self/gid_map").write_text(f"{group} {group} 1")
+        for name, text in (("setgroups", "deny"), ("uid_map", f"{user} {user} 1"), ("gid_map", f"{group} {group} 1")):
+            with open(f"/proc/self/{name}", "w") as file:  # noqa: PTH123
+                file.write(text)
     else:
         kernel.unshare(spaces)
-    kernel.prctl(kernel.PR_SET_PDEATHSIG, signal.SIGKILL)
+    kernel.prctl(kernel.PR_SET_PDEATHSIG, kernel.SIGKILL)
     first = os.fork()
     if first:
         os.closerange(0, 65536)  # nothing is held open here: readers see the end when the box has ended
         os.waitpid(first, 0)
         os._exit(0)
-    kernel.prctl(kernel.PR_SET_PDEATHSIG, signal.SIGKILL)
+    kernel.prctl(kernel.PR_SET_PDEATHSIG, kernel.SIGKILL)
     kernel.mount("", "/", flags=kernel.MS_REC | kernel.MS_PRIVATE)
     kernel.mount("box", root, "tmpfs", HERE, "size=1m,nr_inodes=4000,mode=755")
     masks = [place for place in places if place["kind"] == "mask"]
@@ -53,7 +54,7 @@ def _put(root: str, place: dict[str, Any]) -> None:
     target = root + place["path"]
     kind, source = place["kind"], place["source"]
     if kind == "link":
-        Path(target).symlink_to(source)
+        os.symlink(source, target)  # noqa: PTH211
         return
     if kind == "device" or (kind == "bind" and not os.path.isdir(source)):  # noqa: PTH112
         if not os.path.exists(target):  # noqa: PTH110

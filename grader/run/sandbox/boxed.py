@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import json
 import os
 import signal
 import socket
@@ -120,9 +119,11 @@ class Boxed:
     def _listen(self, channel: socket.socket) -> None:
         with contextlib.suppress(OSError, ValueError):
             while data := channel.recv(LONGEST_MESSAGE):
-                told = json.loads(data)
-                self._told = told.get("exit", self._told)
-                self._error = self._error or told.get("error", "")
+                what, _, value = data.decode(errors="replace").partition(" ")
+                if what == "exit":
+                    self._told = int(value)
+                else:
+                    self._error = self._error or value
 
     def _last_words(self) -> str:
         with contextlib.suppress(OSError, ValueError):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import json
+import marshal
 import resource
 import sys
 from dataclasses import asdict, dataclass, replace
@@ -44,9 +44,9 @@ class Order:
     environment: dict[str, str]
     descriptors: tuple[int, ...]
 
-    def as_json(self) -> bytes:
-        """As `init.py` reads it."""
-        return json.dumps(asdict(self)).encode()
+    def as_bytes(self) -> bytes:
+        """As `init.py`, run by the same Python, reads it."""
+        return marshal.dumps(asdict(self))
 
     def for_init(self) -> Order:
         """Only what `init.py` itself needs: mounts that bubblewrap has made are left out."""

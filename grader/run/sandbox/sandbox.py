@@ -118,7 +118,7 @@ class Sandbox:
                 process = _spawn(line, {"PATH": os.defpath}, Path("/"), (theirs.fileno(), *pass_fds))
             boxed = Boxed(process, self.level, ours, bool(self._module.WALLS))
             with contextlib.suppress(OSError):  # it has ended already, and will be asked why
-                ours.send(order.for_init().as_json())
+                ours.send(order.for_init().as_bytes())
         self._boxes.append(boxed)
         if self._module.WALLS:  # what is in the box stays below its outermost process
             boxed.watch = Watch(boxed.pid, boxed.kill)
