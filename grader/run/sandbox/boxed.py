@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import select
 import signal
 import socket
 import subprocess
@@ -75,7 +76,20 @@ class Boxed:
 
     def wait(self, timeout: float | None = None) -> int:
         """Wait for the end. Raises subprocess.TimeoutExpired, and InfrastructureError as `poll` does."""
+        if timeout is not None and self._process.poll() is None:
+            self._await_end(timeout)
+            timeout = 0
         return self._exit_code(self._process.wait(timeout))
+
+    def _await_end(self, timeout: float) -> None:
+        """Wait for the event itself; `Popen.wait` with a timeout looks every so often, up to 50 ms late."""
+        end = os.pidfd_open(self.pid)
+        try:
+            watched = select.poll()
+            watched.register(end, select.POLLIN)
+            watched.poll(timeout * 1000)
+        finally:
+            os.close(end)
 
     def signal(self, number: signal.Signals) -> None:
         """Send a signal to every process of the submission that has not left its process group."""

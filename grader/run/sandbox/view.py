@@ -78,7 +78,8 @@ def _system(name: str) -> Place:
 
 
 def _within(path: Path, places: list[Place]) -> bool:
-    return any(place.kind == "bind" and path.is_relative_to(place.path) for place in places)
+    name = f"{path}/"
+    return any(place.kind == "bind" and name.startswith(f"{place.path}/") for place in places)
 
 
 def _python() -> list[Path]:
