@@ -41,10 +41,10 @@ def fault(name: str, content: bytes) -> str | None:
     if len(config.topics) > MOST_BRIDGES:
         return f"{name}: {len(config.topics)} bridges; at most {MOST_BRIDGES} are run here"
     errors = [finding for finding in config.findings if not finding.warning]
-    return shown(str(errors[0])) if errors and not _usable(config) else None
+    return shown(str(errors[0])) if errors and not usable(config) else None
 
 
-def _usable(config: Config) -> list[BridgeEntry]:
+def usable(config: Config) -> list[BridgeEntry]:
     """The entries the original would bridge, with their names as both graphs will show them.
 
     A graded run has its listeners from the beginning to the end, so a lazy entry is always connected.
@@ -70,7 +70,7 @@ def cast(exercise: Exercise, submission: Submission) -> Cast:
         {"place": finding.place, "sentence": shown(finding.sentence), "warning": finding.warning}
         for finding in config.findings
     ]
-    return Cast(GIVEN_NODE, given_node(exercise), _usable(config), {"lint": found}, given=True)
+    return Cast(GIVEN_NODE, given_node(exercise), usable(config), {"lint": found}, given=True)
 
 
 KIND = Kind((".yaml", ".yml"), fault, cast, brings_bridge=True)

@@ -93,6 +93,11 @@ def run(
         recorder = Recorder(path, exercise.robot)
         with recorder.abandoned_on_error():
             facts = stage.play(recorder)
+            if cast.given and (facts["exit_at"] is not None or not facts["ready"]):
+                how = "did not start to spin" if facts["exit_at"] is None else f"ended (exit code {facts['exit_code']})"
+                raise ManifestError(
+                    f"{exercise.folder / cast.program}: the exercise's own node {how}; nothing is graded"
+                )
             write_properties(recorder, exercise, submission, trial, cast.facts | facts)
         return RunResult(recorder, sandbox.level, stage.pace_name, stage.wall_seconds)
 

@@ -33,11 +33,11 @@ def outcome_of(recording: Recording) -> str:
     `tamper`: it published what only the simulator may; `protocol`: it closed the descriptors it was given; `memory`: it
     ran out of memory; `output`: it wrote more than anybody can read; `student_error`: it could not run, or crashed;
     `timeout`: it never spun, or held everything up;
-    `infra`: the node given with the exercise did not do its part; `graded`: none of these.
+    `graded`: none of these.
     """
     facts = recording.facts()
     if facts.get("given"):
-        return "infra" if _given_failed(recording, facts) else "graded"
+        return "timeout" if _too_much(recording, facts) else "graded"
     if _reserved(facts):
         return "tamper"
     if facts.get("fault"):
@@ -242,10 +242,13 @@ def _out_of_time(recording: Recording, facts: dict[str, Any]) -> str:
     )
 
 
-def _given_failed(recording: Recording, facts: dict[str, Any]) -> str:
-    if facts.get("ready", True) and facts.get("exit_at") is None and not facts.get("out_of_time"):
+def _too_much(recording: Recording, facts: dict[str, Any]) -> str:
+    if not facts.get("out_of_time"):
         return ""
-    return "The node given with the exercise did not run to the end. That is not your fault; grade once more."
+    return (
+        f"The run was ended at {facts['sim_seconds']:.2f} s of simulated time because it took too long: your bridges carry "
+        "far more than is asked for."
+    )
 
 
 # In the order in which one would look.
@@ -264,4 +267,4 @@ LOOKS = (
     _unstable,
 )
 # With a node that is not the student's.
-LOOKS_AT_GIVEN = (_given_failed, _unstable)
+LOOKS_AT_GIVEN = (_too_much, _unstable)

@@ -1,0 +1,113 @@
+"""Both graphs as a run records them: names, types, who publishes; and a bridge that hears itself matches nobody."""
+
+import threading
+import time
+
+import pytest
+import rclpy
+from gz.msgs.double_pb2 import Double
+from gz.msgs.stringmsg_pb2 import StringMsg
+from rclpy.context import Context
+from std_msgs.msg import Float64, String
+
+from grader.run.domain import Domain
+from grader.run.ears import Ears
+from grader.run.graphs import both_graphs
+from grader.run.sandbox import ros_environment
+from gz.transport import Node, NodeOptions, Scope
+from ros_gz_bridge.entry import BridgeEntry, Direction
+
+BOTH = BridgeEntry(
+    "/words", "/gz/words", "std_msgs/msg/String", "gz.msgs.StringMsg", Direction.BIDIRECTIONAL, source="/x/b.yaml:3"
+)
+IN = BridgeEntry(
+    "/number", "/gz/number", "std_msgs/msg/Float64", "gz.msgs.Double", Direction.GZ_TO_ROS, publisher_queue=1
+)
+QUICK = BridgeEntry(
+    "/quick", "/gz/quick", "std_msgs/msg/Float64", "gz.msgs.Double", Direction.GZ_TO_ROS, qos_profile="SENSOR_DATA"
+)
+
+
+@pytest.fixture
+def domain(tmp_path, monkeypatch):
+    with Domain() as reserved:
+        for key, value in ros_environment(reserved.id, tmp_path).items():
+            monkeypatch.setenv(key, value)
+        yield reserved.id
+
+
+@pytest.fixture
+def gz(domain):
+    """Two Gazebo nodes nobody outside can reach: the simulator's and the bridge's."""
+    nodes = [Node(NodeOptions(scope=Scope.PROCESS, partition=f"graphs-{domain}")) for _ in range(2)]
+    yield nodes
+    for node in nodes:
+        node.close()
+
+
+@pytest.fixture
+def ears(domain, gz):
+    made = []
+
+    def make(*entries):
+        made.append(Ears(domain, gz[1], list(entries), {}, lambda topic, message: None))
+        return made[-1]
+
+    yield make
+    for each in made:
+        each.close()
+
+
+@pytest.fixture
+def other(domain):
+    """A ROS node of somebody else."""
+    context = Context()
+    rclpy.init(args=[], context=context, domain_id=domain)
+    yield rclpy.create_node("other", context=context, start_parameter_services=False)
+    rclpy.shutdown(context=context)
+
+
+def test_a_bridge_that_hears_itself_matches_nobody(ears):
+    made = ears(BOTH)
+    assert (made.matched("/words", "publisher"), made.matched("/words", "subscription")) == (0, 0)
+
+
+def test_somebody_else_is_matched_beside_a_bridge_that_hears_itself(ears, other):
+    made = ears(BOTH)
+    other.create_publisher(String, "/words", 10)
+    other.create_subscription(String, "/words", lambda message: None, 10)
+    pause, end = threading.Event(), time.monotonic() + 10
+    while (found := [made.matched("/words", kind) for kind in ("publisher", "subscription")]) != [1, 1]:
+        assert time.monotonic() < end, f"matched {found}"
+        pause.wait(0.01)
+
+
+def test_what_is_offered_with_best_effort_is_known(ears):
+    made = ears(IN, QUICK)
+    assert (made.reliable("/number"), made.reliable("/quick"), made.reliable("/elsewhere")) == (True, False, True)
+
+
+def test_both_graphs(ears, gz, other):
+    sensor = gz[0].advertise("/gz/number", Double)
+    gz[0].subscribe(StringMsg, "/gz/words", lambda message: None)
+    made = ears(BOTH, IN)
+    other.create_subscription(Float64, "/number", lambda message: None, 10)
+    sensor.publish(Double(data=2.0))
+
+    facts = both_graphs(gz[1], made)
+    assert facts["given"] is True
+    assert facts["gz_topics"]["/gz/number"] == {
+        "types": ["gz.msgs.Double"],
+        "publishers": ["gz sim"],
+        "subscribers": ["ros_gz_bridge"],
+    }
+    assert facts["gz_topics"]["/gz/words"] == {
+        "types": ["gz.msgs.StringMsg"],
+        "publishers": ["ros_gz_bridge"],
+        "subscribers": ["gz sim", "ros_gz_bridge"],
+    }
+    assert set(facts["ros_topics"]) == {"/words", "/number"}
+    assert facts["ros_topics"]["/words"]["publishers"] == ["ros_gz_bridge"]
+    both, number = facts["bridges"]
+    assert (both["source"], both["direction"], both["to_ros"], both["to_gz"]) == ("b.yaml:3", "BIDIRECTIONAL", 0, 0)
+    assert (number["to_ros"], number["publisher_qos"]["depth"], number["subscription_qos"]) == (1, 1, None)
