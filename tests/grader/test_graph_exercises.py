@@ -1,4 +1,4 @@
-"""Exercises about the graphs, graded for real: always in step, always the same, and their own node is nobody's fault."""
+"""Exercises about the graphs, graded for real: in step, always the same, their own node is not the student's fault."""
 
 import os
 import shutil
@@ -17,12 +17,14 @@ def rejected(root, exercise, fault):
     return folder
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fault", ["both_ways_clock", "best_effort_scan", "wrong_way_command"])
 def test_a_wrong_bridge_does_not_bring_the_run_out_of_step(grade, root, fault):
     outcome = grade(BRIDGES, rejected(root, BRIDGES, fault))
     assert (outcome.code, outcome.report["outcome"], outcome.report["pace"]) == (1, "graded", "lockstep")
 
 
+@pytest.mark.slow
 def test_equal_runs_give_equal_recordings(grading, clean, root, tmp_path):
     import rerun_cli
 
