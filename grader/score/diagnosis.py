@@ -246,8 +246,8 @@ def _too_much(recording: Recording, facts: dict[str, Any]) -> str:
     if not facts.get("out_of_time"):
         return ""
     return (
-        f"The run took too long and was ended at {facts['sim_seconds']:.2f} s of simulated time: your bridges carry far "
-        "more than is asked for."
+        f"The run took too long and was ended at {facts['sim_seconds']:.2f} s of simulated time: your bridges carry "
+        "far more than is asked for."
     )
 
 
