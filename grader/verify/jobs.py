@@ -52,12 +52,12 @@ class Job:
         return report
 
     def _grade(self, trials: tuple[Trial, ...], out: Path) -> Report:
-        report = grade(self.exercise, self.file, out, trials=trials)
         for _ in range(ATTEMPTS - 1):
-            if report.score.outcome != "infra":
-                break
-            report = grade(self.exercise, self.file, out, trials=trials)
-        return report
+            with contextlib.suppress(InfrastructureError):
+                report = grade(self.exercise, self.file, out, trials=trials)
+                if report.score.outcome != "infra":
+                    return report
+        return grade(self.exercise, self.file, out, trials=trials)
 
 
 class Pool(Protocol):

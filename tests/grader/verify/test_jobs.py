@@ -5,11 +5,14 @@ import shutil
 import signal
 import subprocess
 import sys
+from unittest.mock import Mock
 
 import psutil
 import pytest
 
+from grader.errors import InfrastructureError
 from grader.exercise import find_exercise
+from grader.verify import jobs
 from grader.verify.jobs import Job, pool
 
 COURSE = [sys.executable, "-c", "from grader.course import main; main()"]
@@ -82,3 +85,26 @@ def test_a_worker_that_is_killed_is_our_fault(verifying):
     _, errors = verifying.communicate(timeout=60)
     assert verifying.returncode == 3
     assert "was killed" in errors and "Traceback" not in errors
+
+
+@pytest.mark.parametrize("faults", [0, 1, 2, 3])
+def test_a_fault_of_the_machine_is_no_fault_of_a_variant(root, tmp_path, monkeypatch, faults):
+    """What the machine could not do is tried again, and told if it does not get better."""
+    calls = []
+
+    def graded(exercise, file, out, *, trials):
+        calls.append(out)
+        if len(calls) <= faults:
+            raise InfrastructureError("no memory")
+        return made
+
+    made = Mock()  # only its outcome is looked at
+    monkeypatch.setattr(jobs, "grade", graded)
+    exercise = find_exercise("03", root)
+    one = job(exercise, root / FILES[0], tmp_path)
+    if faults == 3:
+        with pytest.raises(InfrastructureError, match="no memory"):
+            one.run()
+    else:
+        assert one.run() is made
+        assert len(calls) == faults + 1
