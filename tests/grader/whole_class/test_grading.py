@@ -90,6 +90,8 @@ def test_when_its_worker_is_killed_a_grading_ends_at_once(grade_one, endless, tm
     os.kill(worker.pid, signal.SIGKILL)
     worker.communicate()
     _, alive = psutil.wait_procs(at_work, timeout=30)
+    for each in alive:
+        each.kill()
     assert alive == []
 
 
