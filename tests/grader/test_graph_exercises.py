@@ -18,7 +18,7 @@ def rejected(root, exercise, fault):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("fault", ["both_ways_clock", "best_effort_scan", "wrong_way_command"])
+@pytest.mark.parametrize("fault", ["both_ways_lidar", "best_effort_scan", "wrong_way_command"])
 def test_a_wrong_bridge_does_not_bring_the_run_out_of_step(grade, root, fault):
     outcome = grade(BRIDGES, rejected(root, BRIDGES, fault))
     assert (outcome.code, outcome.report["outcome"], outcome.report["pace"]) == (1, "graded", "lockstep")

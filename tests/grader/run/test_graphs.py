@@ -13,6 +13,8 @@ from std_msgs.msg import Float64, String
 from grader.run.domain import Domain
 from grader.run.ears import Ears
 from grader.run.graphs import both_graphs
+from grader.run.lockstep import can_match
+from grader.run.progress import Endpoint
 from grader.run.sandbox import ros_environment
 from gz.transport import Node, NodeOptions, Scope
 from ros_gz_bridge.entry import BridgeEntry, Direction
@@ -85,6 +87,17 @@ def test_somebody_else_is_matched_beside_a_bridge_that_hears_itself(ears, other)
 def test_what_is_offered_with_best_effort_is_known(ears):
     made = ears(IN, QUICK)
     assert (made.reliable("/number"), made.reliable("/quick"), made.reliable("/elsewhere")) == (True, False, True)
+
+
+def test_who_asks_for_reliable_delivery_is_not_waited_for_where_none_is_offered(ears):
+    made = ears(IN, QUICK)
+
+    def listener(topic, reliability):
+        return Endpoint("/n", "subscription", topic, "std_msgs/msg/Float64", reliability, "VOLATILE", 0)
+
+    assert can_match(listener("/number", "RELIABLE"), made)
+    assert can_match(listener("/quick", "BEST_EFFORT"), made)
+    assert not can_match(listener("/quick", "RELIABLE"), made)
 
 
 def test_both_graphs(ears, gz, other):
