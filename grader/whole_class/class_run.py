@@ -61,7 +61,7 @@ class ClassRun:
         files, choice = bundle.bundle(self.exercise, self.trials)
         trials = chosen_trials(self.exercise, self.trials)
         seconds = sum(PER_TRIAL + WALL_FACTOR * (trial.duration or self.exercise.duration) for trial in trials)
-        options = ("--seed", str(self.seed), "--trials", choice, "--sandbox", self.sandbox)
+        options: tuple[str, ...] = ("--seed", str(self.seed), "--trials", choice, "--sandbox", self.sandbox)
         options += ("--demand", self.demand) if self.demand else ()
         self.setup = Setup(self.exercise.name, files, options, self.reports, START_UP + seconds, None)
         self._same = [self.exercise.name, bundle.digest(files), options, self.reports, versions()]
