@@ -32,6 +32,10 @@ def verify_command(
     mutants: Annotated[bool, typer.Option(help="Also spoil each solution in one place at a time.")] = True,
 ) -> None:
     """Prove that solutions earn full marks, starters nothing, and rejected variants lose what they declare."""
+    from grader.run.sandbox import choose, enter_early
+
+    enter_early(choose())  # before there are threads
+
     from rich.console import Console
 
     from grader.verify import orphans

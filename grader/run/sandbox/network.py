@@ -20,7 +20,8 @@ CLONE_NEWNET = 0x40000000
 SIOCGIFFLAGS, SIOCSIFFLAGS, IFF_UP = 0x8913, 0x8914, 0x1
 _THREAD_NETWORK = "/proc/thread-self/ns/net"
 
-_entered: int | None = None  # process that has entered a network for good; a fork of it is in there, too
+# Names the network entered for good, for this process and for those it starts.
+_ENTERED = "COURSE_PRIVATE_NETWORK"
 
 
 class NetworkError(Exception):
@@ -28,8 +29,8 @@ class NetworkError(Exception):
 
 
 def in_private_network() -> bool:
-    """Whether this process has entered one for good."""
-    return _entered is not None
+    """Whether this process has entered one for good, or was started in one."""
+    return os.environ.get(_ENTERED) == str(Path(_THREAD_NETWORK).readlink())
 
 
 class PrivateNetwork:
@@ -73,13 +74,12 @@ def _unshare(flags: int) -> None:
 
 
 def _enter_for_good() -> None:
-    global _entered
     threads = len(list(Path("/proc/self/task").iterdir()))
     if threads > 1:
         raise NetworkError(f"this process has {threads} threads already, and an ordinary user may enter with one only")
     user, group = os.geteuid(), os.getegid()
     _unshare(CLONE_NEWUSER | CLONE_NEWNET)
-    _entered = os.getpid()
+    os.environ[_ENTERED] = str(Path(_THREAD_NETWORK).readlink())
     try:
         with contextlib.suppress(FileNotFoundError):
             Path("/proc/self/setgroups").write_text("deny")
