@@ -223,23 +223,22 @@ class LockStep(RealTime):
                 each.tell(order)
 
     def _matched(self) -> bool:
-        if not super()._matched():
-            return False
-        if not self._holding:
-            return True
-        endpoints = self.student.endpoints
-        publishers = [e for e in endpoints if e.kind == "publisher" and e.topic not in HOUSEKEEPING]
-        subscriptions = [e for e in endpoints if e.kind == "subscription" and e.topic not in HOUSEKEEPING]
-        full = all(
+        matched = super()._matched() and (not self._holding or self._matched_with_each_other())
+        if not matched and self._holding:
+            self._tell({"look": True})
+        return matched
+
+    def _matched_with_each_other(self) -> bool:
+        endpoints = [e for e in self.student.endpoints if e.topic not in HOUSEKEEPING]
+        publishers = [e for e in endpoints if e.kind == "publisher"]
+        subscriptions = [e for e in endpoints if e.kind == "subscription"]
+        return all(
             e.matched >= can_match(e, self.ears) + sum(will_match(e, other) for other in subscriptions)
             for e in publishers
         ) and all(
             e.matched >= can_match(e, self.ears) + sum(will_match(other, e) for other in publishers)
             for e in subscriptions
         )
-        if not full:
-            self._tell({"look": True})
-        return full
 
     def send(self, topic: str, publisher: Any, message: Any, now_ns: int) -> None:
         """Publish one message; what nobody subscribes to is not published at all."""

@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 from typing import Any
 
-from .channel import channel
+from .channel import SOCKET, channel
 
 _waiting = False
 
@@ -24,7 +24,8 @@ def install() -> None:
 
     def told_start(process: Any, *args: Any, **kwargs: Any) -> None:
         start(process, *args, **kwargs)
-        _tell({"started": {"pid": process.pid, "program": _program(process.pid)}})
+        mute = kwargs.get("env") is not None and SOCKET not in kwargs["env"]  # it cannot find the grader
+        _tell({"started": {"pid": process.pid, "program": "" if mute else _program(process.pid)}})
 
     def told_end(process: Any, *args: Any, **kwargs: Any) -> None:
         ended(process, *args, **kwargs)
@@ -77,7 +78,17 @@ def _tell(message: dict[str, Any]) -> None:
 
 
 def _program(pid: int) -> str:
+    """Name of the program a process runs; empty for a Python that is told to ignore its environment, and so us."""
     try:
-        return os.path.basename(os.readlink(f"/proc/{pid}/exe"))  # noqa: PTH115, PTH119 - pathlib would cost a start
+        name = os.path.basename(os.readlink(f"/proc/{pid}/exe"))  # noqa: PTH115, PTH119 - pathlib would cost a start
+        with open(f"/proc/{pid}/cmdline", "rb") as file:  # noqa: PTH123
+            words = file.read().decode(errors="replace").split("\0")[1:]
     except OSError:
         return ""
+    if name.startswith("python"):
+        for word in words:
+            if not word.startswith("-") or word in ("-c", "-m"):
+                break
+            if not word.startswith("--") and set("IES") & set(word):
+                return ""
+    return name
