@@ -85,11 +85,11 @@ def print_matrix(result: Verification, console: Console) -> None:
 
     checks = result.exercise.checks
     table = Table(title=f"{result.exercise.name}: x = fails", box=None, padding=(0, 2, 0, 0), title_justify="left")
-    table.add_column("variant")
+    table.add_column("variant", no_wrap=True, min_width=max(len(proof.variant.name) for proof in result.proofs))
     for number, _ in enumerate(checks, 1):
         table.add_column(str(number), justify="center")
     table.add_column("points", justify="right")
-    table.add_column("found out in")
+    table.add_column("only in trial")
     for proof in result.proofs:
         marks = ["x" if check.id in proof.failed else "." for check in checks]
         points = f"{proof.report.score.points:g}/{result.exercise.max_score:g}"
@@ -98,9 +98,9 @@ def print_matrix(result: Verification, console: Console) -> None:
         table.add_row(proof.variant.name, *marks, points, "" if every or not trials else ", ".join(trials))
     kills = [result.killed_by(check.id) for check in checks]
     table.add_section()
-    table.add_row("rejected variants that fail it", *(str(variants) for variants, _ in kills))
+    table.add_row("rejected that fail it", *(str(variants) for variants, _ in kills))
     if result.mutants:
-        table.add_row(f"of {len(result.mutants)} mutants fail it", *(str(mutants) for _, mutants in kills))
+        table.add_row(f"mutants that fail it (of {len(result.mutants)})", *(str(mutants) for _, mutants in kills))
     console.print(table)
     for number, check in enumerate(checks, 1):
         console.print(f"  {number}  {check.id} ({check.points:g} points)", highlight=False)
