@@ -26,6 +26,7 @@ from typing import Any
 from grader import bundle
 from grader.errors import InfrastructureError, RefusedError, UnreadableError, UsageError
 from grader.exercise import Exercise
+from grader.intake import Selection
 from grader.printable import shown
 from grader.run.sandbox import choose
 from grader.trial import chosen_trials
@@ -97,7 +98,7 @@ class ClassRun:
                         results[each.student] = result
                         told(result, anew)
                     else:
-                        running[executor.submit(grade_one, self.setup, job)] = (each, result, job.key, attempt)
+                        running[self._submit(executor, job)] = (each, result, job.key, attempt)
                 for future in wait(running, return_when=FIRST_COMPLETED).done if running else ():
                     each, result, key, attempt = running.pop(future)
                     graded = _outcome(future)
@@ -111,6 +112,13 @@ class ClassRun:
             ordered = [results[student] for student in order]
             write_gradebook(self.out, as_csv(self.exercise, ordered))
             return ordered
+
+    def _submit(self, executor: Executor, job: Job) -> Future[Graded]:
+        try:
+            return executor.submit(grade_one, self.setup, job)
+        except Exception as error:  # a Dask scheduler that is gone, a machine without room for a thread
+            told = shown(f"{type(error).__name__}: {error}")
+            raise InfrastructureError(f"no more gradings can be started: {told}; the same command goes on") from None
 
     def _open(self) -> Journal:
         """The folder of the class, made if need be, and its journal."""
@@ -144,23 +152,30 @@ class ClassRun:
         And whether the result is new; if not, an earlier run had graded it.
         """
         result = self._blank(found)
+        chosen: Selection | None = None
         try:
             chosen = found.read()
+            what = [chosen.main, bundle.digest(chosen.files)]
         except UnreadableError as error:
             return result | {"diagnosis": shown(str(error))}, None, True
         except UsageError as error:
             outcome = "protocol" if isinstance(error, RefusedError) else "student_error"
-            nothing = {check.id: 0 for check in self.exercise.checks}
-            result |= {"score": 0, "outcome": outcome, "points": nothing, "diagnosis": shown(str(error))}
-            self._store(result, {REPORT: self._unread(result)})
-            return result, None, True
-        result["sha256"] = bundle.digest(chosen.files)
-        identity = [found.student, found.id, found.source, chosen.main, result["sha256"], *self._same]
+            what = [outcome, shown(str(error))]
+        except Exception as error:  # one submission that breaks our reading must not end the class
+            return result | {"diagnosis": shown(f"not read: {type(error).__name__}: {error}")}, None, True
+        identity = [found.student, found.id, found.source, *what, *self._same]
         key = hashlib.sha256(json.dumps(identity, sort_keys=True).encode()).hexdigest()
-        done = journal.done.get(key)
+        done = journal.current(key)
         if done is not None and (self.out / done["folder"] / REPORT).is_file():
             return done, None, False
-        return result, Job(found.student, key, found.source, chosen.main, chosen.files), True
+        if chosen is not None:
+            result["sha256"] = what[1]
+            return result, Job(found.student, key, found.source, chosen.main, chosen.files), True
+        result |= {"score": 0, "points": {check.id: 0 for check in self.exercise.checks}}
+        result |= {"outcome": what[0], "diagnosis": what[1]}
+        self._store(result, {REPORT: self._unread(result)})
+        journal.add(key, result)
+        return result, None, True
 
     def _blank(self, found: Found) -> Result:
         return {

@@ -19,7 +19,10 @@ JOURNAL = "journal.jsonl"
 
 
 class Journal:
-    """An open journal; nobody else can open it meanwhile. `done` maps the keys of finished jobs to their results."""
+    """An open journal; nobody else can open it meanwhile. `done` maps the keys of finished jobs to their results.
+
+    A result names the `folder` that holds its files; of several results with one folder the last has it.
+    """
 
     def __init__(self, folder: Path) -> None:
         """Open or begin the journal of a folder. Raises UsageError if another run holds it or it cannot be written."""
@@ -36,6 +39,7 @@ class Journal:
                 f"another course grade-all is at work in {folder}; wait for it, or give another --out"
             ) from None
         self.done: dict[str, dict[str, Any]] = {}
+        self._holds: dict[str, str] = {}  # folder -> key of the result whose files are in it
         self._read()
         _sync_folder(folder)
 
@@ -46,7 +50,7 @@ class Journal:
         for line in data[:whole].splitlines():
             try:
                 entry = json.loads(line)
-                self.done[entry["key"]] = entry["result"]
+                self._know(entry["key"], entry["result"])
             except (ValueError, KeyError, TypeError):
                 continue  # a disk's fault: that submission is graded again
         if whole != len(data):
@@ -59,6 +63,15 @@ class Journal:
         while line:  # a disk that is nearly full takes a part
             line = line[self._file.write(line) :]
         os.fsync(self._file.fileno())
+        self._know(key, result)
+
+    def current(self, key: str) -> dict[str, Any] | None:
+        """Return the result of a job if it is done and its folder is still its own."""
+        result = self.done.get(key)
+        return result if result is not None and self._holds.get(result["folder"]) == key else None
+
+    def _know(self, key: str, result: dict[str, Any]) -> None:
+        self._holds[result["folder"]] = key
         self.done[key] = result
 
     def close(self) -> None:

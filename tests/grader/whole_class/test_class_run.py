@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grader.errors import InfrastructureError, UsageError
+from grader.errors import InfrastructureError, RefusedError, UnreadableError, UsageError
 from grader.intake import Selection
 from grader.whole_class import class_run
 from grader.whole_class.class_run import ClassRun, folder_name
@@ -42,10 +42,14 @@ class Machine:
 def grade(exercise, tmp_path, monkeypatch):
     """Grade students by a plan; returns the results and who was asked for."""
 
-    def run(plan, jobs=1):
+    def run(plan, readers=(), jobs=1):
         machine = Machine(exercise, {name: list(steps) for name, steps in plan.items()})
         monkeypatch.setattr(ClassRun, "_here", lambda self, jobs, stack: (machine, jobs))
-        found = [Found(name, "", name, lambda n=name: Selection(".", "x.py", {"x.py": n.encode()})) for name in plan]
+        readers = dict(readers)
+        found = [
+            Found(name, "", name, readers.get(name, lambda n=name: Selection(".", "x.py", {"x.py": n.encode()})))
+            for name in plan
+        ]
         results = ClassRun(exercise, tmp_path / "out").grade(found, lambda *_: None, jobs=jobs)
         return {result["student"]: result for result in results}, machine.asked
 
@@ -67,6 +71,25 @@ def test_a_fault_that_stays_is_listed_and_no_score(grade, tmp_path):
     assert "bob" in journal and "jane" not in journal
     results, asked = grade({"jane": [40], "bob": ["never asked"]})
     assert asked == ["jane"] and (results["jane"]["score"], results["bob"]["score"]) == (40, 30)
+
+
+@pytest.mark.parametrize(
+    ("error", "outcome", "score"),
+    [
+        (UsageError("no file"), "student_error", 0),
+        (RefusedError("a bomb"), "protocol", 0),
+        (UnreadableError("no permission"), "infra", None),
+        (ZeroDivisionError("a bug of ours"), "infra", None),
+    ],
+)
+def test_a_submission_that_cannot_be_read_is_one_line_and_nobody_elses(grade, error, outcome, score):
+    def read():
+        raise error
+
+    results, asked = grade({"jane": [65], "eve": []}, {"eve": read})
+    assert (asked, results["jane"]["score"]) == (["jane"], 65)
+    assert (results["eve"]["outcome"], results["eve"]["score"]) == (outcome, score)
+    assert str(error) in results["eve"]["diagnosis"]
 
 
 def test_where_nothing_can_be_graded_we_stop_early(grade, tmp_path):
@@ -97,6 +120,18 @@ def test_only_the_same_grading_is_not_done_again(exercise, tmp_path, grade, chan
     found = [Found("jane", "", "jane", lambda: Selection(".", "x.py", {"x.py": b"jane"}))]
     ClassRun(exercise, tmp_path / "out", **change).grade(found, lambda *_: None)
     assert machine.asked == ([] if change == {"trials": "public"} else ["jane"])
+
+
+def test_a_folder_that_another_grading_has_taken_is_filled_again(exercise, tmp_path, grade, monkeypatch):
+    grade({"jane": [65]})
+    machine = Machine(exercise, {"jane": [70]})
+    with monkeypatch.context() as patch:
+        patch.setattr(ClassRun, "_here", lambda self, jobs, stack: (machine, jobs))
+        found = [Found("jane", "", "jane", lambda: Selection(".", "x.py", {"x.py": b"jane"}))]
+        ClassRun(exercise, tmp_path / "out", seed=1).grade(found, lambda *_: None)
+    results, asked = grade({"jane": [65]})
+    assert asked == ["jane"] and results["jane"]["score"] == 65
+    assert json.loads((tmp_path / "out/jane/report.json").read_text())["score"] == 65
 
 
 def test_another_text_of_the_same_student_is_graded(exercise, tmp_path, grade, monkeypatch):

@@ -11,7 +11,6 @@ import psutil
 import pytest
 
 FILE = "teleop_node.py"
-UNREAD = 2  # submissions that need no grading and stand in no journal
 LINE = 60  # [s] for one line of progress
 
 
@@ -130,7 +129,7 @@ def test_a_second_run_grades_nothing_and_writes_the_same(reference, begin, tmp_p
     (folder / "out/gradebook.csv").unlink()
     code, _, errors = finished(begin("--html", "--gradescope", out=folder / "out"))
     assert code == 0, errors
-    assert errors.count("(done before)") == 4
+    assert errors.count("(done before)") == 6
     assert (folder / "out/gradebook.csv").read_bytes() == before
 
 
@@ -149,7 +148,7 @@ def test_killed_and_resumed_it_is_the_same_gradebook(begin, reference, tmp_path,
     assert gone(tmp_path, running_in), "gradings end when the class is killed"
     journal = tmp_path / "out/journal.jsonl"
     done = len(journal.read_bytes().splitlines()) if journal.exists() else 0
-    assert done >= lines - UNREAD, "what was told was written down before"
+    assert done >= lines, "what was told was written down before"
     code, _, errors = finished(begin())
     assert code == 0, errors
     assert errors.count("(done before)") == done
@@ -200,7 +199,7 @@ def test_a_fault_of_the_exercise_costs_nobody_anything(course, hand_in, solved, 
     ]
     assert "no_such_world.sdf" in rows[1]["diagnosis"]
     assert "not the student's fault: jane" in outcome.words
-    assert (tmp_path / "out/journal.jsonl").read_bytes() == b"", "a fault of ours is no result"
+    assert "jane" not in (tmp_path / "out/journal.jsonl").read_text(), "a fault of ours is no result"
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ import pytest
 from grader.errors import UsageError
 from grader.whole_class.journal import JOURNAL, Journal
 
-RESULTS = {f"key{n}": {"score": n, "student": "é\n" * n} for n in range(4)}
+RESULTS = {f"key{n}": {"score": n, "student": "é\n" * n, "folder": str(n % 3)} for n in range(4)}
 
 
 @pytest.fixture
@@ -23,6 +23,13 @@ def test_what_was_added_is_there_again(written):
         assert journal.done == RESULTS
 
 
+def test_of_two_results_in_one_folder_the_last_has_it(written):
+    with Journal(written.parent) as journal:
+        assert [journal.current(key) for key in RESULTS] == [None, RESULTS["key1"], RESULTS["key2"], RESULTS["key3"]]
+        journal.add("key0", RESULTS["key0"])
+        assert journal.current("key0") and not journal.current("key3")
+
+
 def test_every_line_is_a_result_of_its_own(written):
     assert [json.loads(line)["key"] for line in written.read_text().splitlines()] == list(RESULTS)
 
@@ -34,7 +41,7 @@ def test_cut_at_every_byte(written):
         whole = data[:size].count(b"\n")
         with Journal(written.parent) as journal:
             assert list(journal.done) == list(RESULTS)[:whole]
-            journal.add("more", {"score": 1})
+            journal.add("more", {"score": 1, "folder": "x"})
         with Journal(written.parent) as journal:
             assert list(journal.done) == [*list(RESULTS)[:whole], "more"], f"cut at {size}"
 
@@ -57,5 +64,5 @@ def test_a_result_is_on_disk_when_add_returns(tmp_path, monkeypatch):
     synced = []
     with Journal(tmp_path) as journal:
         monkeypatch.setattr("os.fsync", lambda fd: synced.append((tmp_path / JOURNAL).read_bytes()))
-        journal.add("key", {"score": 1})
+        journal.add("key", {"score": 1, "folder": "x"})
     assert len(synced) == 1 and synced[0].endswith(b"\n")
