@@ -34,7 +34,7 @@ def main() -> None:
         order = marshal.loads(channel.recv(LARGEST))
         kernel.prctl(kernel.PR_SET_PDEATHSIG, signal.SIGKILL)
         if order["walls"] == "own":
-            walls.build(order["root"], order["places"])
+            walls.build(order["root"], order["host"], order["places"])
         elif order["walls"]:
             walls.limit_tmpfs(order["places"])
         if order["walls"]:

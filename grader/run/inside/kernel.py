@@ -56,8 +56,13 @@ def mount(source: str, target: str, kind: str = "", flags: int = 0, data: str = 
     """Put a file system, or a folder or file, in place of a folder or file."""
     checked(
         LIBC.mount(source.encode(), os.fsencode(target), kind.encode(), ctypes.c_ulong(flags), data.encode()),
-        f"mount {kind or 'bind'} {target}",
+        f"mount {source} on {target}",
     )
+
+
+def set_host_name(name: str) -> None:
+    """Give the machine another name in this UTS namespace."""
+    checked(LIBC.sethostname(name.encode(), ctypes.c_size_t(len(name.encode()))), "sethostname")
 
 
 def make_read_only(path: str, also_below: bool) -> None:

@@ -17,10 +17,10 @@ if TYPE_CHECKING:
 HERE = kernel.MS_NOSUID | kernel.MS_NODEV
 
 
-def build(root: str, places: list[dict[str, Any]]) -> None:
+def build(root: str, host: str, places: list[dict[str, Any]]) -> None:
     """Return in the box, as its process 1; the process that called waits for it and ends with it.
 
-    `root` is an empty folder to build in, `places` are those of `view.py`.
+    `root` is an empty folder to build in, `host` the name of the machine inside, `places` are those of `view.py`.
     """
     user, group = os.geteuid(), os.getegid()
     spaces = kernel.CLONE_NEWNS | kernel.CLONE_NEWPID | kernel.CLONE_NEWIPC | kernel.CLONE_NEWUTS
@@ -38,6 +38,7 @@ def build(root: str, places: list[dict[str, Any]]) -> None:
         os.waitpid(first, 0)
         os._exit(0)
     kernel.prctl(kernel.PR_SET_PDEATHSIG, kernel.SIGKILL)
+    kernel.set_host_name(host)
     kernel.mount("", "/", flags=kernel.MS_REC | kernel.MS_PRIVATE)
     kernel.mount("box", root, "tmpfs", HERE, "size=1m,nr_inodes=4000,mode=755")
     masks = [place for place in places if place["kind"] == "mask"]

@@ -90,7 +90,7 @@ def remember(level: str, why: dict[str, str]) -> None:
     """Keep what was found out, beside a few earlier answers; a cache that cannot be written is none."""
     path = _cache()
     known: dict[str, object] = {}
-    with contextlib.suppress(OSError, ValueError, TypeError):
+    with contextlib.suppress(OSError, ValueError, TypeError, AttributeError):
         known = dict(list(json.loads(path.read_text()).items())[-KEPT:])
     known.pop(_fingerprint(), None)
     with contextlib.suppress(OSError):

@@ -1,0 +1,76 @@
+"""What a box shows: enough to run a node, nothing of what is to stay hidden."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from grader.run.sandbox import view as module
+from grader.run.sandbox.view import DOOR, SUBMISSION, Place, view
+
+ROOT = Path(__file__).parents[4]
+
+
+@pytest.fixture
+def places(tmp_path):
+    def make():
+        for name in ("submission", "door", "etc"):
+            (tmp_path / name).mkdir(exist_ok=True)
+        (tmp_path / "etc/passwd").touch()
+        return {p.path: p for p in view(tmp_path / "submission", tmp_path / "door", tmp_path / "etc")}
+
+    return make
+
+
+def shown(places, path):
+    """The place in which a path of the machine can be seen under its own name, if there is one."""
+    over = [places[str(p)] for p in (path, *path.parents) if str(p) in places]
+    return over[0] if over and over[0].kind == "bind" else None
+
+
+def test_what_a_node_needs_is_there(places):
+    found = places()
+    for path in (sys.prefix, sys.base_prefix, ROOT / "sim/gz", "/usr/lib", ROOT / "grader/run/inside/init.py"):
+        assert shown(found, Path(path)), path
+    assert {found[path].kind for path in ("/tmp", "/dev/shm")} == {"tmpfs"}
+    assert {found[str(path)].kind for path in (SUBMISSION, DOOR)} == {"bind"}
+
+
+def test_what_is_to_stay_hidden_is_not(places):
+    found = places()
+    for name in (
+        "solutions",
+        "exercises",
+        "tests",
+        "chapters",
+        ".git",
+        "grader/score",
+        "grader/grade.py",
+        "grader/run/stage.py",
+    ):
+        assert shown(found, ROOT / name) is None, name
+    for path in ("/etc/shadow", "/root/.ssh", "/home", "/var", "/run", "/sys"):
+        assert shown(found, Path(path)) is None or str(sys.prefix).startswith(path), path
+
+
+def test_parents_come_first_and_every_place_has_them(places):
+    found = places()
+    seen = set()
+    for path, place in found.items():
+        above = [str(parent) for parent in Path(path).parents[:-1]]
+        assert any(p in seen and found[p].kind == "bind" for p in above) or set(above) <= seen, path
+        assert place.kind in ("bind", "device", "link", "folder", "mask", "proc", "tmpfs")
+        seen.add(path)
+
+
+def test_a_grader_that_is_installed_beside_the_libraries_is_masked(places, tmp_path, monkeypatch):
+    site = tmp_path / "venv/lib/site-packages"
+    for name in ("grader/run/inside", "grader/run/box", "grader/score", "ros_gz_bridge"):
+        (site / name).mkdir(parents=True)
+    monkeypatch.setattr(module, "_python", lambda: [tmp_path / "venv"])
+    monkeypatch.setattr(module, "_package", lambda name: site / name)
+    found = places()
+    assert found[str(site / "grader")] == Place("mask", str(site / "grader"))
+    assert found[str(site / "grader/run")].kind == "folder"
+    assert shown(found, site / "grader/run/inside") and shown(found, site / "ros_gz_bridge")
+    assert shown(found, site / "grader/score") is None
