@@ -22,6 +22,7 @@ CODE = ("sim", "grader")
 FILES = ("pyproject.toml", "constraints.txt", "LICENSE", ".gitignore")
 # For authors. The scaffold of an exercise holds a solution of it.
 AUTHORS_ONLY = (
+    "chapters/README.md",
     "grader/scaffold",
     "grader/release",
     "grader/package",

@@ -1,7 +1,7 @@
 """A node whose callbacks may run side by side, and an executor with threads of its own."""
 
 import rclpy
-from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy import callback_groups
 from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
 from rclpy.node import Node
 from sensor_msgs.msg import LaserScan
@@ -12,7 +12,7 @@ class LidarListener(Node):
     def __init__(self):
         super().__init__("lidar_threads")
         self.publisher = self.create_publisher(Float32, "/nearest_obstacle", 10)
-        group = ReentrantCallbackGroup()
+        group = callback_groups.ReentrantCallbackGroup()
         self.create_subscription(LaserScan, "/lidar/scan", self.on_scan, 10, callback_group=group)
 
     def on_scan(self, scan):

@@ -1,8 +1,8 @@
 """Asks for the last scan to be kept for late comers, which the bridge does not offer."""
 
 import rclpy
+from rclpy import qos
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Float32
 
@@ -13,7 +13,7 @@ class LidarListener(Node):
     def __init__(self):
         super().__init__("lidar_listener")
         self.nearest = self.create_publisher(Float32, "/nearest_obstacle", 10)
-        latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        latched = qos.QoSProfile(depth=10, durability=qos.DurabilityPolicy.TRANSIENT_LOCAL)
         self.subscription = self.create_subscription(LaserScan, "/lidar/scan", self.on_scan, latched)
 
     def on_scan(self, scan):
