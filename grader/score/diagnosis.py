@@ -12,6 +12,7 @@ from typing import Any
 
 from grader.printable import shown
 from grader.record.reading import Recording
+from grader.score.launched import launch_fault
 
 FRAME = re.compile(r'\s+File "(.*)", line (\d+)')
 
@@ -59,7 +60,8 @@ def outcome_of(recording: Recording) -> str:
 def diagnose(recording: Recording) -> str:
     """Return one sentence on the first fault found, or an empty string if nothing structural is wrong."""
     facts = recording.facts()
-    for look in LOOKS_AT_GIVEN if facts.get("given") else LOOKS:
+    looks = LOOKS_AT_GIVEN if facts.get("given") else LOOKS_AT_LAUNCH if facts.get("launch") else LOOKS
+    for look in looks:
         if sentence := look(recording, facts):
             return sentence
     return ""
@@ -251,6 +253,10 @@ def _too_much(recording: Recording, facts: dict[str, Any]) -> str:
     )
 
 
+def _launch_failed(recording: Recording, facts: dict[str, Any]) -> str:
+    return launch_fault(recording)
+
+
 # In the order in which one would look.
 LOOKS = (
     _tampered,
@@ -266,5 +272,7 @@ LOOKS = (
     _dropped,
     _unstable,
 )
+# With a launch file.
+LOOKS_AT_LAUNCH = (_cannot_run, _broke_a_limit, _launch_failed, _out_of_time, _unstable)
 # With a node that is not the student's.
 LOOKS_AT_GIVEN = (_too_much, _unstable)

@@ -1,0 +1,29 @@
+"""`launched_end`: does everything end when the launch is interrupted with Ctrl-C?
+
+kind = "launched_end"
+"""
+
+from __future__ import annotations
+
+from grader.record.reading import Recording
+from grader.score.check import Finding, check_kind
+from grader.score.launched import launch_facts
+from grader.table import Table
+
+
+@check_kind("launched_end")
+def launched_end(recording: Recording, parameters: Table) -> Finding:
+    """Pass if the launch ends by itself with exit code 0, had to force nobody, and leaves nothing behind."""
+    expected = "after Ctrl-C everything ends by itself"
+    facts = launch_facts(recording)
+    if not facts.get("running"):
+        return Finding(False, expected, "the launch had ended before it was interrupted")
+    if facts["left"]:
+        return Finding(False, expected, f"the launch ended, but this ran on: {', '.join(facts['left'])}")
+    if not facts["ended_itself"]:
+        return Finding(False, expected, "the launch did not end")
+    if facts["escalated"]:
+        return Finding(False, expected, f"{', '.join(facts['escalated'])} did not listen to Ctrl-C for 5 s")
+    if facts["exit_code"]:
+        return Finding(False, expected, f"the launch ended with exit code {facts['exit_code']}")
+    return Finding(True, expected, "so it did")

@@ -1,0 +1,34 @@
+"""`launched_node`: does the launch start a node, and does it follow simulated time?
+
+kind = "launched_node"
+node = "/stopwatch"
+program = "stopwatch.py"      # what it is started from
+"""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+
+from grader.record.reading import Recording
+from grader.score.check import Finding, check_kind
+from grader.score.launched import launch_facts
+from grader.table import Table
+
+
+@check_kind("launched_node")
+def launched_node(recording: Recording, parameters: Table) -> Finding:
+    """Pass if the node was there to the end and listened to /clock, as it does with use_sim_time."""
+    node, program = parameters.text("node"), parameters.text("program")
+    expected = f"the node {node} with use_sim_time, to the end"
+    endpoints = recording.facts().get("endpoints", [])
+    nodes = {each["node"] for each in endpoints}
+    ended = [each for each in launch_facts(recording).get("ended_early", []) if each["program"] == program]
+    if ended:
+        code = ended[0]["code"]
+        return Finding(False, expected, f"{program} had ended with exit code {code} before the launch was interrupted")
+    if node not in nodes:
+        near = get_close_matches(node, sorted(nodes), n=1)
+        return Finding(False, expected, f"the node {node} never ran" + (f"; {near[0]} did" if near else ""))
+    if not any(each["node"] == node and each["topic"] == "/clock" for each in endpoints):
+        return Finding(False, expected, f"{node} ran without use_sim_time: it does not follow /clock")
+    return Finding(True, expected, "so it was")

@@ -1,0 +1,28 @@
+"""`launched_paused`: does simulated time stand still exactly if an argument of the launch says so?
+
+kind = "launched_paused"
+argument = "paused"
+default = false
+"""
+
+from __future__ import annotations
+
+from grader.record.reading import Recording
+from grader.score.check import Finding, check_kind
+from grader.score.launched import argument, ran
+from grader.table import Table
+
+
+@check_kind("launched_paused")
+def launched_paused(recording: Recording, parameters: Table) -> Finding:
+    """Pass if the first simulator that ran was started paused when asked to, and running when not."""
+    default = "true" if parameters.flag("default") else "false"
+    wanted, called = argument(recording, parameters.text("argument"), default)
+    pause = wanted.strip().lower() in ("true", "1")
+    running = ran(recording)
+    expected = f"{called}: the world {'is paused' if pause else 'runs'}"
+    if not running:
+        return Finding(False, expected, "no simulator ran")
+    found = running[0]["paused"]
+    state = "was paused: gz sim had no -r" if found else "ran: gz sim had -r"
+    return Finding(found == pause, expected, f"{called} it {state}")

@@ -1,0 +1,28 @@
+"""`launched_simulator`: does the launch start one simulator, which is there to the end?
+
+kind = "launched_simulator"
+"""
+
+from __future__ import annotations
+
+from grader.record.reading import Recording
+from grader.score.check import Finding, check_kind
+from grader.score.launched import complaint, launch_facts, ran
+from grader.table import Table
+
+
+@check_kind("launched_simulator")
+def launched_simulator(recording: Recording, parameters: Table) -> Finding:
+    """Pass if exactly one `gz sim` had a world to run and was still there when the launch was interrupted."""
+    expected = "one gz sim with a world, from the start to the end"
+    facts, running = launch_facts(recording), ran(recording)
+    if not running:
+        error = next((each["error"] for each in facts.get("simulators", []) if each["error"]), "")
+        said = error or complaint(recording, "gz sim")
+        return Finding(False, expected, f"gz sim said: {said}" if said else "no simulator was started")
+    if len(running) > 1:
+        worlds = ", ".join(each["world"] for each in running)
+        return Finding(False, expected, f"{len(running)} simulators were started ({worlds}); all of them tell the time")
+    if not facts["simulator_at_end"]:
+        return Finding(False, expected, "gz sim had ended before the launch was interrupted")
+    return Finding(True, expected, f"it ran {running[0]['world']}")

@@ -1,0 +1,25 @@
+"""`launched_world`: does the simulator run the world that an argument of the launch names?
+
+kind = "launched_world"
+argument = "world"
+default = "lidar_room.sdf"    # when the argument is not given
+"""
+
+from __future__ import annotations
+
+from grader.record.reading import Recording
+from grader.score.check import Finding, check_kind
+from grader.score.launched import argument, ran
+from grader.table import Table
+
+
+@check_kind("launched_world")
+def launched_world(recording: Recording, parameters: Table) -> Finding:
+    """Pass if the first simulator that ran has that world."""
+    wanted, called = argument(recording, parameters.text("argument"), parameters.text("default"))
+    running = ran(recording)
+    expected = f"{called}: the world {wanted}"
+    if not running:
+        return Finding(False, expected, "no simulator ran")
+    found = running[0]["world"]
+    return Finding(found == wanted, expected, f"{called} it ran {found}")

@@ -1,0 +1,53 @@
+"""What checks ask about a run whose submission was a launch file: its arguments, and what it started.
+
+The facts come from `grader/run/launch_stage.py`.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from typing import Any
+
+from grader.printable import shown
+from grader.record.reading import Recording
+
+SAID = re.compile(r"^\[[^\]]+\] (gz sim|parameter_bridge|create|gzserver): (.*)")
+PLACE = re.compile(r"^\S*?([^/\s]+):(\d+): ")  # what an error in a launch file begins with
+
+
+def launch_facts(recording: Recording) -> dict[str, Any]:
+    """What is known about the launch; empty if the submission was none, or never ran."""
+    found: dict[str, Any] = recording.facts().get("launch", {})
+    return found
+
+
+def argument(recording: Recording, name: str, default: str) -> tuple[str, str]:
+    """Return the value of a launch argument in this run, and how the launch was called."""
+    trial = json.loads(recording.properties("run").get("trial_parameters", "{}"))
+    given = {key: str(value) for key, value in trial.get("parameters", {}).items()}
+    words = " ".join(f"{key}:={value}" for key, value in given.items())
+    return given.get(name, default), f"called with {words}" if words else "called without arguments"
+
+
+def ran(recording: Recording) -> list[dict[str, Any]]:
+    """The simulators that ran."""
+    return [each for each in launch_facts(recording).get("simulators", []) if each["ran"]]
+
+
+def complaint(recording: Recording, program: str) -> str:
+    """The first thing a program of Gazebo said it could not do; empty if it did not complain."""
+    for line in recording.lines("log/student"):
+        if (match := SAID.match(line.text)) and match.group(1) == program:
+            return shown(match.group(2), 300)
+    return ""
+
+
+def launch_fault(recording: Recording) -> str:
+    """One sentence on why the launch as a whole could not do its work; empty if it could."""
+    facts = launch_facts(recording)
+    if error := facts.get("error", ""):
+        return "The launch failed: " + shown(PLACE.sub(r"\1, line \2: ", error), 400)
+    if facts and not facts["running"] and facts["exit_code"]:
+        return f"The launch itself ended with exit code {facts['exit_code']}."
+    return ""
