@@ -21,6 +21,7 @@ from grader.run.progress import Endpoint
 from grader.run.student import Student
 
 PATIENCE = 3.0  # [s] of wall time a node may need for one message before it is paced
+LONG_WAIT = 0.5  # [s] of wall time for one message: a busy machine alone hardly takes so long
 GIVING_UP = 3  # after so many times it is paced for the rest of the run
 MATCHING = 5.0  # [s] of wall time for DDS to match the endpoints of a new node; a lost announcement costs 3 s
 CLOCK_AGAIN = 0.05  # [s] /clock is best effort on the student's side, so it is sent again until it was seen
@@ -78,6 +79,7 @@ class RealTime:
         self.student = student
         self.ears = ears
         self.paced_ticks = 0
+        self.held_seconds = 0.0  # of wall time that went by in long waits for the student
         self._due: float | None = None
         self._lost: Counter[str] = Counter()  # published by the student, never arrived
 
@@ -273,7 +275,13 @@ class LockStep(RealTime):
 
     def _await_settled(self) -> bool:
         """Wait until nothing is on its way and everybody is idle; False if that was in vain."""
-        deadline = time.monotonic() + PATIENCE
+        began = time.monotonic()
+        settled = self._await_settled_until(began + PATIENCE)
+        waited = time.monotonic() - began
+        self.held_seconds += waited if waited > LONG_WAIT else 0.0
+        return settled
+
+    def _await_settled_until(self, deadline: float) -> bool:
         resend = time.monotonic() + CLOCK_AGAIN
         while not self._settled():
             if not self.student.running:

@@ -14,6 +14,7 @@ from typing import Any
 
 from gz.msgs.twist_pb2 import Twist
 
+from grader.errors import InfrastructureError
 from grader.exercise import Exercise
 from grader.kinds.kind import Cast
 from grader.record.messages import record_message
@@ -31,7 +32,11 @@ from gz.sim.world import World
 from gz.transport import Node, NodeOptions, Scope
 
 MOST_MESSAGES = 20_000  # of one topic that are recorded; the rest is counted
-WALL_FACTOR, WALL_GRACE = 2.0, 10.0  # a run may take 2 x its simulated time + 10 s of wall time, then it is ended
+# A run may take 2 x its simulated time + 10 s of wall time. Then it is ended if the student's processes took half of
+# that time; else it is the machine that is busy, and the run may take 20 times as long before it is given up.
+WALL_FACTOR, WALL_GRACE = 2.0, 10.0
+STUDENTS_SHARE, MACHINES_FACTOR = 0.5, 20.0
+LOOK_AGAIN = 1.0  # [s] between two looks at whose time it is
 LEVELS = {"[WARN]": "WARN", "[ERROR]": "ERROR", "[FATAL]": "CRITICAL", "[DEBUG]": "DEBUG"}
 
 
@@ -107,15 +112,33 @@ class Stage:
         self._collect()
         started = time.monotonic()
         end_ns = round(self._exercise.duration * 1e9)
-        deadline = started + WALL_FACTOR * self._exercise.duration + WALL_GRACE
+        look = started + self._wall_limit
         while self._now_ns < end_ns and not (self._unstable or self._out_of_time or self._tampered):
             self._tick()
-            self._out_of_time = time.monotonic() > deadline
+            if (now := time.monotonic()) > look:
+                self._out_of_time = self._student_is_slow(now - started)
+                look = now + LOOK_AGAIN
         self.wall_seconds = time.monotonic() - started
         graphs = both_graphs(self._gz_nodes[1], self._ears) if self._given else {}
         self._student.stop()
         self._scene.finish()
         return self._facts(ready) | graphs
+
+    @property
+    def _wall_limit(self) -> float:
+        """How much wall time [s] a run may take on a machine that is not busy."""
+        return WALL_FACTOR * self._exercise.duration + WALL_GRACE
+
+    def _student_is_slow(self, wall: float) -> bool:
+        """Whether the student's processes are why a run takes long. Raises InfrastructureError if the machine is."""
+        share = STUDENTS_SHARE * self._wall_limit
+        if self._pace.held_seconds > share or self._student.cpu_seconds() > share:
+            return True
+        if wall > MACHINES_FACTOR * self._wall_limit:
+            raise InfrastructureError(
+                f"this machine is too busy: {self._now_ns / 1e9:.2f} s of simulated time took {wall:.0f} s; grade again"
+            )
+        return False
 
     def _tick(self) -> None:
         self._pace.welcome()

@@ -229,6 +229,15 @@ class Student:
         self.exit_code = self._process.wait()
         self._sweep()
 
+    def cpu_seconds(self) -> float:
+        """How much time [s] of processors all its processes have used that still run, or that those have waited for."""
+        total = 0.0
+        for process in _children() - self._children_before:
+            with contextlib.suppress(psutil.Error):
+                used = process.cpu_times()
+                total += used.user + used.system + used.children_user + used.children_system
+        return total
+
     def _sweep(self) -> None:
         """Kill what left the process group: as subreaper the grader inherits every orphan."""
         while strays := _children() - self._children_before:
