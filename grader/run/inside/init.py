@@ -56,7 +56,7 @@ def _become(order: dict[str, Any]) -> NoReturn:
     kernel.prctl(kernel.PR_SET_PDEATHSIG, signal.SIGKILL)  # forgotten when the user changed
     kernel.prctl(kernel.PR_SET_NO_NEW_PRIVS, 1)
     if order["landlock"]:
-        landlock.restrict(order["readable"], order["writable"], tcp=False)
+        landlock.restrict(order["readable"], order["writable"], tcp=order["tcp"])
     if order["seccomp"]:
         seccomp.install()
     for number in (signal.SIGINT, signal.SIGPIPE, signal.SIGXFSZ):  # as any program finds them

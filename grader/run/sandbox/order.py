@@ -35,6 +35,7 @@ class Order:
     user: int | None
     group: int | None
     landlock: bool
+    tcp: bool  # stays open under Landlock, which cannot tell loopback from elsewhere
     seccomp: bool
     limits: dict[int, int]
     readable: tuple[str, ...]

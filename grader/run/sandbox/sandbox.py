@@ -146,6 +146,7 @@ class Sandbox:
             user=user,
             group=user,
             landlock=landlock,
+            tcp=self._module.PRIVATE_NETWORK,
             seccomp=landlock or bool(walls),
             limits=limits,
             readable=("/",) if walls else (*shown, *OPEN_FOLDERS),

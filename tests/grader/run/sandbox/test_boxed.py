@@ -146,3 +146,13 @@ def test_a_box_that_cannot_be_built_is_the_machines_fault(sandbox, monkeypatch):
     boxed = sandbox.start([*PYTHON, "-c", "pass"], {})
     with boxed.stdout, boxed.stderr, pytest.raises(InfrastructureError, match="/no/such/place"):
         boxed.wait(DEADLINE)
+
+
+def test_two_processes_in_a_box_talk_over_tcp_on_loopback(sandbox):
+    if sandbox.level == "C":
+        pytest.skip("Landlock cannot tell loopback from elsewhere")
+    code = (
+        "import socket\nl = socket.create_server(('127.0.0.1', 0))\nc = socket.create_connection(l.getsockname())\n"
+        "c.send(b'hi'); print(l.accept()[0].recv(9))"
+    )
+    assert run(sandbox, code)[1] == "b'hi'\n"
