@@ -20,7 +20,7 @@ def slow():
     def call(wall, cpu=0.0, held=0.0):
         stage = object.__new__(Stage)
         stage._exercise = SimpleNamespace(duration=DURATION)
-        stage._now_ns = 1_500_000_000
+        stage._world = SimpleNamespace(sim_time_ns=1_500_000_000)
         stage._pace = SimpleNamespace(held_seconds=held)
         stage._student = SimpleNamespace(cpu_seconds=lambda: cpu)
         return stage._student_is_slow(wall)
