@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 _STOP_SIGNALS = {signal.SIGINT, signal.SIGTERM}
 _INTERRUPTED = 130
+_END_S = 2.0  # for the callback under way; what it uses is taken down after that
 
 
 class UsageError(Exception):
@@ -143,8 +144,8 @@ class Spinner:
         return self
 
     def __exit__(self, *_: Any) -> None:
-        self._executor.shutdown(timeout_sec=0.5)
-        self._thread.join(0.5)
+        self._executor.shutdown(timeout_sec=_END_S)
+        self._thread.join(_END_S)
 
 
 def wait_for_signal(node: Node) -> int:
