@@ -111,9 +111,9 @@ class Served:
         if built_in and (BUILT_IN_WORLDS / Path(built_in).name).is_file():
             simulator.world = Path(built_in).name
             file: Path = BUILT_IN_WORLDS / simulator.world
-        elif path.is_relative_to(self._shown) and (self._files / path.relative_to(self._shown)).is_file():
+        elif own := self._handed_in(path):
             simulator.world = path.relative_to(self._shown).as_posix()
-            file = self._files / simulator.world
+            file = own
             foreign = [
                 uri for uri in URI.findall(file.read_text(errors="replace")) if not BUILT_IN_MODEL.fullmatch(uri)
             ]
@@ -132,6 +132,13 @@ class Served:
         if simulator.error or self.world is None:
             return {"error": simulator.error}
         return {"name": self.world.name, "models": self.world.model_names(static=True)}
+
+    def _handed_in(self, path: Path) -> Path | None:
+        """Return our own copy of a file of the submission; None if the path means anything else."""
+        if not path.is_relative_to(self._shown) or ".." in path.parts:
+            return None
+        own = self._files / path.relative_to(self._shown)
+        return own if own.is_file() else None
 
     def _bridge(self, who: Participant, asked: dict[str, Any]) -> dict[str, Any]:
         bridge = ServedBridge(who, str(asked["node"]))
