@@ -226,7 +226,7 @@ def test_runs_from_first_to_last_cell_and_leaves_nothing_running(path, tmp_path,
     execute(path, tmp_path, descendants, times=1)
 
 
-@pytest.mark.slow
+@pytest.mark.proof
 @pytest.mark.timeout(400)
 @each_notebook
 def test_every_cell_may_be_run_again_at_once(path, tmp_path, descendants):
