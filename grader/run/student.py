@@ -28,7 +28,8 @@ from grader.run.progress import Endpoint
 from grader.run.sandbox import Sandbox
 
 LONGEST_LINE = 2_000  # [characters] of one line that are kept
-MOST_LINES = 20_000  # kept per run; the rest is counted
+MOST_LINES = 20_000  # kept per run; of the rest
+LAST_BYTES = 64 << 10  # that many are kept if it ends by itself: there stands why; what is between is counted
 MOST_READ = 1 << 20  # [bytes] of a pipe, taken at once: who writes without end does not keep the grader
 MOST_OUTPUT = 64 << 20  # [bytes] that may be written; more ends the submission
 SOCKET = "participants"  # its name
@@ -84,6 +85,8 @@ class Student:
         self._children = Children()
         self._lines: list[str] = []
         self._line_count = 0
+        self._last = b""  # of what was written beyond the limit
+        self._last_taken = 0  # lines
         self._written = 0  # [bytes]
         self.exit_code: int | None = None
         self.hid = False  # it closed its end of the socket and lived on
@@ -101,7 +104,7 @@ class Student:
     @property
     def dropped_lines(self) -> int:
         """Lines beyond the limit that were read and thrown away."""
-        return max(0, self._line_count - MOST_LINES)
+        return max(0, self._line_count - MOST_LINES - self._last_taken)
 
     def wait(self, timeout: float) -> bool:
         """Wait at most `timeout` seconds for output, progress or the end; True if something came."""
@@ -157,6 +160,11 @@ class Student:
                 if rest:
                     self._keep(rest)
                 return
+            if self._line_count > MOST_LINES:  # not line by line: who floods writes faster than that
+                self._line_count += data.count(b"\n")
+                self._last = (self._last + self._partial[fd] + data)[-LAST_BYTES:]
+                self._partial[fd] = b""
+                continue
             *whole, rest = (self._partial[fd] + data).split(b"\n")
             for line in whole:
                 self._keep(line)
@@ -165,9 +173,14 @@ class Student:
     def _keep(self, line: bytes) -> None:
         self._line_count += 1
         if self._line_count <= MOST_LINES:
-            if self.folder:
-                line = line.replace(self.folder.encode(), SHOWN_FOLDER)  # where it lies differs between equal runs
-            self._lines.append(line.decode(errors="replace")[:LONGEST_LINE])
+            self._note(line)
+        else:
+            self._last += line + b"\n"
+
+    def _note(self, line: bytes) -> None:
+        if self.folder:
+            line = line.replace(self.folder.encode(), SHOWN_FOLDER)  # where it lies differs between equal runs
+        self._lines.append(line.decode(errors="replace")[:LONGEST_LINE])
 
     def _read_participants(self) -> None:
         while True:
@@ -201,6 +214,12 @@ class Student:
         for pipe in self._pipes:
             self._drain(pipe.fileno())
         self._read_participants()
+        last = self._last.removesuffix(b"\n").split(b"\n") if self._last else []
+        if len(self._last) == LAST_BYTES:
+            del last[0]  # the rest of a line
+        for line in last:
+            self._note(line)
+        self._last, self._last_taken = b"", self._last_taken + len(last)
         self.exit_code = self._process.returncode
 
     def signal(self, number: signal.Signals) -> None:

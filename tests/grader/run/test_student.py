@@ -11,7 +11,7 @@ import pytest
 
 from grader.run.domain import Domain
 from grader.run.sandbox import Sandbox
-from grader.run.student import LONGEST_LINE, MOST_LINES, Student, node_command
+from grader.run.student import LAST_BYTES, LONGEST_LINE, MOST_LINES, Student, node_command
 
 DEADLINE = 20.0
 TOPICS = {"/clock": "rosgraph_msgs/msg/Clock", "/cmd_vel": "geometry_msgs/msg/Twist"}
@@ -143,10 +143,14 @@ def test_a_long_line_is_cut_and_the_next_one_is_whole(start):
 
 
 def test_more_lines_than_are_kept_are_counted(start):
-    student = start(f"for n in range({MOST_LINES + 500}): print(n)")
+    student = start(f"for n in range({3 * MOST_LINES}): print(n)")
     ended(student)
-    assert len(student.take_lines()) == MOST_LINES
-    assert student.dropped_lines == 500
+    lines = student.take_lines()
+    assert lines[:MOST_LINES] == [str(n) for n in range(MOST_LINES)]
+    last = lines[MOST_LINES:]
+    assert last == [str(n) for n in range(3 * MOST_LINES - len(last), 3 * MOST_LINES)]
+    assert LAST_BYTES * 0.99 < sum(len(line) + 1 for line in last) <= LAST_BYTES
+    assert student.dropped_lines == 3 * MOST_LINES - len(lines)
 
 
 def test_bytes_that_are_no_text(start):
