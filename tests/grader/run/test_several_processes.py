@@ -98,7 +98,7 @@ def play(tmp_path, monkeypatch):
             ears = Ears(domain.id, bridges, [entry], observe, lambda topic, message: played.heard.append(message.data))
             try:
                 played.pace = pace = LockStep(student, ears, holding)
-                assert pace.await_ready()
+                assert pace.await_ready(), student.take_lines()
                 for tick in range(1, ticks + 1):
                     pace.welcome()
                     now = Clock()
