@@ -17,6 +17,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from grader.errors import InfrastructureError
+from grader.run.inside import seccomp
 from grader.run.sandbox.boxed import Boxed
 from grader.run.sandbox.environment import box_environment, student_environment
 from grader.run.sandbox.level import AUTO, choose, level_module
@@ -50,6 +51,8 @@ class Sandbox:
     def __init__(self, domain: int, level: str = AUTO) -> None:
         self.level = choose() if level == AUTO else level
         self._module = level_module(self.level)
+        if lack := self._module.missing():
+            raise InfrastructureError(f"no sandbox of level {self.level} here: {lack}")
         self.domain = domain
         ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1)  # orphaned daemons become ours to sweep
         self._network: PrivateNetwork | None = None
@@ -147,7 +150,7 @@ class Sandbox:
             group=user,
             landlock=landlock,
             tcp=self._module.PRIVATE_NETWORK,
-            seccomp=landlock or bool(walls),
+            seccomp=(landlock or bool(walls)) and seccomp.supported(),
             limits=limits,
             readable=("/",) if walls else (*shown, *OPEN_FOLDERS),
             writable=(*writable, *OPEN_DEVICES),

