@@ -195,7 +195,8 @@ class LockStep(RealTime):
     def await_ready(self) -> bool:
         """As in real time; a node that does not become ready is paced from the start."""
         ready = super().await_ready()
-        self._look_around()
+        if self._look_around():
+            self.await_matches(time.monotonic() + MATCHING)
         self._free = not ready
         return ready
 
@@ -212,9 +213,10 @@ class LockStep(RealTime):
             return False
         self._layout = self.student.layout
         self._participants = self.student.followed
-        if not self._holding and len(self._participants) > 1:
-            self._holding = True
-            self._tell({"hold": True})
+        self._holding |= len(self._participants) > 1
+        for each in self._participants if self._holding and not self._free else []:
+            if each.progress and not each.progress.holding:
+                each.tell({"hold": True})
         if any(p.gone for p in self.student.participants):
             self._write_off()
         return True
@@ -231,6 +233,8 @@ class LockStep(RealTime):
         return matched
 
     def _matched_with_each_other(self) -> bool:
+        if not (self._free or all(each.progress and each.progress.holding for each in self._participants)):
+            return False
         endpoints = [e for e in self.student.endpoints if e.topic not in HOUSEKEEPING]
         publishers = [e for e in endpoints if e.kind == "publisher"]
         subscriptions = [e for e in endpoints if e.kind == "subscription"]

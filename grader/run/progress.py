@@ -29,6 +29,7 @@ class Progress:
     taken: dict[str, int] = field(default_factory=dict)
     published: dict[str, int] = field(default_factory=dict)
     delivered: dict[str, int] = field(default_factory=dict)  # as published, times the number of readers
+    holding: bool = False  # it keeps what it sends until told to release it
     held: int = 0  # messages that wait to be released
     released: int = 0
     flushes: int = 0  # how often it has asked to be told that everything arrived
@@ -46,6 +47,7 @@ class Progress:
                 taken=_counts(raw["taken"]),
                 published=_counts(raw["published"]),
                 delivered=_counts(raw["delivered"]),
+                holding=raw["holding"] is True,
                 held=_count(raw["held"]),
                 released=_count(raw["released"]),
                 flushes=_count(raw["flushes"]),

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from grader.run.progress import Endpoint, Progress
 
 GOOD = {"clock": 5, "idle": True, "taken": {"/a": 1}, "published": {"/b": 2}, "delivered": {"/b": 4}}
-GOOD |= {"held": 0, "released": 0, "flushes": 0, "endpoints": []}
+GOOD |= {"holding": False, "held": 0, "released": 0, "flushes": 0, "endpoints": []}
 ENDPOINT = {"node": "/n", "kind": "publisher", "topic": "/t", "type": "x/msg/Y"} | {
     "reliability": "RELIABLE",
     "durability": "VOLATILE",
@@ -27,7 +27,7 @@ def sound(progress):
     return (
         (progress.clock is None or type(progress.clock) is int)
         and all(type(each) is int for each in (progress.flushes, progress.held, progress.released))
-        and type(progress.idle) is bool
+        and type(progress.idle) is type(progress.holding) is bool
         and all(type(topic) is str and type(count) is int for topic, count in counts)
         and all(
             isinstance(e, Endpoint)

@@ -2,8 +2,8 @@
 
 `participant.py` feeds it from within rclpy. Each time an executor is about to go to sleep it sends a report:
 
-    {"clock": ns, "idle": true, "taken": {topic: n}, "published": {topic: n}, "delivered": {topic: n}, "held": n,
-     "released": n, "flushes": n, "endpoints": [...]}
+    {"clock": ns, "idle": true, "taken": {topic: n}, "published": {topic: n}, "delivered": {topic: n},
+     "holding": true, "held": n, "released": n, "flushes": n, "endpoints": [...]}
 
 `endpoints` is there only when it changed; `clock` is the smallest simulated time any spinning node has been told;
 `taken` and `published` count messages since the start, the latter only while somebody listened, and `delivered` how
@@ -120,6 +120,7 @@ class Watch:
             self._answered.set()
         elif "hold" in order:
             self._holding = True
+            self.report()
         elif "free" in order:
             self._let_go()
         elif "release" in order:
@@ -267,6 +268,7 @@ class Watch:
                 "taken": self.taken,
                 "published": self.published,
                 "delivered": self.delivered,
+                "holding": self._holding,
                 "held": len(self._held),
                 "released": self._released,
                 "flushes": self._flushes,
