@@ -1,0 +1,128 @@
+"""`launched_simulator`, `_world`, `_paused`, `_node`, `_end`: both verdicts, and what is said about a launch."""
+
+import json
+
+import pytest
+
+from grader.score.check import check_kinds
+from grader.score.diagnosis import diagnose, outcome_of
+from grader.score.launched import launch_fault
+from grader.table import Table
+
+SIMULATOR = {"given": "a.sdf", "world": "a.sdf", "error": "", "paused": False, "iterations": 0, "ran": True}
+GOOD = {
+    "simulators": [SIMULATOR],
+    "simulator_at_end": "a.sdf",
+    "running": True,
+    "ended_early": [],
+    "exit_code": 0,
+    "ended_itself": True,
+    "escalated": [],
+    "left": [],
+    "error": "",
+}
+PARAMETERS = {
+    "simulator": {},
+    "world": {"argument": "world", "default": "a.sdf"},
+    "paused": {"argument": "paused", "default": False},
+    "node": {"node": "/stopwatch", "program": "stopwatch.py"},
+    "end": {},
+}
+CLOCKED = [{"node": "/stopwatch", "topic": topic} for topic in ("/clock", "/stopwatch")]
+
+
+@pytest.fixture
+def find(record):
+    """What a kind finds in a run that was good but for `changes`, called with some launch arguments."""
+
+    def call(kind, arguments=None, endpoints=CLOCKED, lines=(), **changes):
+        trial = json.dumps({"poses": {}, "parameters": arguments or {}})
+        facts = {"launch": GOOD | changes, "endpoints": endpoints}
+        recording = record(facts=facts, lines=[(0.0, line) for line in lines], trial_parameters=trial)
+        return check_kinds()[f"launched_{kind}"](recording, Table(PARAMETERS[kind], "check 'it'", "parameter"))
+
+    return call
+
+
+@pytest.mark.parametrize("kind", PARAMETERS)
+def test_a_good_launch_passes(find, kind):
+    assert find(kind).passed
+
+
+@pytest.mark.parametrize(
+    ("changes", "measured"),
+    [
+        ({"simulators": [], "simulator_at_end": ""}, "no simulator was started"),
+        ({"simulators": [SIMULATOR | {"ran": False, "error": "no such world"}]}, "gz sim said: no such world"),
+        ({"simulators": [SIMULATOR, SIMULATOR]}, "2 simulators were started (a.sdf, a.sdf); all of them tell the time"),
+        ({"simulator_at_end": ""}, "gz sim had ended before the launch was interrupted"),
+        ({"simulators": [], "lines": ["[gz-1] gz sim: which world? Name one"]}, "gz sim said: which world? Name one"),
+    ],
+)
+def test_no_simulator_or_too_many(find, changes, measured):
+    finding = find("simulator", **changes)
+    assert (finding.passed, finding.measured) == (False, measured)
+
+
+@pytest.mark.parametrize(("arguments", "passed"), [({}, True), ({"world": "a.sdf"}, True), ({"world": "b.sdf"}, False)])
+def test_the_world_is_that_of_the_argument_or_the_default(find, arguments, passed):
+    finding = find("world", arguments)
+    assert finding.passed is passed
+    if not passed:
+        assert finding.measured == "called with world:=b.sdf it ran a.sdf"
+    assert not find("world", arguments, simulators=[]).passed
+
+
+@pytest.mark.parametrize("paused", [False, True])
+@pytest.mark.parametrize("given", ["true", "True", "1", "false", "", None])
+def test_paused_exactly_when_asked(find, given, paused):
+    arguments = {} if given is None else {"paused": given}
+    finding = find("paused", arguments, simulators=[SIMULATOR | {"paused": paused}])
+    assert finding.passed == (paused == (given in ("true", "True", "1")))
+    assert ("had no -r" if paused else "had -r") in finding.measured
+
+
+@pytest.mark.parametrize(
+    ("changes", "measured"),
+    [
+        ({"endpoints": []}, "the node /stopwatch never ran"),
+        ({"endpoints": [{"node": "/stop_watch", "topic": "/clock"}]}, "the node /stopwatch never ran; /stop_watch did"),
+        ({"endpoints": CLOCKED[1:]}, "/stopwatch ran without use_sim_time: it does not follow /clock"),
+        (
+            {"ended_early": [{"program": "stopwatch.py", "code": 1}]},
+            "stopwatch.py had ended with exit code 1 before the launch was interrupted",
+        ),
+    ],
+)
+def test_a_node_that_is_not_there_or_keeps_another_time(find, changes, measured):
+    finding = find("node", **changes)
+    assert (finding.passed, finding.measured) == (False, measured)
+
+
+@pytest.mark.parametrize(
+    ("changes", "measured"),
+    [
+        ({"running": False}, "the launch had ended before it was interrupted"),
+        ({"left": ["a.sdf"]}, "the launch ended, but this ran on: a.sdf"),
+        ({"ended_itself": False}, "the launch did not end"),
+        ({"escalated": ["gz-1"]}, "gz-1 did not listen to Ctrl-C for 5 s"),
+        ({"exit_code": 1}, "the launch ended with exit code 1"),
+    ],
+)
+def test_an_end_that_is_none(find, changes, measured):
+    finding = find("end", **changes)
+    assert (finding.passed, finding.measured) == (False, measured)
+
+
+def test_the_fault_of_a_launch_comes_with_file_and_line(record):
+    error = "/submission/bringup.launch.py:26: NameError: name 'x' is not defined"
+    facts = {"launch": GOOD | {"error": error, "exit_code": 1, "running": False}, "exit_code": 1, "exit_at": 0.0}
+    recording = record(facts=facts)
+    sentence = "The launch failed: bringup.launch.py, line 26: NameError: name 'x' is not defined"
+    assert launch_fault(recording) == diagnose(recording) == sentence
+    assert outcome_of(recording) == "student_error"
+
+
+def test_a_launch_without_fault_has_none(record):
+    assert launch_fault(record(facts={"launch": GOOD})) == diagnose(record(facts={"launch": GOOD})) == ""
+    assert launch_fault(record()) == ""
