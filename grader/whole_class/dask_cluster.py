@@ -41,8 +41,7 @@ def dask_executor(address: str) -> Iterator[tuple[Executor, int]]:
             cluster = LocalCluster(
                 n_workers=int(count),
                 threads_per_worker=1,
-                dashboard_address=None,
-                worker_dashboard_address=None,
+                dashboard_address="127.0.0.1:0",
                 local_directory=scratch,
                 silence_logs="CRITICAL",
             )
@@ -55,9 +54,13 @@ def dask_executor(address: str) -> Iterator[tuple[Executor, int]]:
             client = stack.enter_context(Client(target, timeout=CONNECT, set_as_default=False))
         except (OSError, TimeoutError, ValueError) as error:
             raise UsageError(f"no Dask scheduler answers at {shown(address)}: {shown(str(error))}") from None
+        try:
+            client.wait_for_workers(1, timeout=CONNECT)
+        except (OSError, TimeoutError):
+            raise UsageError(
+                f"the Dask scheduler at {shown(address)} has no workers; start some with dask worker"
+            ) from None
         slots = sum(client.nthreads().values())
-        if not slots:
-            raise UsageError(f"the Dask scheduler at {shown(address)} has no workers; start some with dask worker")
         _check_versions(client.run(_worker_versions, on_error="return"))
         yield stack.enter_context(client.get_executor(pure=False, retries=0)), slots
 

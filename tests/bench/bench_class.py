@@ -7,6 +7,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from tests.bench.row import Row
@@ -63,27 +64,28 @@ def rows() -> Iterator[Row]:
     with (
         tempfile.TemporaryDirectory(prefix="bench-class-") as name,
         LocalCluster(
-            n_workers=2, threads_per_worker=1, dashboard_address=None, local_directory=name, silence_logs="CRITICAL"
+            n_workers=2,
+            threads_per_worker=1,
+            dashboard_address="127.0.0.1:0",
+            local_directory=name,
+            silence_logs="CRITICAL",
         ) as cluster,
     ):
         folder = Path(name)
         submissions = hand_in(folder / "class", CLASS)
         before = os.times()
-        threads, dask = [], []
-        for run in range(RUNS):  # in turn: what else the machine does comes and goes
-            threads.append(grade_all(submissions, folder / f"jobs{run}", "--jobs", "2"))
-            after = os.times()
-            dask.append(grade_all(submissions, folder / f"dask{run}", "--dask", cluster.scheduler_address))
-            if run == 0:
-                spent = sum(after[2:4]) - sum(before[2:4])
-        rate = CLASS / min(threads) * 60
+        threads = min(grade_all(submissions, folder / f"jobs{run}", "--jobs", "2") for run in range(RUNS))
+        spent = (sum(os.times()[2:4]) - sum(before[2:4])) / RUNS
+        with ThreadPoolExecutor(2) as both:  # side by side: what else the machine does slows both down alike
+            jobs = both.submit(grade_all, submissions, folder / "jobs", "--jobs", "2")
+            dask = both.submit(grade_all, submissions, folder / "dask", "--dask", cluster.scheduler_address)
+        rate = CLASS / threads * 60
         yield Row("a class, --jobs 2", f"{rate:.0f} submissions/min", "40/min", f"{rate / 40:.2f}x", ">= 1x")
         each = spent / CLASS
         yield Row("processor time of one", f"{each:.2f} s", "2 cores, 40/min: 3 s", f"{each / 3:.2f}x", "< 1x")
-        ratio = min(threads) / min(dask)
-        yield Row(
-            "Dask, 2 workers", f"{min(dask):.1f} s", f"--jobs 2: {min(threads):.1f} s", f"{ratio:.2f}x", ">= 0.9x"
-        )
+        ratio = jobs.result() / dask.result()
+        told = f"--jobs 2, side by side: {jobs.result():.1f} s"
+        yield Row("Dask, 2 workers", f"{dask.result():.1f} s", told, f"{ratio:.2f}x", ">= 0.9x")
         eight = hand_in(folder / "eight", TOGETHER)
         grade_all(eight, folder / "together", "--jobs", str(TOGETHER))
         grade_all(eight, folder / "alone", "--jobs", "1")
