@@ -37,6 +37,7 @@ from grader.whole_class.grading import REPORT, Graded, Job, Setup, grade_one, gr
 from grader.whole_class.journal import JOURNAL, Journal
 from grader.whole_class.versions import versions
 
+LOOK = 2.0  # [s] between two looks whether who grades is still there
 ATTEMPTS = 3  # at one submission, if the fault is ours
 HOPELESS = 6  # submissions in a row that cannot be graded at first, with none before that could: we stop
 START_UP, PER_TRIAL, WALL_FACTOR = 60.0, 30.0, 2.0  # [s], [s] and wall seconds per simulated second of a grading
@@ -84,7 +85,8 @@ class ClassRun:
         """
         with ExitStack() as stack:
             journal = stack.enter_context(self._open())
-            executor, slots = self._here(jobs, stack) if dask is None else stack.enter_context(dask_executor(dask))
+            local = dask is None
+            executor, slots, gone = self._here(jobs, stack) if local else stack.enter_context(dask_executor(dask or ""))
             results: dict[str, Result] = {}
             todo = deque((each, 1) for each in found)
             order = [each.student for each, _ in todo]
@@ -99,7 +101,11 @@ class ClassRun:
                         told(result, anew)
                     else:
                         running[self._submit(executor, job)] = (each, result, job.key, attempt)
-                for future in wait(running, return_when=FIRST_COMPLETED).done if running else ():
+                finished = wait(running, LOOK, FIRST_COMPLETED).done if running else set()
+                if not finished and gone():
+                    running.clear()  # nobody is left who could be told that they are cancelled
+                    raise InfrastructureError("the Dask scheduler is gone; start it, and the same command goes on")
+                for future in finished:
                     each, result, key, attempt = running.pop(future)
                     graded = _outcome(future)
                     self._watch(graded, attempt)
@@ -134,7 +140,7 @@ class ClassRun:
             shutil.rmtree(part, ignore_errors=True)
         return journal
 
-    def _here(self, jobs: int, stack: ExitStack) -> tuple[Executor, int]:
+    def _here(self, jobs: int, stack: ExitStack) -> tuple[Executor, int, Callable[[], bool]]:
         """Threads of this process, each of which waits for one grading."""
         level = choose(self.sandbox, self.demand)  # once, so that all submissions get the same
         folder = work_folder(self.out)
@@ -144,7 +150,7 @@ class ClassRun:
         executor = ThreadPoolExecutor(jobs)
         stack.callback(executor.shutdown, cancel_futures=True)
         stack.enter_context(gradings_end_here())
-        return executor, jobs
+        return executor, jobs, lambda: False
 
     def _prepare(self, found: Found, journal: Journal) -> tuple[Result, Job | None, bool]:
         """Read a submission: its result if there is nothing to grade any more, else a blank one and the job.

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
 
 from grader.errors import UsageError
@@ -19,8 +19,10 @@ CONNECT = 15.0  # [s] to reach a scheduler
 
 
 @contextlib.contextmanager
-def dask_executor(address: str) -> Iterator[tuple[Executor, int]]:
-    """Connect to a scheduler (`tcp://host:port`) or start workers here (`local:N`): an executor, and how many it runs.
+def dask_executor(address: str) -> Iterator[tuple[Executor, int, Callable[[], bool]]]:
+    """Connect to a scheduler (`tcp://host:port`) or start workers here (`local:N`).
+
+    What comes out: an executor, how many gradings it runs at a time, and whether the scheduler is gone, when asked.
 
     Raises UsageError if Dask is not installed, nobody answers, or a worker is not what this machine is.
     """
@@ -62,7 +64,8 @@ def dask_executor(address: str) -> Iterator[tuple[Executor, int]]:
             ) from None
         slots = sum(client.nthreads().values())
         _check_versions(client.run(_worker_versions, on_error="return"))
-        yield stack.enter_context(client.get_executor(pure=False, retries=0)), slots
+        # Its own way out would wait for gradings that a scheduler that is gone never reports.
+        yield client.get_executor(pure=False, retries=0), slots, lambda: client.status not in ("running", "connecting")
 
 
 def _worker_versions() -> dict[str, str]:
