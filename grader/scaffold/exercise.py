@@ -23,6 +23,8 @@ DEFECTS = {
     "never_stops": ("            self.publisher.publish(Twist())\n", "            self.timer.cancel()\n"),
     "drives_backwards": ("command.linear.x = 0.25", "command.linear.x = -0.25"),
     "too_slow": ("command.linear.x = 0.25", "command.linear.x = 0.1"),
+    "drives_too_long": ("Duration(seconds=2.0)", "Duration(seconds=2.7)"),
+    "wall_clock": ("now = self.get_clock().now()", "now = rclpy.clock.Clock().now()"),
     "wrong_topic": ('"/cmd_vel"', '"/model/robot/cmd_vel"'),
 }
 

@@ -25,7 +25,7 @@ from grader.table import Table
 from grader.trial import chosen_trials
 
 FEWEST_ACCEPTED = 2
-FEWEST_REJECTED = 4
+FEWEST_REJECTED = 6
 EXPECT = "expect.toml"
 
 
