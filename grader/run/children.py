@@ -11,14 +11,15 @@ from dataclasses import dataclass
 from typing import Any
 
 START_UP = 10.0  # [s] of wall time for a process to say hello, and then to have a node that spins
-LEAVING = 1.0  # [s] for its parent to notice that it has ended
+# [s] for each state: until it says hello (a shell may become a Python), and until its parent notices that it has ended
+PATIENCE = {"starting": START_UP, "shell": 3.0, "left": 1.0}
 MOST_CHILDREN = 1_000
-SHELLS = ("sh", "dash", "bash", "env")  # they may become a Python
+SHELLS = ("sh", "dash", "bash", "env")
 
 
 @dataclass
 class Child:
-    """One process. `state` is `starting`, `here` (it has said hello), `left`, `ended`, `silent` (it never speaks)."""
+    """One process. `state` is `starting`, `shell`, `here` (it said hello), `left`, `ended`, `silent` (never speaks)."""
 
     pid: int  # as it is seen in the box
     state: str
@@ -37,15 +38,15 @@ class Children:
         now = time.monotonic()
         if (started := message.get("started")) and len(self._children) < MOST_CHILDREN:
             program = str(started["program"])
-            speaks = program.startswith("python") or program in SHELLS
-            self._children[int(started["pid"])] = Child(int(started["pid"]), "starting" if speaks else "silent", now)
+            state = "shell" if program in SHELLS else "starting" if program.startswith("python") else "silent"
+            self._children[int(started["pid"])] = Child(int(started["pid"]), state, now)
         elif ended := message.get("ended"):
             child = self._children.get(int(ended["pid"]))
             if child is not None:
                 child.state, child.code = "ended", int(ended["code"])
         elif hello := message.get("hello"):
             for pid in (int(hello["pid"]), int(hello["group"])):
-                if (child := self._children.get(pid)) and child.state in ("starting", "left"):
+                if (child := self._children.get(pid)) and child.state in PATIENCE:
                     child.state = "here"
 
     def leave(self, pid: int) -> None:
@@ -62,5 +63,4 @@ class Children:
     def changing(self) -> bool:
         """Whether one is about to say hello, or to be missed by its parent."""
         now = time.monotonic()
-        patience = {"starting": START_UP, "left": LEAVING}
-        return any(now < child.since + patience.get(child.state, 0.0) for child in self._children.values())
+        return any(now < child.since + PATIENCE.get(child.state, 0.0) for child in self._children.values())

@@ -98,6 +98,9 @@ class RealTime:
             self.ears.pump()
             self.everything_arrived()
         self.await_matches(time.monotonic() + MATCHING)
+        deadline = time.monotonic() + PATIENCE
+        while self.student.running and not self.everything_arrived() and time.monotonic() < deadline:
+            self.student.wait(LOOK_ROUND)  # what was sent before time began is also received before
         return self.student.running and bool(self.student.endpoints)
 
     def welcome(self) -> None:

@@ -222,3 +222,9 @@ def test_an_error_in_the_launch_file_is_on_record_with_its_line(launch):
     assert run.facts["error"].startswith("/submission/bringup.launch.py:")
     assert "NameError: name 'robot_description' is not defined" in run.facts["error"]
     assert run.facts["exit_code"] == 1
+
+
+def test_what_a_timer_starts_is_waited_for(launch):
+    run = launch('gz("sim", "-s", "-r", "shapes.sdf"), TimerAction(period=1.5, actions=[bridge(CLOCK)]),')
+    (bridge,) = run.recording.facts()["bridges"]
+    assert bridge["to_ros"] == 50, "time had not begun before the bridge stood"

@@ -86,7 +86,7 @@ def play(tmp_path, monkeypatch):
             student = Student(
                 [sys.executable, str(tmp_path / "start.py"), *names],
                 sandbox,
-                {"publisher": observe},
+                {"publisher": observe, "subscription": {CLOCK: "rosgraph_msgs/msg/Clock"}},
                 {HOLD: "1"} if holding else {},
             )
             for key, value in sandbox.grader_environment().items():

@@ -12,6 +12,8 @@ from typing import Any
 
 from .channel import SOCKET, channel
 
+SOON = 10.0  # [s] a timer of an event loop that is due so soon, such as a TimerAction, is waited for
+
 _waiting = False
 
 
@@ -57,7 +59,7 @@ def install_in_event_loops() -> None:
             ready = loop._selector.select(0)
             if ready:
                 loop._process_events(ready)
-            else:
+            elif not any(not each._cancelled and each._when < loop.time() + SOON for each in loop._scheduled):
                 _wait_begins()
         once(loop)
 
