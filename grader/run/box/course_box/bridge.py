@@ -32,6 +32,9 @@ class Bridge:
 
         self.entries = list(entries)
         self.services = list(services)
+        if self.services:
+            refused = "services of Gazebo are not offered to ROS while a submission is graded"
+            raise BridgeError([f"{service.name}: {refused}" for service in self.services])
         rows = []
         for entry in self.entries:
             row = dataclasses.asdict(entry) | {"direction": entry.direction.value}
