@@ -21,7 +21,7 @@ SETTINGS = ("ld.so.cache", "alternatives", "localtime")  # of /etc
 DEVICES = ("null", "zero", "full", "random", "urandom")
 LINKS = {"/dev/fd": "/proc/self/fd", "/dev/stdin": "fd/0", "/dev/stdout": "fd/1", "/dev/stderr": "fd/2"}
 # Of the package `grader`: what is started as a script inside.
-OF_THE_GRADER = ("run/participant*", "run/box", "run/inside")
+OF_THE_GRADER = ("run/box", "run/inside")
 TMP_SIZE, TMP_FILES = 64 << 20, 20_000  # [bytes] and files of /tmp
 SHM_SIZE, SHM_FILES = 16 << 20, 1_000  # of /dev/shm
 
