@@ -40,13 +40,18 @@ BLOCK_NS = 5_000_000_000  # simulated time per block [ns]
 PICTURE_NS = 500_000_000  # simulated time between two pictures of one camera [ns]
 
 
+def part_of(path: Path) -> Path:
+    """Return what a recording is called until it is finished."""
+    return path.with_suffix(path.suffix + ".part")
+
+
 class Recorder:
     """One recording being written. Not thread-safe: use it from one thread."""
 
     def __init__(self, path: Path, robot: str) -> None:
         """Write to `path` (which appears when the recorder is closed) the story of the model `robot`."""
         self.path = path
-        self.part = path.with_suffix(path.suffix + ".part")
+        self.part = part_of(path)
         path.parent.mkdir(parents=True, exist_ok=True)
         self.stream = rr.RecordingStream(
             APPLICATION,
@@ -188,13 +193,18 @@ class Recorder:
         else:
             self.abandon()
 
+    @classmethod
     @contextlib.contextmanager
-    def abandoned_on_error(self) -> Iterator[None]:
-        """Remove the unfinished file if the body raises; leave it open if not."""
+    def begun(cls, path: Path, robot: str) -> Iterator[Recorder]:
+        """Make a recorder; it stays open, but if the body raises, or an interrupt before it, its file is removed."""
+        recorder = None
         try:
-            yield
+            recorder = cls(path, robot)
+            yield recorder
         except BaseException:
-            self.abandon()
+            if recorder is not None:
+                recorder.abandon()
+            part_of(path).unlink(missing_ok=True)
             raise
 
     def close(self) -> None:

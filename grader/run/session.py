@@ -90,8 +90,7 @@ def run(
             if not kind.brings_bridge:
                 raise ManifestError(f"{exercise.folder / MANIFEST}: {error.errors[0]}") from None
             return record_unrunnable(exercise, replace(submission, fault=shown(error.errors[0])), trial, path)
-        recorder = Recorder(path, exercise.robot)
-        with recorder.abandoned_on_error():
+        with Recorder.begun(path, exercise.robot) as recorder:
             facts = stage.play(recorder)
             if cast.given and (facts["exit_at"] is not None or not facts["ready"]):
                 how = "did not start to spin" if facts["exit_at"] is None else f"ended (exit code {facts['exit_code']})"

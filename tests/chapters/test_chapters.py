@@ -219,7 +219,7 @@ def printed(cell):
     return re.sub(r"\x1b\[[0-9;]*m", "", text)
 
 
-@pytest.mark.slow
+@pytest.mark.proof
 @pytest.mark.timeout(200)
 @each_notebook
 def test_runs_from_first_to_last_cell_and_leaves_nothing_running(path, tmp_path, descendants):

@@ -25,8 +25,8 @@ LIMIT = START_UP + WALL_FACTOR * DURATION + WALL_GRACE + 2.0
 ROOT_ONLY = pytest.mark.skipif(os.getuid() != 0, reason="only root can become an ordinary user")
 KINDS = [
     pytest.param(("A", None), id="A"),
-    pytest.param(("A", ORDINARY), id="A-ordinary-user", marks=[ROOT_ONLY, pytest.mark.slow]),
-    pytest.param(("B", ORDINARY + 1), id="B-ordinary-user", marks=[ROOT_ONLY, pytest.mark.slow]),
+    pytest.param(("A", ORDINARY), id="A-ordinary-user", marks=[ROOT_ONLY, pytest.mark.proof]),
+    pytest.param(("B", ORDINARY + 1), id="B-ordinary-user", marks=[ROOT_ONLY, pytest.mark.proof]),
 ]
 
 

@@ -112,13 +112,23 @@ def test_closing_gives_the_file_its_name_and_an_error_removes_it(tmp_path):
     assert list(tmp_path.iterdir()) == [path]
 
 
-def test_abandoned_on_error_leaves_a_good_file_open(tmp_path):
-    recorder = Recorder(tmp_path / "run.rrd", "robot")
-    with recorder.abandoned_on_error():
+def test_one_begun_stays_open_and_leaves_nothing_if_interrupted(tmp_path, monkeypatch):
+    with Recorder.begun(tmp_path / "run.rrd", "robot") as recorder:
         recorder.scalar("a", 1.0)
     assert recorder.part.exists()
-    with pytest.raises(KeyboardInterrupt), recorder.abandoned_on_error():
+    recorder.abandon()
+    with pytest.raises(KeyboardInterrupt), Recorder.begun(tmp_path / "run.rrd", "robot"):
         raise KeyboardInterrupt
+    assert list(tmp_path.iterdir()) == []
+
+    def interrupted(*_):
+        assert (tmp_path / "run.rrd.part").exists()
+        raise KeyboardInterrupt
+
+    # While it is made: its file is there already.
+    monkeypatch.setattr("grader.record.recorder.defaultdict", interrupted)
+    with pytest.raises(KeyboardInterrupt), Recorder.begun(tmp_path / "run.rrd", "robot"):
+        pass
     assert list(tmp_path.iterdir()) == []
 
 

@@ -1,5 +1,6 @@
 """Several gradings at once: the same reports in the same order, and nothing left running whatever happens."""
 
+import json
 import os
 import shutil
 import signal
@@ -13,34 +14,58 @@ import pytest
 from grader.errors import InfrastructureError
 from grader.exercise import find_exercise
 from grader.verify import jobs
-from grader.verify.jobs import Job, pool
+from grader.verify.jobs import Job
+
+pytestmark = pytest.mark.proof
 
 COURSE = [sys.executable, "-c", "from grader.course import main; main()"]
 FILES = ["solutions/03_teleop/teleop_node.py", "exercises/03_teleop/teleop_node.py"]
+GRADINGS = """
+import json, sys
+from pathlib import Path
+from grader.exercise import find_exercise
+from grader.verify.jobs import Job, pool
+
+if __name__ == "__main__":
+    root, out, count, trials, *files = sys.argv[1:]
+    exercise = find_exercise("03", Path(root))
+    rounds = (exercise.trials,) * int(trials)
+    jobs = [Job(exercise, Path(file), Path(out) / str(i), rounds) for i, file in enumerate(files)]
+    with pool(int(count)) as workers:
+        print(json.dumps([(r.score.points, r.score.truth_sha256) for r in workers.reports(jobs)]))
+"""
 
 
 def job(exercise, file, out):
     return Job(exercise, file, out, (exercise.trials,))
 
 
-def test_workers_report_as_this_process_does(root, tmp_path):
-    exercise = find_exercise("03", root)
-    results = []
-    for count in (1, 2):
-        jobs = [job(exercise, root / file, tmp_path / f"{count}" / str(i)) for i, file in enumerate(FILES)]
-        with pool(count) as workers:
-            results.append([(r.score.points, r.score.truth_sha256) for r in workers.reports(jobs)])
-    assert results[0] == results[1]
-    assert [points for points, _ in results[0]] == [100, 0]
+@pytest.fixture
+def reports(root, tmp_path):
+    """Function grading FILES in a fresh process, as DDS reads its settings once in each: their points and hashes."""
+
+    def grade(out, count, trials):
+        program = tmp_path / "gradings.py"
+        program.write_text(GRADINGS)
+        files = [str(root / file) for file in FILES]
+        command = [sys.executable, str(program), str(root), str(out), str(count), str(trials), *files]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+        assert done.returncode == 0, done.stderr
+        return json.loads(done.stdout)
+
+    return grade
 
 
-def test_later_trials_are_left_out_when_points_are_lost(root, tmp_path):
-    exercise = find_exercise("03", root)
-    for file, folders in zip(FILES, (2, 1), strict=True):
-        out = tmp_path / str(folders)
-        trials = (exercise.trials, exercise.trials)
-        Job(exercise, root / file, out, trials).run()
-        assert len(list(out.rglob("*.rrd"))) == folders
+def test_workers_report_as_this_process_does(reports, tmp_path):
+    here, workers = (reports(tmp_path / str(count), count, 1) for count in (1, 2))
+    assert here == workers
+    assert [points for points, _ in here] == [100, 0]
+
+
+def test_later_trials_are_left_out_when_points_are_lost(reports, tmp_path):
+    reports(tmp_path / "out", 1, 2)
+    for number, folders in enumerate((2, 1)):
+        assert len(list((tmp_path / "out" / str(number)).rglob("*.rrd"))) == folders
 
 
 @pytest.fixture

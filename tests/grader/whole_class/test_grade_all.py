@@ -10,6 +10,8 @@ import sys
 import psutil
 import pytest
 
+pytestmark = pytest.mark.proof
+
 FILE = "teleop_node.py"
 LINE = 60  # [s] for one line of progress
 
