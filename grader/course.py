@@ -9,12 +9,12 @@ import importlib
 import pkgutil
 import signal
 import sys
-from typing import NoReturn
 
 import typer
 
 from grader import commands
 from grader.errors import CourseError
+from grader.interruption import end_on
 
 app = typer.Typer(
     name="course",
@@ -32,8 +32,7 @@ def main() -> None:
     debug = "--debug" in sys.argv[1:2]
     if debug:
         del sys.argv[1]
-    for number in (signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, _stop)
+    end_on(signal.SIGTERM, signal.SIGHUP)
     try:
         app()
     except CourseError as error:
@@ -47,11 +46,6 @@ def main() -> None:
             raise
         _say(f"internal error: {type(error).__name__}: {error}")
         sys.exit(3)
-
-
-def _stop(number: int, _: object) -> NoReturn:
-    """Leave as after Ctrl-C: everything that is open is closed on the way out."""
-    sys.exit(128 + number)
 
 
 def _say(sentence: str) -> None:

@@ -22,6 +22,7 @@ from typing import Protocol
 from grader.errors import InfrastructureError
 from grader.exercise import Exercise
 from grader.grade import grade
+from grader.interruption import end_on
 from grader.report.report import Report
 from grader.trial import Trial
 
@@ -129,7 +130,7 @@ def _begin(parent: int, folder: str) -> None:
         sys.exit(3)
     tempfile.tempdir = folder
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C in a terminal reaches the parent as well, which ends us
-    signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
+    end_on(signal.SIGTERM)
 
 
 def _run(job: Job) -> Report:
