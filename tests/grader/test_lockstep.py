@@ -107,7 +107,7 @@ def test_scoring_the_recording_gives_the_identical_verdict(same, course, tmp_pat
     assert {k: v for k, v in again.items() if k not in host} == {k: v for k, v in before.items() if k not in host}
 
 
-@pytest.mark.slow
+@pytest.mark.proof
 def test_real_time_gives_the_same_score(same, grade, root):
     exercise = same[0].report["exercise"]
     outcome = grade(exercise, root / SUBMISSIONS[exercise], "--pace", "realtime")

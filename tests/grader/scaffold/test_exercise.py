@@ -20,7 +20,7 @@ def files_below(folder):
     return sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file())
 
 
-@pytest.mark.slow
+@pytest.mark.proof
 def test_a_new_exercise_verifies_as_it_is(tmp_path, course, clean):
     root = tmp_path / "course"
     root.mkdir()
