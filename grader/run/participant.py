@@ -116,8 +116,8 @@ class Participant:
             self.uses_ros |= "ros" in message
             self.waits = "waiting" in message
             self._asked(self, message)
-        except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
-            return  # nothing that anybody of ours would send
+        except (ValueError, KeyError, TypeError, AttributeError, RecursionError, OverflowError, OSError):
+            return  # nothing that anybody of ours would send: an infinite number, a name that is no file's
 
     def close(self) -> None:
         """Close the socket."""

@@ -1,13 +1,23 @@
 """What a process of the submission may ask the grader for when it does not keep to the rules."""
 
+import json
+import math
 import os
+import socket
 
 import pytest
+from hypothesis import HealthCheck, example, given, settings
+from hypothesis import strategies as st
 
+from grader.run.participant import Participant
 from grader.run.served import Served
 from gz.transport import Node, NodeOptions, Scope
 
 WORLD = "<sdf version='1.9'><world name='{}'/></sdf>"
+WORDS = (
+    *("hello", "ros", "waiting", "world", "run", "bridge", "worlds", "call", "stopped", "pid", "group", "command"),
+    *("given", "built_in", "path", "paused", "iterations", "node", "entries", "frame_id", "verb", "data", "type"),
+)
 
 
 class Asking:
@@ -82,3 +92,25 @@ def test_a_bridge_of_nonsense_is_refused(served):
     for entries in ([{}], [{"direction": "UP"}], [{"direction": "GZ_TO_ROS", "ros_topic": "/a", "depth": 1}]):
         answer = ask(served, bridge={"entries": entries, "node": "/b", "frame_id": None})
         assert answer["errors"], entries
+
+
+SCALARS = st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=3) | st.just("x" * 5000)
+NONSENSE = st.recursive(
+    SCALARS, lambda inner: st.lists(inner, max_size=2) | st.dictionaries(st.sampled_from(WORDS), inner, max_size=3)
+)
+
+
+@settings(max_examples=300, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@example({"hello": {"pid": math.inf, "group": 1, "command": []}})
+@example({"run": {"paused": False, "iterations": math.inf}})
+@example({"world": {"given": "w", "built_in": "x" * 5000, "path": "/"}})
+@given(st.dictionaries(st.sampled_from(WORDS), NONSENSE, max_size=3))
+def test_nonsense_is_passed_over(served, message):
+    ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    with ours, theirs:
+        participant = Participant(ours, 0, served.asked)
+        for each in ({"world": {"given": "mine", "built_in": "empty.sdf", "path": "/"}}, message):
+            theirs.send(json.dumps(each).encode())
+        participant.read()
+        assert not participant.gone
+        assert "name" in json.loads(theirs.recv(1 << 16))["answer"]
