@@ -7,7 +7,6 @@ import tokenize
 import warnings
 from typing import TYPE_CHECKING
 
-from grader.errors import ManifestError
 from grader.kinds.kind import Cast, Kind
 from grader.printable import shown
 from grader.wall_clock import wall_clock
@@ -39,15 +38,10 @@ def fault(name: str, content: bytes) -> str | None:
 
 def cast(exercise: Exercise, submission: Submission) -> Cast:
     """The student's node, and the bridge of the exercise."""
-    from ros_gz_bridge.config import ConfigError, load_yaml
+    from grader.run.exercise_bridge import exercise_bridge
 
-    assert exercise.bridge is not None
-    try:
-        entries = load_yaml(exercise.bridge)
-    except (ConfigError, OSError) as error:
-        raise ManifestError(str(error)) from None
     clocks = [{"file": shown(submission.main)} | place for place in wall_clock(submission.files[submission.main])]
-    return Cast(submission.main, submission.files, entries, {"wall_clock": clocks} if clocks else {})
+    return Cast(submission.main, submission.files, exercise_bridge(exercise), {"wall_clock": clocks} if clocks else {})
 
 
 KIND = Kind((".py",), fault, cast)

@@ -106,15 +106,10 @@ def _line(node: yaml.Node) -> int:
 
 def cast(exercise: Exercise, submission: Submission) -> Cast:
     """The exercise's own node and bridge; the rows go into the recording."""
-    from ros_gz_bridge.config import ConfigError, load_yaml
+    from grader.run.exercise_bridge import exercise_bridge
 
-    assert exercise.bridge is not None
-    try:
-        entries = load_yaml(exercise.bridge)
-    except (ConfigError, OSError) as error:
-        raise ManifestError(str(error)) from None
     rows = read(submission.main, submission.files[submission.main])
-    return Cast(GIVEN_NODE, given_node(exercise), entries, {"table": rows}, given=True)
+    return Cast(GIVEN_NODE, given_node(exercise), exercise_bridge(exercise), {"table": rows}, given=True)
 
 
 def given_node(exercise: Exercise) -> dict[str, bytes]:
