@@ -21,6 +21,7 @@ from grader.run.served import Served
 from grader.run.stage import Stage
 
 SIMULATOR_PATIENCE = 5.0  # [s] of wall time, once nobody is starting up, for a simulator to be started
+START_UP = 20.0  # [s] of wall time more than a single node gets
 BEATS = 10  # how often a paused world tells its time, in a run
 END_PATIENCE = 13.0  # [s] of wall time after Ctrl-C; launch itself escalates after 5 s and after 10 s
 MASKED = (  # what differs between equal runs
@@ -88,7 +89,8 @@ class LaunchStage(Stage):
     def _run(self) -> None:
         assert self._world is not None
         duration_ns = round(self._exercise.duration * 1e9)
-        deadline = time.monotonic() + 2 * self._exercise.duration + 30.0
+        started = time.monotonic()
+        self._look_at = started + self._wall_limit
         beats = 0
         while (simulator := self._served.simulator) is not None and not (self._unstable or self._out_of_time):
             if simulator.paused:
@@ -106,7 +108,12 @@ class LaunchStage(Stage):
             if simulator.iterations and self._world.iterations >= simulator.iterations:
                 simulator.who.tell({"end": True})
                 simulator.running = False
-            self._out_of_time = time.monotonic() > deadline
+            self._watch_wall(started)
+
+    @property
+    def _wall_limit(self) -> float:
+        """More than for one node: several processes come up."""
+        return super()._wall_limit + START_UP
 
     def _state(self) -> dict[str, Any]:
         """What runs at the end, before the launch is interrupted."""

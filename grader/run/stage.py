@@ -73,6 +73,7 @@ class Stage:
         self._exit_at: float | None = None
         self._unstable: str | None = None
         self._out_of_time = False
+        self._look_at = 0.0  # of the wall clock [s]: when to ask whose fault a slow run is
         self._tampered = False  # it publishes what only the simulator may: nothing that follows would count
         self._endpoints: dict[tuple[str, str, str, str], dict[str, Any]] = {}
         self._layout: tuple[int, ...] = ()
@@ -112,12 +113,10 @@ class Stage:
         self._collect()
         started = time.monotonic()
         end_ns = round(self._exercise.duration * 1e9)
-        look = started + self._wall_limit
+        self._look_at = started + self._wall_limit
         while self._now_ns < end_ns and not (self._unstable or self._out_of_time or self._tampered):
             self._tick()
-            if (now := time.monotonic()) > look:
-                self._out_of_time = self._student_is_slow(now - started)
-                look = now + LOOK_AGAIN
+            self._watch_wall(started)
         self.wall_seconds = time.monotonic() - started
         graphs = both_graphs(self._gz_nodes[1], self._ears) if self._given else {}
         self._student.stop()
@@ -128,6 +127,12 @@ class Stage:
     def _wall_limit(self) -> float:
         """How much wall time [s] a run may take on a machine that is not busy."""
         return WALL_FACTOR * self._exercise.duration + WALL_GRACE
+
+    def _watch_wall(self, started: float) -> None:
+        """End a run that takes too long because of the student; look no more often than every `LOOK_AGAIN`."""
+        if (now := time.monotonic()) > self._look_at:
+            self._out_of_time = self._student_is_slow(now - started)
+            self._look_at = now + LOOK_AGAIN
 
     def _student_is_slow(self, wall: float) -> bool:
         """Whether the student's processes are why a run takes long. Raises InfrastructureError if the machine is."""
