@@ -53,9 +53,8 @@ def grade(
     """Grade the submission at a path (None: the student's own copy) and leave its recordings in the folder `out`.
 
     `trials` are those of the exercise if None; `seed` is added to the seed of each. `sandbox` is a
-    level of `grader.run.sandbox`. `started` is the
-    `time.monotonic()` [s] at which the command began, for the report. Raises UsageError for a submission that cannot be
-    read; a submission that is wrong is graded, not raised.
+    level of `grader.run.sandbox`. `started` is the `time.monotonic()` [s] at which the command began, for the report.
+    Raises UsageError for a submission that cannot be read; one that is wrong is graded, not raised.
     """
     started = time.monotonic() if started is None else started
     submission = take_in(exercise, submission_path)

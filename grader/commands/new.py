@@ -13,7 +13,7 @@ def register(app: typer.Typer) -> None:
 
 
 def new_command(
-    name: Annotated[str, typer.Argument(help="Two digits and words, such as 05_wall_follower.")],
+    name: Annotated[str, typer.Argument(help="Two digits and words, such as 06_wall_follower.")],
 ) -> None:
     """Begin an exercise: write both halves of one that works, to be changed into yours."""
     from grader.exercise import course_root
