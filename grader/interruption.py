@@ -12,9 +12,13 @@ AGAIN = 0.02  # [s] until a signal that was dropped is sent once more
 
 
 def end_on(*numbers: signal.Signals) -> None:
-    """Leave on these signals as after Ctrl-C, with exit code 128 + number; all that is open is closed on the way."""
+    """Leave on these signals as after Ctrl-C, with exit code 128 + number; all that is open is closed on the way.
+
+    A SIGHUP that is ignored already stays so: that is what `nohup` promises.
+    """
     for number in numbers:
-        signal.signal(number, _stop)
+        if number != signal.SIGHUP or signal.getsignal(number) is not signal.SIG_IGN:
+            signal.signal(number, _stop)
     sys.unraisablehook = _unraisable
 
 

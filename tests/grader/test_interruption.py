@@ -40,3 +40,12 @@ def test_a_signal_that_python_drops_comes_once_more(number):
     assert (done.returncode, done.stdout) == (128 + number, "dropped\nclosed\n")
     assert "a fault of its own" in done.stderr
     assert "SystemExit" not in done.stderr and "KeyboardInterrupt" not in done.stderr
+
+
+@pytest.mark.parametrize(("before", "code"), [("SIG_DFL", 129), ("SIG_IGN", 0)])
+def test_nohup_is_respected(before, code):
+    program = (
+        "import os, signal; from grader.interruption import end_on\n"
+        f"signal.signal(signal.SIGHUP, signal.{before}); end_on(signal.SIGHUP); os.kill(os.getpid(), signal.SIGHUP)"
+    )
+    assert subprocess.run([sys.executable, "-c", program], timeout=60).returncode == code

@@ -20,6 +20,8 @@ PR_SET_PDEATHSIG = 1
 def main() -> None:
     """Run the file named in argv[1] with the remaining arguments."""
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)  # never outlive the grader
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # a grader that a script runs with `&` hands that on
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     import rclpy  # noqa: F401
 
     watch = participant.watch()

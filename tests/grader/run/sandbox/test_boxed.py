@@ -12,6 +12,7 @@ from grader.errors import InfrastructureError
 from grader.run.sandbox import LEVELS, Sandbox
 from grader.run.sandbox import sandbox as module
 from grader.run.sandbox.probe import try_level
+from tests.grader.run.descriptors import own_descriptors
 
 DEADLINE = 20.0
 PYTHON = [sys.executable, "-I", "-S"]
@@ -27,16 +28,17 @@ def sandbox(request, lacks, tmp_path, monkeypatch):
     if lacks[request.param]:
         pytest.skip(f"no level {request.param} here: {lacks[request.param]}")
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    before = host_facts()
+    network, before = own_network(), own_descriptors()
     box = Sandbox(97, request.param)
     yield box
     box.close()
     assert list(tmp_path.iterdir()) == []
-    assert host_facts() == before
+    assert own_network() == network
+    assert not own_descriptors().items() - before.items()
 
 
-def host_facts():
-    return Path("/proc/thread-self/ns/net").readlink(), len(list(Path("/proc/self/fd").iterdir()))
+def own_network():
+    return Path("/proc/thread-self/ns/net").readlink()
 
 
 def run(sandbox, code, *arguments):
