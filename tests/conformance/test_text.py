@@ -116,6 +116,7 @@ def test_the_real_echo_prints_what_we_print(vocabulary, echoes, name, data):
     assert echo.take(len(wanted)) == wanted
 
 
+@pytest.mark.proof
 @settings(
     max_examples=1,
     deadline=None,

@@ -13,7 +13,7 @@ SUBMISSIONS = {"03_teleop": "solutions/03_teleop/teleop_node.py", "04_lidar_list
 LOAD = 4  # busy processes beside
 
 
-@pytest.fixture(scope="module", params=sorted(SUBMISSIONS))
+@pytest.fixture(scope="module", params=["03_teleop", pytest.param("04_lidar_listener", marks=pytest.mark.proof)])
 def graded(request, tmp_path_factory, grading, root):
     """Four gradings of one submission, the last two while the machine is busy."""
     folder = tmp_path_factory.mktemp(request.param)

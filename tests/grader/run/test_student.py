@@ -12,7 +12,7 @@ import pytest
 from grader.run.domain import Domain
 from grader.run.sandbox import Sandbox
 from grader.run.student import LAST_BYTES, LONGEST_LINE, MOST_LINES, Student, node_command
-from tests.grader.run.descriptors import own_descriptors
+from tests.descriptors import own_descriptors
 
 DEADLINE = 20.0
 TOPICS = {"/clock": "rosgraph_msgs/msg/Clock", "/cmd_vel": "geometry_msgs/msg/Twist"}

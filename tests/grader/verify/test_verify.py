@@ -171,7 +171,7 @@ def quicker(copy):
     copy.expect.write_text("\n".join(kept))
 
 
-@pytest.mark.slow
+@pytest.mark.proof
 def test_wrong_expectations_are_found_out(copy, course, clean):
     """One grading of all variants shows every kind of fault at once."""
     quicker(copy)

@@ -12,7 +12,7 @@ from grader.errors import InfrastructureError
 from grader.run.sandbox import LEVELS, Sandbox
 from grader.run.sandbox import sandbox as module
 from grader.run.sandbox.probe import try_level
-from tests.grader.run.descriptors import own_descriptors
+from tests.descriptors import own_descriptors
 
 DEADLINE = 20.0
 PYTHON = [sys.executable, "-I", "-S"]
