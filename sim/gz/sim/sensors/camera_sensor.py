@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from gz.sim.physics.builder import VISUAL_GROUP
 from gz.sim.sdf.description import Sensor
+from gz.sim.sdf.element import Element
 from gz.sim.sensors.noise import Noise
 from gz.sim.sensors.pinhole import Pinhole
 from gz.sim.sensors.point_cloud import fill_cloud
@@ -38,9 +39,9 @@ class CameraSensor(SensorBase):
 
     def __init__(self, world: World, description: Sensor) -> None:
         super().__init__(world, description)
-        camera = description.element.find("camera")
-        if camera is None:
-            raise description.element.error(f"{description.kind} sensor '{description.name}' needs a <camera> element")
+        element = description.element
+        # SDF has a value for everything in it: 320 x 240 pixels, 60 degrees, 0.1 to 100 m.
+        camera = element.find("camera") or Element("camera", file=element.file, line=element.line)
         save = camera.find("save")
         if save is not None and save.attributes.get("enabled", "false") in ("true", "1"):
             reason = "images are not written to disk here; subscribe, or record the topic"

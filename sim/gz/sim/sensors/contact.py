@@ -35,7 +35,8 @@ class Contact(SensorBase):
         element = description.element
         contact = element.find("contact")
         if contact is None:
-            raise element.error(f"contact sensor '{description.name}' needs a <contact> element with a <collision>")
+            text = f"contact sensor '{description.name}' has no <contact> element"
+            raise element.error(f"{text}; add <contact><collision>NAME</collision></contact>")
         stated = contact.text_of("topic", NO_TOPIC)
         self.topic = self.default_topic if stated == NO_TOPIC else valid_topic(stated, self.default_topic)
         if stated == NO_TOPIC and element.find("topic") is not None:
@@ -54,6 +55,10 @@ class Contact(SensorBase):
                 hint = nearest(child.text, names, listing="its collisions are")
                 text = f"contact sensor '{description.name}' names collision '{child.text}', which link "
                 world.diagnostics.warn(child.where, f"{text}'{description.link}' does not have; {hint}")
+        if not contact.text_of("collision"):
+            hint = nearest("", names, listing="the collisions of its link are")
+            text = f"contact sensor '{description.name}' names no <collision>, so it never feels anything; {hint}"
+            world.diagnostics.warn(contact.where, text)
         self._publisher: Any = None
 
     def bind(self) -> None:

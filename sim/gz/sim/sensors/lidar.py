@@ -62,7 +62,8 @@ class Lidar(SensorBase):
         super().__init__(world, description)
         holder = description.element.find("lidar") or description.element.find("ray")
         if holder is None:
-            raise description.element.error(f"{description.kind} sensor '{description.name}' needs a <lidar> element")
+            text = f"{description.kind} sensor '{description.name}' has no <lidar> element"
+            raise description.element.error(f"{text}; give it one with <scan> and <range>")
         scan = holder.find("scan") or Element("scan", file=holder.file, line=holder.line)
         self.horizontal = _Sweep(scan.find("horizontal"), 640)
         self.vertical = _Sweep(scan.find("vertical"), 1)

@@ -31,11 +31,10 @@ class LogicalCamera(SiteSensor):
     message_type = "gz.msgs.LogicalCameraImage"
 
     def __init__(self, world: World, description: Sensor) -> None:
-        """Read `<logical_camera>`; raise `SdfError` when it is missing or its frustum is impossible."""
+        """Read `<logical_camera>`, or take SDF's default values; raise `SdfError` for an impossible frustum."""
         super().__init__(world, description)
-        camera = description.element.find("logical_camera")
-        if camera is None:
-            raise description.element.error(f"sensor '{description.name}' needs a <logical_camera> element")
+        element = description.element
+        camera = element.find("logical_camera") or Element("logical_camera", file=element.file, line=element.line)
         self.near, self.far = camera.number("near", 0.0), camera.number("far", 1.0)
         self.horizontal_fov = camera.number("horizontal_fov", 1.0)
         """Angle of view (rad) from side to side."""

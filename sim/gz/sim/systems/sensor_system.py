@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from gz.sim.sdf.description import Model, Plugin
+from gz.sim.errors import SdfError
+from gz.sim.sdf.description import Model, Plugin, Sensor
 from gz.sim.sensors.registry import SensorBase, sensor_types
 from gz.sim.systems.registry import System, UpdateInfo
 
@@ -34,7 +35,7 @@ class SensorSystem(System):
     def bind(self) -> None:
         """Make the sensors of models that came, drop those of models that went, and let all find their places.
 
-        Nothing has changed when a sensor cannot be made.
+        A sensor that cannot be made is warned about and left out.
         """
         types = sensor_types()
         made = {id(sensor.description): sensor for sensor in self.sensors}
@@ -47,7 +48,9 @@ class SensorSystem(System):
                     continue
                 sensor = made.pop(id(description), None)
                 if sensor is None:
-                    sensor = found(self._world, description)
+                    sensor = self._make(found, description)
+                    if sensor is None:
+                        continue
                     sensor.rescheduled = self._reschedule  # type: ignore[method-assign]
                     new.add(sensor)
                 wanted.append(sensor)
@@ -62,6 +65,15 @@ class SensorSystem(System):
                 sensor.start()
                 self._open(sensor)
         self._next_ns = 0
+
+    def _make(self, found: type[SensorBase], description: Sensor) -> SensorBase | None:
+        """Return a sensor, or None after saying why there is none: as in Gazebo the rest of the world runs."""
+        try:
+            return found(self._world, description)
+        except SdfError as error:
+            text = f"{error}; sensor '{description.name}' of model '{description.model}' stays silent"
+            self._world.diagnostics.warn("", text)
+            return None
 
     def start(self) -> None:
         """Begin every schedule anew."""

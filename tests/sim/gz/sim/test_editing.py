@@ -216,12 +216,11 @@ def test_nonsense_is_one_sentence_and_changes_nothing(
     world.step(10)
 
 
-def test_a_sensor_that_makes_no_sense_takes_its_model_away_again(load_text: Load) -> None:
+def test_a_system_that_makes_no_sense_takes_its_model_away_again(load_text: Load) -> None:
     world = load_text("")
-    sensor = "<link name='s'><sensor name='l' type='gpu_lidar'><lidar><scan><horizontal><samples>0</samples>"
-    sensor += "<min_angle>0</min_angle><max_angle>1</max_angle></horizontal></scan></lidar></sensor></link>"
-    with pytest.raises(SdfError, match="samples"):
-        world.spawn(box("bad", inside=sensor))
+    system = "<plugin filename='gz-sim-diff-drive-system' name='gz::sim::systems::DiffDrive'><left_joint>l</left_joint>"
+    with pytest.raises(SdfError, match="joint 'l'"):
+        world.spawn(box("bad", inside=f"{system}<right_joint>r</right_joint></plugin>"))
     assert world.model_names() == [] and world.model.nq == 0
     assert world.spawn(box("bad")) == "bad"
 

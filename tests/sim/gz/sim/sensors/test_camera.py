@@ -13,7 +13,6 @@ from gz.msgs.image_pb2 import Image
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gz.sim.errors import SdfError
 from gz.sim.sensors.camera import Camera
 from gz.sim.sensors.ray_caster import RayCaster
 from gz.sim.sensors.shading import Shader
@@ -245,10 +244,22 @@ def test_images_are_the_same_bytes_in_another_world(load_text: Load) -> None:
         ({"more": "<distortion><k1>inf</k1></distortion>"}, "<distortion> must hold reasonable numbers"),
     ],
 )
-def test_impossible_cameras_are_refused(load_text: Load, changes: dict[str, Any], sentence: str) -> None:
-    with pytest.raises(SdfError, match=sentence) as error:
-        load_text(eye(**changes))
-    assert str(error.value).startswith("<string>:")
+def test_an_impossible_camera_is_left_out_and_the_rest_runs(
+    load_text: Load, changes: dict[str, Any], sentence: str
+) -> None:
+    world = load_text(eye(**changes))
+    (warning,) = world.warnings
+    assert warning.startswith("<string>:") and sentence in warning and "stays silent" in warning
+    world.step(2)
+
+
+@pytest.mark.parametrize("kind", ["camera", "depth_camera", "rgbd_camera", "segmentation_camera"])
+def test_without_its_element_a_camera_has_the_values_of_sdf(load_text: Load, kind: str) -> None:
+    link = f"<link name='l'><sensor name='s' type='{kind}'/></link>"
+    world = load_text(f"<model name='m'><static>true</static>{link}</model>")
+    lens = sensor_of(world).pinhole
+    assert (lens.width, lens.height, lens.hfov, lens.near, lens.far) == (320, 240, 1.047, 0.1, 100.0)
+    assert world.warnings == []
 
 
 def test_a_format_that_cameras_do_not_make_is_named_and_the_image_is_in_colour(load_text: Load, node: Node) -> None:

@@ -8,8 +8,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gz.sim.errors import SdfError
-
 from .conftest import inertial, sensor_world
 
 Listen = Callable[..., list[Any]]
@@ -150,6 +148,15 @@ def test_a_topic_outside_of_contact_is_warned_about() -> None:
     assert "must stand in <contact>" in warning and TOPIC in warning
 
 
-def test_a_contact_sensor_without_contact_is_refused() -> None:
-    with pytest.raises(SdfError, match="needs a <contact> element"):
-        sensor_world(model(box("c") + "<sensor name='s' type='contact'/>"), "Contact")
+@pytest.mark.parametrize(
+    ("inside", "sentence"),
+    [
+        ("", "has no <contact> element; add <contact><collision>NAME</collision></contact>"),
+        ("<contact/>", "names no <collision>, so it never feels anything; the collisions of its link are: c"),
+    ],
+)
+def test_a_contact_sensor_that_feels_nothing_is_warned_about(inside: str, sentence: str) -> None:
+    world = sensor_world(model(box("c") + f"<sensor name='s' type='contact'>{inside}</sensor>"), "Contact")
+    (warning,) = world.warnings
+    assert warning.startswith("<string>:") and sentence in warning
+    world.step(3)

@@ -12,7 +12,7 @@ import pytest
 from gz.sim.errors import SdfError
 from gz.sim.pose import matrix, quaternion_from_rpy
 
-from .conftest import inertial, sensor_world
+from .conftest import inertial, sensor_world, sensors_of
 
 Listen = Callable[..., list[Any]]
 TOPIC = "/world/w/model/m/joint/j/sensor/s/forcetorque"
@@ -231,8 +231,6 @@ def test_a_joint_that_closes_a_loop_is_warned_about() -> None:
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        (sensor(frame="childd"), "<frame> 'childd' is not known; did you mean 'child'"),
-        (sensor(direction="parent_to_chidl"), "did you mean 'parent_to_child'"),
         ("<sensor name='s'/>", "needs a type"),
         (sensor() + sensor(), "already has a <sensor> called 's'"),
     ],
@@ -240,3 +238,16 @@ def test_a_joint_that_closes_a_loop_is_warned_about() -> None:
 def test_bad_input_names_its_line(text: str, sentence: str) -> None:
     with pytest.raises(SdfError, match=rf"^<string>:2: .*{sentence}"):
         sensor_world("\n" + model(text), "ForceTorque")
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        (sensor(frame="childd"), "<frame> 'childd' is not known; did you mean 'child'"),
+        (sensor(direction="parent_to_chidl"), "did you mean 'parent_to_child'"),
+    ],
+)
+def test_a_frame_or_direction_that_is_not_known_leaves_the_sensor_out(text: str, sentence: str) -> None:
+    world = sensor_world("\n" + model(text), "ForceTorque")
+    (warning,) = world.warnings
+    assert warning.startswith("<string>:2: ") and sentence in warning and sensors_of(world) == []

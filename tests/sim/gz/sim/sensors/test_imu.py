@@ -11,7 +11,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gz.sim.errors import SdfError
 from gz.sim.pose import matrix, quaternion_from_rpy
 from gz.sim.sensors.imu import Imu
 from gz.sim.world import World
@@ -370,9 +369,17 @@ def test_two_imus_on_one_topic_are_both_heard(listen: Listen) -> None:
         ("<dynamic_bias_correlation_time>-3</dynamic_bias_correlation_time>", "must be finite and not negative"),
     ],
 )
-def test_impossible_noise_names_its_line(noise: str, sentence: str) -> None:
-    with pytest.raises(SdfError, match=rf"^<string>:4: .*{sentence}"):
-        sensor_world(model(imu("\n\n\n" + axis_noise(lx=f"<noise type='gaussian'>{noise}</noise>"))), "Imu")
+def test_impossible_noise_leaves_the_sensor_out_and_names_its_line(noise: str, sentence: str) -> None:
+    world = sensor_world(model(imu("\n\n\n" + axis_noise(lx=f"<noise type='gaussian'>{noise}</noise>"))), "Imu")
+    (warning,) = world.warnings
+    assert warning.startswith("<string>:4: ") and sentence in warning and sensors_of(world) == []
+
+
+def test_without_its_element_it_measures_without_noise(listen: Listen) -> None:
+    world = sensor_world(model("<sensor name='s' type='imu'><topic>imu</topic></sensor>"), "Imu")
+    heard = listen(world, "/imu", "gz.msgs.IMU")
+    world.step(2)
+    assert len(heard) == 2 and world.warnings == []
 
 
 def test_a_world_without_the_system_says_which_plugin_to_add() -> None:

@@ -10,7 +10,6 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from gz.sim.errors import SdfError
 from gz.sim.sensors.logical_camera import LogicalCamera
 
 from .conftest import inertial, sensor_world, sensors_of
@@ -94,9 +93,19 @@ def test_the_frustum_is_that_of_its_angles(distance: float, azimuth: float, elev
     [
         (camera(CAMERA.replace("<far>10", "<far>0.1")), "0 <= near < far"),
         (camera(CAMERA.replace("1.047", "4.047")), "between 0 and pi"),
-        (camera().replace("logical_camera>", "logical_cam>"), "needs a <logical_camera> element"),
     ],
 )
-def test_bad_input_is_refused(text: str, sentence: str) -> None:
-    with pytest.raises(SdfError, match=sentence):
-        sensor_world(text, "LogicalCamera")
+def test_an_impossible_frustum_leaves_the_sensor_out(text: str, sentence: str) -> None:
+    world = sensor_world(text, "LogicalCamera")
+    (warning,) = world.warnings
+    assert sentence in warning and sensors_of(world) == []
+    world.step()
+
+
+def test_without_its_element_it_has_the_values_of_sdf() -> None:
+    world = sensor_world(
+        "<model name='m'><link name='l'><sensor name='s' type='logical_camera'/></link></model>", "LogicalCamera"
+    )
+    (sensor,) = sensors_of(world)
+    assert isinstance(sensor, LogicalCamera) and world.warnings == []
+    assert (sensor.near, sensor.far, sensor.horizontal_fov, sensor.aspect_ratio) == (0.0, 1.0, 1.0, 1.0)
