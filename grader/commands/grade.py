@@ -44,7 +44,9 @@ def grade_command(
     demand: Annotated[
         str | None, typer.Option(help="Refuse to grade in a sandbox below this level, such as B for official grading.")
     ] = None,
-    out: Annotated[Path | None, typer.Option(help="Folder for the recordings. Default: runs/EXERCISE.")] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for the recordings. Default: runs/EXERCISE, with best.json.")
+    ] = None,
     json: Annotated[Path | None, typer.Option(help="Write the report as JSON to this file.")] = None,
     html: Annotated[Path | None, typer.Option(help="Write the report as one HTML page, with plots.")] = None,
     gradescope: Annotated[Path | None, typer.Option(help="Write the report as Gradescope's results.json.")] = None,
@@ -57,20 +59,26 @@ def grade_command(
     enter_early(level)  # before there are threads
 
     from grader.grade import PACES, grade, recording_path
-    from grader.report.outputs import Outputs
+    from grader.report.best import BEST, RUNS, keep_best
+    from grader.report.outputs import Outputs, check_writable
     from grader.report.terminal import print_report
 
     if pace not in PACES:
         raise UsageError(f"there is no pace {pace!r}{nearest(pace, PACES)}")
     chosen = find_exercise(exercise)
-    out = out or Path("runs") / chosen.name
+    own = out is None  # a folder for recordings alone belongs to whoever named it
+    out = out or RUNS / chosen.name
     asked = numbered(chosen_trials(chosen, trials))
     outputs = Outputs(json, html, gradescope, junit)
     graded = submission or chosen.starter
     outputs.check([recording_path(chosen, trial, out) for trial in asked], [graded, graded / chosen.file])
+    if own:
+        check_writable(out / BEST)
     report = grade(chosen, submission, out, seed=seed, pace=pace, trials=asked, sandbox=level, started=STARTED)
     try:
         print_report(report)
     finally:  # also for a terminal that has gone
         outputs.write(report)
+        if own:
+            keep_best(report, out)
     raise typer.Exit(0 if report.full_marks else 1)

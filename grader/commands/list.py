@@ -1,10 +1,13 @@
-"""`course list [EXERCISE]`: the exercises there are, or the rubric of one."""
+"""`course list [EXERCISE]`: the exercises there are with the best score in each so far, or the rubric of one."""
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+from grader.errors import UsageError
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -20,25 +23,40 @@ def register(app: typer.Typer) -> None:
 
 def list_command(
     exercise: Annotated[str | None, typer.Argument(help="Show what this exercise asks for and its rubric.")] = None,
+    runs: Annotated[
+        Path | None,
+        typer.Option(help="Folder whose reports (JSON) are looked through for the best scores. Default: runs."),
+    ] = None,
 ) -> None:
-    """List the exercises with their points and the file each asks for, or show the rubric of one."""
+    """List the exercises with points, best score so far and the file each asks for, or show the rubric of one."""
     from rich.console import Console
 
     from grader.exercise import course_root, exercise_names, find_exercise
+    from grader.report.best import RUNS, best_scores
 
+    if runs is not None and not runs.is_dir():
+        raise UsageError(
+            f"there is no folder {runs} with runs; leave --runs out, or give one that `course grade` wrote"
+        )
     root = course_root()
+    names = exercise_names(root) if exercise is None else [exercise]
+    exercises = [find_exercise(name, root) for name in names]
+    best = best_scores(runs or RUNS, {each.name: each.max_score for each in exercises})
+    told = {each.name: f"{best.scores[each.name]:g}" if each.name in best.scores else "-" for each in exercises}
+    console = Console()
     if exercise is not None:
-        print_rubric(find_exercise(exercise, root), Console())
-        return
-    table = plain_table("exercise", "points", "file", "title")
-    for name in exercise_names(root):
-        each = find_exercise(name, root)
-        table.add_row(name, f"{each.max_score:g}", each.file, each.title)
-    Console().print(table)
+        print_rubric(exercises[0], console, told[exercises[0].name])
+    else:
+        table = plain_table("exercise", "points", "best", "file", "title")
+        for each in exercises:
+            table.add_row(each.name, f"{each.max_score:g}", told[each.name], each.file, each.title)
+        console.print(table)
+    for name in sorted(best.stale - best.scores.keys()):
+        console.print(f"\n{name} had other points when it was graded; grade it again.", highlight=False)
 
 
-def print_rubric(exercise: Exercise, console: Console) -> None:
-    """Print what an exercise asks for and a line for each check, as its manifest says them."""
+def print_rubric(exercise: Exercise, console: Console, best: str) -> None:
+    """Print what an exercise asks for, the best score so far and a line for each check, as its manifest says them."""
     from rich.markup import escape
 
     summary = "\n\n".join(" ".join(part.split()) for part in exercise.summary.split("\n\n"))
@@ -52,6 +70,7 @@ def print_rubric(exercise: Exercise, console: Console) -> None:
     table.add_section()
     table.add_row(f"{exercise.max_score:g}", "in all")
     console.print(table)
+    console.print(f"\nbest score so far: {best}", highlight=False)
 
 
 def _gates(exercise: Exercise, check: CheckSpec) -> list[str]:
