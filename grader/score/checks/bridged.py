@@ -8,6 +8,8 @@ gz_type = "gz.msgs.LaserScan"
 direction = "GZ_TO_ROS"
 at_least = 10             # messages that must go through
 same = ["/lidar/again"]   # optional: other Gazebo topics with the same messages
+
+Where the messages arrive, no other bridge may bring those of another topic.
 """
 
 from __future__ import annotations
@@ -25,7 +27,7 @@ CLOCK = "/clock"
 
 @check_kind("bridged")
 def bridged(recording: Recording, parameters: Table) -> Finding:
-    """Pass if a bridge has these names and types and this direction, and `at_least` messages were heard beyond it."""
+    """Pass if a bridge has these names, types and direction, and `at_least` messages were heard beyond it, unmixed."""
     wanted = {key: parameters.text(key) for key in KEYS[:-1]}
     wanted["direction"] = parameters.choice("direction", WAYS)
     least = parameters.number("at_least", above=0)
@@ -45,7 +47,8 @@ def bridged(recording: Recording, parameters: Table) -> Finding:
     if went < least:
         return _too_few(expected, bridge, went, made)
     deaf = _deaf(bridge, facts) if wanted["direction"] == "GZ_TO_ROS" else ""
-    return Finding(not deaf, expected, deaf or f"{went} messages went through")
+    wrong = deaf or _mixed(wanted, same, made)
+    return Finding(not wrong, expected, wrong or f"{went} messages went through")
 
 
 def _not_there(wanted: dict[str, str], made: list[Bridged]) -> str:
@@ -97,6 +100,22 @@ def _too_few(expected: str, bridge: Bridged, went: int, made: list[Bridged]) -> 
         measured = f"{went} messages went through: the node waits for {CLOCK}, which does not arrive"
         return Finding(False, expected, measured, gated=True)
     return Finding(False, expected, f"{bridge.place}: only {went} messages went through")
+
+
+def _mixed(wanted: dict[str, str], same: list[str], made: list[Bridged]) -> str:
+    """Which other bridge brings messages of another topic to the same place; empty if none does."""
+    ros, gz = wanted["ros_topic"], wanted["gz_topic"]
+    for bridge in made:
+        if (
+            wanted["direction"] != "ROS_TO_GZ"
+            and bridge.to_ros
+            and bridge.ros_topic == ros
+            and bridge.gz_topic not in same
+        ):
+            return f"{bridge.place}: {bridge.gz_topic} arrives on {ros}, too: who listens there hears both mixed"
+        if wanted["direction"] != "GZ_TO_ROS" and bridge.to_gz and bridge.gz_topic == gz and bridge.ros_topic != ros:
+            return f"{bridge.place}: {bridge.ros_topic} goes to {gz}, too: who listens there obeys both"
+    return ""
 
 
 def _deaf(bridge: Bridged, facts: dict[str, Any]) -> str:

@@ -99,6 +99,23 @@ def test_the_first_thing_wrong_is_told(found, change, words):
     assert [word for word in words if word not in finding.measured] == [], finding.measured
 
 
+def test_messages_of_another_topic_must_not_arrive_at_the_same_place(found):
+    other = SCAN | {"source": "bridge.yaml:20", "gz_topic": "/lidar2"}
+    mixed = found(SCAN, other)
+    assert not mixed.passed
+    assert mixed.measured == "bridge.yaml, line 20: /lidar2 arrives on /scan, too: who listens there hears both mixed"
+    assert found(SCAN, other, same=["/lidar2"]).passed, "the same messages under another name"
+    assert found(SCAN, other | {"to_ros": 0}).passed, "nothing came of it"
+    assert found(SCAN, SCAN | {"ros_topic": "/laser"}).passed, "one topic may go to many places"
+
+    second = COMMAND | {"source": "bridge.yaml:30", "ros_topic": "/other/cmd_vel"}
+    obeyed = found(CLOCK, COMMAND, second, wanted=COMMAND)
+    assert not obeyed.passed
+    assert "line 30: /other/cmd_vel goes to /model/robot/cmd_vel, too" in obeyed.measured
+    assert found(CLOCK, COMMAND, second | {"to_gz": 0}, wanted=COMMAND).passed
+    assert found(CLOCK, COMMAND, COMMAND | {"gz_topic": "/model/twin/cmd_vel"}, wanted=COMMAND).passed
+
+
 def test_a_listener_that_asks_for_more_than_is_offered_hears_nothing(found):
     weak = SCAN | {"publisher_qos": RELIABLE | {"reliability": "BEST_EFFORT"}}
     assert found(weak, listener=LISTENER | {"reliability": "BEST_EFFORT"}).passed
