@@ -1,8 +1,8 @@
 """The running bridge: takes messages from one side, converts them, publishes them on the other.
 
 It joins a ROS node and a Gazebo node that somebody else owns and spins: ROS messages arrive in the executor's
-thread, Gazebo messages in the thread that delivers them (the publisher's own, or the dispatcher of
-``gz.transport``). Commands that are not finite numbers stop here, before they can reach the simulator.
+thread or in that of a ``RosListener``, Gazebo messages in the thread that delivers them (the publisher's own, or the
+dispatcher of ``gz.transport``). Commands that are not finite numbers stop here, before they can reach the simulator.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from gz.transport import Node as GzNode
 from ros_gz_bridge.echo_filter import EchoFilter, GzEcho
 from ros_gz_bridge.entry import BridgeEntry, BridgeError, Direction, EntryStatus, HeaderOverrides, ServiceEntry
 from ros_gz_bridge.link import GzToRos, RosToGz, Row, error_text, sentence
+from ros_gz_bridge.ros_listener import RosListener
 from ros_gz_bridge.service_link import ServiceLink
 from ros_gz_bridge.type_pairs import TypePair, UnknownPairError, find_pair, find_service
 
@@ -44,11 +45,12 @@ class Bridge:
     """Bridges ``entries`` and ``services`` between ``ros_node`` and ``gz_node`` until ``close``.
 
     Give it a Gazebo node of its own: closing drops every subscription that node has on the bridged topics.
-    The ROS node may have other endpoints; it must be spun by its owner for messages from ROS to pass.
+    The ROS node may have other endpoints; it must be spun by its owner.
     ``publish`` receives each ROS publisher and the message meant for it, and decides when it leaves; by
     default it leaves at once. ``heard`` is shown every message that comes from ROS, before it is judged and
     converted. ``heartbeat`` (s) is how often lazy entries look for listeners. ``threaded`` gives each topic with heavy
-    messages from other processes a thread of its own; without it everything is bridged in the thread that delivers it.
+    messages from other processes a thread of its own, and all that comes from ROS another; without it everything is
+    bridged in the thread that delivers it.
     ``monotonic`` (s) paces warnings. Raises ``BridgeError`` listing every entry that cannot work, and then leaves
     nothing behind.
     """
@@ -70,6 +72,7 @@ class Bridge:
         self.entries = list(entries)
         self.services = list(services)
         self._threaded = threaded
+        self._listener = RosListener(ros_node.context) if threaded else None
         self._monotonic = monotonic
         self._ros_node = ros_node
         self._gz_node = gz_node
@@ -118,6 +121,8 @@ class Bridge:
             incoming.close()
         for outgoing in self._to_gz:
             outgoing.close()
+        if self._listener is not None:
+            self._listener.close()
         for publisher in self._gz_publishers.values():
             publisher.close()
         self._gz_publishers.clear()

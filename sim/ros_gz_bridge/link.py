@@ -221,6 +221,7 @@ class RosToGz(Link):
         if self.connected:
             return
         self.connected = True
+        listener = self._bridge._listener
         # rclpy looks at the number of parameters: with two it passes the stamps of the message along.
         self.subscription = self._bridge._ros_node.create_subscription(
             self._pair.ros_class,
@@ -228,18 +229,26 @@ class RosToGz(Link):
             self._on_message if self._echo_filter is None else self._on_message_with_info,
             qos(self.entry.qos_profile, self.entry.subscriber_queue),
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
+            callback_group=None if listener is None else listener.group,
         )
+        if listener is not None:
+            listener.add(self.subscription, self._on_message_with_info, self._on_failure)
 
     def disconnect(self) -> None:
         """Stop listening to ROS."""
         self.connected = False
         if self.subscription is not None:
+            if self._bridge._listener is not None:
+                self._bridge._listener.remove(self.subscription)
             self._bridge._ros_node.destroy_subscription(self.subscription)
             self.subscription = None
 
     def close(self) -> None:
         """Stop listening; a message on its way through may still leave."""
         self.disconnect()
+
+    def _on_failure(self, error: Exception) -> None:
+        self._drop(self._pair.ros_type, self.entry.ros_topic, error_text(error))
 
     def _on_message_with_info(self, ros: Any, info: dict[str, int]) -> None:
         if self._echo_filter is not None and self._echo_filter.is_echo(ros, info["source_timestamp"]):

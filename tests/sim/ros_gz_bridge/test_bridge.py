@@ -233,6 +233,25 @@ def test_the_owner_is_shown_what_comes_from_ros_even_if_it_is_dropped(stage, eve
     assert shown == [(bridge.entries[0], math.inf)]
 
 
+def test_what_breaks_on_the_way_to_gazebo_is_counted_in_a_bridge_with_threads(stage, inbox, eventually):
+    box, heard = inbox(), []
+
+    def first_breaks(_, message):
+        heard.append(message)
+        if len(heard) == 1:
+            raise RuntimeError("broken")
+
+    stage.gz.subscribe(GzTwist, stage.topic, box)
+    bridge = stage.bridge(stage.entry(direction=Direction.ROS_TO_GZ), heard=first_breaks, threaded=True)
+    publisher = stage.ros_publisher(Twist)
+    publisher.publish(Twist())
+    publisher.publish(Twist())
+    box.wait(1)
+    eventually(lambda: bridge.status()[0].ros_to_gz == 1, "the second one is counted")
+    (status,) = bridge.status()
+    assert (status.dropped, "broken" in status.last_error) == (1, True)
+
+
 def test_a_lazy_bridge_listens_only_while_somebody_listens_to_it(stage, inbox, eventually):
     bridge = stage.bridge(stage.entry(SCAN, Direction.GZ_TO_ROS, lazy=True), heartbeat=0.02)
     publisher = stage.gz.advertise(stage.topic, GzLaserScan)
