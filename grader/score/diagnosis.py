@@ -13,6 +13,7 @@ from typing import Any
 from grader.printable import shown
 from grader.record.reading import Recording
 from grader.score.launched import launch_fault
+from grader.score.python_errors import meaning
 
 FRAME = re.compile(r'\s+File "(.*)", line (\d+)')
 
@@ -67,6 +68,16 @@ def diagnose(recording: Recording) -> str:
     return ""
 
 
+def whole_number_fault(recording: Recording) -> str:
+    """Return one sentence about a field of floating-point numbers that was given a whole one; empty if none was."""
+    for place in recording.facts().get("whole_numbers", []):
+        return shown(
+            f"{place['file']}, line {place['line']}: {place['field']} = {place['value']} is a whole number, but the "
+            "field holds a float; rclpy does not convert it and sends 0: write a number with a point, or float(...)."
+        )
+    return ""
+
+
 def _cannot_run(recording: Recording, facts: dict[str, Any]) -> str:
     return str(facts["fault"]) if facts.get("fault") else ""
 
@@ -94,7 +105,8 @@ def _died(recording: Recording, facts: dict[str, Any]) -> str:
         mine = [place for place in places if place[0] == file] or places
         place = f" ({mine[-1][0]}, line {mine[-1][1]})" if mine else ""
         if error:
-            return shown(f"Your node died {when} with {error}{place}.")
+            advice = f" What that means: {said}." if (said := meaning(error)) else ""
+            return shown(f"Your node died {when} with {error}{place}.{advice}")
     how = f"was killed by {_signal_name(-code)}" if code < 0 else f"ended with exit code {code}"
     return f"Your node's process {how} {when}, before the exercise was over."
 
@@ -193,7 +205,7 @@ def _why(wanted: str, used: str, nodes: list[str]) -> str:
                 f" Your node lives in the namespace {namespace}, and a name that does not begin with a slash is put "
                 f"into it: write {wanted}."
             )
-    if used != wanted and used.endswith(wanted):
+    if used != wanted and used.startswith(("/model/", "/world/")) and used.endswith(wanted):
         return f" On the ROS side it is called {wanted}: topics of ROS and of Gazebo may have different names."
     return ""
 
@@ -201,6 +213,12 @@ def _why(wanted: str, used: str, nodes: list[str]) -> str:
 def _silent(recording: Recording, facts: dict[str, Any]) -> str:
     for topic in facts.get("listened", {}):
         if not recording.has(f"topics/{topic.strip('/')}/count"):
+            if facts.get("exit_at") is not None:
+                return (
+                    f"Your node's process ended (exit code 0) at {facts['exit_at']:.2f} s of simulated time, before it "
+                    f"had published anything on {topic}. rclpy.spin(node) keeps a node alive; rclpy.spin_once(node) "
+                    "waits for one event only."
+                )
             return f"Your node has a publisher on {topic} but never published a message."
     return ""
 

@@ -12,7 +12,7 @@ from grader.exercise import CheckSpec, Exercise
 from grader.record.reading import Recording
 from grader.score.check import Finding, perform_all
 from grader.score.clocks import clock_fault
-from grader.score.diagnosis import diagnose, outcome_of
+from grader.score.diagnosis import diagnose, outcome_of, whole_number_fault
 
 NOT_RUN = Finding(False, "a file that runs", "nothing was run")
 SPOILT: dict[str, Any] = {"passed": False, "measured": "not counted: the run was tampered with", "at_s": None}
@@ -61,7 +61,8 @@ def score(recording: Recording, exercise: Exercise) -> Score:
     if failed and not diagnosis:
         worst = max(failed, key=lambda check: (not check.finding.gated, check.spec.points))
         clock = clock_fault(recording, [check.finding for check in failed])
-        diagnosis = f"{clock} {worst.spec.title}: {worst.finding.measured}. {worst.spec.hint}".lstrip()
+        said = f"{worst.spec.title}: {worst.finding.measured}. {worst.spec.hint}"
+        diagnosis = " ".join(filter(None, (whole_number_fault(recording), clock, said)))
     return Score(checks, outcome, diagnosis if failed else "", truth_sha256(recording, exercise.robot))
 
 

@@ -70,6 +70,15 @@ def test_an_exception_with_its_place_in_the_students_file(told):
     )
 
 
+def test_an_error_whose_words_do_not_say_what_to_change_is_explained(told):
+    error = "TypeError: Hello.say_hello() takes 0 positional arguments but 1 was given"
+    _, sentence = told(lines=[*TRACE[:-1], error], exit_code=1, exit_at=1.5, submission="teleop_node.py")
+    assert sentence.endswith(
+        f"with {error} (teleop_node.py, line 24). What that means: a method gets the object itself as its first "
+        "argument: def say_hello(self)."
+    )
+
+
 def test_the_last_of_several_tracebacks_counts(told):
     handled = ["Traceback (most recent call last):", '  File "/x/y.py", line 1, in f', "KeyError: 'handled'"]
     _, sentence = told(exit_code=1, exit_at=1.0, lines=[*handled, "going on", *TRACE])
@@ -148,6 +157,7 @@ def test_the_topics_every_node_has_are_not_taken_for_the_students(told):
     [
         ("/cmdvel", "/teleop", ""),
         ("/something/else", "/teleop", ""),
+        ("/turtle1/cmd_vel", "/teleop", ""),
         ("/teleop/cmd_vel", "/teleop", " The ~ in its name stands for /teleop: leave it out."),
         ("/model/robot/cmd_vel", "/teleop", " On the ROS side it is called /cmd_vel: topics of ROS and of Gazebo may"),
         ("/robot1/cmd_vel", "/robot1/teleop", " Your node lives in the namespace /robot1, and a name that does not"),
@@ -202,6 +212,12 @@ def test_a_subscription_that_asks_for_old_messages(told):
 def test_a_publisher_that_never_published(told):
     _, sentence = told(signals={})
     assert sentence == "Your node has a publisher on /cmd_vel but never published a message."
+
+
+def test_a_node_that_ended_before_it_published(told):
+    _, sentence = told(signals={}, exit_at=0.02, exit_code=0)
+    assert sentence.startswith("Your node's process ended (exit code 0) at 0.02 s of simulated time, before it had")
+    assert "/cmd_vel" in sentence and "rclpy.spin(node)" in sentence
 
 
 def test_commands_that_were_dropped(told):
