@@ -42,7 +42,10 @@ class InfrastructureError(CourseError):
 def nearest(name: str, known: Iterable[str]) -> str:
     """Return a closing clause for an error text: ` (did you mean X?)`, the known names if they are few, or nothing."""
     names = sorted(known)
-    close = get_close_matches(name, names, n=1, cutoff=0.6)
+    lowered: dict[str, str] = {}  # capitals are the commonest mistake of all
+    for each in names:
+        lowered.setdefault(each.lower(), each)
+    close = get_close_matches(name, names, n=1, cutoff=0.9) or get_close_matches(name.lower(), lowered, n=1, cutoff=0.6)
     if close:
-        return f" (did you mean {close[0]}?)"
+        return f" (did you mean {lowered[close[0].lower()] if close[0] not in names else close[0]}?)"
     return f" (known: {', '.join(names)})" if 0 < len(names) <= FEW else ""

@@ -7,6 +7,7 @@ line, and all errors of a file are listed at once.
 
 from __future__ import annotations
 
+import re
 import stat
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -143,16 +144,39 @@ def compose(text: str | bytes, file_name: str) -> yaml.Node | None:
     try:
         return yaml.compose(text, Loader=yaml.SafeLoader)
     except yaml.MarkedYAMLError as error:
-        mark = error.problem_mark or error.context_mark
+        # What was never ended is noticed too late: the fault is where it began.
+        began = error.context in ("while scanning a simple key", "while scanning a quoted scalar")
+        mark = (error.context_mark if began else None) or error.problem_mark or error.context_mark
         problem = " ".join((error.problem or error.context or "unreadable").split())
-        raise ConfigError([f"{file_name}:{mark.line + 1 if mark else 1}: not valid YAML: {problem}"]) from None
+        hint = _hint(problem, text, mark.line if mark else 0)
+        raise ConfigError([f"{file_name}:{mark.line + 1 if mark else 1}: not valid YAML: {problem}{hint}"]) from None
     except yaml.reader.ReaderError as error:
         line = _line_of(text, error.position)
-        raise ConfigError([f"{file_name}:{line}: not a YAML text: {error.reason}"]) from None
+        raise ConfigError([f"{file_name}:{line}: not a YAML text: {_unreadable(error)}"]) from None
     except RecursionError:
         raise ConfigError([f"{file_name}:1: nested too deeply for a bridge configuration"]) from None
     except (ValueError, OverflowError) as error:
         raise ConfigError([f"{file_name}:1: not valid YAML: {' '.join(str(error).split())}"]) from None
+
+
+def _unreadable(error: yaml.reader.ReaderError) -> str:
+    if error.encoding == "unicode":
+        return str(error.reason)
+    byte = error.character[0] if isinstance(error.character, bytes) else error.character
+    return f"byte 0x{byte:02x} is not {error.encoding.upper()}; save the file as UTF-8"
+
+
+def _hint(problem: str, text: str | bytes, line: int) -> str:
+    """What YAML's own words do not say about the line (0 is the first) where it gave up."""
+    if problem == "found unexpected end of stream":
+        return "; a quotation mark that opens here is never closed"
+    lines = (text if isinstance(text, str) else text.decode(errors="replace")).splitlines()
+    found = lines[line] if line < len(lines) else ""
+    if "\\t" in problem or "\t" in found[: len(found) - len(found.lstrip())]:
+        return "; YAML is indented with spaces, never with tabs"
+    if re.match(r"\s*(- )?\w+:[^\s/]", found):
+        return "; a space is missing after the colon"
+    return ""
 
 
 def _line_of(text: str | bytes, position: int) -> int:

@@ -17,6 +17,11 @@ def test_the_nearest_name_is_offered():
     assert nearest("telepo", ["lidar", "teleop"]) == " (did you mean teleop?)"
 
 
+@pytest.mark.parametrize(("name", "meant"), [("ROS_topic", "ros_topic"), ("gz_TOPIC", "gz_topic"), ("GZ", "gz")])
+def test_capitals_do_not_lead_astray(name, meant):
+    assert nearest(name, ["gz_topic", "ros_topic", "gz"]) == f" (did you mean {meant}?)"
+
+
 def test_without_a_near_one_all_are_listed_in_order():
     assert nearest("xyz", ["teleop", "lidar"]) == " (known: lidar, teleop)"
 

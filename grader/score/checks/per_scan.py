@@ -20,10 +20,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from grader.printable import shown
 from grader.record.reading import Recording
 from grader.score.check import Finding, check_kind
 from grader.score.events import log_lines
 from grader.table import Table
+
+LONGEST_LINE = 120  # [characters] of a line that is quoted
 
 STATISTICS: dict[str, Callable[[np.ndarray], float]] = {
     "valid_count": lambda valid: float(len(valid)),
@@ -67,11 +70,11 @@ def per_scan(recording: Recording, parameters: Table) -> Finding:
     asked = scans(recording, parameters.text("scan"), what)
     if parameters.has("signal"):
         signal = parameters.text("signal")
-        given, printed = _messages(recording, signal), 0
+        given, printed, other = _messages(recording, signal), 0, ""
         not_finite = len(recording.signal(f"{signal}/not_finite"))
         where = f"on {signal}"
     else:
-        given, printed = _log_answers(recording, parameters.pattern("log"))
+        given, printed, other = _log_answers(recording, parameters.pattern("log"))
         not_finite = 0
         where = "in the node's log"
     expected = f"{what.replace('_', ' ')} of every scan {where}, within {tolerance:g}"
@@ -89,6 +92,10 @@ def per_scan(recording: Recording, parameters: Table) -> Finding:
             at = round(scan.start, 3)
     if printed and not given:
         wrong = f"; {printed} such lines were printed, not logged: use the node's logger, self.get_logger().info(...)"
+    elif parameters.has("log") and not given and not other:
+        wrong = "; nothing was logged: self.get_logger().info(...) logs a line, .debug(...) stays silent"
+    elif other and not given:
+        wrong = f"; no line of the log has the form that is asked for; one was {shown(other, LONGEST_LINE)!r}"
     if not_finite:
         wrong += f"; {not_finite} answers were inf, -inf or nan"
     measured = f"{right} of {len(asked)} scans right" + (f", {unanswered} without an answer" if unanswered else "")
@@ -102,15 +109,17 @@ def _messages(recording: Recording, name: str) -> list[tuple[float, float]]:
     return list(zip((signal.times / 1e9).tolist(), signal.values.tolist(), strict=True))
 
 
-def _log_answers(recording: Recording, pattern: re.Pattern[str]) -> tuple[list[tuple[float, float]], int]:
-    """All answers given in the log, and how many were printed instead of logged."""
-    answers, printed = [], 0
+def _log_answers(recording: Recording, pattern: re.Pattern[str]) -> tuple[list[tuple[float, float]], int, str]:
+    """All answers given in the log, how many were printed instead of logged, and the first line without an answer."""
+    answers, printed, other = [], 0, ""
     for at, text, logged in log_lines(recording):
         if match := pattern.search(text):
             printed += not logged
             if logged:
                 answers.append((at, _number(match.group(1))))
-    return answers, printed
+        elif logged:
+            other = other or text
+    return answers, printed, other
 
 
 def _number(text: str) -> float:

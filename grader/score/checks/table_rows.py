@@ -9,6 +9,7 @@ from collections import Counter
 
 from grader.record.reading import Recording
 from grader.score.check import Finding, check_kind
+from grader.score.diagnosis import OWN_TOPICS
 from grader.score.graphs import did_you_mean, links
 from grader.table import Table
 
@@ -40,7 +41,7 @@ def _why(topic: str, times: int, wanted: list[str], facts: dict) -> str:
     if topic in wanted:
         return f"{topic} has {times} rows; one is enough"
     ros, gz = facts.get("ros_topics", {}), facts.get("gz_topics", {})
-    if topic in ros:
+    if topic in ros or topic in OWN_TOPICS:
         return f"{topic} is a topic of ROS alone; nothing of it goes across the bridge"
     near = did_you_mean(topic, wanted)
     if topic in gz:

@@ -35,7 +35,15 @@ def time_in_band(recording: Recording, parameters: Table) -> Finding:
         measured += "".join(f"; {c.name} {_usual(recording, c)}" for c in conditions)
     at = float(edges[1:][holds][-1]) if holds.any() else None
     bands = tuple(Band(c.signal, c.low, c.high, start, end) for c in conditions)
-    return Finding(bool(least <= total <= most), f"{wanted} {span}", measured, at, bands, timing=total > 0)
+    return Finding(
+        bool(least <= total <= most), f"{wanted} {span}", measured, at, bands, timing=_was_right(recording, conditions)
+    )
+
+
+def _was_right(recording: Recording, conditions: list[Condition]) -> bool:
+    """Was every signal in its band at some time, if only for a moment between two samples?"""
+    values = [recording.signal(c.signal).values for c in conditions]
+    return all(bool(np.any((v >= c.low) & (v <= c.high))) for c, v in zip(conditions, values, strict=True))
 
 
 def _usual(recording: Recording, c: Condition) -> str:

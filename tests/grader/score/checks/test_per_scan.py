@@ -127,3 +127,10 @@ def test_a_limit_is_the_number_that_a_message_can_hold(record):
     near = float(np.float32(0.12))
     recording = record(signals, arrays={"topics/lidar/scan/ranges": [(0, [near, 1.0, 2.0])]})
     assert scans(recording, "lidar/scan", "minimum")[0].answers == (1.0, near)
+
+
+def test_lines_of_another_form_are_quoted_and_not_taken_for_silence(scanned):
+    finding = per_scan(scanned(lines=[(t + 0.01, "[INFO] [n]: avg = 1.50 metres") for t in TIMES]), LOG)
+    assert not finding.passed
+    assert finding.measured.endswith("no line of the log has the form that is asked for; one was 'avg = 1.50 metres'")
+    assert "; nothing was logged: " in per_scan(scanned(), LOG).measured

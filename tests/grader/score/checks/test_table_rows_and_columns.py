@@ -105,6 +105,7 @@ def test_slashes_before_names_of_nodes_and_gazebo_topics_may_come_or_go(found):
         ([SCAN], ["there is no row for /cmd_vel"]),
         ([SCAN, COMMAND, SCAN | {"line": 15}], ["line 1: /scan has 2 rows"]),
         ([SCAN, COMMAND, SCAN | {"ros_topic": "/state", "line": 15}], ["line 15: /state is a topic of ROS alone"]),
+        ([SCAN, COMMAND, SCAN | {"ros_topic": "/rosout", "line": 15}], ["line 15: /rosout is a topic of ROS alone"]),
         ([SCAN, COMMAND, SCAN | {"ros_topic": "/imu", "line": 15}], ["line 15: /imu is a topic of Gazebo alone"]),
         ([SCAN | {"ros_topic": "/lidar"}, COMMAND], ["line 1: /lidar is what Gazebo calls it; in ROS it is /scan"]),
         ([SCAN | {"ros_topic": "/scann"}, COMMAND], ["no topic /scann in ROS", "did you mean /scan?"]),

@@ -81,3 +81,9 @@ def test_a_run_that_ended_early_earns_no_time_after_its_end(record):
     """No evidence is no pass: what the robot did after the recording's end nobody knows."""
     recording = record({SPEED: [(0, 0.5), (1, 0.5)]}, facts={"sim_seconds": 1.0})
     assert not time_in_band(recording, PARAMETERS | {"seconds": [4.7]}).passed
+
+
+def test_right_values_that_lasted_no_time_are_a_matter_of_time(record):
+    blink = time_in_band(record({SPEED: [(0, 0.5), (0, 0.0)]}), PARAMETERS)
+    assert (blink.passed, blink.timing, blink.measured[:20]) == (False, True, "in band for 0.00 s; ")
+    assert not time_in_band(record({SPEED: [(0, 5.0), (1, 0.0)]}), PARAMETERS).timing
