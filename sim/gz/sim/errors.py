@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import difflib
 import logging
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 
 LOG = logging.getLogger("gz.sim")
@@ -60,7 +61,7 @@ class Diagnostics:
     """Collects the warnings of one world; each distinct sentence is logged once and kept in `warnings`.
 
     With `strict` nothing is logged while the world is being read and built: `refuse`, called when that is done, raises
-    one error with all of them. After that call warnings are logged as they come.
+    one error with all of them. After that call warnings are logged as they come, those within `refusing` excepted.
     """
 
     warnings: list[str] = field(default_factory=list)
@@ -85,10 +86,27 @@ class Diagnostics:
             self._known.add(subject)
             self.warn(where, sentence)
 
+    def __post_init__(self) -> None:
+        self._asked = self.strict
+
+    @contextmanager
+    def refusing(self) -> Iterator[None]:
+        """Treat a later part of loading as strictly as the first."""
+        since, self.strict = len(self.warnings), self._asked
+        try:
+            yield
+        finally:
+            refused, self.strict = self.warnings[since:], False
+        _refuse(refused if self._asked else [])
+
     def refuse(self) -> None:
         """End strict loading: raise `SdfError` with every sentence, a line each, when there is one."""
         strict, self.strict = self.strict, False
-        if strict and self.warnings:
-            count = len(self.warnings)
-            first = f"strict loading refuses what would be {count} warning{'s' if count > 1 else ''}:"
-            raise SdfError("\n  ".join((first, *self.warnings)))
+        _refuse(self.warnings if strict else [])
+
+
+def _refuse(warnings: list[str]) -> None:
+    if warnings:
+        count = len(warnings)
+        first = f"strict loading refuses what would be {count} warning{'s' if count > 1 else ''}:"
+        raise SdfError("\n  ".join((first, *warnings)))

@@ -7,7 +7,7 @@ step. Every system has a transport node of its own, so that what it advertised g
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -16,7 +16,9 @@ from gz.sim.physics.servos import JointServo
 from gz.sim.sdf.description import Model, Plugin, Sensor
 from gz.sim.sdf.element import Element
 from gz.sim.sensors.registry import KNOWN_TYPES, sensor_types
+from gz.sim.shared_topics import SharedTopics, Talker
 from gz.sim.systems.registry import System, UpdateInfo, find_system, system_name, systems
+from gz.sim.systems.sensor_system import SensorSystem
 
 if TYPE_CHECKING:
     from gz.sim.world import World
@@ -31,6 +33,7 @@ class Running:
 
     system: System
     model: Model | None
+    plugin: Plugin
     node: Node | None = None
 
 
@@ -43,6 +46,7 @@ class SystemManager:
         self._running: list[Running] = []
         self._servos: dict[str, list[JointServo]] = {}
         self._options_of: Node | None = None
+        self._shared_topics = SharedTopics(world.diagnostics)
         self.pre_updates: list[Hook] = []
         self.post_updates: list[Hook] = []
         self.paused_updates: list[Hook] = []
@@ -92,9 +96,14 @@ class SystemManager:
         return [each for each in self._running if each not in before]
 
     def _make(self, found: type[System], model: Model | None, plugin: Plugin) -> None:
+        first = next((each for each in self._running if type(each.system) is found), None)
+        if found.once and first is not None:
+            text = f"{found.name} runs already (see {first.plugin.element.where}) and serves the whole world, "
+            self._world.diagnostics.warn(plugin.element.where, f"{text}this second one is ignored; remove it")
+            return
         made = found()
         made.configure(self._world, model, plugin)
-        self._running.append(Running(made, model))
+        self._running.append(Running(made, model, plugin))
 
     def bind(self) -> None:
         """Let all systems look up their places in MuJoCo's model, and collect their hooks in order."""
@@ -127,6 +136,21 @@ class SystemManager:
             if each.node is None:
                 each.node = type(self._options_of)(self._options_of.options)
                 each.system.connect(each.node)
+        self._shared_topics.check(self._talkers())
+
+    def _talkers(self) -> Iterator[Talker]:
+        """Yield all that talk, the sensors one by one; of two systems the one that came later comes later."""
+        for each in self._running:
+            system, name = each.system, each.model.name if each.model is not None else ""
+            if isinstance(system, SensorSystem):
+                for sensor, node in system.connected():
+                    made = sensor.description
+                    shown = f"sensor '{made.name}' of model '{made.model}'"
+                    yield Talker(system.name, shown, made.model, made.element, node, system.joins_topics)
+            elif each.node is not None:
+                shown = f"{system.name} of model '{name}'" if name else system.name
+                joins = system.joins_topics or not name
+                yield Talker(system.name, shown, name, each.plugin.element, each.node, joins)
 
     def remove(self, model: Model) -> None:
         """End the systems of a model: their topics and services go."""

@@ -199,7 +199,8 @@ class World(Editing):
         if self.node is not None:
             raise SimError(f"world '{self.name}' is already attached to a node; load it again for another one")
         self.node = node
-        self._manager.connect(node)
+        with self.diagnostics.refusing():
+            self._manager.connect(node)
 
     def close(self) -> None:
         """End everything the systems advertised and subscribed to."""

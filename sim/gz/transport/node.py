@@ -152,6 +152,13 @@ class Node(ServiceCalls):
         """The topics this node listens to, sorted, without partition."""
         return sorted({naming.split(each.name)[1] for each in self._subscriptions})
 
+    def endpoints(self) -> tuple[list[tuple[str, str]], list[tuple[str, str]]]:
+        """(what this node publishes, what it listens to), each as (topic, type name), in the order in which they came.
+        (Our addition.)
+        """
+        published = [(each.topic, each.type_name) for each in self._publishers if each.valid()]
+        return published, [(naming.split(each.name)[1], each.type_name) for each in self._subscriptions]
+
     def topic_list(self) -> list[str]:
         """All topics of the partition, sorted; those with publishers first, then those with subscribers only.
 

@@ -45,6 +45,10 @@ class System:
     name: ClassVar[str] = ""
     filename: ClassVar[str] = ""
     parameters: ClassVar[frozenset[str]] = frozenset()
+    once: ClassVar[bool] = False
+    """Whether it serves the whole world, so that a second one would do everything twice."""
+    joins_topics: ClassVar[bool] = False
+    """Whether it may publish and listen on the topics of others as a matter of course."""
 
     @classmethod
     def servos(cls, model: Model, plugin: Plugin) -> list[JointServo]:

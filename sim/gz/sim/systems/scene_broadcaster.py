@@ -68,6 +68,7 @@ class PoseVector:
 class SceneBroadcaster(System):
     """The scene of one world on the wire. Parameters and defaults are Gazebo's."""
 
+    once = True
     parameters = frozenset(["dynamic_pose_hertz", "state_hertz"])
 
     def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:

@@ -7,6 +7,7 @@ costs one look.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from gz.sim.errors import SdfError
@@ -23,6 +24,8 @@ _NEVER = 1 << 62
 
 class SensorSystem(System):
     """Creates and schedules every sensor of the world whose class says `runs_in` = this system's name."""
+
+    once = True
 
     def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
         """Start without sensors; `bind` makes them."""
@@ -86,6 +89,10 @@ class SensorSystem(System):
         self._node = node
         for sensor in self.sensors:
             self._open(sensor)
+
+    def connected(self) -> Iterator[tuple[SensorBase, Node]]:
+        """Yield the sensors that are on the wire, each with its own node."""
+        return ((sensor, self._nodes[id(sensor)]) for sensor in self.sensors if id(sensor) in self._nodes)
 
     def close(self) -> None:
         """End what the sensors advertised."""

@@ -88,6 +88,7 @@ class TriggeredPublisher(System):
     """One input, any number of outputs; in a world or in a model."""
 
     parameters = frozenset(("input", "output", "delay_ms", "service"))
+    joins_topics = True
 
     def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
         """Read input, matches and outputs; raise `SdfError` for types and texts that do not fit."""

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 class UserCommands(System):
     """Offers the services; has no parameters."""
 
+    once = True
+
     def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
         """Belongs to the world; `model` is None."""
         if model is not None:
