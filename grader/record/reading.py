@@ -17,6 +17,8 @@ import numpy as np
 
 from grader.errors import UsageError, nearest
 
+STUDENT_LOG, GIVEN_LOG = "log/student", "log/given_node"  # what the submission said; what the exercise's own node said
+
 
 @dataclass(frozen=True)
 class Signal:
@@ -122,6 +124,11 @@ class Recording:
     def arrays(self, name: str) -> tuple[np.ndarray, list[np.ndarray]]:
         """Return a signal whose samples are lists of numbers: times [ns] and one array per sample."""
         return self._column(name, "Scalars:scalars")
+
+    @property
+    def node_log(self) -> str:
+        """The log of the program that was run: the exercise's own node if it plays in it, else the student's."""
+        return GIVEN_LOG if (GIVEN_LOG, "TextLog:text") in self._rows else STUDENT_LOG
 
     def lines(self, entity: str) -> list[Line]:
         """Return the lines of a log such as `log/student`, in order."""

@@ -13,7 +13,8 @@ Entities (names are what a manifest's checks refer to, without the leading slash
     /topics/TOPIC/FIELD/...                  every numeric field of every message seen on a ROS topic; texts when they
                                              change
     /topics/TOPIC                            EncodedImage, pictures as JPEG, at most one each PICTURE_NS
-    /log/SOURCE                              TextLog
+    /log/SOURCE                              TextLog; the source is student, given_node (the exercise's own), grader or
+                                             verdicts
     /checks/ID                               StateChange, written after scoring
     properties                               run, endpoints, result: what is known about the run as a whole
 """

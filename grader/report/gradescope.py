@@ -62,5 +62,5 @@ def _output(report: Report) -> str:
     lines = [report.score.diagnosis, verdict + OUTCOMES.get(report.score.outcome, report.score.outcome), *report.notes]
     if not report.full_marks:
         said = node_log(Recording(report.shown_trial.recording), 0, LINES)
-        lines += ["", "What the node said last:", said.as_text() or "nothing"]
+        lines += ["", f"What {said.who} said last:", said.as_text() or "nothing"]
     return "\n".join(line for n, line in enumerate(lines) if line or n)

@@ -1,11 +1,11 @@
-"""What the node said, shortened: how it began and how it ended. Every report that shows it reads it here."""
+"""What the node said, and whose node it was, shortened to how it began and ended. Every report reads it here."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 from grader.printable import shown
-from grader.record.reading import Recording
+from grader.record.reading import GIVEN_LOG, Recording
 
 FIRST, LAST = 40, 80  # lines that are kept from the beginning and from the end
 
@@ -14,13 +14,14 @@ FIRST, LAST = 40, 80  # lines that are kept from the beginning and from the end
 class NodeLog:
     """Lines as (simulated time [s], level, text), fit to be shown; `left_out` lines are missing between the two parts.
 
-    `dropped` lines more came so fast that they were never recorded.
+    `dropped` lines more came so fast that they were never recorded. `who` wrote it, in words.
     """
 
     first: tuple[tuple[float, str, str], ...]
     left_out: int
     last: tuple[tuple[float, str, str], ...]
     dropped: int = 0
+    who: str = "your node"
 
     def as_text(self) -> str:
         """Return the lines as text, each with its time."""
@@ -34,12 +35,17 @@ class NodeLog:
 
 
 def node_log(recording: Recording, first: int = FIRST, last: int = LAST) -> NodeLog:
-    """Return the first and last lines of what the student's process printed and logged."""
-    every = [(line.time_ns / 1e9, line.level, shown(line.text).rstrip()) for line in recording.lines("log/student")]
-    dropped = int(recording.facts().get("lines_dropped") or 0)
+    """Return the first and last lines of what the node's process, or those of a launch file, printed and logged."""
+    log, facts = recording.node_log, recording.facts()
+    every = [(line.time_ns / 1e9, line.level, shown(line.text).rstrip()) for line in recording.lines(log)]
+    dropped = int(facts.get("lines_dropped") or 0)
+    who = "your launch file's programs" if "launch" in facts else NodeLog.who
+    if log == GIVEN_LOG:
+        who = "the exercise's own node"
     if len(every) <= first + last:
-        return NodeLog(tuple(every), 0, (), dropped)
-    return NodeLog(tuple(every[:first]), len(every) - first - last, tuple(every[-last:] if last else ()), dropped)
+        return NodeLog(tuple(every), 0, (), dropped, who)
+    left_out = len(every) - first - last
+    return NodeLog(tuple(every[:first]), left_out, tuple(every[-last:] if last else ()), dropped, who)
 
 
 def _told(line: tuple[float, str, str]) -> str:

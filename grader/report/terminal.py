@@ -112,7 +112,7 @@ def _print_check(check: CheckResult, report: Report, console: Console) -> None:
 def _print_last_lines(report: Report, console: Console) -> None:
     said = node_log(Recording(report.shown_trial.recording), 0, LAST_LINES)
     if said.last or said.first:
-        console.print(_text("\n", "What the node said last:"))
+        console.print(_text("\n", f"What {said.who} said last:"))
     for _, _, text in said.first + said.last:
         console.print(Padding(_text(text), (0, 0, 0, 2)))
 

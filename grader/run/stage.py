@@ -18,6 +18,7 @@ from grader.errors import InfrastructureError
 from grader.exercise import Exercise
 from grader.kinds.kind import Cast
 from grader.record.messages import record_message
+from grader.record.reading import GIVEN_LOG, STUDENT_LOG
 from grader.record.recorder import Recorder
 from grader.record.scene import Scene
 from grader.run.ears import Ears
@@ -211,7 +212,7 @@ class Stage:
     def _take(self, line: str) -> None:
         """Take a line of the log."""
         level = LEVELS.get(line.partition(" ")[0], "INFO")
-        self._recorder.text("log/student", line, level)
+        self._recorder.text(GIVEN_LOG if self._given else STUDENT_LOG, line, level)
 
     def _facts(self, ready: bool) -> dict[str, Any]:
         """What scoring and diagnosis need to know beside the signals; the same for equal runs."""

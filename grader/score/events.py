@@ -80,7 +80,7 @@ class Event:
 
 def log_lines(recording: Recording) -> Iterator[tuple[float, str, bool]]:
     """Yield (time [s], text, whether it came from a logger) of every line the node wrote."""
-    for line in recording.lines("log/student"):
+    for line in recording.lines(recording.node_log):
         text, logged = LOGGED.subn("", line.text)
         yield line.time_ns / 1e9, text, bool(logged)
 

@@ -169,12 +169,12 @@ def record(tmp_path):
 
     numbers = iter(range(100_000))
 
-    def make(signals=None, *, lines=(), arrays=None, facts=None, duration=8.0, **run):
+    def make(signals=None, *, lines=(), log="log/student", arrays=None, facts=None, duration=8.0, **run):
         path = tmp_path / f"made-{next(numbers)}.rrd"
         with Recorder(path, "robot") as recorder:
             events = [(at, "scalar", name, value) for name, rows in (signals or {}).items() for at, value in rows]
             events += [(at, "array", name, value) for name, rows in (arrays or {}).items() for at, value in rows]
-            events += [(at, "text", "log/student", text) for at, text in lines]
+            events += [(at, "text", log, text) for at, text in lines]
             for at, kind, name, value in sorted(events, key=lambda event: event[0]):
                 recorder.set_time(round(at * 1e9))
                 getattr(recorder, kind)(name, value)

@@ -44,10 +44,19 @@ def test_equal_runs_give_equal_recordings(grading, clean, root, tmp_path):
     assert compared.returncode == 0, compared.stderr.decode()[-1000:]
 
 
-def test_a_table_is_told_its_first_wrong_row(grade, root):
-    outcome = grade(TABLES, rejected(root, TABLES, "gazebo_names_first"))
+def test_a_table_is_told_its_first_wrong_row(grade, root, tmp_path):
+    outcome = grade(
+        TABLES, rejected(root, TABLES, "gazebo_names_first"),
+        "--html", tmp_path / "report.html", "--gradescope", tmp_path / "results.json",
+    )  # fmt: skip
     assert (outcome.code, outcome.failed()) == (1, {"rows"})
     assert "line 27: /lidar is what Gazebo calls it; in ROS it is /scan" in outcome.report["diagnosis"]
+    own = Recording(outcome.recording)
+    assert "on patrol" in "".join(line.text for line in own.lines("log/given_node"))
+    assert own.lines("log/student") == [], "a table says nothing"
+    for name in ("report.html", "results.json"):
+        text = (tmp_path / name).read_text().replace("&#39;", "'")
+        assert "What the exercise's own node said" in text and "on patrol" in text and "your node said" not in text
 
 
 def test_a_file_that_is_no_table_is_graded_without_a_run(grade, tmp_path):

@@ -37,5 +37,18 @@ def test_control_codes_and_endless_lines(record):
     assert len(log.first[1][2]) < 500
 
 
+@pytest.mark.parametrize(
+    ("log", "facts", "who"),
+    [
+        ("log/student", {}, "your node"),
+        ("log/student", {"launch": {}}, "your launch file's programs"),
+        ("log/given_node", {"given": True}, "the exercise's own node"),
+    ],
+)
+def test_a_log_is_named_by_who_wrote_it(record, log, facts, who):
+    said = node_log(record(lines=[(0.5, "on patrol")], log=log, facts=facts))
+    assert (said.who, [text for _, _, text in said.first]) == (who, ["on patrol"])
+
+
 def test_no_log_at_all(record):
     assert node_log(record()).as_text() == ""

@@ -154,7 +154,7 @@ def test_how_a_node_ended_is_shown(make_report):
     lines = [(1.0, f"line {i}") for i in range(50)] + [(2.0, "ValueError: no"), *((2.0, text) for text in NASTY)]
     score = score_of(result("a", False), result("b", False), outcome="student_error", diagnosis="It died.")
     text = printed(make_report(score, lines=lines[:51]))
-    assert "What the node said last:\n  line 39\n" in text and "  ValueError: no\n" in text and "line 38" not in text
+    assert "What your node said last:\n  line 39\n" in text and "  ValueError: no\n" in text and "line 38" not in text
     assert not obeyed(printed(make_report(score, lines=lines)))
     assert "said last" not in printed(make_report(lines=lines))
 

@@ -189,7 +189,7 @@ def test_several_trials_stand_side_by_side(make_report):
     assert "calm 3 100 of 100 graded none" in parsed.text
     assert "windy 4 50 of 100 graded Title of bad" in parsed.text
     assert "Title of bad (windy)" in parsed.text and "Title of good (calm)" in parsed.text
-    assert "What the node said (trial windy)" in parsed.text
+    assert "What your node said (trial windy)" in parsed.text
     assert "FAIL at 2.50 s" in text
 
 

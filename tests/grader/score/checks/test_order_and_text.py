@@ -53,6 +53,12 @@ def test_lines_of_the_logger_are_counted_and_printed_ones_are_not(record, found)
     assert found("text", recording, log="gone").measured == "0 of 3; the last was 'bye'"
 
 
+def test_where_the_exercise_s_own_node_plays_its_log_is_looked_at(record, found):
+    recording = record(lines=LINES, log="log/given_node")
+    assert found("text", recording, log="^arrived", count=[2, 2]).passed
+    assert found("order", recording, events=[{"log": "arrived"}, {"log": "bye"}]).passed
+
+
 def test_a_line_at_the_wrong_time_is_told(record, found):
     finding = found("text", record(lines=LINES), log="^bye", window=[0.0, 3.0])
     assert (finding.passed, finding.timing) == (False, True)
