@@ -17,12 +17,13 @@ from grader.exercise import MANIFEST, Exercise
 from grader.kinds.kind import find_kind
 from grader.printable import shown
 from grader.run.box.course_box.hooks import SERVE
-from grader.run.box.course_box.watch import HOLD
+from grader.run.box.course_box.watch import HOLD, RELIABLE
 from grader.run.domain import Domain
 from grader.run.sandbox import AUTO, Sandbox
 from grader.run.student import Student, launch_command, node_command
 from grader.submission import Submission
 from grader.trial import Trial
+from ros_gz_bridge.qos_profile import reliable
 
 if TYPE_CHECKING:
     from grader.record.recorder import Recorder
@@ -62,6 +63,7 @@ def run(
     topics = {
         "publisher": {e.ros_topic: e.ros_type for e in cast.entries if e.direction.to_gz} | exercise.observe,
         "subscription": {e.ros_topic: e.ros_type for e in cast.entries if e.direction.to_ros},
+        RELIABLE: {e.ros_topic: e.ros_type for e in cast.entries if e.direction.to_ros and reliable(e.qos_profile)},
     }
     with contextlib.ExitStack() as stack:
         domain = stack.enter_context(Domain())

@@ -40,6 +40,11 @@ def depth_of(profile: str | None) -> int:
     return QOS_PROFILES[profile].depth if profile else DEFAULT_DEPTH
 
 
+def reliable(profile: str | None) -> bool:
+    """Whether a profile surely makes a reliable publisher."""
+    return profile is None or QOS_PROFILES[profile].reliability == "RELIABLE"
+
+
 def qos(profile: str | None, depth: int) -> QoSProfile:
     """The QoS of an endpoint: that of the profile (default: reliable, volatile), with ``depth`` messages."""
     from rclpy.duration import Duration

@@ -20,6 +20,7 @@ import traceback
 from pathlib import Path
 from typing import Any
 
+from . import lossless
 from .channel import channel
 from .watch import HOLD, HOUSEKEEPING, POOL_SLICE, TOPICS, Watch
 
@@ -39,6 +40,7 @@ def install() -> None:
     _watch = Watch(channel(), topics, bool(os.environ.get(HOLD)))
     _watch_executors(_watch)
     _watch_messages(_watch)
+    lossless.install(_watch)
     _watch_services(_watch)
     channel().send({"ros": True})
     _watch.listen()

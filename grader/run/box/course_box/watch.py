@@ -30,6 +30,7 @@ from . import asking
 from .channel import Channel
 
 TOPICS = "COURSE_TOPICS"
+RELIABLE = "reliable"  # what the grader publishes reliably, among the kinds of TOPICS
 HOLD = "COURSE_HOLD"
 UNMATCHED_SLICE = 0.005  # [s] how often an unmatched publisher is looked at; DDS gives no event we could wait for
 POOL_START = 0.01  # [s] for a pool to take up a callback; a pool whose threads are all busy does not
@@ -190,6 +191,10 @@ class Watch:
         met = self._topics.get(endpoint["kind"], {})
         return met.get(endpoint["topic"]) == endpoint["type"] and qos_can_match(**endpoint)
 
+    def sent_reliably(self, topic: str, kind: str) -> bool:
+        """Whether the grader publishes messages of a type on a topic, and reliably."""
+        return self._topics.get(RELIABLE, {}).get(topic) == kind
+
     def topic_of(self, endpoint: Any) -> str:
         """Resolved topic name of a publisher or subscription."""
         topic = self._topic_of.get(id(endpoint))
@@ -239,7 +244,7 @@ class Watch:
             "node": node,
             "kind": kind,
             "topic": self.topic_of(endpoint),
-            "type": type_name(endpoint),
+            "type": type_name(endpoint.msg_type),
             "reliability": qos.reliability.name,
             "durability": qos.durability.name,
             "matched": matched,
@@ -281,9 +286,9 @@ class Watch:
                 self._channel.send_text(text)
 
 
-def type_name(endpoint: Any) -> str:
-    """ROS type of a publisher or subscription, such as `geometry_msgs/msg/Twist`."""
-    return f"{endpoint.msg_type.__module__.split('.')[0]}/msg/{endpoint.msg_type.__name__}"
+def type_name(kind: Any) -> str:
+    """ROS type of a class of messages, such as `geometry_msgs/msg/Twist`."""
+    return f"{kind.__module__.split('.')[0]}/msg/{kind.__name__}"
 
 
 def qos_can_match(kind: str, reliability: str, durability: str, **_: Any) -> bool:
