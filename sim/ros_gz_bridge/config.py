@@ -176,7 +176,18 @@ def _hint(problem: str, text: str | bytes, line: int) -> str:
         return "; YAML is indented with spaces, never with tabs"
     if re.match(r"\s*(- )?\w+:[^\s/]", found):
         return "; a space is missing after the colon"
+    before = next((n for n in range(line - 1, -1, -1) if lines[n].split("#")[0].strip()), None)
+    if problem == "mapping values are not allowed here" and before is not None:
+        if ":" not in lines[before]:
+            return f"; there is no colon in line {before + 1}"
+        if _column(lines[before]) < _column(found):
+            return f"; it is indented further than line {before + 1}"
     return ""
+
+
+def _column(line: str) -> int:
+    """Where the key of a line begins, a dash left out."""
+    return len(line) - len(line.lstrip(" -"))
 
 
 def _line_of(text: str | bytes, position: int) -> int:

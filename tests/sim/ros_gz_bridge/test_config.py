@@ -185,6 +185,10 @@ def test_no_text_does_worse_than_a_config_error(text):
         ("- 1\n", "b.yaml:1:", "expected a bridge (lines of 'key: value'), found the text '1'"),
         ("-\n", "b.yaml:1:", "found nothing"),
         ("- a: [\n", "b.yaml:2:", "not valid YAML"),
+        ("- a: /b\n   c: d\n", "b.yaml:2:", "it is indented further than line 1"),
+        ("- a = /b\n  c: d\n", "b.yaml:2:", "there is no colon in line 1"),
+        ("- a: /b\n  c:d\n  e: f\n", "b.yaml:2:", "a space is missing after the colon"),
+        ("- a: '/b\n  c: d\n", "b.yaml:1:", "a quotation mark that opens here is never closed"),
         (
             bridge(directon="GZ_TO_ROS"),
             "b.yaml:5:",
