@@ -10,28 +10,39 @@ import importlib.util
 import sys
 from pathlib import Path
 
+_tried: set[str] = set()  # packages of which another than ours is being executed
+
 
 def give_way(package: str, own_file: str) -> bool:
     """Puts the package of this name that is not ours into sys.modules, if there is one; whether there was.
 
-    Called by the `__init__.py` of an alias, with its `__name__` and `__file__`.
+    Called by the `__init__.py` of an alias, with its `__name__` and `__file__`. Raises ImportError if that is tried as
+    a real installation just now: it is another copy of ours on the import path, and the search goes on behind it.
     """
+    if package in _tried:
+        raise ImportError(f"{own_file} is another copy of this package, no installation of Gazebo's", name=package)
     own_folder = Path(own_file).resolve().parent
     parent, _, name = package.rpartition(".")
     for folder in list(sys.modules[parent].__path__):
         there = Path(folder) / name / "__init__.py"
-        if not there.is_file() or there.resolve().parent == own_folder:
-            continue
-        spec = importlib.util.spec_from_file_location(package, there, submodule_search_locations=[str(there.parent)])
-        if spec is not None and spec.loader is not None:
-            ours = sys.modules.get(package)
-            module = importlib.util.module_from_spec(spec)
-            sys.modules[package] = module
-            try:
-                spec.loader.exec_module(module)
-            except ImportError:  # for another Python, or without its libraries: as if it were not there
-                if ours is not None:
-                    sys.modules[package] = ours
-                continue
+        if there.is_file() and there.resolve().parent != own_folder and _executed(package, there):
             return True
     return False
+
+
+def _executed(package: str, file: Path) -> bool:
+    """Execute the package in `file` in the place of ours; whether it could be imported."""
+    spec = importlib.util.spec_from_file_location(package, file, submodule_search_locations=[str(file.parent)])
+    if spec is None or spec.loader is None:
+        return False
+    ours = sys.modules[package]
+    sys.modules[package] = module = importlib.util.module_from_spec(spec)
+    _tried.add(package)
+    try:
+        spec.loader.exec_module(module)
+    except ImportError:  # for another Python, without its libraries, or a copy of ours: as if it were not there
+        sys.modules[package] = ours
+        return False
+    finally:
+        _tried.discard(package)
+    return True

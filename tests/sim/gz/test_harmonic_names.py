@@ -1,10 +1,14 @@
 """Code written for the official packages of Harmonic runs unchanged; where they are installed, they are used."""
 
 import os
+import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
+
+SIM = Path(__file__).parents[3] / "sim"
 
 SAME = """
 import gz.msgs10.twist_pb2
@@ -55,6 +59,25 @@ def installation(tmp_path):
 
 def test_a_real_installation_wins_even_when_it_comes_last(installation):
     done = run(REAL, installation)
+    assert (done.stdout, done.stderr) == ("theirs theirs part\n", "")
+
+
+@pytest.fixture
+def copies(tmp_path):
+    """Three more checkouts of ours on the import path, as a clone within a clone has them."""
+    folders = [tmp_path / f"copy{number}" for number in range(3)]
+    for folder in folders:
+        shutil.copytree(SIM / "gz", folder / "gz", ignore=shutil.ignore_patterns("__pycache__", "sim"))
+    return folders
+
+
+def test_other_copies_of_ours_are_no_installation(copies):
+    done = run(SAME + "print(gz.msgs10.__file__, gz.transport13.__file__)", *copies)
+    assert (done.stdout, done.stderr) == (f"fine\n{SIM}/gz/msgs10/__init__.py {SIM}/gz/transport13/__init__.py\n", "")
+
+
+def test_an_installation_behind_other_copies_of_ours_still_wins(copies, installation):
+    done = run(REAL, copies[0], installation, *copies[1:])
     assert (done.stdout, done.stderr) == ("theirs theirs part\n", "")
 
 
