@@ -24,7 +24,7 @@ from gz.sim.physics.instability import UNSTABLE, why_unstable
 from gz.sim.physics.state import copy_state
 from gz.sim.requests import Requests
 from gz.sim.sdf.description import Plugin, WorldDescription
-from gz.sim.sdf.reader import read_world, read_world_file
+from gz.sim.sdf.reader import LONGEST_GOOD_STEP_NS, long_step, read_world, read_world_file
 from gz.sim.sdf.resources import find_world
 from gz.sim.sensors.renderer import check_engine
 from gz.sim.system_manager import SystemManager, default_plugins
@@ -293,6 +293,8 @@ class World(Editing):
                 raise SimError(f"max_step_size must be between 0.000001 and 0.1 seconds, got {step_size}")
             now = self.sim_time_ns
             self._change(self.description, "step_size_ns", step_ns)
+            if step_ns > LONGEST_GOOD_STEP_NS:
+                self.diagnostics.warn("", long_step(step_size))
             self._origin_ns = now - self.iterations * step_ns
             self._info.dt = step_ns * 1e-9
             self._rebuild()

@@ -7,6 +7,9 @@ walls of a house) becomes one thin wedge a triangle, which keeps it hollow.
 
 from __future__ import annotations
 
+import math
+
+import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,32 +23,35 @@ WEDGE = 0.01
 SHEET = 0.001
 """Thickness (m) given to a part that is flat."""
 _CONCAVE = 0.02  # a bump of this part of the size makes a part concave
+_HOLE = 1e-3  # a hole larger than this part of the surface leaves it open
 _SAMPLES = 1000  # so many triangles, and points, are looked at for bumps
 
 
-def convex_pieces(vertices: Points, triangles: Triangles, *, moving: bool) -> tuple[tuple[Points, ...], bool]:
-    """Return the points of each convex piece, and whether they are a good deal fuller than the surface.
+def convex_pieces(vertices: Points, triangles: Triangles, *, moving: bool) -> tuple[tuple[Points, ...], float]:
+    """Return the points of each convex piece, and by which part of their volume hulls are larger than what they stand
+    for: 0 when nothing is filled, inf when the surface is open, so that it has no volume.
 
     `vertices` (n, 3) in metres, `triangles` (m, 3). A surface without any extent has no pieces.
     """
     vertices, triangles = _welded(vertices, triangles)
     if not len(triangles):
-        return (), False
+        return (), 0.0
     parts = _components(len(vertices), triangles)
     concave = [_is_concave(vertices, part, moving=moving) for part in parts]
+    filled = [part for part, hollow in zip(parts, concave, strict=True) if hollow]
     if moving:
         if len(parts) > MOST_MOVING_PIECES:
-            return _solids([vertices[np.unique(triangles)]]), True
-        return _solids([vertices[np.unique(part)] for part in parts]), any(concave)
+            return _solids([vertices[np.unique(triangles)]]), _excess(vertices, [triangles])
+        return _solids([vertices[np.unique(part)] for part in parts]), _excess(vertices, filled)
     wedges = sum(len(part) if hollow else 1 for part, hollow in zip(parts, concave, strict=True))
     if wedges > MOST_STATIC_PIECES:
         if len(parts) > MOST_STATIC_PIECES:
-            return _solids([vertices[np.unique(triangles)]]), True
-        return _solids([vertices[np.unique(part)] for part in parts]), any(concave)
+            return _solids([vertices[np.unique(triangles)]]), _excess(vertices, [triangles])
+        return _solids([vertices[np.unique(part)] for part in parts]), _excess(vertices, filled)
     pieces: list[Points] = []
     for part, hollow in zip(parts, concave, strict=True):
         pieces.extend(_wedges(vertices, part) if hollow else [vertices[np.unique(part)]])
-    return _solids(pieces), False
+    return _solids(pieces), 0.0
 
 
 def _welded(vertices: Points, triangles: Triangles) -> tuple[Points, Triangles]:
@@ -94,6 +100,39 @@ def _is_concave(vertices: Points, triangles: Triangles, *, moving: bool) -> bool
     normals /= np.linalg.norm(normals, axis=1, keepdims=True) * (-1.0 if inside_out else 1.0)
     heights = normals @ points.T - np.einsum("ij,ij->i", normals, a)[:, None]
     return bool(np.max(heights) > _CONCAVE * np.max(np.ptp(vertices[corners], axis=0)))
+
+
+def _excess(vertices: Points, filled: list[Triangles]) -> float:
+    """Return by which part the hulls of these surfaces are larger than the surfaces; inf when one is open."""
+    own = hull = 0.0
+    for triangles in filled:
+        a, b, c = (vertices[triangles[:, k]] for k in range(3))
+        if not _is_closed(a, b, c):
+            return math.inf
+        own += abs(_volume(a, b, c))
+        hull += _hull_volume(vertices[np.unique(triangles)])
+    return max(0.0, hull / own - 1.0) if own > 0.0 else math.inf if filled else 0.0
+
+
+def _is_closed(a: Points, b: Points, c: Points) -> bool:
+    """Tell whether the areas of the triangles, as vectors, cancel out: those of a hole in the surface are missing."""
+    areas = np.cross(b - a, c - a)
+    return bool(np.linalg.norm(areas.sum(axis=0)) < _HOLE * np.linalg.norm(areas, axis=1).sum())
+
+
+def _hull_volume(points: Points) -> float:
+    """Return the volume (m^3) of the convex hull, which MuJoCo finds; 0 for points in a plane."""
+    size = float(np.max(np.ptp(points, axis=0)))
+    spec = mujoco.MjSpec()
+    mesh = spec.add_mesh(name="hull", uservert=((points - points.mean(axis=0)) / size).ravel())
+    mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX
+    body = spec.worldbody.add_body()
+    body.add_freejoint()
+    body.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname="hull", density=1.0)
+    try:
+        return float(spec.compile().body_mass[1]) * size**3
+    except ValueError:
+        return 0.0
 
 
 def _volume(a: Points, b: Points, c: Points) -> float:

@@ -6,6 +6,7 @@ touches. Equal meshes (file, submesh, scale) are read once and shared.
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 from pathlib import Path
 
@@ -19,6 +20,8 @@ from gz.sim.sdf.element import Element
 from gz.sim.sdf.meshes import read_mesh
 from gz.sim.sdf.resources import find_file
 
+FULLER = 0.1
+"""A hull that is larger than its mesh by more than this part is worth a sentence."""
 _LARGEST = 1e6  # [m]
 _SMALLEST_AREA = 1e-12  # [m^2]
 
@@ -54,9 +57,10 @@ def read_mesh_shape(shape: Element, owner: Element, moving: bool, diagnostics: D
     if not np.max(np.abs(mesh.vertices)) < _LARGEST:
         diagnostics.warn(shape.where, f"the mesh {path} is larger than {_LARGEST:g} m, {left_out}; check its <scale>")
         return None
-    if fuller:
-        text = f"<collision> '{owner.name}' touches as the convex hull of {path.name}, which is hollow or concave"
-        diagnostics.warn(shape.where, f"{text}; use several convex shapes")
+    if fuller > FULLER:
+        text = f"<collision> '{owner.name}' touches as the convex hull of {path.name}, which is "
+        text += f"{fuller:.0%} larger than the mesh" if math.isfinite(fuller) else "filled where the mesh is open"
+        diagnostics.warn(shape.where, f"{text}; use boxes, cylinders or several convex meshes instead")
     return Geometry("mesh", (float(extent[0]), float(extent[1]), float(extent[2])), mesh=mesh)
 
 
@@ -68,7 +72,7 @@ def _load(
     center: bool,
     scale: tuple[float, float, float],
     touching: str,
-) -> tuple[TriangleMesh, bool]:
+) -> tuple[TriangleMesh, float]:
     """Read and scale a mesh; a changed file has another stamp and is read again."""
     read = read_mesh(path, submesh, center)
     vertices = np.asarray(read.vertices, dtype=np.float64) * np.array(scale)
@@ -76,7 +80,7 @@ def _load(
     if np.prod(np.sign(scale)) < 0.0:
         triangles = triangles[:, ::-1]  # a mirrored surface would be inside out
     pieces: tuple[NDArray[np.float64], ...] = ()
-    fuller = False
+    fuller = 0.0
     if not np.all(np.isfinite(vertices)) or _area(vertices, triangles) < _SMALLEST_AREA:
         triangles = triangles[:0]
     elif touching == "hull":

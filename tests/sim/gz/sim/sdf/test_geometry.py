@@ -174,7 +174,7 @@ def test_a_concave_body_that_moves_is_its_hull_and_a_room_stays_hollow(tmp_path:
     write_obj(tmp_path / "ell.obj")
     collisions, _, warnings = parts(tmp_path, "<mesh><uri>ell.obj</uri></mesh>")
     assert len(collisions[0].geometry.mesh.pieces) == 1  # type: ignore[union-attr]
-    assert len(warnings) == 1 and "convex hull" in warnings[0]
+    assert len(warnings) == 1 and "convex hull of ell.obj, which is 17% larger than the mesh" in warnings[0]
     collisions, _, warnings = parts(tmp_path, "<mesh><uri>ell.obj</uri></mesh>", static=True)
     assert len(collisions[0].geometry.mesh.pieces) == 20 and warnings == []  # type: ignore[union-attr]
     pieces, fuller = convex_pieces(CUBE, FACES[:, ::-1], moving=False)
@@ -182,6 +182,31 @@ def test_a_concave_body_that_moves_is_its_hull_and_a_room_stays_hollow(tmp_path:
     for piece in pieces:  # the wedges lie outside of the room
         assert np.any((piece < -1e-4) | (piece > 1 + 1e-4))
     assert len(convex_pieces(CUBE, FACES[:, ::-1], moving=True)[0]) == 1
+
+
+NOTCHED = ((0, 0), (2, 0), (2, 2), (1.1, 2), (1.1, 1.9), (0.9, 1.9), (0.9, 2), (0, 2))
+"""A square of area 4 m^2 with a notch of 0.02 m^2."""
+
+
+def test_a_hull_that_hardly_differs_is_not_worth_a_sentence(tmp_path: Path) -> None:
+    write_obj(tmp_path / "notched.obj", NOTCHED)
+    collisions, _, warnings = parts(tmp_path, "<mesh><uri>notched.obj</uri></mesh>")
+    assert len(collisions[0].geometry.mesh.pieces) == 1 and warnings == []  # type: ignore[union-attr]
+
+
+def test_by_how_much_a_hull_is_larger() -> None:
+    deep = CUBE.copy()
+    deep[deep[:, 2] == 1, :2] = 0.5 + 3.0 * (deep[deep[:, 2] == 1, :2] - 0.5)
+    assert convex_pieces(CUBE, FACES, moving=True)[1] == convex_pieces(deep, FACES, moving=True)[1] == 0.0
+    # A cube with a pyramid of a quarter of its volume taken out of its top.
+    middle = np.concatenate([CUBE, [(0.5, 0.5, 0.25)]])
+    top = [face for face in FACES.tolist() if (CUBE[face][:, 2] == 1).all()]
+    rest = [face for face in FACES.tolist() if face not in top]
+    ring = sorted({index for face in top for index in face}, key=lambda i: math.atan2(*(CUBE[i, 1::-1] - 0.5)))
+    lid = [(ring[k], ring[(k + 1) % 4], 8) for k in range(4)]
+    dented = np.array([*rest, *lid], dtype=np.int32)
+    assert convex_pieces(middle, dented, moving=True)[1] == pytest.approx(1 / 0.75 - 1)
+    assert convex_pieces(middle, dented[:-1], moving=True)[1] == math.inf
 
 
 def test_a_flat_part_gets_a_thickness_and_a_line_is_no_part() -> None:

@@ -261,6 +261,22 @@ def test_of_several_physics_profiles_the_default_one_counts() -> None:
     assert world.step_size_ns == 4_000_000  # type: ignore[attr-defined]
 
 
+@pytest.mark.parametrize(("step", "said"), [("0.001", False), ("0.02", False), ("0.021", True), ("0.05", True)])
+def test_a_step_that_is_too_long_for_wheels_is_named_with_its_line(step: str, said: bool) -> None:
+    _, warnings = read(f"<physics type='x'>\n<max_step_size>{step}</max_step_size></physics>")
+    assert len(warnings) == said
+    if said:
+        assert warnings[0].startswith(f"f.sdf:4: <max_step_size> is {step} s; above 0.02 s wheels slip")
+
+
+def test_a_step_that_becomes_too_long_while_the_world_runs_is_named() -> None:
+    world = World.load("empty.sdf")
+    world.set_physics(step_size=0.02)
+    assert world.warnings == []
+    world.set_physics(step_size=0.03)
+    assert len(world.warnings) == 1 and "<max_step_size> is 0.03 s" in world.warnings[0]
+
+
 @settings(suppress_health_check=[HealthCheck.too_slow], deadline=None, max_examples=150)
 @given(
     st.integers(0, len(ROOM) - 1),
