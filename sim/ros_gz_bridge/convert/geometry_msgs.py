@@ -39,23 +39,46 @@ from gz.msgs.vector3d_pb2 import Vector3d
 from gz.msgs.wrench_pb2 import Wrench as GzWrench
 
 from ros_gz_bridge.fields import HEADER, Each, Fields, Part, add_fields
-from ros_gz_bridge.header import CHILD_FRAME_ID, header_to_gz, header_to_ros, header_value, set_header_value
+from ros_gz_bridge.header import (
+    CHILD_FRAME_ID,
+    fill_header,
+    header_to_gz,
+    header_to_ros,
+    header_value,
+    set_header_value,
+)
 from ros_gz_bridge.type_pairs import type_pair
+
+
+def fill_xyz(gz: Any, ros: Vector3 | Point) -> None:
+    """Write a ``gz.msgs.Vector3d`` into a ROS vector or point."""
+    ros.x, ros.y, ros.z = gz.x, gz.y, gz.z
+
+
+def fill_xyzw(gz: Any, ros: Quaternion) -> None:
+    """Write a ``gz.msgs.Quaternion`` into a ROS quaternion; one never filled in is 0, 0, 0, 0 on both sides."""
+    ros.x, ros.y, ros.z, ros.w = gz.x, gz.y, gz.z, gz.w
 
 
 def vector_to_ros(gz: Any) -> Vector3:
     """A ``gz.msgs.Vector3d`` as a ROS vector."""
-    return Vector3(x=gz.x, y=gz.y, z=gz.z)
+    ros = Vector3()
+    fill_xyz(gz, ros)
+    return ros
 
 
 def point_to_ros(gz: Any) -> Point:
     """A ``gz.msgs.Vector3d`` as a ROS point."""
-    return Point(x=gz.x, y=gz.y, z=gz.z)
+    ros = Point()
+    fill_xyz(gz, ros)
+    return ros
 
 
 def quaternion_to_ros(gz: Any) -> Quaternion:
-    """A ``gz.msgs.Quaternion`` as a ROS quaternion; one never filled in is 0, 0, 0, 0 on both sides."""
-    return Quaternion(x=gz.x, y=gz.y, z=gz.z, w=gz.w)
+    """A ``gz.msgs.Quaternion`` as a ROS quaternion."""
+    ros = Quaternion()
+    fill_xyzw(gz, ros)
+    return ros
 
 
 def copy_xyz(ros: Any, gz: Any) -> None:
@@ -68,9 +91,17 @@ def copy_xyzw(ros: Quaternion, gz: Any) -> None:
     gz.x, gz.y, gz.z, gz.w = ros.x, ros.y, ros.z, ros.w
 
 
+def fill_pose(gz: Any, ros: Pose) -> None:
+    """Write position and orientation of a ``gz.msgs.Pose`` into a ROS pose; its name and id have no place there."""
+    fill_xyz(gz.position, ros.position)
+    fill_xyzw(gz.orientation, ros.orientation)
+
+
 def pose_to_ros(gz: Any) -> Pose:
-    """Position and orientation of a ``gz.msgs.Pose``; its name and id have no place in ROS."""
-    return Pose(position=point_to_ros(gz.position), orientation=quaternion_to_ros(gz.orientation))
+    """Position and orientation of a ``gz.msgs.Pose``."""
+    ros = Pose()
+    fill_pose(gz, ros)
+    return ros
 
 
 def copy_pose(ros: Pose, gz: Any) -> None:
@@ -79,9 +110,17 @@ def copy_pose(ros: Pose, gz: Any) -> None:
     copy_xyzw(ros.orientation, gz.orientation)
 
 
+def fill_transform(gz: Any, ros: Transform) -> None:
+    """Write a ``gz.msgs.Pose`` into a ROS transform."""
+    fill_xyz(gz.position, ros.translation)
+    fill_xyzw(gz.orientation, ros.rotation)
+
+
 def transform_to_ros(gz: Any) -> Transform:
     """A ``gz.msgs.Pose`` as a ROS transform."""
-    return Transform(translation=vector_to_ros(gz.position), rotation=quaternion_to_ros(gz.orientation))
+    ros = Transform()
+    fill_transform(gz, ros)
+    return ros
 
 
 def copy_transform(ros: Transform, gz: Any) -> None:
@@ -97,9 +136,17 @@ def copy_transform_stamped(ros: TransformStamped, gz: Any) -> None:
     copy_transform(ros.transform, gz)
 
 
+def fill_twist(gz: Any, ros: Twist) -> None:
+    """Write linear and angular velocity of a ``gz.msgs.Twist`` into a ROS twist."""
+    fill_xyz(gz.linear, ros.linear)
+    fill_xyz(gz.angular, ros.angular)
+
+
 def twist_to_ros(gz: Any) -> Twist:
     """Linear and angular velocity of a ``gz.msgs.Twist``."""
-    return Twist(linear=vector_to_ros(gz.linear), angular=vector_to_ros(gz.angular))
+    ros = Twist()
+    fill_twist(gz, ros)
+    return ros
 
 
 def copy_twist(ros: Twist, gz: Any) -> None:
@@ -184,7 +231,10 @@ class PoseStampedPair:
     @staticmethod
     def to_ros(gz: Any) -> PoseStamped:
         """Gazebo to ROS."""
-        return PoseStamped(header=header_to_ros(gz.header), pose=pose_to_ros(gz))
+        ros = PoseStamped()
+        fill_header(gz.header, ros.header)
+        fill_pose(gz, ros.pose)
+        return ros
 
     @staticmethod
     def to_gz(ros: PoseStamped) -> Any:
@@ -216,11 +266,11 @@ class TransformStampedPair:
     @staticmethod
     def to_ros(gz: Any) -> TransformStamped:
         """Gazebo to ROS."""
-        return TransformStamped(
-            header=header_to_ros(gz.header),
-            child_frame_id=header_value(gz.header, CHILD_FRAME_ID),
-            transform=transform_to_ros(gz),
-        )
+        ros = TransformStamped()
+        fill_header(gz.header, ros.header)
+        ros.child_frame_id = header_value(gz.header, CHILD_FRAME_ID)
+        fill_transform(gz, ros.transform)
+        return ros
 
     @staticmethod
     def to_gz(ros: TransformStamped) -> Any:
@@ -256,7 +306,10 @@ class TwistStampedPair:
     @staticmethod
     def to_ros(gz: Any) -> TwistStamped:
         """Gazebo to ROS."""
-        return TwistStamped(header=header_to_ros(gz.header), twist=twist_to_ros(gz))
+        ros = TwistStamped()
+        fill_header(gz.header, ros.header)
+        fill_twist(gz, ros.twist)
+        return ros
 
     @staticmethod
     def to_gz(ros: TwistStamped) -> Any:
@@ -278,10 +331,16 @@ def covariance_to_ros(numbers: Any, ros: Any) -> None:
         ros.covariance = np.array(numbers, dtype=np.float64)
 
 
+def fill_pose_with_covariance(gz: Any, ros: PoseWithCovariance) -> None:
+    """Write a ``gz.msgs.PoseWithCovariance`` into a ROS one, without its header."""
+    fill_pose(gz.pose, ros.pose)
+    covariance_to_ros(gz.covariance.data, ros)
+
+
 def pose_with_covariance_to_ros(gz: Any) -> PoseWithCovariance:
     """A ``gz.msgs.PoseWithCovariance`` without its header."""
-    ros = PoseWithCovariance(pose=pose_to_ros(gz.pose))
-    covariance_to_ros(gz.covariance.data, ros)
+    ros = PoseWithCovariance()
+    fill_pose_with_covariance(gz, ros)
     return ros
 
 
@@ -291,10 +350,16 @@ def copy_pose_with_covariance(ros: PoseWithCovariance, gz: Any) -> None:
     gz.covariance.data.extend(ros.covariance)
 
 
+def fill_twist_with_covariance(gz: Any, ros: TwistWithCovariance) -> None:
+    """Write a ``gz.msgs.TwistWithCovariance`` into a ROS one, without its header."""
+    fill_twist(gz.twist, ros.twist)
+    covariance_to_ros(gz.covariance.data, ros)
+
+
 def twist_with_covariance_to_ros(gz: Any) -> TwistWithCovariance:
     """A ``gz.msgs.TwistWithCovariance`` without its header."""
-    ros = TwistWithCovariance(twist=twist_to_ros(gz.twist))
-    covariance_to_ros(gz.covariance.data, ros)
+    ros = TwistWithCovariance()
+    fill_twist_with_covariance(gz, ros)
     return ros
 
 
@@ -311,7 +376,10 @@ class PoseWithCovarianceStampedPair:
     @staticmethod
     def to_ros(gz: Any) -> PoseWithCovarianceStamped:
         """Gazebo to ROS."""
-        return PoseWithCovarianceStamped(header=header_to_ros(gz.pose.header), pose=pose_with_covariance_to_ros(gz))
+        ros = PoseWithCovarianceStamped()
+        fill_header(gz.pose.header, ros.header)
+        fill_pose_with_covariance(gz, ros.pose)
+        return ros
 
     @staticmethod
     def to_gz(ros: PoseWithCovarianceStamped) -> Any:
@@ -329,7 +397,10 @@ class TwistWithCovarianceStampedPair:
     @staticmethod
     def to_ros(gz: Any) -> TwistWithCovarianceStamped:
         """Gazebo to ROS."""
-        return TwistWithCovarianceStamped(header=header_to_ros(gz.twist.header), twist=twist_with_covariance_to_ros(gz))
+        ros = TwistWithCovarianceStamped()
+        fill_header(gz.twist.header, ros.header)
+        fill_twist_with_covariance(gz, ros.twist)
+        return ros
 
     @staticmethod
     def to_gz(ros: TwistWithCovarianceStamped) -> Any:

@@ -13,17 +13,20 @@ from ros_gz_bridge.convert.geometry_msgs import (
     copy_pose_with_covariance,
     copy_twist,
     copy_twist_with_covariance,
-    pose_to_ros,
-    pose_with_covariance_to_ros,
-    twist_to_ros,
-    twist_with_covariance_to_ros,
+    fill_pose,
+    fill_pose_with_covariance,
+    fill_twist,
+    fill_twist_with_covariance,
 )
-from ros_gz_bridge.header import CHILD_FRAME_ID, header_to_gz, header_to_ros, header_value, set_header_value
+from ros_gz_bridge.header import CHILD_FRAME_ID, fill_header, header_to_gz, header_value, set_header_value
 from ros_gz_bridge.type_pairs import type_pair
 
 
 def _frames_to_ros(gz: Any) -> Odometry:
-    return Odometry(header=header_to_ros(gz.header), child_frame_id=header_value(gz.header, CHILD_FRAME_ID))
+    ros = Odometry()
+    fill_header(gz.header, ros.header)
+    ros.child_frame_id = header_value(gz.header, CHILD_FRAME_ID)
+    return ros
 
 
 def _frames_to_gz(ros: Odometry, gz: Any) -> None:
@@ -39,8 +42,8 @@ class OdometryPair:
     def to_ros(gz: Any) -> Odometry:
         """Gazebo to ROS."""
         ros = _frames_to_ros(gz)
-        ros.pose.pose = pose_to_ros(gz.pose)
-        ros.twist.twist = twist_to_ros(gz.twist)
+        fill_pose(gz.pose, ros.pose.pose)
+        fill_twist(gz.twist, ros.twist.twist)
         return ros
 
     @staticmethod
@@ -61,8 +64,8 @@ class OdometryWithCovariancePair:
     def to_ros(gz: Any) -> Odometry:
         """Gazebo to ROS."""
         ros = _frames_to_ros(gz)
-        ros.pose = pose_with_covariance_to_ros(gz.pose_with_covariance)
-        ros.twist = twist_with_covariance_to_ros(gz.twist_with_covariance)
+        fill_pose_with_covariance(gz.pose_with_covariance, ros.pose)
+        fill_twist_with_covariance(gz.twist_with_covariance, ros.twist)
         return ros
 
     @staticmethod

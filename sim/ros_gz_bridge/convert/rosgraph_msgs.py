@@ -7,7 +7,7 @@ from typing import Any
 from gz.msgs.clock_pb2 import Clock as GzClock
 from rosgraph_msgs.msg import Clock
 
-from ros_gz_bridge.header import stamp_to_gz, stamp_to_ros
+from ros_gz_bridge.header import fill_stamp, stamp_to_gz
 from ros_gz_bridge.type_pairs import type_pair
 
 
@@ -18,7 +18,9 @@ class ClockPair:
     @staticmethod
     def to_ros(gz: Any) -> Clock:
         """Gazebo to ROS."""
-        return Clock(clock=stamp_to_ros(gz.sim))
+        ros = Clock()
+        fill_stamp(gz.sim, ros.clock)
+        return ros
 
     @staticmethod
     def to_gz(ros: Clock) -> Any:

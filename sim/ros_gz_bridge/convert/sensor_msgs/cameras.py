@@ -11,7 +11,7 @@ from gz.msgs.image_pb2 import Image as GzImage
 from gz.msgs.image_pb2 import PixelFormatType
 from sensor_msgs.msg import CameraInfo, Image
 
-from ros_gz_bridge.header import header_to_gz, header_to_ros
+from ros_gz_bridge.header import fill_header, header_to_gz
 from ros_gz_bridge.type_pairs import ConversionError, type_pair
 
 # ROS encoding -> (Gazebo pixel format, bytes of one pixel).
@@ -46,13 +46,13 @@ class ImagePair:
         data = gz.data  # every access makes a copy
         _check_pixels(gz.width, gz.height, step, len(data), encoding)
         ros = Image(
-            header=header_to_ros(gz.header),
             height=gz.height,
             width=gz.width,
             encoding=encoding,
             is_bigendian=0,
             step=step,
         )
+        fill_header(gz.header, ros.header)
         ros.data.frombytes(data)  # handed to the constructor, the bytes would be copied three times
         return ros
 
@@ -105,7 +105,8 @@ class CameraInfoPair:
     @staticmethod
     def to_ros(gz: Any) -> CameraInfo:
         """Gazebo to ROS."""
-        ros = CameraInfo(header=header_to_ros(gz.header), width=gz.width, height=gz.height)
+        ros = CameraInfo(width=gz.width, height=gz.height)
+        fill_header(gz.header, ros.header)
         if gz.HasField("distortion"):
             model = gz.distortion.model
             if model not in _MODEL_NAMES:

@@ -10,7 +10,7 @@ from gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
 from gz.msgs.pointcloud_packed_pb2 import PointCloudPacked
 from sensor_msgs.msg import LaserScan, PointCloud2, PointField, Range
 
-from ros_gz_bridge.header import frame_to_ros, header_to_gz, header_to_ros
+from ros_gz_bridge.header import fill_header, fill_stamp, frame_to_ros, header_to_gz
 from ros_gz_bridge.type_pairs import ConversionError, type_pair
 
 
@@ -26,20 +26,22 @@ class LaserScanPair:
     @staticmethod
     def to_ros(gz: Any) -> LaserScan:
         """Gazebo to ROS."""
-        start = (gz.vertical_count // 2) * gz.count
-        ros = LaserScan(
-            header=_scan_header(gz),
-            angle_min=gz.angle_min,
-            angle_max=gz.angle_max,
-            angle_increment=gz.angle_step,
-            range_min=gz.range_min,
-            range_max=gz.range_max,
-        )
-        if len(gz.ranges) < start + gz.count:
-            raise ConversionError(f"the scan announces {gz.count} beams a layer but carries {len(gz.ranges)} ranges")
-        ros.ranges.frombytes(_float32s(gz.ranges, start, gz.count))
-        if len(gz.intensities) >= start + gz.count:
-            ros.intensities.frombytes(_float32s(gz.intensities, start, gz.count))
+        ranges, intensities, count = gz.ranges, gz.intensities, gz.count
+        start = (gz.vertical_count // 2) * count
+        end = start + count
+        if len(ranges) < end:
+            raise ConversionError(f"the scan announces {count} beams a layer but carries {len(ranges)} ranges")
+        ros = LaserScan()
+        _fill_header(gz, ros.header)
+        ros.angle_min = gz.angle_min
+        ros.angle_max = gz.angle_max
+        ros.angle_increment = gz.angle_step
+        ros.range_min = gz.range_min
+        ros.range_max = gz.range_max
+        with np.errstate(over="ignore"):  # beyond float32 is infinite, as in C
+            ros.ranges.frombytes(np.asarray(ranges, dtype=np.float32)[start:end].tobytes())
+            if len(intensities) >= end:
+                ros.intensities.frombytes(np.asarray(intensities, dtype=np.float32)[start:end].tobytes())
         return ros
 
     @staticmethod
@@ -60,16 +62,9 @@ class LaserScanPair:
         return gz
 
 
-def _scan_header(gz: Any) -> Any:
-    header = header_to_ros(gz.header)
+def _fill_header(gz: Any, header: Any) -> None:
+    fill_stamp(gz.header.stamp, header.stamp)
     header.frame_id = frame_to_ros(gz.frame)
-    return header
-
-
-def _float32s(numbers: Any, start: int, count: int) -> bytes:
-    """``count`` doubles from ``start`` as the bytes of 32 bit numbers."""
-    with np.errstate(over="ignore"):  # beyond float32 is infinite, as in C
-        return np.asarray(numbers, dtype=np.float64)[start : start + count].astype(np.float32).tobytes()
 
 
 @type_pair("sensor_msgs/msg/Range", "gz.msgs.LaserScan")
@@ -79,14 +74,15 @@ class RangePair:
     @staticmethod
     def to_ros(gz: Any) -> Range:
         """Gazebo to ROS."""
-        return Range(
-            header=_scan_header(gz),
+        ros = Range(
             radiation_type=Range.INFRARED,
             field_of_view=gz.angle_max - gz.angle_min,
             min_range=gz.range_min,
             max_range=gz.range_max,
             range=min((number for number in gz.ranges if not math.isnan(number)), default=math.nan),
         )
+        _fill_header(gz, ros.header)
+        return ros
 
     @staticmethod
     def to_gz(ros: Range) -> Any:
@@ -113,7 +109,6 @@ class PointCloud2Pair:
     def to_ros(gz: Any) -> PointCloud2:
         """Gazebo to ROS."""
         ros = PointCloud2(
-            header=header_to_ros(gz.header),
             height=gz.height,
             width=gz.width,
             fields=[
@@ -127,6 +122,7 @@ class PointCloud2Pair:
             row_step=gz.row_step,
             is_dense=gz.is_dense,
         )
+        fill_header(gz.header, ros.header)
         ros.data.frombytes(gz.data)  # handed to the constructor, the bytes would be copied three times
         return ros
 

@@ -22,9 +22,9 @@ from sensor_msgs.msg import (
     NavSatStatus,
 )
 
-from ros_gz_bridge.convert.geometry_msgs import VECTOR3, copy_xyz, copy_xyzw, quaternion_to_ros, vector_to_ros
+from ros_gz_bridge.convert.geometry_msgs import VECTOR3, copy_xyz, copy_xyzw, fill_xyz, fill_xyzw
 from ros_gz_bridge.fields import FLOATS, HEADER, INT32S, PLAIN, Fields, add_fields
-from ros_gz_bridge.header import frame_to_ros, header_to_gz, header_to_ros
+from ros_gz_bridge.header import fill_header, frame_to_ros, header_to_gz, header_to_ros
 from ros_gz_bridge.type_pairs import ConversionError, type_pair
 
 
@@ -35,12 +35,11 @@ class ImuPair:
     @staticmethod
     def to_ros(gz: Any) -> Imu:
         """Gazebo to ROS."""
-        ros = Imu(
-            header=header_to_ros(gz.header),
-            orientation=quaternion_to_ros(gz.orientation),
-            angular_velocity=vector_to_ros(gz.angular_velocity),
-            linear_acceleration=vector_to_ros(gz.linear_acceleration),
-        )
+        ros = Imu()
+        fill_header(gz.header, ros.header)
+        fill_xyzw(gz.orientation, ros.orientation)
+        fill_xyz(gz.angular_velocity, ros.angular_velocity)
+        fill_xyz(gz.linear_acceleration, ros.linear_acceleration)
         for field in (
             "orientation_covariance",
             "angular_velocity_covariance",
@@ -76,13 +75,12 @@ class JointStatePair:
     def to_ros(gz: Any) -> JointState:
         """Gazebo to ROS."""
         axes = [joint.axis1 for joint in gz.joint]
-        return JointState(
-            header=header_to_ros(gz.header),
-            name=[joint.name for joint in gz.joint],
-            position=array("d", [axis.position for axis in axes]),
-            velocity=array("d", [axis.velocity for axis in axes]),
-            effort=array("d", [axis.force for axis in axes]),
-        )
+        ros = JointState(name=[joint.name for joint in gz.joint])
+        fill_header(gz.header, ros.header)
+        ros.position = array("d", [axis.position for axis in axes])
+        ros.velocity = array("d", [axis.velocity for axis in axes])
+        ros.effort = array("d", [axis.force for axis in axes])
+        return ros
 
     @staticmethod
     def to_gz(ros: JointState) -> Any:
