@@ -27,7 +27,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import threading
 import time
 from pathlib import Path
@@ -37,6 +36,7 @@ from grader.errors import UsageError, nearest
 from grader.printable import shown
 from grader.run.domain import Domain
 from grader.run.sandbox import ros_environment
+from grader.temporary_folder import TemporaryFolder, sweep
 
 GRACE = 3.0  # [s] between SIGINT, SIGTERM and SIGKILL
 LONGEST_COMMAND = 100  # [characters] of a command in the list of what runs
@@ -139,7 +139,9 @@ class Playground:
             Playground._opened.close()
         _put_on_path(Path(sys.executable).parent)
         self._domain = Domain()
-        self._folder = Path(tempfile.mkdtemp(prefix="playground-"))
+        sweep()  # what playgrounds left whose notebook was killed
+        self._temporary = TemporaryFolder("playground-")
+        self._folder = self._temporary.path
         self.programs: list[Program] = []
         self.environment = ros_environment(self._domain.id, self._folder / "ros_log") | {
             "GZ_IP": "127.0.0.1",
@@ -211,7 +213,7 @@ class Playground:
                 else:
                     os.environ[name] = value
             self._domain.release()
-            shutil.rmtree(self._folder, ignore_errors=True)
+            self._temporary.close()
 
     def __repr__(self) -> str:
         if not self._open:

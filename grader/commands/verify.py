@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -33,6 +32,7 @@ def verify_command(
 ) -> None:
     """Prove that solutions earn full marks, starters nothing, and rejected variants lose what they declare."""
     from grader.run.sandbox import choose, enter_early
+    from grader.temporary_folder import TemporaryFolder, sweep
 
     enter_early(choose())  # before there are threads
 
@@ -50,11 +50,12 @@ def verify_command(
         named = ", ".join(f"solutions/{path.name}{nearest(path.name, known)}" for path in strays)
         raise ManifestError(f"no public half in exercises/: {named}")
     names = [find_exercise(exercise).name] if exercise else known
+    sweep()
     proven = True
-    with tempfile.TemporaryDirectory(prefix="course-verify-") as folder, pool(jobs) as workers:
+    with TemporaryFolder("course-verify-") as folder, pool(jobs) as workers:
         for name in names:
             result = None
-            for result in verify(find_exercise(name), (out or Path(folder)) / name, workers, MOST if mutants else 0):
+            for result in verify(find_exercise(name), (out or folder) / name, workers, MOST if mutants else 0):
                 print_last(result, console)
             if result is not None:
                 print_matrix(result, console)

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import shutil
 import signal
 import subprocess
 import sys
@@ -15,9 +14,10 @@ import tempfile
 import threading
 import time
 from collections.abc import Mapping
-from pathlib import Path
 from types import TracebackType
 from typing import IO
+
+from grader.temporary_folder import TemporaryFolder
 
 GRACE = 0.3  # [s] between SIGINT, SIGTERM and SIGKILL
 _ALARM = "import signal; signal.alarm({seconds})\n"
@@ -111,7 +111,8 @@ class Probes:
         """All of it together may take `deadline` [s]."""
         self.deadline = deadline
         self._end = time.monotonic() + deadline
-        self.folder = Path(tempfile.mkdtemp(prefix="course-doctor-"))
+        self._temporary = TemporaryFolder("course-doctor-")
+        self.folder = self._temporary.path
         self._lock = threading.Lock()
         self._started: list[Probe] = []
         self._open = True
@@ -144,7 +145,7 @@ class Probes:
             started, self._started = self._started, []
         for probe in started:
             probe.stop()
-        shutil.rmtree(self.folder, ignore_errors=True)
+        self._temporary.close()
 
     def __enter__(self) -> Probes:
         return self

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 import signal
-import tempfile
 import time
 from pathlib import Path
 from typing import Any
@@ -19,6 +18,7 @@ from grader.record.scene import Scene
 from grader.run.lockstep import LockStep, RealTime
 from grader.run.served import Served
 from grader.run.stage import Stage
+from grader.temporary_folder import TemporaryFolder
 
 SIMULATOR_PATIENCE = 5.0  # [s] of wall time, once nobody is starting up, for a simulator to be started
 START_UP = 20.0  # [s] of wall time more than a single node gets
@@ -39,7 +39,7 @@ class LaunchStage(Stage):
     """Everything set up for one run of a launch file."""
 
     def _begin(self, cast: Cast, domain: int) -> None:
-        folder = Path(self._stack.enter_context(tempfile.TemporaryDirectory(prefix="course-given-")))
+        folder = self._stack.enter_context(TemporaryFolder("course-given-"))
         for name, data in cast.files.items():  # a copy that the submission cannot reach
             path = folder / name
             path.parent.mkdir(parents=True, exist_ok=True)

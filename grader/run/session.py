@@ -22,6 +22,7 @@ from grader.run.domain import Domain
 from grader.run.sandbox import AUTO, Sandbox
 from grader.run.student import Student, launch_command, node_command
 from grader.submission import Submission
+from grader.temporary_folder import sweep
 from grader.trial import Trial
 from ros_gz_bridge.qos_profile import reliable
 
@@ -58,6 +59,7 @@ def run(
     `pace` is `lockstep` or `realtime`, `level` that of the sandbox. Nothing is left running and no temporary file is
     left behind, whatever happens. Raises ManifestError if the exercise's own files are wrong.
     """
+    sweep()  # what graders left that were killed
     kind = find_kind(exercise.kind)
     cast = kind.cast(exercise, submission)
     topics = {

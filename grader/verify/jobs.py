@@ -24,6 +24,7 @@ from grader.exercise import Exercise
 from grader.grade import grade
 from grader.interruption import end_on
 from grader.report.report import Report
+from grader.temporary_folder import TemporaryFolder
 from grader.trial import Trial
 
 PR_SET_PDEATHSIG = 1
@@ -113,8 +114,8 @@ def pool(count: int) -> Iterator[Pool]:
     if count == 1:
         yield Here()
         return
-    with tempfile.TemporaryDirectory(prefix="course-workers-", ignore_cleanup_errors=True) as folder:
-        workers = Workers(count, folder)
+    with TemporaryFolder("course-workers-") as folder:
+        workers = Workers(count, str(folder))
         try:
             yield workers
         except BaseException:

@@ -13,8 +13,6 @@ import json
 import os
 import re
 import shutil
-import stat
-import tempfile
 from collections import deque
 from collections.abc import Callable, Iterable
 from concurrent.futures import FIRST_COMPLETED, CancelledError, Executor, Future, ThreadPoolExecutor, wait
@@ -29,6 +27,7 @@ from grader.exercise import Exercise
 from grader.intake import Selection
 from grader.printable import shown
 from grader.run.sandbox import choose
+from grader.temporary_folder import TemporaryFolder, sweep
 from grader.trial import chosen_trials
 from grader.whole_class.dask_cluster import dask_executor
 from grader.whole_class.found import Found
@@ -143,8 +142,11 @@ class ClassRun:
     def _here(self, jobs: int, stack: ExitStack) -> tuple[Executor, int, Callable[[], bool]]:
         """Threads of this process, each of which waits for one grading."""
         level = choose(self.sandbox, self.demand)  # once, so that all submissions get the same
-        folder = work_folder(self.out)
-        stack.callback(shutil.rmtree, folder, ignore_errors=True)
+        sweep()  # what an earlier run left that was killed
+        try:
+            folder = stack.enter_context(TemporaryFolder("course-class-"))
+        except OSError as error:
+            raise InfrastructureError(f"no temporary folder: {error.strerror}") from None
         options = (*self.setup.options, "--sandbox", level)
         self.setup = dataclasses.replace(self.setup, folder=str(folder), options=options)
         executor = ThreadPoolExecutor(jobs)
@@ -268,19 +270,3 @@ def folder_name(student: str) -> str:
     if safe == student and safe.casefold() not in (GRADEBOOK, JOURNAL):
         return safe
     return f"{safe or 'student'}-{hashlib.sha256(student.encode()).hexdigest()[:8]}"
-
-
-def work_folder(out: Path) -> Path:
-    """Where gradings of a class work on this machine: found again, and emptied, by the next run into the same folder.
-
-    Raises InfrastructureError if somebody else has put something in its place.
-    """
-    name = hashlib.sha256(str(out.resolve()).encode("utf-8", "surrogateescape")).hexdigest()[:12]
-    folder = Path(tempfile.gettempdir()) / f"course-class-{os.getuid()}-{name}"
-    if folder.exists() or folder.is_symlink():
-        status = folder.lstat()
-        if status.st_uid != os.getuid() or not stat.S_ISDIR(status.st_mode):
-            raise InfrastructureError(f"{folder} is not ours; remove it, or set TMPDIR to another folder")
-        shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(mode=0o700, exist_ok=True)
-    return folder

@@ -7,12 +7,12 @@ come back as bytes. Used by `class_run.py` for `--dask`.
 from __future__ import annotations
 
 import contextlib
-import tempfile
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
 
 from grader.errors import UsageError
 from grader.printable import shown
+from grader.temporary_folder import TemporaryFolder
 from grader.whole_class.versions import versions
 
 CONNECT = 15.0  # [s] to reach a scheduler
@@ -36,9 +36,7 @@ def dask_executor(address: str) -> Iterator[tuple[Executor, int, Callable[[], bo
             count = address.removeprefix("local:")
             if not count.isascii() or not count.isdecimal() or not 1 <= int(count) <= 1000:
                 raise UsageError(f"--dask {shown(address)}: expected local:N with the number of workers, as local:2")
-            scratch = stack.enter_context(
-                tempfile.TemporaryDirectory(prefix="course-dask-", ignore_cleanup_errors=True)
-            )
+            scratch = str(stack.enter_context(TemporaryFolder("course-dask-")))
             stack.enter_context(dask.config.set(temporary_directory=scratch))
             cluster = LocalCluster(
                 n_workers=int(count),

@@ -10,11 +10,9 @@ import contextlib
 import ctypes
 import json
 import os
-import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import threading
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -25,6 +23,7 @@ import psutil
 
 from grader import bundle
 from grader.printable import shown
+from grader.temporary_folder import TemporaryFolder
 
 PR_SET_CHILD_SUBREAPER = 36
 LARGEST_FILE = 256 << 20  # [bytes] of a recording or report that is brought back
@@ -121,15 +120,15 @@ def grade_one(setup: Setup, job: Job) -> Graded:
     """Grade one submission; called in a thread of this process or of a Dask worker."""
     ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1)  # should a grading be killed, its orphans become ours to sweep
     try:
-        folder = Path(tempfile.mkdtemp(prefix="course-class-", dir=setup.folder))
+        temporary = TemporaryFolder("course-class-", setup.folder)
     except OSError as error:
         return Graded(None, fault=f"no temporary folder: {error.strerror}")
     try:
-        return _grade(setup, job, folder)
+        return _grade(setup, job, temporary.path)
     except OSError as error:
         return Graded(None, fault=f"{type(error).__name__}: {error}")
     finally:
-        shutil.rmtree(folder, ignore_errors=True)
+        temporary.close()
 
 
 def _grade(setup: Setup, job: Job, folder: Path) -> Graded:

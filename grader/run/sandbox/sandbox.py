@@ -9,10 +9,8 @@ import contextlib
 import ctypes
 import os
 import resource
-import shutil
 import socket
 import subprocess
-import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -25,6 +23,7 @@ from grader.run.sandbox.network import NetworkError, PrivateNetwork
 from grader.run.sandbox.order import HOST, LIMITS, MOST_PROCESSES, OPEN_DEVICES, OPEN_FOLDERS, Order, init_command
 from grader.run.sandbox.view import DOOR, HOME, SUBMISSION, TMP_FILES, TMP_SIZE, view
 from grader.run.sandbox.watch import Watch, descendants
+from grader.temporary_folder import TemporaryFolder
 
 PR_SET_CHILD_SUBREAPER = 36
 WITHOUT_NETWORK = "C"  # the best level for a process that cannot enter a private network (any more)
@@ -64,7 +63,8 @@ class Sandbox:
                     raise InfrastructureError(f"no sandbox of level {level} here: {error}") from None
                 self.level = WITHOUT_NETWORK
                 self._module = level_module(self.level)
-        self.folder = Path(tempfile.mkdtemp(prefix="course-"))
+        self._temporary = TemporaryFolder("course-")
+        self.folder = self._temporary.path
         for name in ("submission", "home", "door", "root", "etc"):
             (self.folder / name).mkdir()
             (self.folder / name).chmod(0o755)
@@ -180,7 +180,7 @@ class Sandbox:
             if boxed.running:
                 boxed.kill()
             boxed.close()
-        shutil.rmtree(self.folder, ignore_errors=True)
+        self._temporary.close()
         if self._network is not None:
             self._network.close()
 
