@@ -20,4 +20,4 @@ def can_bridge(ros_type: str, gz_type: str) -> bool:
 def bridge_command(ros_topic: str, gz_topic: str, ros_type: str, gz_type: str, direction: Direction) -> str:
     """The command line that bridges one topic."""
     remap = f" --ros-args -r {gz_topic}:={ros_topic}" if ros_topic != gz_topic else ""
-    return f"parameter_bridge '{gz_topic}@{ros_type}{_MARKS[direction]}{gz_type}'{remap}"
+    return f"ros2 run ros_gz_bridge parameter_bridge '{gz_topic}@{ros_type}{_MARKS[direction]}{gz_type}'{remap}"

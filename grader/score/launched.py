@@ -7,13 +7,31 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import Any
 
 from grader.printable import shown
 from grader.record.reading import Recording
 
 SAID = re.compile(r"^\[[^\]]+\] (gz sim|parameter_bridge|create|gzserver): (.*)")
+OUTPUT = re.compile(r"^\[([^\] ]+-\d+)\] (.*\S)")  # a line of a process that the launch started
+DIED = re.compile(r"^\[ERROR\] \[([^\]]+-\d+)\]: process has died .*exit code (-?\d+)")
 PLACE = re.compile(r"^\S*?([^/\s]+):(\d+): ")  # what an error in a launch file begins with
+
+
+@dataclass(frozen=True)
+class Death:
+    """A process of the launch that ended by itself with an exit code other than 0, and the last line it wrote."""
+
+    process: str  # as the launch calls it, without its number: the name of the program that was executed
+    code: int
+    said: str
+
+    @property
+    def words(self) -> str:
+        """What it said, as the end of a sentence; empty if it said nothing."""
+        return f"; it said: {shown(self.said, 300)}" if self.said else ""
 
 
 def launch_facts(recording: Recording) -> dict[str, Any]:
@@ -41,6 +59,17 @@ def complaint(recording: Recording, program: str) -> str:
         if (match := SAID.match(line.text)) and match.group(1) == program:
             return shown(match.group(2), 300)
     return ""
+
+
+def deaths(recording: Recording) -> Iterator[Death]:
+    """Yield the processes that died by themselves, in the order in which they did."""
+    last: dict[str, str] = {}
+    for line in recording.lines("log/student"):
+        if match := DIED.match(line.text):
+            if int(match.group(2)) > 0:
+                yield Death(match.group(1).rpartition("-")[0], int(match.group(2)), last.get(match.group(1), ""))
+        elif match := OUTPUT.match(line.text):
+            last[match.group(1)] = match.group(2)
 
 
 def launch_fault(recording: Recording) -> str:

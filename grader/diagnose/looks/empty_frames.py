@@ -20,7 +20,8 @@ def look(system: System) -> Iterator[Finding]:
         empty = {name for each in heard.messages for name in _empty(each.message)}
         if not empty:
             continue
-        source = next((entry.gz_topic for _, entry in system.entries() if entry.ros_topic == topic), "")
+        brings = (entry for _, entry in system.entries() if entry.ros_topic == topic and entry.direction.to_ros)
+        source = next((entry.gz_topic for entry in brings), "")
         from_scene = source.startswith("/world/") and source.endswith(_POSE_INFO)
         yield Finding(
             Severity.WARNING,

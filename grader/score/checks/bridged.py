@@ -19,6 +19,7 @@ from typing import Any
 from grader.record.reading import Recording
 from grader.score.check import Finding, check_kind
 from grader.score.graphs import WAYS, Bridged, bridges, did_you_mean
+from grader.score.launched import deaths
 from grader.table import Table
 
 KEYS = ("ros_topic", "ros_type", "gz_topic", "gz_type", "direction")
@@ -38,6 +39,9 @@ def bridged(recording: Recording, parameters: Table) -> Finding:
     expected = f"{wanted['ros_topic']} ({wanted['ros_type']}) {arrow} {wanted['gz_topic']} ({wanted['gz_type']})"
     candidates = [bridge for bridge in made if bridge.ros_topic == wanted["ros_topic"]]
     if not candidates:
+        died = next((each for each in deaths(recording) if each.process == "parameter_bridge"), None)
+        if died is not None and not made:
+            return Finding(False, expected, f"parameter_bridge ended with exit code {died.code}{died.words}")
         return Finding(False, expected, _not_there(wanted, made))
     faults = [_fault(bridge, wanted, same, facts) for bridge in candidates]
     if all(faults):

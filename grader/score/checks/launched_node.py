@@ -11,8 +11,10 @@ from difflib import get_close_matches
 
 from grader.record.reading import Recording
 from grader.score.check import Finding, check_kind
-from grader.score.launched import launch_facts
+from grader.score.launched import deaths, launch_facts
 from grader.table import Table
+
+_OTHERS = ("gz", "parameter_bridge", "create")  # processes that are no node of the student's
 
 
 @check_kind("launched_node")
@@ -25,7 +27,11 @@ def launched_node(recording: Recording, parameters: Table) -> Finding:
     ended = [each for each in launch_facts(recording).get("ended_early", []) if each["program"] == program]
     if ended:
         code = ended[0]["code"]
-        return Finding(False, expected, f"{program} had ended with exit code {code} before the launch was interrupted")
+        died = [each for each in deaths(recording) if each.code == code and not each.process.startswith(_OTHERS)]
+        said = died[0].words if len(died) == 1 else ""
+        return Finding(
+            False, expected, f"{program} had ended with exit code {code} before the launch was interrupted{said}"
+        )
     if node not in nodes:
         near = get_close_matches(node, sorted(nodes), n=1)
         return Finding(False, expected, f"the node {node} never ran" + (f"; {near[0]} did" if near else ""))

@@ -71,11 +71,19 @@ def get_launch_description_from_python_launch_file(python_launch_file_path: str)
     description = function()
     if not isinstance(description, LaunchDescription):
         hint = "; its `return` is missing" if description is None else ""
+        if isinstance(description, list | tuple):
+            hint = "; write return LaunchDescription([...])"
         raise InvalidPythonLaunchFileError(
-            f"{_FUNCTION}() in '{python_launch_file_path}' returned {description!r} of type "
-            f"{type(description).__name__}, not a LaunchDescription{hint}"
+            f"{_FUNCTION}() in '{python_launch_file_path}' returned {_described(description)}, not a "
+            f"LaunchDescription{hint}"
         )
     return description
+
+
+def _described(value: object) -> str:
+    """A value in few words; a list of actions would fill the screen."""
+    text = repr(value)
+    return f"{text} of type {type(value).__name__}" if len(text) <= 60 else f"a {type(value).__name__}"
 
 
 def _not_readable(path: Path, error: OSError) -> str:

@@ -79,7 +79,10 @@ def test_from_a_healthy_system_to_one_whose_parts_are_gone(room, course, tmp_pat
         "/listener listens on /lidar/scan in ROS and Gazebo publishes it, but no ros_gz_bridge runs."
     ]
     first = killed["findings"][0]
-    assert first["fix"] == "Start it: parameter_bridge '/lidar/scan@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan'"
+    assert (
+        first["fix"]
+        == "Start it: ros2 run ros_gz_bridge parameter_bridge '/lidar/scan@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan'"
+    )
     assert first["evidence"] == [
         "ROS: /lidar/scan (sensor_msgs/msg/LaserScan)",
         "Gazebo: /lidar/scan (gz.msgs.LaserScan)",

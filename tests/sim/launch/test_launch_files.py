@@ -213,6 +213,10 @@ def test_arguments_arrive_as_they_were_given(given_values, defaults):
             "returned None of type NoneType, not a LaunchDescription; its `return` is missing",
         ),
         (HEAD + "    return []\n", "returned [] of type list, not a LaunchDescription"),
+        (
+            HEAD + "    return [LogInfo(msg='a'), LogInfo(msg='b')]\n",
+            "returned a list, not a LaunchDescription; write return LaunchDescription([...])",
+        ),
         (HEAD + "    return LaunchDescription([LogInfo(msg=3)])\n", "{}:10: 3 is of type int; text, a substitution"),
         (HEAD + "    return LaunchDescription(LogInfo(msg=''))\n", "{}:10: TypeError: LaunchDescription wants a list"),
         ("x = '\0'\n", "{}"),

@@ -6,7 +6,7 @@ import pytest
 
 from grader.score.check import check_kinds
 from grader.score.diagnosis import diagnose, outcome_of
-from grader.score.launched import launch_fault
+from grader.score.launched import deaths, launch_fault
 from grader.table import Table
 
 SIMULATOR = {"given": "a.sdf", "world": "a.sdf", "error": "", "paused": False, "iterations": 0, "ran": True}
@@ -97,6 +97,29 @@ def test_paused_exactly_when_asked(find, given, paused):
 def test_a_node_that_is_not_there_or_keeps_another_time(find, changes, measured):
     finding = find("node", **changes)
     assert (finding.passed, finding.measured) == (False, measured)
+
+
+DIED = [
+    "[INFO] [gz-1]: process started with pid [...]",
+    "[parameter_bridge-2] parameter_bridge: bridge.yaml: cannot read the bridge configuration: No such file",
+    "[python3-3] python3: can't open file '/tmp/stopwatch.py'",
+    "[ERROR] [python3-3]: process has died [pid [...], exit code 2].",
+    "[ERROR] [parameter_bridge-2]: process has died [pid [...], exit code 2].",
+    "[ERROR] [gz-1]: process has died [pid [...], exit code -2].",
+]
+
+
+def test_what_a_process_said_last_before_it_died_is_quoted(find, record):
+    finding = find("node", lines=DIED, ended_early=[{"program": "stopwatch.py", "code": 2}])
+    assert finding.measured.endswith("interrupted; it said: python3: can't open file '/tmp/stopwatch.py'")
+    recording = record(facts={"launch": GOOD}, lines=[(0.0, line) for line in DIED])
+    assert [(each.process, each.code) for each in deaths(recording)] == [("python3", 2), ("parameter_bridge", 2)]
+    wanted = {"ros_topic": "/clock", "ros_type": "r", "gz_topic": "/clock", "gz_type": "g", "direction": "GZ_TO_ROS"}
+    bridge = check_kinds()["bridged"](recording, Table(wanted | {"at_least": 5}, "check 'it'", "parameter"))
+    assert bridge.measured == (
+        "parameter_bridge ended with exit code 2; it said: parameter_bridge: bridge.yaml: cannot read the bridge "
+        "configuration: No such file"
+    )
 
 
 @pytest.mark.parametrize(
