@@ -102,6 +102,12 @@ def zip_members(stream: BinaryIO) -> Iterator[tuple[str, Member]]:
             yield _zip_name(info), Member(info.file_size, _zip_reader(archive, info), _zip_refusal(info))
 
 
+def zip_folders(stream: BinaryIO) -> list[str]:
+    """The folders that have an entry of their own in a zip, as empty ones do. Raises whatever `zipfile` raises."""
+    infos = zipfile.ZipFile(stream).infolist()
+    return [_zip_name(info).rstrip("/") for info in infos if info.filename.endswith("/")]
+
+
 def _zip_name(info: zipfile.ZipInfo) -> str:
     """Names without the UTF-8 flag are read as code page 437; many archivers write UTF-8 there and do not say so."""
     if not info.flag_bits & 0x800:

@@ -74,6 +74,8 @@ def folder_tree(folder: Path) -> Tree:
     seen = 0
 
     def unreadable(error: OSError) -> None:
+        if isinstance(error, FileNotFoundError) and folder.exists():
+            return  # a folder in it that went away meanwhile
         raise UnreadableError(f"{shown(str(error.filename), 200)} cannot be read: {error.strerror}")
 
     for parent, folders, names in os.walk(folder, onerror=unreadable):

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 
 import yaml
 
-from grader.archive import LONGEST_PART, Member, Tree, damaged, is_archive, plain_name, zip_members
+from grader.archive import LONGEST_PART, Member, Tree, damaged, is_archive, plain_name, zip_folders, zip_members
 from grader.errors import RefusedError, UsageError
 from grader.exercise import Exercise
 from grader.intake import JUNK, Selection, folder_member, folder_tree, is_junk, select
@@ -70,10 +70,10 @@ def find_submissions(path: Path, exercise: Exercise, stack: ExitStack) -> tuple[
     `stack` closes what is read from later. Raises UsageError if there is nothing to be found or `path` cannot be read.
     """
     try:
-        top = _zip_top(path, stack) if path.is_file() else _folder_top(path)
+        top, folders = _zip_top(path, stack) if path.is_file() else _folder_top(path)
     except OSError as error:
         raise UsageError(f"{path} cannot be read: {error.strerror or error}") from None
-    top, left_out = _unwrapped(top, exercise), []
+    top, left_out = _unwrapped(top, folders, exercise), []
     names = _gradescope_names(top.pop(METADATA, None))
     groups: dict[_Owner, _Group] = {}
     suffixes = find_kind(exercise.kind).suffixes
@@ -141,7 +141,8 @@ def _alone(name: str, member: Member) -> Tree:
 Top = dict[str, "Callable[[], Tree] | Member"]  # name -> a folder's tree when asked, or a file
 
 
-def _folder_top(path: Path) -> Top:
+def _folder_top(path: Path) -> tuple[Top, list[str]]:
+    """The things at the top of a folder, and the names of the folders in it and in its only folder."""
     top: Top = {}
     for each in path.iterdir():
         if _is_trace(each.name, folder=each.is_dir()):
@@ -150,16 +151,24 @@ def _folder_top(path: Path) -> Top:
             top[each.name] = partial(folder_tree, each)
         elif (member := folder_member(each)) is not None:
             top[each.name] = member
-    return top
+    folders = [name for name, thing in top.items() if callable(thing)]
+    if len(top) == len(folders) == 1:
+        folders += [f"{folders[0]}/{each.name}" for each in (path / folders[0]).iterdir() if each.is_dir()]
+    return top, folders
 
 
-def _zip_top(path: Path, stack: ExitStack) -> Top:
-    """The things at the top of a zip. A member with an unsafe name is its owner's fault, not the class's."""
+def _zip_top(path: Path, stack: ExitStack) -> tuple[Top, list[str]]:
+    """The things at the top of a zip, and the names of its folders, empty ones too.
+
+    A member with an unsafe name is its owner's fault, not the class's.
+    """
     top: Top = {}
     folders: dict[str, Tree] = {}
     unsafe: dict[str, RefusedError] = {}
     try:
-        for raw, member in zip_members(stack.enter_context(path.open("rb"))):
+        stream = stack.enter_context(path.open("rb"))
+        empty = [name for raw in zip_folders(stream) if (name := _safe(raw)) and not _is_trace(name, folder=True)]
+        for raw, member in zip_members(stream):
             first, _, rest = raw.replace("\\", "/").removeprefix("./").partition("/")
             if _is_trace(first, folder=bool(rest)):
                 continue
@@ -176,8 +185,18 @@ def _zip_top(path: Path, stack: ExitStack) -> Top:
         raise
     except Exception as error:  # as for a student's archive: what `zipfile` raises is not listed
         raise damaged(str(path), error) from None
+    for name in empty:
+        folders.setdefault(name.partition("/")[0], {})
     top |= {name: partial(dict, tree) for name, tree in folders.items()}
-    return top | {name: partial(_refuse, error) for name, error in unsafe.items()}
+    return top | {name: partial(_refuse, error) for name, error in unsafe.items()}, empty
+
+
+def _safe(raw: str) -> str:
+    """The name of a folder; empty if it leads out of the archive."""
+    try:
+        return plain_name(raw.replace("\\", "/").removeprefix("./"), "")
+    except RefusedError:
+        return ""
 
 
 def _is_trace(name: str, *, folder: bool) -> bool:
@@ -189,9 +208,12 @@ def _refuse(error: RefusedError) -> Tree:
     raise error
 
 
-def _unwrapped(top: Top, exercise: Exercise) -> Top:
-    """What is in the only folder of `top`, if that folder holds a class and not one student's work."""
-    (only,) = top.values() if len(top) == 1 else (None,)
+def _unwrapped(top: Top, folders: list[str], exercise: Exercise) -> Top:
+    """What is in the only folder of `top`, if that folder holds a class and not one student's work.
+
+    Who handed in an empty folder, of whom `folders` alone knows, is of that class, too.
+    """
+    ((outer, only),) = top.items() if len(top) == 1 else (("", None),)
     if not callable(only):
         return top
     try:
@@ -214,6 +236,10 @@ def _unwrapped(top: Top, exercise: Exercise) -> Top:
         holders += [name for name in files if name.endswith(find_kind(exercise.kind).suffixes)]
     if (len(holders) < 2 and METADATA not in files) or exercise.file in files or "exercises" in inner:
         return top
+    for name in folders:
+        first, _, second = name.partition("/")
+        if first == outer and second and "/" not in second:
+            inner.setdefault(second, {})
     return files | {name: partial(dict, each) for name, each in inner.items() if not is_junk(name)}
 
 

@@ -197,7 +197,7 @@ def test_a_name_with_a_null(exercise, tmp_path):
         ("if 1:\n        x = 1\n\ty = 2\n", ["node.py, line 3", "TabError"]),
         ("x = 1\nreturn\n", ["node.py, line 2", "SyntaxError"]),
         ("x = 1\nawait y\n", ["node.py, line 2", "SyntaxError"]),
-        (b"x = 1\n# caf\xe9\n", ["node.py, line 2", "utf-8"]),
+        (b"x = 1\n# caf\xe9\n", ["node.py, line 2", "UTF-8"]),
         (b"# coding: klingon\nx = 1\n", ["node.py", "klingon"]),
         (b"x = 1\n\0\n", ["node.py", "null"]),
         (b"\xff\xfex\x00 \x00=\x00", ["node.py"]),

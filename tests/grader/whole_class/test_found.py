@@ -203,6 +203,22 @@ def test_links_lead_nowhere(found, hand_in):
         students["mallory"].read()
 
 
+@pytest.mark.parametrize("form", ["folder", "zip", "zip of a folder", "folder in a folder"])
+def test_who_handed_in_an_empty_folder_is_not_forgotten(found, tmp_path, form):
+    top = tmp_path / "hand" / "Lab 3"
+    for student in ("alice", "bob", "carol"):
+        (top / student).mkdir(parents=True)
+        if student != "carol":
+            (top / student / FILE).write_bytes(NODE)
+    path = top if form in ("folder", "zip") else top.parent
+    if "zip" in form:
+        path = zipped(path, tmp_path / "class.zip")
+    submissions = found(path)
+    assert sorted(submissions) == ["alice", "bob", "carol"]
+    with pytest.raises(UsageError, match=f"carol holds no {FILE}"):
+        submissions["carol"].read()
+
+
 def test_one_unsafe_name_in_the_zip_of_a_class_is_not_the_loss_of_others(found, tmp_path):
     with zipfile.ZipFile(tmp_path / "class.zip", "w") as archive:
         archive.writestr(f"bob/{FILE}", NODE)
