@@ -13,6 +13,7 @@ from typing import Any, Protocol
 from std_msgs.msg import ColorRGBA
 
 from gz.msgs import message_class
+from ros_gz_bridge.blank import blank
 from ros_gz_bridge.header import header_to_gz, header_to_ros
 from ros_gz_bridge.type_pairs import ConversionError, add_pair
 
@@ -120,7 +121,10 @@ class Fields(Part):
         self._kinds = [(name, (renamed or {}).get(name, name), kind) for name, kind in kinds.items()]
 
     def _make(self, gz: Any) -> Any:
-        return self._ros_class(**{ros_name: kind.get(gz, gz_name) for ros_name, gz_name, kind in self._kinds})
+        ros = blank(self._ros_class)
+        for ros_name, gz_name, kind in self._kinds:
+            setattr(ros, ros_name, kind.get(gz, gz_name))
+        return ros
 
     def _fill(self, ros: Any, gz: Any) -> None:
         for ros_name, gz_name, kind in self._kinds:

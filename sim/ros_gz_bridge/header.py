@@ -4,8 +4,8 @@ Gazebo keeps ROS's ``frame_id`` as a key with a value in ``header.data``; odomet
 key ``child_frame_id``. Gazebo scopes names with ``::`` where ROS writes ``/``. The files in ``convert/`` call
 these functions, so the rules are written once.
 
-A new ROS message comes with all its parts, and a Python object costs more than the numbers in it. So the messages that
-come often are filled in place (``fill_...``) instead of being given parts that were made a second time.
+A new ROS message (``blank``) comes with all its parts, and a Python object costs more than the numbers in it. So they
+are filled in place (``fill_...``) instead of being replaced by parts that were made a second time.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from builtin_interfaces.msg import Duration as RosDuration
 from builtin_interfaces.msg import Time as RosTime
 from std_msgs.msg import Header as RosHeader
 
+from ros_gz_bridge.blank import blank
 from ros_gz_bridge.type_pairs import ConversionError
 
 FRAME_ID = "frame_id"
@@ -81,7 +82,7 @@ def fill_header(gz_header: Any, ros_header: RosHeader) -> None:
 
 def header_to_ros(gz_header: Any) -> RosHeader:
     """Stamp and ``frame_id`` of a ``gz.msgs.Header``."""
-    ros = RosHeader()
+    ros = blank(RosHeader)
     fill_header(gz_header, ros)
     return ros
 

@@ -38,6 +38,7 @@ from gz.msgs.twist_with_covariance_pb2 import TwistWithCovariance as GzTwistWith
 from gz.msgs.vector3d_pb2 import Vector3d
 from gz.msgs.wrench_pb2 import Wrench as GzWrench
 
+from ros_gz_bridge.blank import blank
 from ros_gz_bridge.fields import HEADER, Each, Fields, Part, add_fields
 from ros_gz_bridge.header import (
     CHILD_FRAME_ID,
@@ -99,7 +100,7 @@ def fill_pose(gz: Any, ros: Pose) -> None:
 
 def pose_to_ros(gz: Any) -> Pose:
     """Position and orientation of a ``gz.msgs.Pose``."""
-    ros = Pose()
+    ros = blank(Pose)
     fill_pose(gz, ros)
     return ros
 
@@ -118,7 +119,7 @@ def fill_transform(gz: Any, ros: Transform) -> None:
 
 def transform_to_ros(gz: Any) -> Transform:
     """A ``gz.msgs.Pose`` as a ROS transform."""
-    ros = Transform()
+    ros = blank(Transform)
     fill_transform(gz, ros)
     return ros
 
@@ -144,7 +145,7 @@ def fill_twist(gz: Any, ros: Twist) -> None:
 
 def twist_to_ros(gz: Any) -> Twist:
     """Linear and angular velocity of a ``gz.msgs.Twist``."""
-    ros = Twist()
+    ros = blank(Twist)
     fill_twist(gz, ros)
     return ros
 
@@ -231,7 +232,7 @@ class PoseStampedPair:
     @staticmethod
     def to_ros(gz: Any) -> PoseStamped:
         """Gazebo to ROS."""
-        ros = PoseStamped()
+        ros = blank(PoseStamped)
         fill_header(gz.header, ros.header)
         fill_pose(gz, ros.pose)
         return ros
@@ -266,7 +267,7 @@ class TransformStampedPair:
     @staticmethod
     def to_ros(gz: Any) -> TransformStamped:
         """Gazebo to ROS."""
-        ros = TransformStamped()
+        ros = blank(TransformStamped)
         fill_header(gz.header, ros.header)
         ros.child_frame_id = header_value(gz.header, CHILD_FRAME_ID)
         fill_transform(gz, ros.transform)
@@ -306,7 +307,7 @@ class TwistStampedPair:
     @staticmethod
     def to_ros(gz: Any) -> TwistStamped:
         """Gazebo to ROS."""
-        ros = TwistStamped()
+        ros = blank(TwistStamped)
         fill_header(gz.header, ros.header)
         fill_twist(gz, ros.twist)
         return ros
@@ -339,7 +340,7 @@ def fill_pose_with_covariance(gz: Any, ros: PoseWithCovariance) -> None:
 
 def pose_with_covariance_to_ros(gz: Any) -> PoseWithCovariance:
     """A ``gz.msgs.PoseWithCovariance`` without its header."""
-    ros = PoseWithCovariance()
+    ros = blank(PoseWithCovariance)
     fill_pose_with_covariance(gz, ros)
     return ros
 
@@ -358,7 +359,7 @@ def fill_twist_with_covariance(gz: Any, ros: TwistWithCovariance) -> None:
 
 def twist_with_covariance_to_ros(gz: Any) -> TwistWithCovariance:
     """A ``gz.msgs.TwistWithCovariance`` without its header."""
-    ros = TwistWithCovariance()
+    ros = blank(TwistWithCovariance)
     fill_twist_with_covariance(gz, ros)
     return ros
 
@@ -376,7 +377,7 @@ class PoseWithCovarianceStampedPair:
     @staticmethod
     def to_ros(gz: Any) -> PoseWithCovarianceStamped:
         """Gazebo to ROS."""
-        ros = PoseWithCovarianceStamped()
+        ros = blank(PoseWithCovarianceStamped)
         fill_header(gz.pose.header, ros.header)
         fill_pose_with_covariance(gz, ros.pose)
         return ros
@@ -397,7 +398,7 @@ class TwistWithCovarianceStampedPair:
     @staticmethod
     def to_ros(gz: Any) -> TwistWithCovarianceStamped:
         """Gazebo to ROS."""
-        ros = TwistWithCovarianceStamped()
+        ros = blank(TwistWithCovarianceStamped)
         fill_header(gz.twist.header, ros.header)
         fill_twist_with_covariance(gz, ros.twist)
         return ros

@@ -8,6 +8,7 @@ from gz.msgs.odometry_pb2 import Odometry as GzOdometry
 from gz.msgs.odometry_with_covariance_pb2 import OdometryWithCovariance
 from nav_msgs.msg import Odometry
 
+from ros_gz_bridge.blank import blank
 from ros_gz_bridge.convert.geometry_msgs import (
     copy_pose,
     copy_pose_with_covariance,
@@ -23,7 +24,7 @@ from ros_gz_bridge.type_pairs import type_pair
 
 
 def _frames_to_ros(gz: Any) -> Odometry:
-    ros = Odometry()
+    ros = blank(Odometry)
     fill_header(gz.header, ros.header)
     ros.child_frame_id = header_value(gz.header, CHILD_FRAME_ID)
     return ros

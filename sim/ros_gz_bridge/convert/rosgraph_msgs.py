@@ -7,6 +7,7 @@ from typing import Any
 from gz.msgs.clock_pb2 import Clock as GzClock
 from rosgraph_msgs.msg import Clock
 
+from ros_gz_bridge.blank import blank
 from ros_gz_bridge.header import fill_stamp, stamp_to_gz
 from ros_gz_bridge.type_pairs import type_pair
 
@@ -18,7 +19,7 @@ class ClockPair:
     @staticmethod
     def to_ros(gz: Any) -> Clock:
         """Gazebo to ROS."""
-        ros = Clock()
+        ros = blank(Clock)
         fill_stamp(gz.sim, ros.clock)
         return ros
 

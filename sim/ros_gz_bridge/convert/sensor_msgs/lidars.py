@@ -10,6 +10,7 @@ from gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
 from gz.msgs.pointcloud_packed_pb2 import PointCloudPacked
 from sensor_msgs.msg import LaserScan, PointCloud2, PointField, Range
 
+from ros_gz_bridge.blank import blank
 from ros_gz_bridge.header import fill_header, fill_stamp, frame_to_ros, header_to_gz
 from ros_gz_bridge.type_pairs import ConversionError, type_pair
 
@@ -31,7 +32,7 @@ class LaserScanPair:
         end = start + count
         if len(ranges) < end:
             raise ConversionError(f"the scan announces {count} beams a layer but carries {len(ranges)} ranges")
-        ros = LaserScan()
+        ros = blank(LaserScan)
         _fill_header(gz, ros.header)
         ros.angle_min = gz.angle_min
         ros.angle_max = gz.angle_max

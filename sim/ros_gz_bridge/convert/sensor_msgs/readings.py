@@ -22,6 +22,7 @@ from sensor_msgs.msg import (
     NavSatStatus,
 )
 
+from ros_gz_bridge.blank import blank
 from ros_gz_bridge.convert.geometry_msgs import VECTOR3, copy_xyz, copy_xyzw, fill_xyz, fill_xyzw
 from ros_gz_bridge.fields import FLOATS, HEADER, INT32S, PLAIN, Fields, add_fields
 from ros_gz_bridge.header import fill_header, frame_to_ros, header_to_gz, header_to_ros
@@ -35,7 +36,7 @@ class ImuPair:
     @staticmethod
     def to_ros(gz: Any) -> Imu:
         """Gazebo to ROS."""
-        ros = Imu()
+        ros = blank(Imu)
         fill_header(gz.header, ros.header)
         fill_xyzw(gz.orientation, ros.orientation)
         fill_xyz(gz.angular_velocity, ros.angular_velocity)
@@ -75,8 +76,9 @@ class JointStatePair:
     def to_ros(gz: Any) -> JointState:
         """Gazebo to ROS."""
         axes = [joint.axis1 for joint in gz.joint]
-        ros = JointState(name=[joint.name for joint in gz.joint])
+        ros = blank(JointState)
         fill_header(gz.header, ros.header)
+        ros.name = [joint.name for joint in gz.joint]
         ros.position = array("d", [axis.position for axis in axes])
         ros.velocity = array("d", [axis.velocity for axis in axes])
         ros.effort = array("d", [axis.force for axis in axes])
