@@ -259,14 +259,17 @@ print((folder.path / "a b/file").exists(), (precious / "file").exists(), oct(pre
 
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root can mount")
-def test_what_is_mounted_in_it_is_not_touched(here, tmp_path_factory):
+def test_what_is_mounted_in_it_is_not_touched(here, tmp_path_factory, monkeypatch):
     precious = tmp_path_factory.mktemp("precious")
     (precious / "file").write_text("x")
     precious.chmod(0o755)
+    base = here / "a name of four"
+    base.mkdir()
     command = [sys.executable, "-c", MOUNTS, str(precious)]
-    done = subprocess.run(command, env=os.environ | {"TMPDIR": str(here)}, capture_output=True, text=True, timeout=60)
+    done = subprocess.run(command, env=os.environ | {"TMPDIR": str(base)}, capture_output=True, text=True, timeout=60)
     assert (done.returncode, done.stdout) == (0, "True True 0o755\n"), done.stderr
-    (folder,) = here.iterdir()
+    (folder,) = base.iterdir()
+    monkeypatch.setattr("tempfile.tempdir", str(base))
     sweep()  # the mount was that process's own, and went with it
     assert (precious / "file").exists() and not folder.exists()
 

@@ -16,13 +16,16 @@ import psutil
 
 from grader.doctor.probe import Probes
 from grader.doctor.verdict import Verdict, fine, warning
+from grader.temporary_folder import OWNER, abandoned
 
 TITLE = "leftovers of earlier runs"
 SHARED_MEMORY = Path("/dev/shm")
 OF_DDS = ("fastrtps_", "fastdds_", "sem.fastrtps_", "sem.fastdds_")
-OF_THE_COURSE = re.compile(r"(course|course-verify|course-doctor|playground)-\w{8}")  # names of temporary folders
+OF_THE_COURSE = re.compile(
+    r"(course(-(class|dask|doctor|given|verify|workers))?|playground)-\w{8}"
+)  # names of temporary folders
 PARTITIONS = ("student-", "grader-", "playground-")  # of Gazebo, in which only runs of the course take part
-OLD = 3600.0  # [s]; a younger folder may be that of a run that goes on
+OLD = 3600.0  # [s]; a younger folder may be that of a run that begins
 SHOWN = 3
 
 
@@ -38,6 +41,11 @@ def examine(probes: Probes) -> Verdict:
             "remove them: `fastdds shm clean`; they come from nodes that were killed",
         )
     folder = Path(tempfile.gettempdir())
+    if dead := abandoned():
+        return warning(
+            f"{_count([path.name for path in dead], 'folder')} in {folder} of runs that were killed",
+            "nothing: the next `course grade` removes them",
+        )
     if folders := old_folders(folder, time.time()):
         names = " ".join(str(folder / name) for name in folders[:SHOWN])
         return warning(
@@ -82,11 +90,14 @@ def _belongs(name: str, used: set[str]) -> bool:
 
 
 def old_folders(folder: Path, now: float) -> list[str]:
-    """Names of our temporary folders of the course that are older than any run; `now` [s] since the epoch."""
+    """Names of our temporary folders of the course that are old and say no owner; `now` [s] since the epoch."""
     return sorted(
         path.name
         for path in _mine(folder)
-        if OF_THE_COURSE.fullmatch(path.name) and path.is_dir() and now - path.lstat().st_mtime > OLD
+        if OF_THE_COURSE.fullmatch(path.name)
+        and path.is_dir()
+        and now - path.lstat().st_mtime > OLD
+        and not (path / OWNER).exists()
     )
 
 

@@ -7,6 +7,7 @@ Wall time decides only how soon that happens.
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
 import signal
 import threading
@@ -129,11 +130,20 @@ def _kilobytes(path: str, names: tuple[str, ...]) -> int:
 
 def _too_full(folder: Path, most_bytes: int, most_files: int) -> bool:
     total = files = 0
-    for where, _, names in os.walk(folder):
-        files += 1 + len(names)
-        for name in names:
-            with contextlib.suppress(OSError):
-                total += Path(where, name).lstat().st_blocks * 512
+    pending = [str(folder)]  # os.walk calls itself for each folder in a folder, and those may be thousands deep
+    while pending:
+        try:
+            with os.scandir(pending.pop()) as entries:
+                for entry in entries:
+                    files += 1
+                    if entry.is_dir(follow_symlinks=False):
+                        pending.append(entry.path)
+                    else:
+                        with contextlib.suppress(OSError):
+                            total += entry.stat(follow_symlinks=False).st_blocks * 512
+        except OSError as error:
+            if error.errno == errno.ENAMETOOLONG:  # deeper than any path reaches: nobody can count that
+                return True
         if total > most_bytes or files > most_files:
             return True
     return False

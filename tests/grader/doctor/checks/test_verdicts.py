@@ -12,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from grader.doctor.checks import disk, installations, leftovers, ros_libraries, ros_log, ros_variables, sandbox, wheels
+from grader.temporary_folder import OWNER, TemporaryFolder, sweep
 
 GB = 1 << 30
 
@@ -158,9 +159,57 @@ sys.stdin.read()
 
 
 def test_old_folders_of_the_course(tmp_path):
-    for name in ("course-abcd1234", "playground-abcd1234", "course-notes", "other-abcd1234"):
+    for name in ("course-abcd1234", "playground-abcd1234", "course-class-abcd1234", "course-notes", "other-abcd1234"):
         (tmp_path / name).mkdir()
+    (tmp_path / "course-class-abcd1234" / OWNER).write_text("")  # a long class may go on in there
     changed = (tmp_path / "course-abcd1234").stat().st_mtime
     os.utime(tmp_path / "playground-abcd1234", (0, 0))
     assert leftovers.old_folders(tmp_path, changed + 1) == ["playground-abcd1234"]
     assert len(leftovers.old_folders(tmp_path, changed + 2 * leftovers.OLD)) == 2
+
+
+def test_the_folder_of_a_killed_run_is_told_and_left_for_the_next_one(tmp_path, monkeypatch):
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    monkeypatch.setattr(leftovers, "SHARED_MEMORY", tmp_path)
+    monkeypatch.setattr(leftovers, "orphaned", lambda process: False)
+    code = "import os\nfrom grader.temporary_folder import *\nTemporaryFolder('course-')\nos.kill(os.getpid(), 9)"
+    subprocess.run([sys.executable, "-c", code], env=os.environ | {"TMPDIR": str(tmp_path)}, timeout=60)
+    verdict = leftovers.examine(None)
+    assert verdict.seen == f"1 folder in {tmp_path} of runs that were killed", verdict
+    assert len(list(tmp_path.iterdir())) == 1
+    with TemporaryFolder("course-"):
+        sweep()
+        assert leftovers.examine(None).status == "ok"
+
+
+# With shared memory of its own, so that only what it leaves lies there.
+KILLED_NODE = """
+import subprocess, sys
+from pathlib import Path
+from grader.doctor.checks import leftovers
+from grader.run.inside import kernel
+kernel.unshare(kernel.CLONE_NEWNS)
+kernel.mount("", "/", flags=kernel.MS_REC | kernel.MS_PRIVATE)
+kernel.mount("shm", "/dev/shm", "tmpfs")
+code = '''
+import os, rclpy
+from std_msgs.msg import String
+rclpy.init()
+node = rclpy.create_node("killed")
+publisher = node.create_publisher(String, "words", 10)
+os.kill(os.getpid(), 9)
+'''
+subprocess.run([sys.executable, "-c", code], stdout=subprocess.DEVNULL)
+left = leftovers.unused_segments(Path("/dev/shm"), set())
+print(any(name.startswith("fastrtps_") for name in left))
+subprocess.run([Path(sys.executable).with_name("fastdds"), "shm", "clean"], stdout=subprocess.DEVNULL, check=True)
+print(leftovers.unused_segments(Path("/dev/shm"), set()))
+"""
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root gets shared memory of its own here")
+def test_what_a_killed_node_leaves_is_found_and_goes_by_what_is_told():
+    environment = os.environ | {"ROS_DOMAIN_ID": "96", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+    command = [sys.executable, "-c", KILLED_NODE]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=120)
+    assert done.stdout.split() == ["True", "[]"], done.stdout + done.stderr

@@ -5,12 +5,14 @@ import os
 import subprocess
 import sys
 import threading
+from functools import partial
 
 import psutil
 import pytest
 
 from grader.run.sandbox import watch as module
 from grader.run.sandbox.watch import DISK, MEMORY, PROCESSES, Watch, descendants
+from grader.temporary_folder import remove
 
 DEADLINE = 20.0
 FAMILY = """
@@ -100,6 +102,27 @@ def test_many_files(others, family, tmp_path):
     for number in range(20):
         (tmp_path / str(number)).touch()
     assert broken(family(0), others, folder=tmp_path, most_bytes=1 << 30, most_files=10) == DISK
+
+
+@pytest.mark.parametrize(
+    ("name", "depth", "files", "answer"), [("d", 400, 300, DISK), ("d", 400, 500, None), ("d" * 250, 20, 99, DISK)]
+)
+def test_folders_in_folders_beyond_count(family, tmp_path, request, name, depth, files, answer):
+    """Deeper than Python can call itself, and deeper than a path is long."""
+    where = os.open(tmp_path, os.O_RDONLY)
+    for _ in range(depth):
+        os.mkdir(name, dir_fd=where)
+        where, before = os.open(name, os.O_RDONLY, dir_fd=where), where
+        os.close(before)
+    os.close(where)
+    request.addfinalizer(partial(sys.setrecursionlimit, sys.getrecursionlimit()))
+    sys.setrecursionlimit(300)
+    process = family(0)
+    watch = Watch(process.pid, process.kill)
+    watch.close()
+    watch._folder, watch._most_bytes, watch._most_files = tmp_path, 1 << 30, files
+    assert watch._look() == answer
+    remove(tmp_path)
 
 
 def test_what_keeps_to_the_limits_is_left_alone(family, tmp_path):
