@@ -1,5 +1,6 @@
-"""A grader that is killed leaves no process behind, however stubborn its submission is."""
+"""A grader that is killed leaves no process behind, however stubborn its submission is, or the next one ends it."""
 
+import contextlib
 import os
 import signal
 import subprocess
@@ -9,6 +10,7 @@ import psutil
 import pytest
 
 from grader.run.sandbox.probe import try_level
+from grader.temporary_folder import sweep
 
 DEADLINE = 30.0
 # Leaves the process group, hears no signal, does not die with its parent.
@@ -33,24 +35,48 @@ sys.stdin.read()
 """
 
 
+@pytest.fixture
+def kill_a_grader(tmp_path):
+    """Start a grader with a stubborn submission at a level, kill it; the processes that it had started."""
+    started = []
+
+    def start_and_kill(level):
+        if level != "D" and (lack := try_level(level)):
+            pytest.skip(f"no level {level} here: {lack}")
+        grader = subprocess.Popen(
+            [sys.executable, "-c", GRADER, level],
+            env=os.environ | {"TMPDIR": str(tmp_path)},  # a grader that is killed cannot remove its folder
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        try:
+            assert grader.stdout.readline() == "['ready', 'ready']\n"
+            started.extend(psutil.Process(grader.pid).children(recursive=True))
+        finally:
+            grader.send_signal(signal.SIGKILL)
+            grader.communicate()
+        return started
+
+    yield start_and_kill
+    for each in started:
+        with contextlib.suppress(psutil.NoSuchProcess):
+            each.kill()
+
+
 @pytest.mark.parametrize("level", ["A", "B"])
-def test_nothing_outlives_a_grader_that_is_killed(level, tmp_path):
-    if lack := try_level(level):
-        pytest.skip(f"no level {level} here: {lack}")
-    grader = subprocess.Popen(
-        [sys.executable, "-c", GRADER, level],
-        env=os.environ | {"TMPDIR": str(tmp_path)},  # a grader that is killed cannot remove its folder
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-    )
-    try:
-        assert grader.stdout.readline() == "['ready', 'ready']\n"
-        below = psutil.Process(grader.pid).children(recursive=True)
-        assert len(below) >= 4  # the box, its process 1, the submission and its child
-        grader.send_signal(signal.SIGKILL)
-        grader.wait()
-        assert psutil.wait_procs(below, timeout=DEADLINE)[1] == []
-    finally:
-        grader.kill()
-        grader.communicate()
+def test_nothing_outlives_a_grader_that_is_killed(level, kill_a_grader):
+    started = kill_a_grader(level)
+    assert len(started) >= 4  # the box, its process 1, the submission and its child
+    assert psutil.wait_procs(started, timeout=DEADLINE)[1] == []
+
+
+@pytest.mark.parametrize("level", ["C", "D"])
+def test_without_walls_the_next_grader_ends_what_outlives_it(level, kill_a_grader, tmp_path, monkeypatch):
+    started = kill_a_grader(level)
+    assert len(started) == 2 and all(each.is_running() for each in started)
+    assert len(list(tmp_path.iterdir())) == 1
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    sweep()
+    assert list(tmp_path.iterdir()) == []
+    assert psutil.wait_procs(started, timeout=DEADLINE)[1] == []
