@@ -14,7 +14,7 @@ from functools import partial
 from pathlib import Path, PurePosixPath
 from typing import NamedTuple
 
-from grader.archive import LARGEST_ARCHIVE, MOST_MEMBERS, Member, Tree, damaged, is_archive, open_archive
+from grader.archive import LARGEST_ARCHIVE, LONGEST_NAME, MOST_MEMBERS, Member, Tree, damaged, is_archive, open_archive
 from grader.errors import RefusedError, UnreadableError, UsageError, nearest
 from grader.exercise import Exercise
 from grader.kinds.kind import find_kind
@@ -68,7 +68,7 @@ def read_submission(exercise: Exercise, path: Path) -> tuple[Path, str, dict[str
 def folder_tree(folder: Path) -> Tree:
     """The regular files below a folder. Symbolic links and junk are left out; no link is followed.
 
-    Raises RefusedError if there are too many to look at.
+    Raises RefusedError if there are too many to look at, or too deep.
     """
     tree: Tree = {}
     seen = 0
@@ -83,6 +83,9 @@ def folder_tree(folder: Path) -> Tree:
         seen += len(folders) + len(names)
         if seen > MOST_MEMBERS:
             raise RefusedError(f"{folder} is too large: it holds more than {MOST_MEMBERS} files")
+        below = parent[len(str(folder)) + 1 :]
+        if len(os.fsencode(below)) > LONGEST_NAME:  # before paths come to their end, or Python to its own
+            raise RefusedError(f"{folder} holds folders in folders too deep: {shown(below, 60)!r}")
         for name in sorted(names):
             path = Path(parent, name)
             inside = path.relative_to(folder).as_posix()

@@ -8,10 +8,11 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from grader.errors import UsageError
+from grader.errors import RefusedError, UsageError
 from grader.exercise import find_exercise
 from grader.intake import LARGEST, LARGEST_FOLDER, MOST_FILES, take_in
 from grader.submission import Submission
+from grader.temporary_folder import remove
 
 
 @pytest.fixture(scope="module")
@@ -104,6 +105,21 @@ def test_a_folder_with_too_much_in_it(exercise, tmp_path):
     for number in range(LARGEST_FOLDER // LARGEST):
         write(tmp_path / f"{number}.bin", bytes(LARGEST))
     refused(exercise, tmp_path, str(tmp_path), "too large", str(LARGEST_FOLDER))
+
+
+@pytest.mark.parametrize(("name", "depth"), [("d", 1100), ("d" * 250, 20)])
+def test_a_folder_with_folders_too_deep(exercise, tmp_path, name, depth):
+    """As an archive with names that long is; Python itself would give up."""
+    write(tmp_path / "teleop_node.py", "x = 1")
+    where = os.open(tmp_path, os.O_RDONLY)
+    for _ in range(depth):
+        os.mkdir(name, dir_fd=where)
+        where, before = os.open(name, os.O_RDONLY, dir_fd=where), where
+        os.close(before)
+    os.close(where)
+    with pytest.raises(RefusedError, match="too deep"):
+        take_in(exercise, tmp_path)
+    remove(tmp_path)
 
 
 def test_without_a_path_the_students_own_copy(exercise):
