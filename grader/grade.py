@@ -11,6 +11,7 @@ from typing import Any
 from grader.errors import UsageError
 from grader.exercise import Exercise, find_exercise
 from grader.intake import take_in
+from grader.output_lock import sole_writer
 from grader.printable import shown
 from grader.record.reading import Recording
 from grader.report.report import HostFacts, Report, TrialReport
@@ -54,12 +55,14 @@ def grade(
 
     `trials` are those of the exercise if None; `seed` is added to the seed of each. `sandbox` is a
     level of `grader.run.sandbox`. `started` is the `time.monotonic()` [s] at which the command began, for the report.
-    Raises UsageError for a submission that cannot be read; one that is wrong is graded, not raised.
+    Raises UsageError for a submission that cannot be read, and if another grader writes into `out` at this moment; a
+    submission that is wrong is graded, not raised.
     """
     started = time.monotonic() if started is None else started
     submission = take_in(exercise, submission_path)
     asked = numbered(trials or exercise.trials, seed)
-    played = [play(exercise, submission, trial, pace, out, sandbox) for trial in asked]
+    with sole_writer(out, exercise.name):
+        played = [play(exercise, submission, trial, pace, out, sandbox) for trial in asked]
     facts = [each.host for each in played if each.host is not None]
     host = HostFacts(
         "; ".join(dict.fromkeys(each.sandbox for each in facts)),
