@@ -17,6 +17,7 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.serialization import serialize_message
 from rclpy.signals import SignalHandlerOptions
 
 from grader.errors import ManifestError
@@ -27,6 +28,7 @@ HOUSEKEEPING = ("/parameter_events", "/rosout")  # topics every node has
 UNKNOWN = "_NODE_NAME_UNKNOWN_"  # what rcl calls the node of an endpoint that has not told it yet
 NAMES, LOOK_AGAIN = 5.0, 0.02  # [s] of wall time for the nodes' names to arrive, and between two looks
 TAP_DEPTH = 1000
+LARGE = 60_000  # [bytes] which one UDP packet holds; a larger message goes in several, and some may be lost
 MOST_AT_ONCE = 1000  # messages taken in one go: a flood does not keep the grader from going on
 NODE = "ros_gz_bridge"
 
@@ -145,6 +147,10 @@ class Ears:
         """Whether the bridge publishes reliably on a topic, so that a reliable subscription hears it."""
         publisher = self._publishers.get(topic)
         return publisher is None or publisher.qos_profile.reliability != ReliabilityPolicy.BEST_EFFORT
+
+    def is_large(self, message: Any) -> bool:
+        """Whether a message crosses the network in several packets, and has a stamp that tells it from the next."""
+        return hasattr(message, "header") and len(serialize_message(message)) > LARGE
 
     def bridged(self) -> list[dict[str, Any]]:
         """Return every bridge as it was set up and how many messages went through it each way."""

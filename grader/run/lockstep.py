@@ -25,6 +25,8 @@ LONG_WAIT = 0.5  # [s] of wall time for one message: a busy machine alone hardly
 GIVING_UP = 3  # after so many times it is paced for the rest of the run
 MATCHING = 5.0  # [s] of wall time for DDS to match the endpoints of a new node; a lost announcement costs 3 s
 CLOCK_AGAIN = 0.05  # [s] /clock is best effort on the student's side, so it is sent again until it was seen
+LOST = 0.1  # [s] nobody is at work, and a message was not taken: then it is sent again
+LOST_PATIENCE = 15.0  # [s] of wall time for a message that gets lost again and again
 LOOK_ROUND = 0.002  # [s] how long to listen to the student before listening to ROS
 CLOCK = "/clock"
 
@@ -45,6 +47,9 @@ class Ears(Protocol):
 
     def reliable(self, topic: str) -> bool:
         """Whether the grader publishes reliably on a topic."""
+
+    def is_large(self, message: Any) -> bool:
+        """Whether a message crosses the network in several packets and says when it was made."""
 
     def matched(self, topic: str, kind: str) -> int:
         """How many remote endpoints of a kind (publisher or subscription) are matched on a topic."""
@@ -194,6 +199,7 @@ class LockStep(RealTime):
         self._now_ns = 0
         self._free = False  # paced at the moment
         self._failures = 0
+        self._copies = 0  # of the message just sent, because it was lost on its way
 
     def await_ready(self) -> bool:
         """As in real time; a node that does not become ready is paced from the start."""
@@ -282,14 +288,15 @@ class LockStep(RealTime):
 
     def _await_settled(self) -> bool:
         """Wait until nothing is on its way and everybody is idle; False if that was in vain."""
-        began = time.monotonic()
+        began, self._copies = time.monotonic(), 0
         settled = self._await_settled_until(began + PATIENCE)
         waited = time.monotonic() - began
-        self.held_seconds += waited if waited > LONG_WAIT else 0.0
+        self.held_seconds += waited if waited > LONG_WAIT and not self._copies else 0.0
         return settled
 
     def _await_settled_until(self, deadline: float) -> bool:
         resend = time.monotonic() + CLOCK_AGAIN
+        lost, give_up = time.monotonic() + LOST, time.monotonic() + LOST_PATIENCE
         while not self._settled():
             if not self.student.running:
                 self._take_last_words()
@@ -304,7 +311,32 @@ class LockStep(RealTime):
                 _, publisher, message = self._pending
                 publisher.publish(message)
                 resend = now + CLOCK_AGAIN
+            if now > lost and self._is_lost():
+                self._send_again()
+                lost = now + LOST
+                deadline = min(now + PATIENCE, give_up) if self._copies else deadline
         return True
+
+    def _is_lost(self) -> bool:
+        """Whether everybody is idle and yet somebody has not taken the message just sent."""
+        if self._pending is None or self._pending[0] == CLOCK:
+            return False
+        topic = self._pending[0]
+        missing = self._due_to_be_taken()[topic] - self._total("taken")[topic] - self._untaken[topic]
+        return missing > 0 and all(p.progress and p.progress.idle for p in self._participants)
+
+    def _send_again(self) -> None:
+        """Send the message once more if all know that they may get it twice; else tell them so."""
+        assert self._pending is not None
+        topic, publisher, message = self._pending
+        if not self.ears.is_large(message):
+            return  # it was not lost; who is to take it does not look
+        unaware = [p for p in self._participants if p.progress and topic not in p.progress.again]
+        for each in unaware:
+            each.tell({"again": topic})
+        if not unaware:
+            publisher.publish(message)
+            self._copies += 1
 
     def close_tick(self, tick: float) -> None:
         """Nothing to wait for in step; nodes that fell out of step get their tick of wall time."""

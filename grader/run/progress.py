@@ -33,6 +33,7 @@ class Progress:
     held: int = 0  # messages that wait to be released
     released: int = 0
     flushes: int = 0  # how often it has asked to be told that everything arrived
+    again: frozenset[str] = frozenset()  # topics of which it expects to get a message twice
     endpoints: tuple[Endpoint, ...] = ()
 
     @staticmethod
@@ -51,6 +52,7 @@ class Progress:
                 held=_count(raw["held"]),
                 released=_count(raw["released"]),
                 flushes=_count(raw["flushes"]),
+                again=frozenset(map(str, raw.get("again", ()))),
                 endpoints=tuple(_endpoint(e) for e in raw["endpoints"])
                 if "endpoints" in raw
                 else before.endpoints

@@ -111,8 +111,12 @@ def _watch_messages(watch: Watch) -> None:
 
     def watched_take(executor: Any, subscription: Any) -> Any:
         callback = take(executor, subscription)
-        if callback is not None:
-            watch.count(watch.taken, watch.topic_of(subscription))
+        if callback is None:
+            return None
+        topic = watch.topic_of(subscription)
+        if lossless.is_copy(subscription, _variables(callback)["msg_tuple"][0]) and topic in watch.again:
+            return None
+        watch.count(watch.taken, topic)
         return callback
 
     def emit(publisher: Any, message: Any) -> None:
@@ -229,8 +233,14 @@ def _took(callback: Any, pair: str) -> bool:
     """
     if callback is None:
         return False
-    variables = dict(zip(callback.__code__.co_freevars, callback.__closure__ or (), strict=False))
-    return pair in variables and None not in variables[pair].cell_contents
+    variables = _variables(callback)
+    return pair in variables and None not in variables[pair]
+
+
+def _variables(callback: Any) -> dict[str, Any]:
+    """What a function took along from where it was defined."""
+    cells = callback.__closure__ or ()
+    return {name: cell.cell_contents for name, cell in zip(callback.__code__.co_freevars, cells, strict=False)}
 
 
 def print_traceback(error: BaseException) -> None:

@@ -8,8 +8,9 @@
 `endpoints` is there only when it changed; `clock` is the smallest simulated time any spinning node has been told;
 `taken` and `published` count messages since the start, the latter only while somebody listened, and `delivered` how
 many readers they had. Requests and responses count as messages on "request NAME" and "response NAME". When `flushes`
-grows, the process waits for an answer before it takes a publisher down. The grader advances simulated time only when
-those numbers show that everything was taken.
+grows, the process waits for an answer before it takes a publisher down. `again` names the topics, once there are some,
+on which the grader has announced to send a message once more; copies are dropped (`lossless.py`). The grader advances
+simulated time only when those numbers show that everything was taken.
 
 Several processes that send each other messages would be a race. So when the grader says `hold`, what a process sends
 is kept in it, in order, and leaves one message at a time when the grader says `release`: at any moment there is one
@@ -67,6 +68,7 @@ class Watch:
         self._awaited: set[int] = set()  # id(publisher) of those whose match was waited for
         self._started: dict[int, threading.Event] = {}  # id(thread pool) -> its last callback was taken up
         self._last_report = ""
+        self.again: set[str] = set()  # topics whose messages the grader may send twice
         self._flushes = 0
         self._flushed = -1  # what was sent when the last flush was answered
 
@@ -126,6 +128,9 @@ class Watch:
             self._let_go()
         elif "release" in order:
             self._send_next()
+            self.report()
+        elif "again" in order:
+            self.again.add(order["again"])
             self.report()
         elif "look" in order:
             with self._lock:
@@ -278,6 +283,8 @@ class Watch:
                 "released": self._released,
                 "flushes": self._flushes,
             }
+            if self.again:
+                report["again"] = sorted(self.again)
             if self._endpoints != self._reported_endpoints:
                 report["endpoints"] = self._reported_endpoints = self._endpoints
             text = json.dumps(report)
