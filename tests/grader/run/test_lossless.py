@@ -1,12 +1,18 @@
 """Pictures and clouds, dozens of UDP packets each, reach best-effort subscriptions whole, and grading stays in step."""
 
 import shutil
+import struct
 import textwrap
+from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 from grader.record.reading import Recording
+from grader.run import lockstep
+from grader.run.box.course_box.lossless import is_copy
+from grader.run.progress import Progress
 from grader.run.sandbox import environment
 
 # The kernel bounds how much a socket holds, and less than a picture is usual. Here it is a packet or two.
@@ -16,6 +22,11 @@ from grader.run.sandbox import environment
 environment.PROFILES = pathlib.Path({profiles!r})
 """
 ROOM, PICTURE = Path("/proc/sys/net/core/rmem_max"), 640 * 480 * 3  # [bytes]
+# A copy follows a large message at once, whether it is needed or not.
+ALWAYS_AGAIN = """
+from grader.run import lockstep
+lockstep.LOST = 0.0
+"""
 CAMERA = "<horizontal_fov>1.2</horizontal_fov><image><width>{}</width><height>{}</height></image>"
 SENSORS = {
     "camera": ("camera", f"<camera>{CAMERA.format(640, 480)}<clip><near>0.1</near><far>30</far></clip></camera>"),
@@ -155,7 +166,7 @@ def test_nothing_large_is_lost_however_little_the_sockets_hold(course_folder, gr
     reliable = (bridge := course_folder / "exercises/01_look/bridge.yaml").read_text()
     if int(ROOM.read_text()) > 2 * PICTURE:  # then not even a best-effort publisher loses anything
         bridge.write_text(reliable.replace("gz.msgs.Image,", "gz.msgs.Image, qos_profile: SENSOR_DATA,"))
-    plain = grading(tmp_path / "plain", "01", submission, **variables)
+    plain = grading(tmp_path / "plain", "01", submission, prelude=ALWAYS_AGAIN, **variables)
     bridge.write_text(reliable)
     small = SMALL_SOCKETS.format(profiles=str(profiles))
     narrow = grading(tmp_path / "narrow", "01", submission, "--sandbox", "D", prelude=small, **variables)
@@ -167,3 +178,90 @@ def test_nothing_large_is_lost_however_little_the_sockets_hold(course_folder, gr
     # What the student's node asked for is what is judged, not how it is delivered.
     asked = {e["topic"]: e["reliability"] for e in Recording(narrow.recording).facts()["endpoints"]}
     assert asked["/camera"] == asked["/cloud/points"] == "BEST_EFFORT"
+
+
+class Listener:
+    """A process of the submission that takes a picture only when it was sent often enough."""
+
+    gone = starting = waiting_for_release = wants_answer = False
+    progress = Progress(clock=1)
+
+    def __init__(self):
+        self.told = []
+
+    def tell(self, order):
+        self.told.append(order)
+        if "again" in order:
+            self.progress = replace(self.progress, again=frozenset({order["again"]}))
+
+
+@pytest.fixture
+def sending(monkeypatch):
+    """Send a message to a listener that gets only the last of `sendings`; how it went."""
+    monkeypatch.setattr(lockstep, "LOST", 0.0)
+    monkeypatch.setattr(lockstep, "PATIENCE", 0.2)
+    monkeypatch.setattr(lockstep, "LONG_WAIT", 0.0)
+
+    def call(sendings, large=True):
+        listener, sent = Listener(), []
+
+        def publish(message):
+            sent.append(message)
+            if len(sent) == sendings:
+                listener.progress = replace(listener.progress, taken={"/camera": 1})
+
+        student = SimpleNamespace(
+            running=True, starting=False, layout=(1,), endpoints=(), participants=[listener], followed=[listener],
+            wait=lambda seconds: False,
+        )  # fmt: skip
+        ears = SimpleNamespace(
+            received={}, pump=lambda: None, listens=lambda topic: None, matched=lambda topic, kind: 1,
+            is_large=lambda message: large,
+        )  # fmt: skip
+        pace = lockstep.LockStep(student, ears)
+        pace._layout, pace._participants = student.layout, [listener]
+        pace.send("/camera", SimpleNamespace(publish=publish), "picture", 1)
+        pace.settle()
+        pace.close_tick(0.001)
+        return SimpleNamespace(sent=sent, told=listener.told, pace=pace)
+
+    return call
+
+
+def test_a_lost_picture_is_announced_and_sent_again_until_it_is_taken(sending):
+    sent = sending(4)
+    assert sent.sent == ["picture"] * 4
+    assert sent.told == [{"again": "/camera"}]
+    assert (sent.pace.paced_ticks, sent.pace.held_seconds) == (0, 0.0), "the network was slow, not the student"
+
+
+def test_a_small_message_that_is_not_taken_is_not_lost_but_left(sending):
+    sent = sending(2, large=False)
+    assert sent.sent == ["picture"]
+    assert (sent.told[:1], sent.pace.paced_ticks) == ([{"free": True}], 1)
+    assert sent.pace.held_seconds > 0
+
+
+def test_a_picture_that_never_gets_through_is_given_up(sending, monkeypatch):
+    monkeypatch.setattr(lockstep, "LOST_PATIENCE", 0.3)
+    sent = sending(0)
+    assert len(sent.sent) > 2
+    assert sent.pace.paced_ticks == 1
+
+
+@pytest.mark.parametrize("raw", [False, True])
+def test_a_copy_has_the_stamp_of_the_one_before(raw):
+    camera, other = (SimpleNamespace(msg_type=SimpleNamespace(header=None)) for _ in range(2))
+
+    def picture(nanosec):
+        if raw:
+            return b"\0\1\0\0" + struct.pack("<iI", 7, nanosec) + b"frame and pixels"
+        return SimpleNamespace(header=SimpleNamespace(stamp=SimpleNamespace(sec=7, nanosec=nanosec)))
+
+    asked = [(camera, 1), (camera, 1), (other, 1), (camera, 2), (camera, 2), (camera, 2), (camera, 3)]
+    assert [is_copy(who, picture(stamp)) for who, stamp in asked] == [False, True, False, False, True, True, False]
+
+
+def test_what_has_no_stamp_is_never_a_copy():
+    number = SimpleNamespace(msg_type=SimpleNamespace)
+    assert not any(is_copy(number, 5) for _ in range(2))
