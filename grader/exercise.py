@@ -92,7 +92,7 @@ def exercise_names(root: Path) -> list[str]:
 
 
 def find_exercise(name: str, root: Path | None = None) -> Exercise:
-    """Return an exercise by its name, or by an unambiguous beginning of it such as `03`.
+    """Return an exercise by its name, its number, or an unambiguous beginning of its name such as `03_tel`.
 
     Raises UsageError naming the nearest if there is none, ManifestError if its manifest is wrong.
     """
@@ -100,8 +100,14 @@ def find_exercise(name: str, root: Path | None = None) -> Exercise:
     names = exercise_names(root)
     if not names:
         raise UsageError(f"there are no exercises in {root / 'exercises'}; COURSE_ROOT must name a course's folder")
-    matches = [n for n in names if n == name] or [n for n in names if name and n.startswith(name)]
+    begin = f"{int(name):02d}_" if name.isascii() and name.isdigit() and len(name) < 3 else name
+    matches = [n for n in names if n == name] or [n for n in names if name and n.startswith(begin)]
     if len(matches) != 1:
+        if meant := [part for part in Path(name).parts if part in names]:
+            raise UsageError(
+                f"{name!r} is a path (did you mean {meant[-1]}?): first comes an exercise's name; what is to be "
+                "graded, if not the file in its folder, is given with --submission"
+            )
         reason = "several exercises begin with" if len(matches) > 1 else "no exercise is called"
         raise UsageError(f"{reason} {name!r}{nearest(name, matches or names)}; `course list` shows them all")
     return load_exercise(root / "exercises" / matches[0])

@@ -169,6 +169,7 @@ def test_an_exercise_is_found_by_name_and_by_its_beginning(folder, tmp_path):
         folder(name=name)
     assert find_exercise("02", tmp_path).name == "02_two"
     assert find_exercise("02_two", tmp_path).name == "02_two"
+    assert find_exercise("2", tmp_path).name == "02_two"
     assert find_exercise("01_one", tmp_path).name == "01_one", "a whole name is no ambiguous beginning"
 
 
@@ -179,6 +180,13 @@ def test_a_name_nobody_has_is_answered_with_the_nearest(folder, tmp_path):
         find_exercise("03_telepo", tmp_path)
     with pytest.raises(UsageError, match="no exercise is called ''"):
         find_exercise("", tmp_path)
+
+
+@pytest.mark.parametrize("path", ["exercises/03_teleop", "exercises/03_teleop/teleop_node.py", "/a/03_teleop/"])
+def test_a_path_is_no_name(folder, tmp_path, path):
+    folder(name="03_teleop")
+    with pytest.raises(UsageError, match=r"is a path \(did you mean 03_teleop\?\).*--submission"):
+        find_exercise(path, tmp_path)
 
 
 def test_an_ambiguous_beginning_is_refused(folder, tmp_path):

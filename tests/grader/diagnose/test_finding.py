@@ -17,12 +17,14 @@ from grader.diagnose.system import (
     RosEndpoint,
     RosNode,
     RosSide,
+    RunningBridge,
     System,
     names,
     nearest_topic,
     users,
 )
 from grader.diagnose.world_text import DEFAULT_SYSTEMS, WorldText
+from ros_gz_bridge.entry import BridgeEntry, Direction
 
 
 def test_nothing_is_wrong_with_nothing():
@@ -83,6 +85,18 @@ def test_frames_unknown_to_the_transforms():
     (found,) = (each for each in findings(System(side, GzSide())) if each.kind == "unknown_frame")
     assert found.sentence == "Messages on /lost are in the frame sonar, which /tf does not know."
     assert found.severity is Severity.WARNING
+
+
+@pytest.mark.parametrize(("direction", "evidence"), [("GZ_TO_ROS", ("bridged from /gz/a",)), ("ROS_TO_GZ", ())])
+def test_only_what_a_bridge_brings_to_ros_is_said_to_come_from_it(direction, evidence):
+    from sensor_msgs.msg import Range
+
+    kind = "sensor_msgs/msg/Range"
+    entry = BridgeEntry("/a", "/gz/a", kind, "gz.msgs.LaserScan", Direction(direction))
+    side = RosSide(bridges=[RunningBridge("/ros_gz_bridge", (entry,))])
+    side.heard["/a"] = Heard("/a", kind, 1, False, [HeardMessage(0.0, None, Range())])
+    (found,) = (each for each in findings(System(side, GzSide())) if each.kind == "empty_frames")
+    assert found.evidence == evidence
 
 
 def test_a_node_without_parameter_services_is_not_called_silent():
