@@ -84,6 +84,7 @@ class ClassRun:
         """
         with ExitStack() as stack:
             journal = stack.enter_context(self._open())
+            sweep()  # what an earlier run left that was killed
             local = dask is None
             executor, slots, gone = self._here(jobs, stack) if local else stack.enter_context(dask_executor(dask or ""))
             results: dict[str, Result] = {}
@@ -142,7 +143,6 @@ class ClassRun:
     def _here(self, jobs: int, stack: ExitStack) -> tuple[Executor, int, Callable[[], bool]]:
         """Threads of this process, each of which waits for one grading."""
         level = choose(self.sandbox, self.demand)  # once, so that all submissions get the same
-        sweep()  # what an earlier run left that was killed
         try:
             folder = stack.enter_context(TemporaryFolder("course-class-"))
         except OSError as error:

@@ -23,7 +23,7 @@ import psutil
 
 from grader import bundle
 from grader.printable import shown
-from grader.temporary_folder import TemporaryFolder
+from grader.temporary_folder import TemporaryFolder, sweep
 
 PR_SET_CHILD_SUBREAPER = 36
 LARGEST_FILE = 256 << 20  # [bytes] of a recording or report that is brought back
@@ -119,6 +119,8 @@ def gradings_end_here() -> Iterator[None]:
 def grade_one(setup: Setup, job: Job) -> Graded:
     """Grade one submission; called in a thread of this process or of a Dask worker."""
     ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1)  # should a grading be killed, its orphans become ours to sweep
+    if setup.folder is None:  # nobody else looks after what killed workers of Dask have left
+        sweep()
     try:
         temporary = TemporaryFolder("course-class-", setup.folder)
     except OSError as error:

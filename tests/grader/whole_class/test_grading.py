@@ -93,6 +93,9 @@ def test_when_its_worker_is_killed_a_grading_ends_at_once(grade_one, endless, tm
     for each in alive:
         each.kill()
     assert alive == []
+    (left,) = (tmp_path / "tmp").iterdir()
+    assert came_out(grade_one(endless, "--pace", "sideways"))[0] is None
+    assert not left.exists(), "the next worker removes what this one could not"
 
 
 def test_all_gradings_end_with_the_block(tmp_path):
