@@ -20,6 +20,7 @@ from nbclient import NotebookClient
 ROOT = Path(__file__).parents[2]
 NOTEBOOKS = sorted((ROOT / "chapters").glob("*/*.ipynb"))
 CELL_DEADLINE = 120  # [s]
+LONGEST_LINE = 88  # [characters] of code
 FEWEST_PREDICTIONS = 4
 FEWEST_PICTURES = 3
 PREDICTION, DESCRIPTION, CHECK = "> **Predict.**", "**In the picture:**", "## Check my work"
@@ -89,6 +90,12 @@ def test_is_committed_without_traces_of_a_run(path):
         if cell.cell_type == "code":
             assert (cell.outputs, cell.execution_count) == ([], None), f"cell {cell.id} has been run"
     assert str(ROOT) not in path.read_text() and str(Path.home()) not in path.read_text()
+
+
+@each_notebook
+def test_no_line_of_code_is_too_long_to_be_seen(path):
+    lines = [(cell.id, line) for cell in code_cells(path) for line in cell.source.splitlines()]
+    assert [each for each in lines if len(each[1]) > LONGEST_LINE] == []
 
 
 @each_notebook
