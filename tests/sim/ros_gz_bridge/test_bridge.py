@@ -21,6 +21,7 @@ from ros_gz_bridge.qos_profile import QOS_PROFILES, depth_of, qos
 
 TWIST = ("geometry_msgs/msg/Twist", "gz.msgs.Twist")
 SCAN = ("sensor_msgs/msg/LaserScan", "gz.msgs.LaserScan")
+with_and_without_threads = pytest.mark.parametrize("threaded", [False, True], ids=["one thread", "threads"])
 
 
 class Stage:
@@ -73,8 +74,9 @@ def stage(ros, eventually):
     new.close()
 
 
-def test_a_command_reaches_gazebo(stage, inbox):
-    bridge = stage.bridge(stage.entry(direction=Direction.ROS_TO_GZ))
+@with_and_without_threads
+def test_a_command_reaches_gazebo(stage, inbox, eventually, threaded):
+    bridge = stage.bridge(stage.entry(direction=Direction.ROS_TO_GZ), threaded=threaded)
     commands = inbox()
     stage.gz.subscribe(GzTwist, stage.topic, commands)
     twist = Twist()
@@ -82,6 +84,7 @@ def test_a_command_reaches_gazebo(stage, inbox):
     stage.ros_publisher(Twist).publish(twist)
     (command,) = commands.wait(1)
     assert (command.linear.x, command.angular.z) == (0.5, -0.25)
+    eventually(lambda: bridge.status()[0].ros_to_gz, "it is counted")
     (status,) = bridge.status()
     assert (status.ros_to_gz, status.gz_to_ros, status.dropped, status.last_error) == (1, 0, 0, None)
 
@@ -162,8 +165,9 @@ def test_a_message_that_cannot_be_converted_is_dropped_with_its_reason(stage):
     assert f"gz.msgs.Image on {stage.topic} was not bridged: the pixel format RGB_FLOAT32" in status.last_error
 
 
-def test_both_ways_without_echo_and_without_losing_repeats(stage, inbox, eventually):
-    bridge = stage.bridge(stage.entry())
+@with_and_without_threads
+def test_both_ways_without_echo_and_without_losing_repeats(stage, inbox, eventually, threaded):
+    bridge = stage.bridge(stage.entry(), threaded=threaded)
     at_gz, at_ros = inbox(), inbox()
     stage.gz.subscribe(GzTwist, stage.topic, at_gz)
     stage.ros_subscription(Twist, at_ros)
@@ -264,8 +268,9 @@ def test_a_lazy_bridge_listens_only_while_somebody_listens_to_it(stage, inbox, e
     assert not list(stage.node.timers)
 
 
-def test_a_lazy_bridge_to_gazebo_listens_only_while_somebody_listens_to_it(stage, inbox, eventually):
-    stage.bridge(stage.entry(direction=Direction.ROS_TO_GZ, lazy=True), heartbeat=0.02)
+@with_and_without_threads
+def test_a_lazy_bridge_to_gazebo_listens_only_while_somebody_listens_to_it(stage, inbox, eventually, threaded):
+    stage.bridge(stage.entry(direction=Direction.ROS_TO_GZ, lazy=True), heartbeat=0.02, threaded=threaded)
     commands = inbox()
     publisher = stage.ros_publisher(Twist, listeners=0)
     assert publisher.get_subscription_count() == 0
@@ -277,8 +282,9 @@ def test_a_lazy_bridge_to_gazebo_listens_only_while_somebody_listens_to_it(stage
     eventually(lambda: publisher.get_subscription_count() == 0, "the bridge disconnects")
 
 
-def test_a_lazy_bridge_both_ways_is_not_kept_awake_by_itself(stage, inbox, eventually):
-    bridge = stage.bridge(stage.entry(lazy=True), heartbeat=0.02)
+@with_and_without_threads
+def test_a_lazy_bridge_both_ways_is_not_kept_awake_by_itself(stage, inbox, eventually, threaded):
+    bridge = stage.bridge(stage.entry(lazy=True), heartbeat=0.02, threaded=threaded)
     to_ros = bridge._to_ros[0]
     subscription = stage.ros_subscription(Twist, inbox())
     eventually(lambda: to_ros.connected and bridge._to_gz[0].connected, "both ways connect")
@@ -297,11 +303,12 @@ def endpoints(stage):
     )
 
 
-def test_close_gives_everything_back_and_a_new_bridge_works(stage, inbox):
+@with_and_without_threads
+def test_close_gives_everything_back_and_a_new_bridge_works(stage, inbox, threaded):
     before = endpoints(stage)
     entries = [stage.entry(lazy=True), BridgeEntry(f"{stage.topic}/s", f"{stage.topic}/s", *SCAN)]
     for _ in range(3):
-        with stage.bridge(*entries) as bridge:
+        with stage.bridge(*entries, threaded=threaded) as bridge:
             assert endpoints(stage) != before
         bridge.close()
         assert endpoints(stage) == before
