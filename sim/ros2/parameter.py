@@ -49,7 +49,8 @@ class NodeParameters:
         client = self._graph.node.create_client(kind, f"{self.node}/{service}")
         if not self._graph.wait_for(client.service_is_ready):
             raise CommandError(f"The node {self.node} has no parameter services")
-        return call(self._graph, client, request, ANSWER_DEADLINE)
+        hint = f"; the node {self.node} does not spin, is busy in a callback, or was killed: ros2 node list"
+        return call(self._graph, client, request, ANSWER_DEADLINE, hint)
 
     def names(self, prefixes: Sequence[str] = ()) -> list[str]:
         """All parameters, or those below these prefixes, sorted."""

@@ -36,10 +36,10 @@ def nearest_service(graph: Graph, name: str) -> str:
     return did_you_mean(name, (service for service in offered if service != name))
 
 
-def call(graph: Graph, client: Any, request: Any, timeout: float | None) -> Any:
+def call(graph: Graph, client: Any, request: Any, timeout: float | None, hint: str = "") -> Any:
     """The response of a service that is there; CommandError if it goes away or is silent for `timeout` seconds.
 
-    `timeout` None: only if it goes away.
+    `timeout` None: only if it goes away. `hint` ends the sentence about a silent service.
     """
     future = client.call_async(request)
     gone = False
@@ -51,7 +51,7 @@ def call(graph: Graph, client: Any, request: Any, timeout: float | None) -> Any:
 
     answered = graph.spin_until(decided, timeout)
     if not answered:
-        raise CommandError(f"The service {client.srv_name} has not answered within {timeout:g} s")
+        raise CommandError(f"The service {client.srv_name} has not answered within {timeout:g} s{hint}")
     if gone:
         raise CommandError(f"The service {client.srv_name} has gone without an answer")
     return future.result()

@@ -1,5 +1,7 @@
 """`ros2 param` against a node with parameters of every kind."""
 
+import sys
+
 import pytest
 import yaml
 from hypothesis import given
@@ -203,3 +205,34 @@ NAMES = st.text("ab.", min_size=1, max_size=6).filter(lambda name: all(name.spli
 @given(st.dictionaries(NAMES, st.integers(), max_size=8))
 def test_nested_and_flat_are_each_others_reverse(parameters):
     assert flat(nested(parameters)) == parameters
+
+
+BUSY_NODE = """
+import os, signal
+import rclpy
+from rclpy.node import Node
+
+class Busy(Node):
+    def get_parameter(self, name):
+        if name == "speed":
+            {act}
+        return super().get_parameter(name)
+
+rclpy.init()
+node = Busy("busy")
+node.declare_parameter("speed", 1.5)
+print("up", flush=True)
+rclpy.spin(node)
+"""
+
+
+@pytest.mark.parametrize("act", ["os.kill(os.getpid(), signal.SIGKILL)", "signal.pause()"])
+def test_a_node_that_ends_or_hangs_while_it_is_asked_is_told_in_time(start, act, ros_domain):
+    node = start("-c", BUSY_NODE.format(act=act), command=(sys.executable,))
+    node.wait_for("up")
+    code, output, errors = start("param", "get", "/busy", "speed").wait()
+    assert (code, output) == (1, "")
+    assert errors == (
+        "The service /busy/get_parameters has not answered within 5 s; the node /busy does not spin, is busy in a "
+        "callback, or was killed: ros2 node list\n"
+    )

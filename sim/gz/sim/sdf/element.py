@@ -26,7 +26,9 @@ MOST_ELEMENTS = 500_000
 """A file with more elements is refused; a world of 3000 models has 100,000."""
 
 _OPENING = re.compile(r"<!--|<!\[CDATA\[|<\?xml")
+_CLOSING_TAG = re.compile(r"</\s*([^\s<>/]+)")
 _CLOSING = {"<!-": "-->", "<?x": "?>", "<![": "]]>"}
+_UNIT = re.compile(r"\d\s*(m|mm|cm|km|kg|g|deg|degrees|rad|s|ms|°|N|Nm)\b|°")
 _TRUE = {"true", "1"}
 _FALSE = {"false", "0"}
 
@@ -118,11 +120,12 @@ class Element:
         words = self.text.split()
         wanted = "a number" if count == 1 else f"{count} numbers"
         if len(words) != count:
-            raise self.error(f"<{self.tag}> needs {wanted}, got '{self.text}'")
+            raise self.error(f"<{self.tag}> needs {wanted}, got '{self.text}'{_advice(self, count)}")
         try:
             values = [float(word) for word in words]
         except ValueError:
-            raise self.error(f"<{self.tag}> needs {wanted}, got '{self.text}'") from None
+            text = f"<{self.tag}> needs {wanted}, got '{self.text}'{_advice(self, count)}"
+            raise self.error(text) from None
         if any(math.isnan(value) for value in values):
             raise self.error(f"<{self.tag}> must not be NaN, got '{self.text}'")
         return values
@@ -147,6 +150,22 @@ class Element:
         if not np.all(np.isfinite(pose.position)):
             raise self.error(f"<pose> must be finite, got '{self.text}'")
         return pose
+
+
+def _advice(element: Element, count: int) -> str:
+    """Return what to change in a text that is not `count` numbers, or nothing."""
+    text = element.text
+    if "${" in text or "$(" in text:
+        return "; this is xacro, which is expanded in files whose name ends with .xacro"
+    if "," in text:
+        return "; write blanks between numbers and a point before decimals, no commas"
+    if _UNIT.search(text):
+        return "; write the number alone: lengths are in m, masses in kg, angles in rad, times in s"
+    if len(text.split()) == 1 and element.tag in ("scale", "gravity"):
+        return f"; write '0 0 {text}'" if element.tag == "gravity" else f"; write '{text} {text} {text}'"
+    if count == 6:
+        return "; they are x y z (m) and roll pitch yaw (rad)"
+    return ""
 
 
 def parse(text: str, file: str = "<string>") -> Element:
@@ -189,7 +208,12 @@ def parse(text: str, file: str = "<string>") -> Element:
     parser.EndElementHandler = end
     parser.CharacterDataHandler = characters
     parser.EntityDeclHandler = entity
-    blanked = _blanked(text.removeprefix("\ufeff"))
+    text = text.removeprefix("\ufeff")
+    first = text.split(maxsplit=1)[0] if text.strip() else ""
+    if not first.startswith("<"):
+        what = f"it begins with '{first[:20]}'" if first else "it is empty"
+        raise SdfError(f"{file}:1: this is no XML: {one_line(what)}, but an SDF or URDF begins with '<'")
+    blanked = _blanked(text, file)
     # Leading white space goes (expat wants the root first) but its lines still count.
     body = blanked.lstrip()
     skipped = blanked[: len(blanked) - len(body)].count("\n")
@@ -199,14 +223,17 @@ def parse(text: str, file: str = "<string>") -> Element:
         what = xml.parsers.expat.errors.messages.get(error.code, "malformed")
         if stack:
             what += f", while <{stack[-1].tag}> (opened on line {stack[-1].line}) was open"
-        raise SdfError(
-            f"{file}:{error.lineno}: this is not well-formed XML ({what}); check that every tag is closed and quoted"
-        ) from None
+        closing = _CLOSING_TAG.search(blanked.split("\n")[error.lineno - 1], max(0, error.offset - 2))
+        if what.startswith("mismatched tag") and closing is not None:
+            what += f" and </{closing[1]}> was met; write </{stack[-1].tag}> before it"
+        else:
+            what += "; check that every tag is closed and every attribute quoted"
+        raise SdfError(f"{file}:{error.lineno}: this is not well-formed XML: {what}") from None
     return roots[0]
 
 
-def _blanked(text: str) -> str:
-    """Replace comments and XML declarations by their line breaks."""
+def _blanked(text: str, file: str) -> str:
+    """Replace comments and XML declarations by their line breaks; raise `SdfError` for a comment without an end."""
     kept: list[str] = []
     done = 0
     for opening in _OPENING.finditer(text):
@@ -214,6 +241,9 @@ def _blanked(text: str) -> str:
             continue
         closing = _CLOSING[opening.group()[:3]]
         end = text.find(closing, opening.end())
+        if end < 0 and closing == "-->":
+            line = text.count("\n", 0, opening.start()) + 1
+            raise SdfError(f"{file}:{line}: the comment that begins here with <!-- has no end; close it with -->")
         if end < 0:
             break  # whatever follows stays as it is: the parser will complain at the right line
         end += len(closing)

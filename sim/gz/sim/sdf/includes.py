@@ -12,7 +12,7 @@ from pathlib import Path
 
 from gz.sim.errors import Diagnostics, ResourceError, SdfError
 from gz.sim.pose import Pose
-from gz.sim.sdf import vocabulary
+from gz.sim.sdf import plausibility, vocabulary
 from gz.sim.sdf.element import Element, parse
 from gz.sim.sdf.resources import find_model, read_text
 from gz.sim.sdf.urdf.convert import sdf_of_robot
@@ -57,11 +57,14 @@ def read_root(text: str, file: str, diagnostics: Diagnostics) -> Element:
     root = parse(text, file)
     restore_places(root)
     if root.tag == "robot":
+        plausibility.check_origins(root, diagnostics)
         root = sdf_of_robot(root, diagnostics)
     elif root.tag != "sdf":
-        raise root.error(f"the outermost element must be <sdf> or <robot>, got <{root.tag}>")
+        text = f"the outermost element must be <sdf> or <robot>, got <{root.tag}>"
+        raise root.error(f"{text}; put it between <sdf version='1.10'> and </sdf>")
     sdf_version(root)
     vocabulary.check(root, diagnostics)
+    plausibility.check(root, diagnostics)
     return root
 
 

@@ -23,6 +23,7 @@ from gz.sim.sdf.resources import find_file
 FULLER = 0.1
 """A hull that is larger than its mesh by more than this part is worth a sentence."""
 _LARGEST = 1e6  # [m]
+_LONGEST_MOVING = 20.0  # [m]; a longer thing that moves is rather a drawing in millimetres
 _SMALLEST_AREA = 1e-12  # [m^2]
 
 
@@ -57,6 +58,9 @@ def read_mesh_shape(shape: Element, owner: Element, moving: bool, diagnostics: D
     if not np.max(np.abs(mesh.vertices)) < _LARGEST:
         diagnostics.warn(shape.where, f"the mesh {path} is larger than {_LARGEST:g} m, {left_out}; check its <scale>")
         return None
+    if moving and np.max(extent) > _LONGEST_MOVING:
+        text = f"the mesh {path.name} is {np.max(extent):g} m long; if its file is in millimetres, add to <mesh>: "
+        diagnostics.warn(shape.where, f"{text}<scale>0.001 0.001 0.001</scale>")
     if fuller > FULLER:
         text = f"<collision> '{owner.name}' touches as the convex hull of {path.name}, which is "
         text += f"{fuller:.0%} larger than the mesh" if math.isfinite(fuller) else "filled where the mesh is open"

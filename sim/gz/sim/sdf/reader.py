@@ -14,6 +14,7 @@ import numpy as np
 
 from gz.sim.errors import Diagnostics
 from gz.sim.pose import Pose
+from gz.sim.sdf import plausibility
 from gz.sim.sdf.description import Light, Model, WorldDescription
 from gz.sim.sdf.element import Element
 from gz.sim.sdf.frames import Scope
@@ -152,6 +153,9 @@ class _WorldReader:
         for part in joints:
             if not joint_to_skipped(part.element, scope, self._includes, self._diagnostics):
                 description.joints.append(read_world_joint(part.element, scope, description.models, part.version))
+        held = {end.partition("::")[0] for joint in description.joints for end in (joint.parent, joint.child)}
+        for model in description.models:
+            plausibility.check_model(model, model.name in held, self._diagnostics)
 
     def _parts(self, world: Element) -> list[Opened]:
         chain = () if world.folder is None else (Path(world.file).resolve(),)

@@ -49,6 +49,10 @@ def find_world(name: str | Path) -> Path:
             for candidate in (folder / each, folder / "worlds" / each):
                 if _is_file(candidate):
                     return candidate
+    if Path(text).is_dir():
+        inside = sorted(path.name for path in Path(text).glob("*.sdf"))[:3]
+        hint = f", for example {Path(text) / inside[0]}" if inside else ""
+        raise ResourceError(f"'{text}' is a folder, not a world file; name a file in it{hint}")
     known = {path.name for folder in folders for path in _worlds_in(folder)}
     raise ResourceError(
         f"world file '{text}' was not found as a path, in GZ_SIM_RESOURCE_PATH, or among the built-in worlds; "

@@ -223,6 +223,12 @@ CHILDREN: dict[str, frozenset[str]] = {
 }
 """Child elements by parent. A parent that is not here is not looked into."""
 
+_MOST_HOMES = 3
+"""An element that can stand in more places is not sent there."""
+
+_RARE_HOMES = frozenset(("actor", "model_state", "link_state", "joint_state", "light_state", "collision_state"))
+_CHILDREN_LISTING = "elements that can stand there are"
+
 _NAMED = (
     "world model actor joint link collision visual sensor light frame camera battery projector road population gripper "
     "trajectory animation particle_emitter model_state link_state joint_state light_state collision_state"
@@ -272,7 +278,15 @@ def check(root: Element, diagnostics: Diagnostics) -> None:
         if count >= _MOST_REPORTED:
             diagnostics.warn(root.where, f"more than {_MOST_REPORTED} words are unknown to SDF, the rest is not named")
             return
-        diagnostics.warn(where, f"{sentence}, it is ignored; {nearest(word, known, listing=listing)}")
+        diagnostics.warn(where, f"{sentence}, it is ignored; {_hint(word, known, listing)}")
+
+
+def _hint(word: str, known: frozenset[str], listing: str) -> str:
+    """Return where an element belongs that is right elsewhere, else the nearest word that can stand at its place."""
+    homes = sorted(parent for parent, children in CHILDREN.items() if word in children and parent not in _RARE_HOMES)
+    if listing == _CHILDREN_LISTING and 0 < len(homes) <= _MOST_HOMES:
+        return f"it belongs into {' or '.join(f'<{home}>' for home in homes)}"
+    return nearest(word, known, listing=listing)
 
 
 def _unknown(root: Element) -> Iterator[tuple[str, str, str, frozenset[str], str]]:
@@ -297,5 +311,5 @@ def _unknown(root: Element) -> Iterator[tuple[str, str, str, frozenset[str], str
                 below.append(child)
             else:
                 sentence = f"<{element.tag}> has no element <{child.tag}>"
-                yield child.where, sentence, child.tag, known, "elements that can stand there are"
+                yield child.where, sentence, child.tag, known, _CHILDREN_LISTING
         waiting.extend(reversed(below))

@@ -37,7 +37,10 @@ class Pinhole:
             )
         self.hfov = camera.number("horizontal_fov", 1.047)
         if not 0.01 <= self.hfov <= 3.14:
-            raise camera.error(f"<horizontal_fov> must be between 0.01 and 3.14 rad, got {self.hfov}")
+            text = f"<horizontal_fov> must be between 0.01 and 3.14 rad, got {self.hfov}"
+            if 3.14 < self.hfov < 180.0:
+                text += f"; {self.hfov:g} degrees are {math.radians(self.hfov):.4f} rad"
+            raise (camera.find("horizontal_fov") or camera).error(text)
         clip = camera.find("clip")
         self.near = clip.number("near", 0.1) if clip is not None else 0.1
         self.far = clip.number("far", 100.0) if clip is not None else 100.0

@@ -186,7 +186,7 @@ def test_names_that_are_taken(load_text: Load) -> None:
         (lambda w: w.spawn("<sdf version='1.9'><model name='x'><link></model></sdf>"), "<spawned>:1: .*well-formed"),
         (lambda w: w.spawn("<sdf version='1.9'/>"), "no <model> or <light>"),
         (lambda w: w.spawn("<sdf version='1.9'><model name='x'/></sdf>"), "no link"),
-        (lambda w: w.spawn(""), "well-formed"),
+        (lambda w: w.spawn(""), "this is no XML"),
         (lambda w: w.spawn(box("new"), pose=Pose((math.nan, 0, 0))), "not finite"),
         (lambda w: w.spawn(box("new"), pose=Pose((0, 0, 0), (2, 0, 0, 0))), "unit quaternion"),
         (lambda w: w.spawn(box("new", inside="<plugin filename='gz-sim-diff-drive-system' name='x'/>")), "left_joint"),

@@ -38,7 +38,8 @@ def robot(name: str, *inside: str, x: float = 0.0) -> str:
 
 def sensor(name: str, kind: str, topic: str = "", inside: str = "") -> str:
     stated = f"\n<topic>{topic}</topic>" if topic else ""
-    return f"<link name='{name}_link'><sensor name='{name}' type='{kind}'>{stated}{inside}</sensor></link>"
+    joint = f"<joint name='{name}_joint' type='fixed'><parent>base</parent><child>{name}_link</child></joint>"
+    return f"<link name='{name}_link'><sensor name='{name}' type='{kind}'>{stated}{inside}</sensor></link>{joint}"
 
 
 @pytest.fixture

@@ -28,9 +28,7 @@ def test_what_strict_parsers_refuse_is_read_with_its_lines() -> None:
     [
         ("<sdf>\n<world>\n</sdf>", 3),
         ("<sdf>\n<world name=w/></sdf>", 2),
-        ("", 1),
         ("<sdf>", 1),
-        ("no xml at all", 1),
         ("<sdf>&#0;</sdf>", 1),
     ],
 )
@@ -39,6 +37,61 @@ def test_malformed_xml_is_one_sentence_with_the_line(text: str, line: int) -> No
         parse(text, "broken.sdf")
     message = str(caught.value)
     assert message.startswith(f"broken.sdf:{line}: ") and "well-formed" in message and "\n" not in message
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("", "f.sdf:1: this is no XML: it is empty, but an SDF or URDF begins with '<'"),
+        ("model:\n  name: m", "f.sdf:1: this is no XML: it begins with 'model:', but an SDF or URDF begins with '<'"),
+        (
+            "<sdf>\n<!-- ground --\n<world/>\n</sdf>",
+            "f.sdf:2: the comment that begins here with <!-- has no end; close it with -->",
+        ),
+        (
+            "<sdf>\n<world>\n</sdf>",
+            "f.sdf:3: this is not well-formed XML: mismatched tag, while <world> (opened on line 2) "
+            "was open and </sdf> was "
+            "met; write </world> before it",
+        ),
+        (
+            "<sdf><a/><b></c></sdf>",
+            "f.sdf:1: this is not well-formed XML: mismatched tag, while <b> (opened on line 1) was "
+            "open and </c> was met; "
+            "write </b> before it",
+        ),
+        (
+            "<sdf>\n<world name=w/></sdf>",
+            "f.sdf:2: this is not well-formed XML: not well-formed (invalid token), while <sdf> "
+            "(opened on line 1) was open; "
+            "check that every tag is closed and every attribute quoted",
+        ),
+    ],
+)
+def test_malformed_xml_says_what_to_do(text: str, sentence: str) -> None:
+    with pytest.raises(SdfError) as caught:
+        parse(text, "f.sdf")
+    assert str(caught.value) == sentence
+
+
+@pytest.mark.parametrize(
+    ("text", "advice"),
+    [
+        ("<size>1,1,1</size>", "; write blanks between numbers and a point before decimals, no commas"),
+        ("<scale>0.5</scale>", "; write '0.5 0.5 0.5'"),
+        ("<gravity>-9.8</gravity>", "; write '0 0 -9.8'"),
+        ("<size>${length} 1 1</size>", "; this is xacro, which is expanded in files whose name ends with .xacro"),
+        (
+            "<size>1m 2m 3m</size>",
+            "; write the number alone: lengths are in m, masses in kg, angles in rad, times in s",
+        ),
+        ("<size>1 2</size>", ""),
+    ],
+)
+def test_numbers_that_are_none_come_with_advice(text: str, advice: str) -> None:
+    with pytest.raises(SdfError) as caught:
+        parse(text, "f.sdf").floats(3)
+    assert str(caught.value).partition("'")[2].partition("'")[2] == advice
 
 
 def test_an_entity_bomb_does_not_go_off() -> None:

@@ -50,7 +50,7 @@ def test_a_merged_include_puts_its_parts_beside_it(shelf: Path) -> None:
     )
     model = world.models[0]
     poses = {link.name: link.pose for link in model.links}
-    assert warnings == [] and model.nested == []
+    assert ["'tip'" in each for each in warnings] == [True] and model.nested == []
     assert list(poses) == ["base", "upper", "lower", "tip", "side"]
     assert poses["upper"].position == pytest.approx((0, 1, 1))
     assert poses["lower"].position == pytest.approx((0, 2, 1))
@@ -82,7 +82,7 @@ def test_merged_includes_nest(shelf: Path) -> None:
     world, warnings = read(
         "<model name='m'><include merge='true'><uri>model://twice</uri><pose>9 0 0 0 0 0</pose></include></model>"
     )
-    assert warnings == []
+    assert all("no <joint> connects" in each for each in warnings)
     assert [(each.name, tuple(each.pose.position)) for each in world.models[0].links] == [
         ("l", (9, 0, 0)),
         ("upper", (10, 0, 1)),

@@ -32,12 +32,13 @@ def test_built_in_worlds_load_without_a_warning(name: str) -> None:
 
 def test_an_unknown_element_is_one_warning_with_the_nearest_word_and_the_rest_runs() -> None:
     world, warnings = read(
-        "<model name='m'><link name='l'>\n<colision name='c'/><visual name='v'><geometry><sphere>"
+        "<model name='m'><static>true</static><link name='l'>\n<colision name='c'/><visual name='v'><geometry><sphere>"
         "<raduis>1</raduis>"
         "</sphere></geometry></visual></link></model>"
     )
-    assert len(warnings) == 2
+    assert len(warnings) == 3
     assert warnings[0].startswith("f.sdf:4: ") and "did you mean 'collision'" in warnings[0]
+    assert "<sphere> has no <radius>, so it has the default size" in warnings[2]
     assert "did you mean 'radius'" in warnings[1]
     assert world.models[0].links[0].visuals[0].geometry.kind == "sphere"  # type: ignore[attr-defined]
 
@@ -251,7 +252,8 @@ def test_values_that_change_nothing_are_not_mentioned(inside: str) -> None:
 )
 def test_colours(material: str, rgba: tuple[float, ...]) -> None:
     shape = "<geometry><sphere><radius>1</radius></sphere></geometry>"
-    world, warnings = read(f"<model name='m'><link name='l'><visual name='v'>{shape}{material}</visual></link></model>")
+    visual = f"<visual name='v'>{shape}{material}</visual>"
+    world, warnings = read(f"<model name='m'><static>1</static><link name='l'>{visual}</link></model>")
     assert world.models[0].links[0].visuals[0].rgba == pytest.approx(rgba) and warnings == []  # type: ignore[attr-defined]
 
 

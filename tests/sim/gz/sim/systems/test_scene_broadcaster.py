@@ -240,6 +240,7 @@ def test_a_useless_name_for_the_answer_is_one_sentence(
     ear: Callable[..., Ear], caplog: pytest.LogCaptureFixture
 ) -> None:
     made = ear(topics={})
+    caplog.clear()
     for name in ("", "a b", "/nobody"):
         made.call("state_async", Empty, StringMsg(data=name))
     assert [record.levelname for record in caplog.records] == ["ERROR", "ERROR"]

@@ -147,9 +147,9 @@ NONSENSE = [
     (
         "create",
         'sdf: \'<sdf version="1.9"><model name="x"><link></model></sdf>\'',
-        "<create>:1: this is not well-formed",
+        "<create>:1: this is this is no XML",
     ),
-    ("create", "sdf: 'hello'", "not well-formed"),
+    ("create", "sdf: 'hello'", "this is no XML"),
     ("create", EntityFactory(sdf=BOX, pose=PoseMessage(position={"x": math.nan})), "not finite"),  # type: ignore[arg-type]
     ("create", EntityFactory(sdf=BOX, relative_to="tabel"), "no model 'tabel'"),
     ("create", "sdf_filename: 'ground_plne'", "did you mean 'ground_plane'"),

@@ -183,7 +183,7 @@ def test_materials_by_name_and_in_place() -> None:
         "<material name='half'><color rgba='0.4 0 0 0.5'/></material>"
         f"<link name='base'>{MASS.format(1)}<visual>{BOX}<material name='half'/></visual>"
         f"<visual>{BOX}<material name='own'><color rgba='0 0.8 0 1'/></material></visual>"
-        f"<visual>{BOX}<material name='hlf'/></visual></link>"
+        f"<visual>{BOX}<material name='hlf'/></visual><collision>{BOX}</collision></link>"
     )
     colours = [visual.rgba for visual in model.links[0].visuals]
     assert colours[0] == pytest.approx((0.5, 0, 0, 0.5)) and colours[1] == pytest.approx((0, 1, 0, 1))
@@ -225,7 +225,7 @@ def test_a_mesh_is_found_in_a_ros_package(tmp_path: Path, monkeypatch: pytest.Mo
     mesh = "<geometry><mesh filename='package://robot_description/meshes/{}' scale='2 2 2'/></geometry>"
     model, warnings = read(
         f"<link name='base'>{MASS.format(1)}<visual>{mesh.format('a.obj')}</visual><visual>\n"
-        f"{mesh.format('b.obj')}</visual></link>"
+        f"{mesh.format('b.obj')}</visual><collision>{BOX}</collision></link>"
     )
     assert len(model.links[0].visuals) == 1 and model.links[0].visuals[0].geometry.kind == "mesh"
     assert len(warnings) == 1

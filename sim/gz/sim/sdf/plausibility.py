@@ -1,0 +1,178 @@
+"""Says so when a file states what SDF allows but hardly anybody means: degrees for radians, a size at the wrong place,
+a wheel without inertia, a robot that nothing can hold.
+
+Part of the reader: `gz.sim.sdf.includes` asks for the elements of every file, `gz.sim.sdf.reader` for every model that
+was read. Nothing is changed; the world runs as it is written.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from itertools import chain
+
+from gz.sim.errors import Diagnostics
+from gz.sim.sdf.description import Model
+from gz.sim.sdf.element import Element
+from gz.sim.sdf.vocabulary import CHILDREN
+
+Found = Iterator[tuple[str, str]]
+"""Places and sentences."""
+
+NEWEST_VERSION = (1, 12)
+MOST_RADIANS = 6.5
+"""A larger angle in a pose is more than a turn; people mean degrees."""
+DEGREES = frozenset(range(15, 361, 15))
+"""Limits of joints that people mean in degrees; other large ones are joints of several turns."""
+_NEEDED = {
+    "box": ("size",),
+    "sphere": ("radius",),
+    "cylinder": ("radius", "length"),
+    "capsule": ("radius", "length"),
+    "cone": ("radius", "length"),
+    "ellipsoid": ("radii",),
+}
+"""What a shape is nothing without; SDF has a default for all of it."""
+_NO_TEXT = frozenset((*_NEEDED, *["plane", "mesh", "geometry", "visual", "link", "inertial", "inertia", "axis"]))
+_AXIS_NEEDED = frozenset(("revolute", "continuous", "prismatic", "screw"))
+
+
+def check(root: Element, diagnostics: Diagnostics) -> None:
+    """Warn about the elements of an SDF tree, or of a URDF."""
+    waiting = [root]
+    while waiting:
+        element = waiting.pop()
+        for where, sentence in chain(_stray_text(element), _RULES.get(element.tag, _nothing)(element)):
+            diagnostics.warn(where, sentence)
+        waiting.extend(child for child in reversed(element.children) if child.tag not in ("plugin", "gui"))
+
+
+def check_origins(robot: Element, diagnostics: Diagnostics) -> None:
+    """Warn about the angles of a URDF; its other elements are looked at when it has become SDF."""
+    for element in (*robot.all("link"), *robot.all("joint")):
+        for holder in (element, *element.children):
+            for origin in holder.all("origin"):
+                for where, sentence in _angles(origin, _numbers(origin.attributes.get("rpy", "")), ""):
+                    diagnostics.warn(where, sentence)
+
+
+def _stray_text(element: Element) -> Found:
+    if element.tag in _NO_TEXT and element.text:
+        known = ", ".join(f"<{tag}>" for tag in sorted(CHILDREN.get(element.tag, ())))
+        yield element.where, f"the text '{element.text}' in <{element.tag}> is ignored; what can stand there is {known}"
+
+
+def _nothing(element: Element) -> Found:
+    return iter(())
+
+
+def _shape(element: Element) -> Found:
+    missing = [tag for tag in _NEEDED[element.tag] if not element.text_of(tag)]
+    if missing:
+        names = " and no ".join(f"<{tag}>" for tag in missing)
+        yield element.where, f"<{element.tag}> has no {names}, so it has the default size; add what is missing"
+
+
+def _pose(element: Element) -> Found:
+    if element.attributes.get("degrees", "false").lower() in ("true", "1"):
+        return
+    angles = _numbers(element.text)[3:] if element.attributes.get("rotation_format", "euler_rpy") == "euler_rpy" else []
+    yield from _angles(element, angles, "; or write <pose degrees='true'>")
+
+
+def _angles(element: Element, angles: list[float], otherwise: str) -> Found:
+    large = [angle for angle in angles if MOST_RADIANS < abs(angle) < math.inf]
+    if large:
+        text = f"<{element.tag}> turns by {large[0]:g} rad, which is more than once round; angles are in radians: "
+        yield element.where, f"{text}{large[0]:g} degrees are {math.radians(large[0]):.4f}{otherwise}"
+
+
+def _version(element: Element) -> Found:
+    version = element.attributes.get("version", "")
+    if version and tuple(map(int, version.split("."))) > NEWEST_VERSION:
+        newest = ".".join(map(str, NEWEST_VERSION))
+        yield (
+            element.where,
+            f"there is no version {version} of SDF, the file is read as {newest}; write version='{newest}'",
+        )
+
+
+def _colour(element: Element) -> Found:
+    numbers = _numbers(element.text)
+    if any(2.0 < number <= 255.0 for number in numbers[:3]):
+        scaled = " ".join(f"{number / 255.0:.3g}" for number in numbers[:3])
+        yield element.where, f"<{element.tag}> is {element.text}, but colours go from 0 to 1; write '{scaled} 1'"
+
+
+def _joint(element: Element) -> Found:
+    kind = element.attributes.get("type", "")
+    if kind in _AXIS_NEEDED and element.find("axis") is None and element.text_of("child"):
+        text = f"joint '{element.name}' is {kind} and has no <axis>, so it moves about or along z"
+        yield element.where, f"{text}; add for example <axis><xyz>0 1 0</xyz></axis>"
+    limit = element.find("axis/limit")
+    if kind != "revolute" or limit is None:
+        return
+    stated = [_numbers(limit.text_of(tag)) for tag in ("lower", "upper")]
+    values = [value for numbers in stated for value in numbers if value]
+    if values and all(abs(value) in DEGREES for value in values):
+        text = f"the limits of joint '{element.name}' are {' and '.join(f'{value:g}' for value in values)} rad"
+        yield (
+            limit.where,
+            f"{text}; were degrees meant? {values[-1]:g} degrees are {math.radians(values[-1]):.4f} rad",
+        )
+
+
+def _sensor(element: Element) -> Found:
+    rate = element.find("update_rate")
+    if rate is not None and any(number < 0.0 for number in _numbers(rate.text)):
+        text = f"<update_rate> of sensor '{element.name}' is {rate.text} Hz, so it measures at every step"
+        yield rate.where, f"{text}; write how often a second, or 0 for every step"
+    for plugin in element.all("plugin"):
+        shown = plugin.attributes.get("filename") or plugin.name
+        text = f"plugin '{shown}' inside of sensor '{element.name}' is ignored with all its parameters"
+        if "gazebo_ros" in shown:
+            text += ", it is of Gazebo Classic"
+        text += "; a system of the world publishes the sensor: <topic> and <gz_frame_id> belong directly into <sensor>"
+        yield plugin.where, text
+
+
+_RULES: dict[str, Callable[[Element], Found]] = {
+    **dict.fromkeys(_NEEDED, _shape),
+    "pose": _pose,
+    **dict.fromkeys(("ambient", "diffuse", "specular", "emissive"), _colour),
+    "joint": _joint,
+    "sdf": _version,
+    "sensor": _sensor,
+}
+
+
+def _numbers(text: str) -> list[float]:
+    try:
+        return [float(word) for word in text.split()]
+    except ValueError:
+        return []  # the reader says so
+
+
+def check_model(model: Model, held: bool, diagnostics: Diagnostics) -> None:
+    """Warn about a model that moves but lacks what moving needs; `held` tells whether the world holds it by a joint."""
+    if model.static:
+        return
+    links = {link.name: link for link in model.links}
+    for joint in model.joints:
+        link = links.get(joint.child)
+        if joint.kind != "fixed" and link is not None and link.collisions and link.element.find("inertial") is None:
+            text = f"link '{link.name}' has no <inertial>, so it has a mass of 1 kg and moments of inertia of 1 kg m^2 "
+            text += (
+                f"(SDF's default), and joint '{joint.name}' moves slowly; state both or write <inertial auto='true'/>"
+            )
+            diagnostics.warn(link.element.where, text)
+    joined = {end for joint in model.joints for end in (joint.parent, joint.child)}
+    loose = [link for link in model.links if link.name not in joined]
+    if model.joints and loose:
+        text = f"no <joint> connects link '{loose[0].name}' with the rest of model '{model.name}', so it falls off"
+        diagnostics.warn(loose[0].element.where, f"{text}; add one, for example of type fixed")
+    held = held or any(joint.parent == "world" for joint in model.joints)
+    seen, solid = (any(getattr(link, parts) for link in model.links) for parts in ("visuals", "collisions"))
+    if seen and not solid and not held and any(link.gravity for link in model.links):
+        text = f"model '{model.name}' can be seen but has no <collision>, so it falls through the ground; add one, or "
+        diagnostics.warn(model.element.where, f"{text}write <static>true</static>")
