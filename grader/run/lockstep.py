@@ -14,10 +14,10 @@ import time
 from collections import Counter
 from typing import Any, Protocol
 
-from grader.run.box.course_box.watch import HOUSEKEEPING, qos_can_match
+from grader.run.box.course_box.watch import HOUSEKEEPING
 from grader.run.children import START_UP
+from grader.run.matching import can_match, will_match
 from grader.run.participant import Participant
-from grader.run.progress import Endpoint
 from grader.run.student import Student
 
 PATIENCE = 3.0  # [s] of wall time a node may need for one message before it is paced
@@ -53,26 +53,6 @@ class Ears(Protocol):
 
     def matched(self, topic: str, kind: str) -> int:
         """How many remote endpoints of a kind (publisher or subscription) are matched on a topic."""
-
-
-def can_match(endpoint: Endpoint, ears: Ears) -> bool:
-    """Whether DDS will ever connect this endpoint with the grader's."""
-    ours = ears.listens if endpoint.kind == "publisher" else ears.publishes
-    if endpoint.kind == "subscription" and endpoint.reliability == "RELIABLE" and not ears.reliable(endpoint.topic):
-        return False
-    return ours(endpoint.topic) == endpoint.type and qos_can_match(
-        endpoint.kind, endpoint.reliability, endpoint.durability
-    )
-
-
-def will_match(publisher: Endpoint, subscription: Endpoint) -> bool:
-    """Whether DDS will connect a publisher with a subscription of the student's own."""
-    return (
-        publisher.topic == subscription.topic
-        and publisher.type == subscription.type
-        and not (publisher.reliability == "BEST_EFFORT" and subscription.reliability == "RELIABLE")
-        and not (publisher.durability == "VOLATILE" and subscription.durability == "TRANSIENT_LOCAL")
-    )
 
 
 class RealTime:

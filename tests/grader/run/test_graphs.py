@@ -13,7 +13,7 @@ from std_msgs.msg import Float64, String
 from grader.run.domain import Domain
 from grader.run.ears import Ears
 from grader.run.graphs import both_graphs
-from grader.run.lockstep import can_match
+from grader.run.matching import can_match
 from grader.run.progress import Endpoint
 from grader.run.sandbox import ros_environment
 from gz.transport import Node, NodeOptions, Scope

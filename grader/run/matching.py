@@ -1,0 +1,34 @@
+"""Which endpoints DDS is going to connect: lock-step waits for those matches, and for no others.
+
+Called by `lockstep.py`, for what the submission's processes say about their endpoints.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from grader.run.box.course_box.watch import qos_can_match
+from grader.run.progress import Endpoint
+
+if TYPE_CHECKING:
+    from grader.run.lockstep import Ears
+
+
+def can_match(endpoint: Endpoint, ears: Ears) -> bool:
+    """Whether DDS will ever connect this endpoint with the grader's."""
+    ours = ears.listens if endpoint.kind == "publisher" else ears.publishes
+    if endpoint.kind == "subscription" and endpoint.reliability == "RELIABLE" and not ears.reliable(endpoint.topic):
+        return False
+    return ours(endpoint.topic) == endpoint.type and qos_can_match(
+        endpoint.kind, endpoint.reliability, endpoint.durability
+    )
+
+
+def will_match(publisher: Endpoint, subscription: Endpoint) -> bool:
+    """Whether DDS will connect a publisher with a subscription of the student's own."""
+    return (
+        publisher.topic == subscription.topic
+        and publisher.type == subscription.type
+        and not (publisher.reliability == "BEST_EFFORT" and subscription.reliability == "RELIABLE")
+        and not (publisher.durability == "VOLATILE" and subscription.durability == "TRANSIENT_LOCAL")
+    )
