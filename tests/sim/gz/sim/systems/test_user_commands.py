@@ -147,7 +147,7 @@ NONSENSE = [
     (
         "create",
         'sdf: \'<sdf version="1.9"><model name="x"><link></model></sdf>\'',
-        "<create>:1: this is this is no XML",
+        "<create>:1: this is not well-formed",
     ),
     ("create", "sdf: 'hello'", "this is no XML"),
     ("create", EntityFactory(sdf=BOX, pose=PoseMessage(position={"x": math.nan})), "not finite"),  # type: ignore[arg-type]
