@@ -11,7 +11,7 @@ from gz.msgs.dvl_tracking_target_pb2 import DVLTrackingTarget
 from gz.msgs.dvl_velocity_tracking_pb2 import DVLVelocityTracking
 from marine_acoustic_msgs.msg import Dvl
 
-from ros_gz_bridge.convert.geometry_msgs import copy_xyz, vector_to_ros
+from ros_gz_bridge.convert.geometry_msgs.poses import copy_xyz, vector_to_ros
 from ros_gz_bridge.header import header_to_gz, header_to_ros
 from ros_gz_bridge.type_pairs import type_pair
 

@@ -9,13 +9,15 @@ from gz.msgs.odometry_with_covariance_pb2 import OdometryWithCovariance
 from nav_msgs.msg import Odometry
 
 from ros_gz_bridge.blank import blank
-from ros_gz_bridge.convert.geometry_msgs import (
+from ros_gz_bridge.convert.geometry_msgs.poses import (
     copy_pose,
     copy_pose_with_covariance,
-    copy_twist,
-    copy_twist_with_covariance,
     fill_pose,
     fill_pose_with_covariance,
+)
+from ros_gz_bridge.convert.geometry_msgs.twists import (
+    copy_twist,
+    copy_twist_with_covariance,
     fill_twist,
     fill_twist_with_covariance,
 )

@@ -10,14 +10,14 @@ from gz.msgs.clock_pb2 import Clock as GzClock
 from gz.msgs.image_pb2 import Image as GzImage
 from gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
 from gz.msgs.twist_pb2 import Twist as GzTwist
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Image, LaserScan
 
 from gz.transport import MessageInfo, Node, NodeOptions, Scope
 from ros_gz_bridge.arguments import parse_argument
 from ros_gz_bridge.bridge import Bridge, BridgeEntry, BridgeError, Direction, HeaderOverrides
-from ros_gz_bridge.qos_profile import QOS_PROFILES, depth_of, qos
+from ros_gz_bridge.qos_profile import QOS_PROFILES
 
 TWIST = ("geometry_msgs/msg/Twist", "gz.msgs.Twist")
 SCAN = ("sensor_msgs/msg/LaserScan", "gz.msgs.LaserScan")
@@ -392,21 +392,6 @@ def test_a_heavy_message_does_not_delay_another_topic(stage, inbox):
     assert bridge.status()[0].skipped == 9, "a queue of ten, and the one it was at"
     bridge.close()
     assert not camera._lane._thread.is_alive()
-
-
-@pytest.mark.parametrize(
-    ("profile", "reliability", "durability", "depth"),
-    [
-        ("CLOCK", ReliabilityPolicy.BEST_EFFORT, DurabilityPolicy.VOLATILE, 1),
-        ("SENSOR_DATA", ReliabilityPolicy.BEST_EFFORT, DurabilityPolicy.VOLATILE, 5),
-        ("ROSOUT", ReliabilityPolicy.RELIABLE, DurabilityPolicy.TRANSIENT_LOCAL, 1000),
-        ("SYSTEM_DEFAULT", ReliabilityPolicy.SYSTEM_DEFAULT, DurabilityPolicy.SYSTEM_DEFAULT, 1),
-        (None, ReliabilityPolicy.RELIABLE, DurabilityPolicy.VOLATILE, 10),
-    ],
-)
-def test_the_profiles_are_those_of_ros(profile, reliability, durability, depth):
-    chosen = qos(profile, depth_of(profile))
-    assert (chosen.reliability, chosen.durability, chosen.depth) == (reliability, durability, depth)
 
 
 @pytest.mark.parametrize("profile", sorted(QOS_PROFILES))

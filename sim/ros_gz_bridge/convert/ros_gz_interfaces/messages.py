@@ -26,7 +26,8 @@ from ros_gz_interfaces.msg import (
 )
 from std_msgs.msg import String, UInt32
 
-from ros_gz_bridge.convert.geometry_msgs import POSE, VECTOR3, WRENCH, not_finite
+from ros_gz_bridge.convert.geometry_msgs.poses import POSE, VECTOR3
+from ros_gz_bridge.convert.geometry_msgs.twists import WRENCH, not_finite
 from ros_gz_bridge.fields import (
     COLOR,
     DOUBLES,

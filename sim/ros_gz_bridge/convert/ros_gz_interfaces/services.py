@@ -10,7 +10,8 @@ from gz.msgs.pose_pb2 import Pose
 from gz.msgs.world_control_pb2 import WorldControl
 from ros_gz_interfaces.srv import ControlWorld, DeleteEntity, SetEntityPose, SpawnEntity
 
-from ros_gz_bridge.convert.geometry_msgs import copy_pose, not_finite
+from ros_gz_bridge.convert.geometry_msgs.poses import copy_pose
+from ros_gz_bridge.convert.geometry_msgs.twists import not_finite
 from ros_gz_bridge.convert.ros_gz_interfaces.messages import ENTITY
 from ros_gz_bridge.header import stamp_to_gz
 from ros_gz_bridge.type_pairs import ConversionError, service_types

@@ -23,7 +23,7 @@ from sensor_msgs.msg import (
 )
 
 from ros_gz_bridge.blank import blank
-from ros_gz_bridge.convert.geometry_msgs import VECTOR3, copy_xyz, copy_xyzw, fill_xyz, fill_xyzw
+from ros_gz_bridge.convert.geometry_msgs.poses import VECTOR3, copy_xyz, copy_xyzw, fill_xyz, fill_xyzw
 from ros_gz_bridge.fields import FLOATS, HEADER, INT32S, PLAIN, Fields, add_fields
 from ros_gz_bridge.header import fill_header, frame_to_ros, header_to_gz, header_to_ros
 from ros_gz_bridge.type_pairs import ConversionError, type_pair
