@@ -81,6 +81,10 @@ class DiffDrive(System):
         self._reports = OdometryReports(scope, element)
         self._model = model
         self._sides = [_joints(model, plugin, side) for side in ("left_joint", "right_joint")]
+        both = sorted(set(self._sides[0]) & set(self._sides[1]))
+        if both:
+            text = f"DiffDrive of model '{scope.full_name}' has joint '{both[0]}' on the left and on the right; "
+            world.diagnostics.warn(element.where, f"{text}name another joint in one of them")
         for side in self._sides:
             if _skids(model, side, radius):
                 text = f"DiffDrive of model '{scope.full_name}' has wheels one behind the other: it must skid to turn; "

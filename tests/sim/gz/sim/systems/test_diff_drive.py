@@ -213,6 +213,16 @@ def test_wrong_parameters_are_refused_at_their_line(old: str, new: str, sentence
     assert str(caught.value).startswith("robot.sdf:")
 
 
+def test_a_joint_on_both_sides_is_named() -> None:
+    world = robot_world(
+        lambda text: text.replace(
+            "<right_joint>right_wheel_joint</right_joint>", "<right_joint>left_wheel_joint</right_joint>"
+        )
+    )
+    (warning,) = [text for text in world.warnings if "DiffDrive" in text]
+    assert "has joint 'left_wheel_joint' on the left and on the right; name another joint" in warning
+
+
 def test_a_misspelt_parameter_is_a_warning_and_the_default_holds() -> None:
     world = robot_world(lambda text: text.replace("odom_publish_frequency", "odom_publisher_frequency"))
     warnings = [text for text in world.warnings if "odom_publisher_frequency" in text]
