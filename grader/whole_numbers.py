@@ -1,8 +1,8 @@
-"""Finds the places where a Python file gives a whole number to a field of a message that holds floating-point numbers.
+"""Finds the places where a Python file gives a whole number or a text to a field of a message that holds floats.
 
 rclpy does not convert it, and without ROS_PYTHON_CHECK_FIELDS=1 it does not complain either: `twist.linear.x = 1` is
-sent as 0. Kinds of submissions that are Python put what is found into the facts of a run; the diagnosis speaks of it
-if a check failed (`grader/score/score.py`).
+sent as 0, and so is "0.5". Kinds of submissions that are Python put what is found into the facts of a run; the
+diagnosis speaks of it if a check failed (`grader/score/score.py`).
 """
 
 from __future__ import annotations
@@ -62,8 +62,10 @@ def whole_numbers(content: bytes, fields: dict[str, set[str]]) -> list[dict[str,
 
 def _places(tree: ast.Module, fields: dict[str, set[str]]) -> Iterator[dict[str, Any]]:
     known = _constants(tree)
-    # A field named only `data` belongs to whole numbers, too, if the file uses such a message.
-    others = any(isinstance(n, ast.alias) and n.name.startswith(("Int", "UInt", "Bool")) for n in ast.walk(tree))
+    # A field named only `data` belongs to whole numbers or texts, too, if the file uses such a message.
+    others = any(
+        isinstance(n, ast.alias) and n.name.startswith(("Int", "UInt", "Bool", "String")) for n in ast.walk(tree)
+    )
     paths = {path for owner in fields.values() for path in owner if "." in path or (len(owner) == 1 and not others)}
     for node in ast.walk(tree):
         if isinstance(node, ast.Assign | ast.AnnAssign):
@@ -101,10 +103,10 @@ def _constants(tree: ast.Module) -> set[str]:
 
 
 def _whole(node: ast.expr, known: set[str]) -> bool:
-    """Is this certainly, or in one of its branches, a whole number other than zero?"""
+    """Is this certainly, or in one of its branches, a whole number other than zero, or a text?"""
     match node:
         case ast.Constant(value=value):
-            return type(value) is int and value != 0
+            return (type(value) is int and value != 0) or isinstance(value, str)
         case ast.UnaryOp(op=ast.USub() | ast.UAdd(), operand=operand):
             return _whole(operand, known)
         case ast.BinOp(op=ast.Add() | ast.Sub() | ast.Mult(), left=left, right=right):

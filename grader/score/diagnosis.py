@@ -69,11 +69,11 @@ def diagnose(recording: Recording) -> str:
 
 
 def whole_number_fault(recording: Recording) -> str:
-    """Return one sentence about a field of floating-point numbers that was given a whole one; empty if none was."""
+    """Return one sentence about a field of floats that was given a whole number or a text; empty if none was."""
     for place in recording.facts().get("whole_numbers", []):
         return shown(
-            f"{place['file']}, line {place['line']}: {place['field']} = {place['value']} is a whole number, but the "
-            "field holds a float; rclpy does not convert it and sends 0: write a number with a point, or float(...)."
+            f"{place['file']}, line {place['line']}: {place['field']} = {place['value']} is no float, but the "
+            "field holds one; rclpy does not convert it and sends 0: write a number with a point, or float(...)."
         )
     return ""
 

@@ -44,7 +44,9 @@ MEANINGS = (
         "that is the class: with brackets, {0}(), it makes a message",
     ),
     (
-        re.compile(r"TypeError: Expected <class '[\w.]+\.(\w+)'>, got <class '(?:str|int|float|bool|list)'>"),
+        re.compile(
+            r"TypeError: Expected <class '[\w.]+\.(\w+)'>, got <class '(?:str|int|float|bool|list|dict|tuple)'>"
+        ),
         "publish() sends messages only: make a {0}(), fill in its fields, and publish that",
     ),
     (
@@ -72,6 +74,15 @@ MEANINGS = (
         re.compile(r"TypeError: unsupported operand type\(s\) for [-+]: '(?:float|int|Time)' and '(?:float|int|Time)'"),
         "a Time minus a Time is a Duration, whose .nanoseconds / 1e9 are seconds; numbers and Times do not mix",
     ),
+    (
+        re.compile(r"TypeError: bad argument type for built-in operation"),
+        "a field of the message holds a value of another type, such as a number where a text belongs: str(value)",
+    ),
+    (
+        re.compile(r"TypeError: 'property' object is not iterable"),
+        "rclpy.spin() takes a node, not its class: with brackets, MyNode(), it is one",
+    ),
+    (re.compile(r"RuntimeError: Context\.init\(\) must only be called once"), "call rclpy.init() once, at the start"),
     (re.compile(r"EOFError: EOF when reading a line"), "nobody sits at a keyboard here: do without input()"),
 )
 

@@ -27,6 +27,7 @@ def test_the_fields_of_a_type_and_of_its_parts():
     ("text", "field", "value"),
     [
         ("#\ncommand.linear.x = 1", "command.linear.x", "1"),
+        ("#\ncommand.linear.x = '0.5'", "command.linear.x", "'0.5'"),
         ("#\nself.command.angular.z = -2", "self.command.angular.z", "-2"),
         ("#\nt.linear.x = 1 if go else 0", "t.linear.x", "1 if go else 0"),
         ("SPEED = 1\nt.linear.x = SPEED", "t.linear.x", "SPEED"),
@@ -54,7 +55,9 @@ def test_it_is_found_with_its_line(text, field, value):
         "t.header.x = 1",
         "self.data = 1",
         "from std_msgs.msg import Int32\nm.data = 1",
+        "from std_msgs.msg import String\nm.data = 'x'",
         "String(data=1)",
+        "String(data='0.5')",
         "def",
         "\x00",
     ],

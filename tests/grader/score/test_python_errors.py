@@ -43,6 +43,10 @@ MISTAKES = {
     "the order is create_publisher(TYPE, '/topic', 10)": lambda node: node.create_publisher("/a", String, 10),
     "with brackets, String(), it makes a message": lambda node: node.create_publisher(String, "/a", 1).publish(String),
     "make a String(), fill in its fields": lambda node: node.create_publisher(String, "/a", 1).publish("hello"),
+    "such as a number where a text belongs": lambda node: node.create_publisher(String, "/a", 1).publish(
+        String(data=4)
+    ),
+    "make a Float32(), fill in its fields": lambda node: node.create_publisher(Float32, "/b", 1).publish({"data": 1.0}),
     "takes its fields by their names": lambda node: Float32(1.0),
     "in ROS 2 a node imports rclpy": lambda node: __import__("rospy"),
     "from std_msgs.msg import String": lambda node: exec("from std_msgs import String"),
@@ -64,6 +68,7 @@ def test_a_mistake_is_explained(node, words):
     "error",
     [
         "ZeroDivisionError: division by zero",
+        "TypeError: 'int' object is not iterable",
         "TypeError: on_timer() takes 0 positional arguments but 1 was given",  # no method: it has no self
         "TypeError: Robot.drive() takes 2 positional arguments but 5 were given",
         "TypeError: Robot.__init__() takes 1 positional argument but 2 were given",

@@ -36,7 +36,7 @@ def test_points_diagnosis_and_outcome(record, exercise):
 def test_a_whole_number_where_a_float_belongs_is_told_first(record, exercise):
     place = {"file": "node.py", "line": 19, "field": "command.linear.x", "value": "1"}
     diagnosis = score(record(truth(), facts={"whole_numbers": [place]}), exercise).diagnosis
-    assert diagnosis.startswith("node.py, line 19: command.linear.x = 1 is a whole number, but the field holds a float")
+    assert diagnosis.startswith("node.py, line 19: command.linear.x = 1 is no float, but the field holds one")
     assert diagnosis.endswith("The large one: changed by 0.50. Hint for large.")
 
 
