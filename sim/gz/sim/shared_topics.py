@@ -51,29 +51,23 @@ Rule = Callable[[Talker, Talker, str], bool]
 
 
 class SharedTopics:
-    """Remembers who was there at the last check, so that each newcomer is looked at once."""
+    """Looks at all who talk in one world; what was said already is not said again (`Diagnostics`)."""
 
     def __init__(self, diagnostics: Diagnostics) -> None:
         """`diagnostics` gets the warnings."""
         self._diagnostics = diagnostics
-        self._known: set[Node] = set()
 
     def check(self, talkers: Iterable[Talker]) -> None:
-        """Warn of the topics that those who came since the last check share with others; `talkers` are all there
-        are.
-        """
+        """Warn of the topics that two of `talkers` share."""
         published: Users = {}
         heard: Users = {}
-        nodes: set[Node] = set()
         for talker in talkers:
-            nodes.add(talker.node)
             for users, ends in zip((published, heard), talker.node.endpoints(), strict=True):
                 for topic, kind in ends:
                     users.setdefault(topic, []).append((talker, kind))
         self._check_types(published, heard)
         self._check_publishers(published)
         self._check_listeners(heard)
-        self._known = nodes
 
     def _check_publishers(self, published: Users) -> None:
         mixed: dict[tuple[str, str], list[tuple[Talker, Talker, str, str]]] = {}
@@ -98,13 +92,11 @@ class SharedTopics:
             )
 
     def _pairs(self, users: Users, clash: Rule) -> Iterator[tuple[Talker, Talker, str, str]]:
-        """Yield for each newcomer on a topic at most one pair: the first one that it gets in the way of, and it."""
+        """Yield for each talker on a topic at most one pair: the first one that it gets in the way of, and it."""
         for topic, present in users.items():
             for place, (second, kind) in enumerate(present):
-                if second.node in self._known or second.joins:
-                    continue
                 for first, other in present[:place]:
-                    if kind == other and not first.joins and clash(first, second, kind):
+                    if kind == other and not (first.joins or second.joins) and clash(first, second, kind):
                         yield first, second, kind, topic
                         break
 
@@ -114,7 +106,7 @@ class SharedTopics:
             pairs = [(*pair, "publishes") for pair in combinations(publishers, 2)]
             pairs += [(one, other, "expects") for one in publishers for other in listeners]
             for (first, kind), (second, other), verb in pairs:
-                if kind != other and not {first.node, second.node} <= self._known:
+                if kind != other:
                     text = f"on {topic} {first.shown} publishes {kind}, but {second.shown} {verb} {other}"
                     self._warn(first, second, topic, other, f"{text}; a topic carries one type")
                     break

@@ -182,6 +182,14 @@ def test_what_confuses_in_one_model(load: Load, inside: str, sentence: str) -> N
                 for word in ("start", "stop")
             ),
         ),
+        robot(
+            "one",
+            plugin(
+                "TriggeredPublisher",
+                "<input type='gz.msgs.Twist' topic='/go'/><output type='gz.msgs.Empty' topic='/went'/>",
+            ),
+            drive("<topic>go</topic>"),
+        ),
     ],
 )
 def test_sharing_that_is_meant_is_silent(load: Load, inside: str) -> None:
