@@ -26,7 +26,7 @@ GIVING_UP = 3  # after so many times it is paced for the rest of the run
 MATCHING = 5.0  # [s] of wall time for DDS to match the endpoints of a new node; a lost announcement costs 3 s
 CLOCK_AGAIN = 0.05  # [s] /clock is best effort on the student's side, so it is sent again until it was seen
 LOST = 0.1  # [s] nobody is at work, and a message was not taken: then it is sent again
-LOST_PATIENCE = 15.0  # [s] of wall time for a message that gets lost again and again
+LOST_PATIENCE = 10.0  # [s] of wall time for a message that gets lost again and again, unless that has been in vain
 LOOK_ROUND = 0.002  # [s] how long to listen to the student before listening to ROS
 CLOCK = "/clock"
 
@@ -276,7 +276,8 @@ class LockStep(RealTime):
 
     def _await_settled_until(self, deadline: float) -> bool:
         resend = time.monotonic() + CLOCK_AGAIN
-        lost, give_up = time.monotonic() + LOST, time.monotonic() + LOST_PATIENCE
+        lost = time.monotonic() + LOST
+        give_up = time.monotonic() + (PATIENCE if self._failures else LOST_PATIENCE)
         while not self._settled():
             if not self.student.running:
                 self._take_last_words()
