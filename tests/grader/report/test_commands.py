@@ -57,7 +57,7 @@ def test_gradescope_gets_the_same_but_for_host_facts(graded, again):
     for key in ("sandbox", "pace"):
         del first["extra_data"][key]
     assert second == first
-    assert first["score"] == 60
+    assert first["score"] == 65
 
 
 def test_junit_gets_the_same_but_for_host_facts(graded, again):
@@ -82,7 +82,7 @@ def test_a_manifest_that_has_changed_is_told(graded, course, root, tmp_path):
     assert outcome.code == 1
     assert outcome.words.count(sentence) == 1
     assert all(sentence in (tmp_path / name).read_text() for name in FILES.values())
-    assert outcome.report["score"] == 60, "it goes on"
+    assert outcome.report["score"] == 65, "it goes on"
 
 
 def test_a_manifest_that_has_not_changed_is_no_news(again):
@@ -125,5 +125,5 @@ def test_a_recording_is_never_overwritten_by_a_report_on_it(course, graded):
 def test_a_terminal_that_has_gone_costs_no_report(course, graded, tmp_path):
     prelude = "import sys; sys.stdout = open('/dev/full', 'w')"
     outcome = course("score", graded.recording, "--json", tmp_path / "report.json", prelude=prelude)
-    assert outcome.report["score"] == 60
+    assert outcome.report["score"] == 65
     assert outcome.code and "No space left" in outcome.words
