@@ -81,7 +81,9 @@ class SharedTopics:
             first, second, kind, topic = found[0]
             names = ", ".join(each[3] for each in found[:_MOST_NAMED])
             more = f" and {len(found) - _MOST_NAMED} more" if len(found) > _MOST_NAMED else ""
-            text = f"{first.shown} and {second.shown} both publish on {names}{more}, so listeners get the two mixed"
+            several = len({each[1] for each in found}) > 1
+            who = f"models '{first.model}' and '{second.model}'" if several else f"{first.shown} and {second.shown}"
+            text = f"{who} both publish on {names}{more}, so listeners get the two mixed"
             self._warn(first, second, topic, kind, text)
 
     def _check_listeners(self, heard: Users) -> None:

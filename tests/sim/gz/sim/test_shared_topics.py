@@ -86,7 +86,7 @@ def load_line(load: Load) -> int:
 def test_a_robot_that_comes_twice_is_one_sentence(load: Load) -> None:
     inside = (sensor("eye", "camera", "eye/image"), sensor("beam", "gpu_lidar", "beam", LIDAR))
     (warning,) = load(robot("one", *inside) + robot("two", *inside, x=2)).warnings
-    assert "sensor 'eye' of model 'one' and sensor 'eye' of model 'two' both publish on /eye/image, " in warning
+    assert "models 'one' and 'two' both publish on /eye/image, " in warning
     assert "and 1 more, so listeners get the two mixed" in warning
     assert "<topic>/model/two/eye/image</topic>, or none:" in warning
 
