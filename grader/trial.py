@@ -66,7 +66,7 @@ class Trial:
     """One run's parameters. `seed` feeds the simulator's sensor noise and varies the scripted commands.
 
     None stands for what the exercise says. `poses` are x, y, z [m], roll, pitch, yaw [rad] in the world's frame, by
-    model. `place` says which of how many trials of one grading it is.
+    model. `place` says which of how many trials of one grading it is, `source` in which file it stands.
     """
 
     name: str
@@ -78,6 +78,7 @@ class Trial:
     parameters: dict[str, Any] = field(default_factory=dict)
     place: tuple[int, int] = (1, 1)
     tick: float | None = None  # [s] simulated time between two /clock messages
+    source: Path | None = field(default=None, compare=False)
 
     def vary(self, command: ScriptedCommand) -> ScriptedCommand:
         """Return the command with its speeds scaled by factors drawn from this trial's seed."""
@@ -174,6 +175,7 @@ def _read(table: Table, where: Path) -> Trial:
         poses={model: tuple(poses.numbers(model, [6])) for model in poses.names()},
         script=tuple(map(ScriptedCommand.read, table.tables("script", []))) if table.has("script") else None,
         parameters=table.free("parameters"),
+        source=where,
     )
     table.end()
     return trial

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from grader.errors import ManifestError, nearest
+from grader.errors import ManifestError, UsageError, nearest
 from grader.exercise import course_root, exercise_names, find_exercise
 
 if TYPE_CHECKING:
@@ -46,6 +46,8 @@ def verify_command(
     console = Console()
     root = course_root()
     known = exercise_names(root)
+    if not (root / "solutions").is_dir():
+        raise UsageError(f"there is no folder {root / 'solutions'}: a student's copy has no solutions to prove")
     if strays := orphans(root, known):
         named = ", ".join(f"solutions/{path.name}{nearest(path.name, known)}" for path in strays)
         raise ManifestError(f"no public half in exercises/: {named}")

@@ -22,7 +22,8 @@ if TYPE_CHECKING:
 
 def load_trial_world(exercise: Exercise, trial: Trial, node: Node | None) -> World:
     """Return the world of `exercise` as `trial` wants it. Raises ManifestError for what there is not."""
-    where = f"{exercise.folder / MANIFEST}, trial {trial.name}"
+    own = trial.source if trial.world is not None or trial.poses else None  # else the exercise says it all
+    where = f"{own or exercise.folder / MANIFEST}, trial {trial.name}"
     try:
         diagnostics = Diagnostics()
         description = read_world_file(find_world(exercise.world), diagnostics)

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from grader.printable import shown
 from grader.record.reading import Recording
 from grader.score.check import Finding
+from grader.score.launched import launch_facts
 
 
 def clock_fault(recording: Recording, findings: Iterable[Finding]) -> str:
@@ -32,7 +33,8 @@ def clock_fault(recording: Recording, findings: Iterable[Finding]) -> str:
         return shown(f"{sentence}.")
     endpoints = [] if facts.get("given") else facts.get("endpoints", [])
     follows = {e["node"] for e in endpoints if e["kind"] == "subscription" and e["topic"] == "/clock"}
-    for node in sorted({e["node"] for e in endpoints} - follows):
+    bridges = {each["node"] for each in launch_facts(recording).get("bridges_started", [])}  # have no use for time
+    for node in sorted({e["node"] for e in endpoints} - follows - bridges):
         return shown(
             f"Your node {node} does not follow simulated time: its parameter use_sim_time is not true, so its clock "
             "and its timers run by the clock on the wall. Call rclpy.init() without arguments of your own, and leave "

@@ -1,6 +1,7 @@
 """A trial: its seed decides the scripted commands and nothing else does; its file; what it changes in a run."""
 
 import dataclasses
+import re
 import shutil
 
 import pytest
@@ -173,4 +174,13 @@ def test_models_stand_where_the_trial_puts_them(root):
 def test_a_world_that_is_not_as_the_trial_says(root, change, told):
     trial = Trial("bad", 0, **change)
     with pytest.raises(ManifestError, match=told):
+        load_trial_world(trial.applied_to(find_exercise("04", root)), trial, None)
+
+
+@pytest.mark.parametrize("line", ['world = "lidar_rom.sdf"', "poses = { robt = [0, 0, 0, 0, 0, 0] }"])
+def test_the_file_is_named_in_which_the_wrong_word_stands(root, tmp_path, line):
+    file = tmp_path / "trials.toml"
+    file.write_text(f'[[trial]]\nname = "bad"\n{line}\n')
+    (trial,) = load_trials(file)
+    with pytest.raises(ManifestError, match=f"^{re.escape(str(file))}, trial bad: "):
         load_trial_world(trial.applied_to(find_exercise("04", root)), trial, None)

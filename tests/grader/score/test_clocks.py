@@ -43,5 +43,12 @@ def test_a_node_that_does_not_follow_the_clock(record):
     assert clock_fault(record(facts=facts | {"given": True}), [LATE]) == "", "it is not the student's"
 
 
+def test_a_bridge_is_no_node_that_should_follow_the_clock(record):
+    facts = {"endpoints": ends("/ros_gz_bridge", clock=False) + ends("/good")}
+    assert "/ros_gz_bridge" in clock_fault(record(facts=facts), [LATE])
+    started = {"launch": {"bridges_started": [{"node": "/ros_gz_bridge"}]}}
+    assert clock_fault(record(facts=facts | started), [LATE]) == ""
+
+
 def test_nothing_known_nothing_said(record):
     assert clock_fault(record(), [LATE]) == ""

@@ -206,3 +206,10 @@ def test_an_unknown_exercise_is_a_usage_error(course):
     outcome = course("verify", "03_telepo")
     assert outcome.code == 2
     assert "03_teleop" in outcome.words
+
+
+def test_a_students_copy_has_nothing_to_prove(copy, course):
+    shutil.rmtree(copy.folder / "solutions")
+    outcome = run(copy, course)
+    assert outcome.code == 2
+    assert "a student's copy has no solutions to prove" in outcome.words
