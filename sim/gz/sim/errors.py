@@ -62,14 +62,23 @@ class Diagnostics:
 
     With `strict` nothing is logged while the world is being read and built: `refuse`, called when that is done, raises
     one error with all of them. After that call warnings are logged as they come, those within `refusing` excepted.
+    What is only a `doubt` is never refused.
     """
 
     warnings: list[str] = field(default_factory=list)
     strict: bool = False
     _known: set[str] = field(default_factory=set, repr=False)
+    _doubts: set[str] = field(default_factory=set, repr=False)
 
     def warn(self, where: str, sentence: str) -> None:
         """Report `sentence` about the place `where` (`file:line`, or empty for the whole world)."""
+        self._report(where, sentence, doubt=False)
+
+    def doubt(self, where: str, sentence: str) -> None:
+        """Report something that is carried as it is written, but hardly meant so."""
+        self._report(where, sentence, doubt=True)
+
+    def _report(self, where: str, sentence: str, doubt: bool) -> None:
         text = f"{where}: {one_line(sentence)}" if where else one_line(sentence)
         if text in self._known or len(self._known) > _MOST_WARNINGS:
             return
@@ -77,7 +86,9 @@ class Diagnostics:
         if len(self._known) > _MOST_WARNINGS:
             text = f"there are more than {_MOST_WARNINGS} warnings, the others are not shown"
         self.warnings.append(text)
-        if not self.strict:
+        if doubt:
+            self._doubts.add(text)
+        if doubt or not self.strict:
             LOG.warning("%s", text)
 
     def warn_once(self, subject: str, where: str, sentence: str) -> None:
@@ -97,16 +108,16 @@ class Diagnostics:
             yield
         finally:
             refused, self.strict = self.warnings[since:], False
-        _refuse(refused if self._asked else [])
+        self._refuse(refused if self._asked else [])
 
     def refuse(self) -> None:
         """End strict loading: raise `SdfError` with every sentence, a line each, when there is one."""
         strict, self.strict = self.strict, False
-        _refuse(self.warnings if strict else [])
+        self._refuse(self.warnings if strict else [])
 
-
-def _refuse(warnings: list[str]) -> None:
-    if warnings:
-        count = len(warnings)
-        first = f"strict loading refuses what would be {count} warning{'s' if count > 1 else ''}:"
-        raise SdfError("\n  ".join((first, *warnings)))
+    def _refuse(self, warnings: list[str]) -> None:
+        refused = [text for text in warnings if text not in self._doubts]
+        if refused:
+            count = len(refused)
+            first = f"strict loading refuses what would be {count} warning{'s' if count > 1 else ''}:"
+            raise SdfError("\n  ".join((first, *refused)))

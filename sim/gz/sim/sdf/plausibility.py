@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from itertools import chain
 
 from gz.sim.errors import Diagnostics
 from gz.sim.sdf.description import Model
@@ -42,8 +41,10 @@ def check(root: Element, diagnostics: Diagnostics) -> None:
     waiting = [root]
     while waiting:
         element = waiting.pop()
-        for where, sentence in chain(_stray_text(element), _RULES.get(element.tag, _nothing)(element)):
-            diagnostics.warn(where, sentence)
+        for where, sentence in _stray_text(element):
+            diagnostics.warn(where, sentence)  # it is lost
+        for where, sentence in _RULES.get(element.tag, _nothing)(element):
+            diagnostics.doubt(where, sentence)
         waiting.extend(child for child in reversed(element.children) if child.tag not in ("plugin", "gui"))
 
 
@@ -53,7 +54,7 @@ def check_origins(robot: Element, diagnostics: Diagnostics) -> None:
         for holder in (element, *element.children):
             for origin in holder.all("origin"):
                 for where, sentence in _angles(origin, _numbers(origin.attributes.get("rpy", "")), ""):
-                    diagnostics.warn(where, sentence)
+                    diagnostics.doubt(where, sentence)
 
 
 def _stray_text(element: Element) -> Found:
@@ -165,14 +166,14 @@ def check_model(model: Model, held: bool, diagnostics: Diagnostics) -> None:
             text += (
                 f"(SDF's default), and joint '{joint.name}' moves slowly; state both or write <inertial auto='true'/>"
             )
-            diagnostics.warn(link.element.where, text)
+            diagnostics.doubt(link.element.where, text)
     joined = {end for joint in model.joints for end in (joint.parent, joint.child)}
     loose = [link for link in model.links if link.name not in joined]
     if model.joints and loose:
         text = f"no <joint> connects link '{loose[0].name}' with the rest of model '{model.name}', so it falls off"
-        diagnostics.warn(loose[0].element.where, f"{text}; add one, for example of type fixed")
+        diagnostics.doubt(loose[0].element.where, f"{text}; add one, for example of type fixed")
     held = held or any(joint.parent == "world" for joint in model.joints)
     seen, solid = (any(getattr(link, parts) for link in model.links) for parts in ("visuals", "collisions"))
     if seen and not solid and not held and any(link.gravity for link in model.links):
         text = f"model '{model.name}' can be seen but has no <collision>, so it falls through the ground; add one, or "
-        diagnostics.warn(model.element.where, f"{text}write <static>true</static>")
+        diagnostics.doubt(model.element.where, f"{text}write <static>true</static>")

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz.sim.errors import Diagnostics
+from gz.sim.errors import Diagnostics, SdfError
 from gz.sim.sdf.reader import read_world
 from gz.sim.world import World
 from tests.sim.gz.sim.sdf.shapes_on_disk import write_obj
@@ -170,3 +170,17 @@ def test_angles_of_a_urdf() -> None:
 def test_only_more_than_a_turn_is_doubted(angles: list[float]) -> None:
     inside = f"<model name='m'><pose>0 0 0 {' '.join(map(repr, angles))}</pose><link name='l'/></model>"
     assert bool(warnings(inside)) == (max(map(abs, angles)) > 2.0 * math.pi + 0.2168146928)
+
+
+def test_strict_loading_refuses_what_is_lost_but_no_doubt(caplog: pytest.LogCaptureFixture) -> None:
+    for shape, refused in (("<sphere/>", False), ("<box>1 1 1<size>1 1 1</size></box>", True)):
+        diagnostics = Diagnostics(strict=True)
+        caplog.clear()
+        read_world(f"<sdf version='1.10'><world name='w'>{shaped(shape)}</world></sdf>", "f.sdf", diagnostics)
+        assert diagnostics.warnings
+        if refused:
+            with pytest.raises(SdfError, match="strict loading refuses"):
+                diagnostics.refuse()
+        else:
+            assert "<sphere>" in caplog.text  # said at once all the same
+            diagnostics.refuse()
