@@ -2,5 +2,6 @@
 
 import signal
 
-# A shell that starts the tests with `&` has SIGINT ignored, here and in every process the tests start.
+# A shell's `&` has SIGINT ignored, and `nohup` SIGHUP: here, and in every process the tests start.
 signal.signal(signal.SIGINT, signal.default_int_handler)
+signal.signal(signal.SIGHUP, signal.SIG_DFL)
