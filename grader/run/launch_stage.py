@@ -15,7 +15,8 @@ from typing import Any
 from grader.kinds.kind import Cast
 from grader.record.recorder import Recorder
 from grader.record.scene import Scene
-from grader.run.lockstep import LockStep, RealTime
+from grader.run.lockstep import LockStep
+from grader.run.real_time import RealTime
 from grader.run.served import Served
 from grader.run.stage import Stage
 from grader.temporary_folder import TemporaryFolder

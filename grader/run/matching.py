@@ -11,7 +11,7 @@ from grader.run.box.course_box.watch import qos_can_match
 from grader.run.progress import Endpoint
 
 if TYPE_CHECKING:
-    from grader.run.lockstep import Ears
+    from grader.run.real_time import Ears
 
 
 def can_match(endpoint: Endpoint, ears: Ears) -> bool:

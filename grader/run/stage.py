@@ -23,7 +23,8 @@ from grader.record.recorder import Recorder
 from grader.record.scene import Scene
 from grader.run.ears import Ears
 from grader.run.graphs import both_graphs
-from grader.run.lockstep import LockStep, RealTime
+from grader.run.lockstep import LockStep
+from grader.run.real_time import RealTime
 from grader.run.student import Student
 from grader.run.trial_world import load_trial_world
 from grader.trial import ScriptedCommand, Trial

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.run.lockstep import START_UP
+from grader.run.children import START_UP
 from grader.run.sandbox.probe import try_level
 from grader.run.stage import WALL_FACTOR, WALL_GRACE
 
