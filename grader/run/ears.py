@@ -6,6 +6,7 @@ lock-step they leave one at a time.
 
 from __future__ import annotations
 
+import contextlib
 import time
 from collections import Counter
 from collections.abc import Callable
@@ -56,24 +57,31 @@ class Ears:
         observe: dict[str, str],
         heard: Callable[[str, Any], None],
     ) -> None:
-        self._context = Context()
-        # No arguments: ours are not meant for ROS.
-        rclpy.init(args=[], context=self._context, domain_id=domain, signal_handler_options=SignalHandlerOptions.NO)
-        set_logger_level(NODE, LoggingSeverity.ERROR)  # what it would say is told in the report
-        self._node = rclpy.create_node(NODE, context=self._context, start_parameter_services=False)
-        self._executor = SingleThreadedExecutor(context=self._context)
-        self._executor.add_node(self._node)
+        kinds = {topic: message_class(kind) for topic, kind in observe.items()}
         self.held: list[tuple[str, Any, Any]] = []
         self._gz_node = gz_node
         self._observe = observe
-        self.bridge = Bridge(self._node, gz_node, entries, publish=self._hold, heard=self._bridge_heard)
         self.offered = {e.ros_topic: e.ros_type for e in entries if e.direction.to_ros}
         self.listened = {e.ros_topic: e.ros_type for e in entries if e.direction.to_gz} | observe
         self.received: Counter[str] = Counter()
         self._heard = heard
-        for topic, kind in observe.items():
-            self._node.create_subscription(message_class(kind), topic, self._tap(topic), QoSProfile(depth=TAP_DEPTH))
-        self._look_at_own()
+        self._context = Context()
+        # No arguments: ours are not meant for ROS.
+        rclpy.init(args=[], context=self._context, domain_id=domain, signal_handler_options=SignalHandlerOptions.NO)
+        with contextlib.ExitStack() as stack:  # an executor that nobody ends complains when Python does
+            stack.callback(rclpy.shutdown, context=self._context)
+            set_logger_level(NODE, LoggingSeverity.ERROR)  # what it would say is told in the report
+            self._node = rclpy.create_node(NODE, context=self._context, start_parameter_services=False)
+            stack.callback(self._node.destroy_node)
+            self._executor = SingleThreadedExecutor(context=self._context)
+            stack.callback(self._executor.shutdown)
+            self._executor.add_node(self._node)
+            self.bridge = Bridge(self._node, gz_node, entries, publish=self._hold, heard=self._bridge_heard)
+            stack.callback(lambda: self.bridge.close())
+            for topic, kind in kinds.items():
+                self._node.create_subscription(kind, topic, self._tap(topic), QoSProfile(depth=TAP_DEPTH))
+            self._look_at_own()
+            self._open = stack.pop_all()
 
     def set_bridges(self, entries: list[BridgeEntry], overrides: HeaderOverrides | None = None) -> None:
         """Let other bridges stand than before. Raises BridgeError, and none stands then."""
@@ -201,10 +209,7 @@ class Ears:
 
     def close(self) -> None:
         """Leave the ROS graph."""
-        self.bridge.close()
-        self._executor.shutdown()
-        self._node.destroy_node()
-        rclpy.shutdown(context=self._context)
+        self._open.close()
 
 
 def _qos(endpoint: Any) -> dict[str, Any]:
