@@ -39,6 +39,7 @@ book: .venv/with-tools
 
 fuzz: .venv/with-tools
 	$(BIN)/python -m tests.fuzz.load_worlds
+	$(BIN)/pytest -q -m "not proof" --hypothesis-profile=new_examples
 
 lint: .venv/with-tools
 	$(BIN)/ruff check .

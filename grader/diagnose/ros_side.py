@@ -18,7 +18,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 from grader.diagnose.system import Heard, HeardMessage, RosEndpoint, RosNode, RosSide, RunningBridge
 from ros2.errors import CommandError
-from ros2.graph import FIRST_CONTACT, Graph
+from ros2.graph import FIRST_CONTACT, UNKNOWN_NODE, Graph
 from ros2.interface import message_class
 from ros_gz_bridge import bridged_topics
 from ros_gz_bridge.config import ConfigError, load_yaml
@@ -36,6 +36,8 @@ _HEAVY = {
     "nav_msgs/msg/OccupancyGrid",
 }
 _BRIDGE_NAMES = ("ros_gz_bridge", "parameter_bridge", "bridge_node")
+UNNAMED = "a node that has not told its name"
+NAMES, LOOK_AGAIN = 5.0, 0.05  # [s] for the names to arrive, and between two looks
 _ASKED = ("use_sim_time", bridged_topics.PARAMETER, "config_file")
 
 
@@ -45,10 +47,20 @@ def observe(seconds: float) -> RosSide:
     with Graph(options, f"_course_diagnose_{os.getpid()}") as graph:
         graph.settle(FIRST_CONTACT)
         side = RosSide(domain=graph.node.context.get_domain_id(), seconds=seconds)
-        side.endpoints = _endpoints(graph)
+        side.endpoints = _named_endpoints(graph)
         _ask(graph, side)
         _Listener(graph, side).listen(seconds)
         return side
+
+
+def _named_endpoints(graph: Graph) -> list[RosEndpoint]:
+    """What there is on the topics, as soon as each has told the name of its node, or after `NAMES` seconds."""
+    deadline = time.monotonic() + NAMES
+    while True:
+        found = _endpoints(graph)
+        if all(end.node != UNNAMED for end in found) or time.monotonic() > deadline:
+            return found
+        graph.spin_once(LOOK_AGAIN)
 
 
 def _endpoints(graph: Graph) -> list[RosEndpoint]:
@@ -61,6 +73,8 @@ def _endpoints(graph: Graph) -> list[RosEndpoint]:
         ):
             for end in ends:
                 node = f"{end.node_namespace.rstrip('/')}/{end.node_name}"
+                if UNKNOWN_NODE in node:
+                    node = UNNAMED
                 if node != own:
                     found.append(RosEndpoint(topic, end.topic_type, node, publishes, end.qos_profile))
     return found

@@ -34,7 +34,7 @@ SETTLE_DEADLINE = 6.0  # s for a graph that never stops changing
 TARGET_DEADLINE = 5.0  # s for what a user has named
 GIVE_UP = 2.0  # s after which it does not exist, if everybody has been met; its node may just be starting
 _POLL = 0.02  # s; the graph announces changes only to a spinning executor, and not all of them
-_UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"  # an endpoint whose node has not been announced yet
+UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"  # an endpoint whose node has not been announced yet
 
 Found = TypeVar("Found")
 NamesAndTypes = list[tuple[str, list[str]]]
@@ -200,7 +200,7 @@ class Graph:
         for topic, _ in self.node.get_topic_names_and_types():
             for ends in (self.node.get_publishers_info_by_topic, self.node.get_subscriptions_info_by_topic):
                 for end in ends(topic):
-                    known = _UNKNOWN_NODE not in (end.node_name, end.node_namespace)
+                    known = UNKNOWN_NODE not in (end.node_name, end.node_namespace)
                     name = _join(end.node_namespace, end.node_name) if known else ""
                     endpoints.add((topic, name, bytes(end.endpoint_gid).hex()))
         services = {name for name, _ in self.node.get_service_names_and_types()}

@@ -12,7 +12,8 @@ lengths = st.floats(-2.0, 2.0).map(lambda value: round(value, 4))
 sizes = st.floats(0.01, 2.0).map(lambda value: round(value, 4))
 # Exactly a right angle: a little beside it ROS's own roll, pitch and yaw lose four digits.
 angles = st.one_of(
-    st.sampled_from([0.0, math.pi / 2, -math.pi / 2, math.pi]), st.floats(-4.0, 4.0).map(lambda value: round(value, 4))
+    st.sampled_from([0.0, math.pi / 2, -math.pi / 2, math.pi]),
+    st.floats(-4.0, 4.0).map(lambda value: round(value, 4)).filter(lambda value: abs(abs(value) - math.pi / 2) > 0.01),
 )
 numbers = st.floats(0.0, 5.0).map(lambda value: round(value, 3))
 directions = st.tuples(lengths, lengths, lengths).filter(lambda v: math.hypot(*v) > 0.1)
