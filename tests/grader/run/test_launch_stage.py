@@ -133,7 +133,7 @@ def test_a_world_is_one_that_was_handed_in_and_never_a_file_from_elsewhere(launc
     secret.write_text(WORLD.format("<!-- the answer is 42 -->"))
     run = launch(f'gz("sim", "-s", "-r", {str(secret)!r}),')
     assert [s["ran"] for s in run.facts["simulators"]] == [False]
-    assert "is neither a built-in world nor one of the files handed in" in run.log and "42" not in run.log
+    assert "is neither a built-in world nor one of the files handed in" in run.log and "the answer" not in run.log
 
 
 def test_a_world_that_was_handed_in_is_run(launch):
