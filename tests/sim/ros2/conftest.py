@@ -1,6 +1,5 @@
 """Running `ros2` as a process, in a DDS domain nobody else uses."""
 
-import contextlib
 import os
 import signal
 import subprocess
@@ -12,6 +11,7 @@ import psutil
 import pytest
 
 from grader.run.domain import Domain
+from tests.sim.spinning import spin
 
 DEADLINE = 30.0
 
@@ -134,7 +134,6 @@ def robot(ros_domain):
     from geometry_msgs.msg import PointStamped, Twist
     from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
     from rclpy.executors import SingleThreadedExecutor
-    from rclpy.impl.implementation_singleton import rclpy_implementation
     from rclpy.parameter import Parameter
     from std_srvs.srv import SetBool, Trigger
 
@@ -177,14 +176,7 @@ def robot(ros_domain):
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
     closing = threading.Event()
-
-    def spin():
-        while not closing.is_set():
-            # A test may destroy an endpoint at the moment at which the executor collects what it waits for.
-            with contextlib.suppress(rclpy_implementation.InvalidHandle):
-                executor.spin()
-
-    thread = threading.Thread(target=spin)
+    thread = threading.Thread(target=spin, args=(executor, closing))
     thread.start()
     yield node
     closing.set()

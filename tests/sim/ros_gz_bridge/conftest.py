@@ -1,6 +1,5 @@
 """A DDS domain and a Gazebo partition nobody else uses, ROS, a parameter_bridge, waiting with a deadline."""
 
-import contextlib
 import os
 import signal
 import subprocess
@@ -13,6 +12,7 @@ import warnings
 import pytest
 
 from grader.run.domain import Domain
+from tests.sim.spinning import spin
 
 with warnings.catch_warnings():
     # The parser that ROS's message packages bring along (lark) still imports a deprecated module.
@@ -86,17 +86,9 @@ class Ros:
         rclpy.init(context=self.context, domain_id=domain)
         self.executor = SingleThreadedExecutor(context=self.context)
         self.node = self.new_node("tester")
-        self._closing = False
-        self._thread = threading.Thread(target=self._spin)
+        self._closing = threading.Event()
+        self._thread = threading.Thread(target=spin, args=(self.executor, self._closing))
         self._thread.start()
-
-    def _spin(self):
-        from rclpy.impl.implementation_singleton import rclpy_implementation
-
-        while not self._closing:
-            # A test may destroy an endpoint at the moment at which the executor collects what it waits for.
-            with contextlib.suppress(rclpy_implementation.InvalidHandle):
-                self.executor.spin()
 
     def new_node(self, name="bridge", **options):
         import rclpy
@@ -110,7 +102,7 @@ class Ros:
         node.destroy_node()
 
     def close(self):
-        self._closing = True
+        self._closing.set()
         self.executor.shutdown()
         self._thread.join(DEADLINE)
         self.node.destroy_node()
