@@ -16,8 +16,8 @@ from dataclasses import dataclass
 from pathlib import PurePosixPath
 from typing import IO, BinaryIO, cast
 
-from grader.errors import RefusedError, UsageError
-from grader.printable import shown
+from gz_course.grader.errors import RefusedError, UsageError
+from gz_course.grader.printable import shown
 
 SUFFIXES = (".zip", ".tar.gz", ".tgz", ".tar")
 OTHER_SUFFIXES = (".7z", ".rar", ".tar.bz2", ".tar.xz", ".tbz2", ".txz", ".gz", ".xz", ".bz2", ".zst")  # not opened

@@ -10,10 +10,10 @@ from __future__ import annotations
 import hashlib
 from pathlib import Path
 
-from grader.errors import ManifestError
-from grader.exercise import Exercise
-from grader.intake import is_junk
-from grader.trial import TRIALS, load_trials
+from gz_course.grader.errors import ManifestError
+from gz_course.grader.exercise import Exercise
+from gz_course.grader.intake import is_junk
+from gz_course.grader.trial import TRIALS, load_trials
 
 SOLVED = {"accepted", "rejected", "expect.toml"}  # of the private half: what solves the exercise, or says how
 TRACES = (".rrd", ".part", ".pyc", ".orig", ".bak", "~")

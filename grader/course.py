@@ -12,9 +12,9 @@ import sys
 
 import typer
 
-from grader import commands
-from grader.errors import CourseError
-from grader.interruption import end_on
+from gz_course.grader import commands
+from gz_course.grader.errors import CourseError
+from gz_course.grader.interruption import end_on
 
 app = typer.Typer(
     name="course",

@@ -12,10 +12,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from grader.errors import ManifestError, UsageError, nearest
-from grader.kinds.kind import find_kind, kind_names
-from grader.table import Table
-from grader.trial import PUBLIC, ScriptedCommand, Trial, read_trials
+from gz_course.grader.errors import ManifestError, UsageError, nearest
+from gz_course.grader.kinds.kind import find_kind, kind_names
+from gz_course.grader.table import Table
+from gz_course.grader.trial import PUBLIC, ScriptedCommand, Trial, read_trials
 
 MANIFEST = "exercise.toml"
 

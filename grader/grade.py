@@ -8,18 +8,18 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from grader.errors import UsageError
-from grader.exercise import Exercise, find_exercise
-from grader.intake import take_in
-from grader.output_lock import sole_writer
-from grader.printable import shown
-from grader.record.reading import Recording
-from grader.report.report import HostFacts, Report, TrialReport
-from grader.report.verdicts import write_verdicts
-from grader.score.combined import combined
-from grader.score.score import Score, score
-from grader.submission import Submission
-from grader.trial import Trial, numbered
+from gz_course.grader.errors import UsageError
+from gz_course.grader.exercise import Exercise, find_exercise
+from gz_course.grader.intake import take_in
+from gz_course.grader.output_lock import sole_writer
+from gz_course.grader.printable import shown
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.report.report import HostFacts, Report, TrialReport
+from gz_course.grader.report.verdicts import write_verdicts
+from gz_course.grader.score.combined import combined
+from gz_course.grader.score.score import Score, score
+from gz_course.grader.submission import Submission
+from gz_course.grader.trial import Trial, numbered
 
 LONGEST_PATH = 4096
 PACES = ("lockstep", "realtime")
@@ -77,7 +77,7 @@ def play(
     exercise: Exercise, submission: Submission, trial: Trial, pace: str, out: Path, sandbox: str = "auto"
 ) -> Played:
     """Run one trial of a submission and score its recording, which is left in the folder `out`."""
-    from grader.run.session import record_unrunnable, run
+    from gz_course.grader.run.session import record_unrunnable, run
 
     path = recording_path(exercise, trial, out)
     in_trial = trial.applied_to(exercise)

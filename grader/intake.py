@@ -14,12 +14,21 @@ from functools import partial
 from pathlib import Path, PurePosixPath
 from typing import NamedTuple
 
-from grader.archive import LARGEST_ARCHIVE, LONGEST_NAME, MOST_MEMBERS, Member, Tree, damaged, is_archive, open_archive
-from grader.errors import RefusedError, UnreadableError, UsageError, nearest
-from grader.exercise import Exercise
-from grader.kinds.kind import find_kind
-from grader.printable import shown
-from grader.submission import Submission
+from gz_course.grader.archive import (
+    LARGEST_ARCHIVE,
+    LONGEST_NAME,
+    MOST_MEMBERS,
+    Member,
+    Tree,
+    damaged,
+    is_archive,
+    open_archive,
+)
+from gz_course.grader.errors import RefusedError, UnreadableError, UsageError, nearest
+from gz_course.grader.exercise import Exercise
+from gz_course.grader.kinds.kind import find_kind
+from gz_course.grader.printable import shown
+from gz_course.grader.submission import Submission
 
 LARGEST = 1 << 20  # [bytes] of a submitted file
 LARGEST_FOLDER = 16 << 20  # [bytes] of all files of a submitted folder

@@ -32,11 +32,11 @@ import time
 from pathlib import Path
 from types import TracebackType
 
-from grader.errors import UsageError, nearest
-from grader.printable import shown
-from grader.run.domain import Domain
-from grader.run.sandbox import ros_environment
-from grader.temporary_folder import TemporaryFolder, sweep
+from gz_course.grader.errors import UsageError, nearest
+from gz_course.grader.printable import shown
+from gz_course.grader.run.domain import Domain
+from gz_course.grader.run.sandbox import ros_environment
+from gz_course.grader.temporary_folder import TemporaryFolder, sweep
 
 GRACE = 3.0  # [s] between SIGINT, SIGTERM and SIGKILL
 LONGEST_COMMAND = 100  # [characters] of a command in the list of what runs

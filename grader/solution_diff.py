@@ -6,8 +6,8 @@ import difflib
 from collections.abc import Iterator
 from pathlib import Path
 
-from grader.errors import UsageError
-from grader.exercise import Exercise
+from gz_course.grader.errors import UsageError
+from gz_course.grader.exercise import Exercise
 
 PRIVATE_ONLY = ("expect.toml", "trials.toml")  # about the variants, not part of a solution
 

@@ -12,7 +12,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NoReturn
 
-from grader.errors import ManifestError, nearest
+from gz_course.grader.errors import ManifestError, nearest
 
 
 class Table:

@@ -31,11 +31,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from grader.errors import ManifestError, UsageError
-from grader.table import Table
+from gz_course.grader.errors import ManifestError, UsageError
+from gz_course.grader.table import Table
 
 if TYPE_CHECKING:
-    from grader.exercise import Exercise
+    from gz_course.grader.exercise import Exercise
 
 TRIALS = "trials.toml"
 SCRIPT_SPREAD = 0.2  # a scripted speed is varied by at most this fraction

@@ -223,25 +223,25 @@ def test_an_import_loads_nothing_heavy(package):
 
 
 def test_scoring_loads_neither_ros_nor_the_simulator():
-    loaded = loaded_by("import grader.grade, grader.score.check as c; c.check_kinds()")
+    loaded = loaded_by("import gz_course.grader.grade, grader.score.check as c; c.check_kinds()")
     assert loaded & {"mujoco", "rclpy", "gz", "ros_gz_bridge"} == set()
 
 
 @pytest.mark.parametrize("arguments", [["--help"], ["grade", "--help"], ["list"]])
 def test_help_and_lists_load_nothing_heavy(arguments):
-    loaded = loaded_by("from grader.course import main; main()", *arguments)
+    loaded = loaded_by("from gz_course.grader.course import main; main()", *arguments)
     assert "grader" in loaded
     assert loaded & (HEAVY | {"numpy", "pyarrow", "gz"}) == set()
 
 
 def test_every_command_and_check_kind_has_a_file_of_its_own():
-    import grader.commands
-    import grader.score.checks
-    from grader.score.check import check_kinds
+    import gz_course.grader.commands as grader_commands
+    import gz_course.grader.score.checks as grader_score_checks
+    from gz_course.grader.score.check import check_kinds
 
-    assert set(check_kinds()) == {m.name for m in pkgutil.iter_modules(grader.score.checks.__path__)}
-    for module in pkgutil.iter_modules(grader.commands.__path__):
-        assert hasattr(importlib.import_module(f"grader.commands.{module.name}"), "register")
+    assert set(check_kinds()) == {m.name for m in pkgutil.iter_modules(grader_score_checks.__path__)}
+    for module in pkgutil.iter_modules(grader_commands.__path__):
+        assert hasattr(importlib.import_module(f"gz_course.grader.commands.{module.name}"), "register")
 
 
 def headings(path):

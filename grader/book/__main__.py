@@ -14,10 +14,10 @@ from pathlib import Path
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup, escape
 
-from grader.book.chapter import page, run
-from grader.book.objectives import lessons
-from grader.errors import CourseError
-from grader.exercise import course_root
+from gz_course.grader.book.chapter import page, run
+from gz_course.grader.book.objectives import lessons
+from gz_course.grader.errors import CourseError
+from gz_course.grader.exercise import course_root
 
 USAGE = "usage: python -m grader.book FOLDER"
 TRACES = ("runs", ".ipynb_checkpoints", "__pycache__")  # of somebody at work, not part of the course

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from grader.errors import CourseError
+from gz_course.grader.errors import CourseError
 
 CELL_DEADLINE = 120  # [s]
 SCRIPT = re.compile(r"<script\b.*?</script>", re.DOTALL)  # the template's, which fetch things; a page needs none

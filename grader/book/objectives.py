@@ -8,9 +8,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.book.chapter import Chapter, chapters
-from grader.exercise import CheckSpec, Exercise, find_exercise
-from grader.verify import twin, variants
+from gz_course.grader.book.chapter import Chapter, chapters
+from gz_course.grader.exercise import CheckSpec, Exercise, find_exercise
+from gz_course.grader.verify import twin, variants
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ import typer
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from grader.diagnose.live import Diagnosis
+    from gz_course.grader.diagnose.live import Diagnosis
 
 LONGEST = 60.0  # s
 
@@ -32,7 +32,7 @@ def diagnose_command(
     """
     from rich.console import Console
 
-    from grader.diagnose.live import diagnose
+    from gz_course.grader.diagnose.live import diagnose
 
     diagnosis = diagnose(seconds)
     if json:
@@ -46,7 +46,7 @@ def print_diagnosis(diagnosis: Diagnosis, console: Console) -> None:
     """Print what was looked at, then every finding: sentence, evidence, fix."""
     from rich.markup import escape
 
-    from grader.printable import shown
+    from gz_course.grader.printable import shown
 
     colours = {"ERROR": "red", "WARNING": "yellow", "NOTE": "cyan"}
     ros, gz = diagnosis.system.ros, diagnosis.system.gz

@@ -19,9 +19,9 @@ def diff_command(
     from rich.console import Console
     from rich.text import Text
 
-    from grader.exercise import find_exercise
-    from grader.printable import shown
-    from grader.solution_diff import solution_diff
+    from gz_course.grader.exercise import find_exercise
+    from gz_course.grader.printable import shown
+    from gz_course.grader.solution_diff import solution_diff
 
     chosen = find_exercise(exercise)
     lines = list(solution_diff(chosen))

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from grader.errors import UsageError
+from gz_course.grader.errors import UsageError
 
 if TYPE_CHECKING:
-    from grader.doctor.checkup import Finding
+    from gz_course.grader.doctor.checkup import Finding
 
 STARTED = time.monotonic()
 
@@ -25,7 +25,7 @@ def doctor_command(
     deadline: Annotated[float, typer.Option(help="Seconds of wall time for all of it; more on a busy machine.")] = 8.0,
 ) -> None:
     """Try everything the course needs, for real. Exit code 0: all works, 1: something does not, 2: usage."""
-    from grader.doctor.checkup import examine
+    from gz_course.grader.doctor.checkup import examine
 
     if not 0 < deadline <= 3600:
         raise UsageError(f"--deadline must be a number of seconds above 0 and up to 3600, not {deadline:g}")

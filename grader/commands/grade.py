@@ -8,9 +8,9 @@ from typing import Annotated
 
 import typer
 
-from grader.errors import UsageError, nearest
-from grader.exercise import find_exercise
-from grader.trial import chosen_trials, numbered
+from gz_course.grader.errors import UsageError, nearest
+from gz_course.grader.exercise import find_exercise
+from gz_course.grader.trial import chosen_trials, numbered
 
 STARTED = time.monotonic()
 
@@ -53,15 +53,15 @@ def grade_command(
     junit: Annotated[Path | None, typer.Option(help="Write the report as JUnit XML.")] = None,
 ) -> None:
     """Grade one submission. Exit code 0: full marks, 1: less, 2: nothing to grade, 3: the grader's fault."""
-    from grader.run.sandbox import choose, enter_early
+    from gz_course.grader.run.sandbox import choose, enter_early
 
     level = choose(sandbox, demand)
     enter_early(level)  # before there are threads
 
-    from grader.grade import PACES, grade, recording_path
-    from grader.report.best import BEST, RUNS, keep_best
-    from grader.report.outputs import Outputs, check_writable
-    from grader.report.terminal import print_report
+    from gz_course.grader.grade import PACES, grade, recording_path
+    from gz_course.grader.report.best import BEST, RUNS, keep_best
+    from gz_course.grader.report.outputs import Outputs, check_writable
+    from gz_course.grader.report.terminal import print_report
 
     if pace not in PACES:
         raise UsageError(f"there is no pace {pace!r}{nearest(pace, PACES)}")

@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from grader.errors import UsageError
-from grader.exercise import find_exercise
+from gz_course.grader.errors import UsageError
+from gz_course.grader.exercise import find_exercise
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from grader.whole_class.class_run import ClassRun
-    from grader.whole_class.found import Found
+    from gz_course.grader.whole_class.class_run import ClassRun
+    from gz_course.grader.whole_class.found import Found
 
 REPORTS = ("html", "gradescope", "junit")
 
@@ -48,8 +48,8 @@ def grade_all_command(
     """Grade a class. Exit code 0: all are graded, 2: usage, 3: some could not be, for reasons that are not theirs."""
     from rich.console import Console
 
-    from grader.whole_class.class_run import ClassRun
-    from grader.whole_class.found import find_submissions
+    from gz_course.grader.whole_class.class_run import ClassRun
+    from gz_course.grader.whole_class.found import find_submissions
 
     if jobs is not None and dask is not None:
         raise UsageError("--jobs is for this machine and --dask for Dask's workers; give one of them")
@@ -122,7 +122,7 @@ def _print_summary(results: list[dict[str, Any]], failed: list[dict[str, Any]], 
 
     from rich.console import Console
 
-    from grader.whole_class.gradebook import GRADEBOOK
+    from gz_course.grader.whole_class.gradebook import GRADEBOOK
 
     console = Console()
     scores = sorted(result["score"] for result in results if result["score"] is not None)

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from grader.errors import UsageError
+from gz_course.grader.errors import UsageError
 
 if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
-    from grader.exercise import CheckSpec, Exercise
+    from gz_course.grader.exercise import CheckSpec, Exercise
 
 
 def register(app: typer.Typer) -> None:
@@ -31,8 +31,8 @@ def list_command(
     """List the exercises with points, best score so far and the file each asks for, or show the rubric of one."""
     from rich.console import Console
 
-    from grader.exercise import course_root, exercise_names, find_exercise
-    from grader.report.best import RUNS, best_scores
+    from gz_course.grader.exercise import course_root, exercise_names, find_exercise
+    from gz_course.grader.report.best import RUNS, best_scores
 
     if runs is not None and not runs.is_dir():
         raise UsageError(

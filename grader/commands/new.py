@@ -16,8 +16,8 @@ def new_command(
     name: Annotated[str, typer.Argument(help="Two digits and words, such as 06_wall_follower.")],
 ) -> None:
     """Begin an exercise: write both halves of one that works, to be changed into yours."""
-    from grader.exercise import course_root
-    from grader.scaffold.exercise import scaffold
+    from gz_course.grader.exercise import course_root
+    from gz_course.grader.scaffold.exercise import scaffold
 
     root = course_root()
     for path in scaffold(name, root):

@@ -22,8 +22,8 @@ def package_command(
     demand: Annotated[str | None, typer.Option(help="The least sandbox level, as for course grade.")] = None,
 ) -> None:
     """Package an exercise as a Gradescope autograder: setup.sh, run_autograder, the course, the hidden trials."""
-    from grader.exercise import find_exercise
-    from grader.package.gradescope import package
+    from gz_course.grader.exercise import find_exercise
+    from gz_course.grader.package.gradescope import package
 
     names = package(find_exercise(exercise), out, trials, demand)
     size = out.stat().st_size

@@ -17,8 +17,8 @@ def release_command(
     folder: Annotated[Path, typer.Argument(metavar="DIR", help="A folder that is new or empty.")],
 ) -> None:
     """Write what students get: exercises, chapters and the programs, with a README of their own; no solutions."""
-    from grader.exercise import course_root
-    from grader.release.student_copy import release
+    from gz_course.grader.exercise import course_root
+    from gz_course.grader.release.student_copy import release
 
     names = release(course_root(), folder)
     files = sum(path.is_file() for path in folder.rglob("*"))

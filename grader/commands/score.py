@@ -23,9 +23,9 @@ def score_command(
     junit: Annotated[Path | None, typer.Option(help="Write the report as JUnit XML.")] = None,
 ) -> None:
     """Score recordings again; nothing is run. Exit codes as for `course grade`."""
-    from grader.grade import grade_again, recordings_in
-    from grader.report.outputs import Outputs
-    from grader.report.terminal import print_report
+    from gz_course.grader.grade import grade_again, recordings_in
+    from gz_course.grader.report.outputs import Outputs
+    from gz_course.grader.report.terminal import print_report
 
     outputs = Outputs(json, html, gradescope, junit)
     outputs.check(inputs=[path for given in recordings for path in recordings_in(given)])

@@ -18,7 +18,7 @@ def show_command(recording: Annotated[Path, typer.Argument(help="The .rrd file a
     """Open a recording in the Rerun viewer; it ends when its window is closed."""
     import rerun_cli
 
-    from grader.record.reading import Recording
+    from gz_course.grader.record.reading import Recording
 
     Recording(recording)
     # The binary itself, not its Python wrapper, which would leave the viewer behind when it is killed. CI=1 is the

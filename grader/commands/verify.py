@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from grader.errors import ManifestError, UsageError, nearest
-from grader.exercise import course_root, exercise_names, find_exercise
+from gz_course.grader.errors import ManifestError, UsageError, nearest
+from gz_course.grader.exercise import course_root, exercise_names, find_exercise
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from grader.verify.proof import Verification
+    from gz_course.grader.verify.proof import Verification
 
 
 def register(app: typer.Typer) -> None:
@@ -31,17 +31,17 @@ def verify_command(
     mutants: Annotated[bool, typer.Option(help="Also spoil each solution in one place at a time.")] = True,
 ) -> None:
     """Prove that solutions earn full marks, starters nothing, and rejected variants lose what they declare."""
-    from grader.run.sandbox import choose, enter_early
-    from grader.temporary_folder import TemporaryFolder, sweep
+    from gz_course.grader.run.sandbox import choose, enter_early
+    from gz_course.grader.temporary_folder import TemporaryFolder, sweep
 
     enter_early(choose())  # before there are threads
 
     from rich.console import Console
 
-    from grader.verify import orphans
-    from grader.verify.jobs import pool
-    from grader.verify.mutants import MOST
-    from grader.verify.proof import verify
+    from gz_course.grader.verify import orphans
+    from gz_course.grader.verify.jobs import pool
+    from gz_course.grader.verify.mutants import MOST
+    from gz_course.grader.verify.proof import verify
 
     console = Console()
     root = course_root()

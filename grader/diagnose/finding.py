@@ -12,10 +12,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from grader.diagnose import looks
+from gz_course.grader.diagnose import looks
 
 if TYPE_CHECKING:
-    from grader.diagnose.system import System
+    from gz_course.grader.diagnose.system import System
 
 
 class Severity(enum.IntEnum):

@@ -10,15 +10,14 @@ import threading
 import time
 from typing import Any
 
-from gz.msgs.odometry_pb2 import Odometry
-from gz.msgs.sdf_generator_config_pb2 import SdfGeneratorConfig
-from gz.msgs.stringmsg_pb2 import StringMsg
-from gz.msgs.twist_pb2 import Twist
-from gz.msgs.world_stats_pb2 import WorldStatistics
-
-from grader.diagnose.system import Drive, GzSide, GzWorld
-from grader.diagnose.world_text import WorldText
-from gz.transport import Node, naming, network
+from gz_course.grader.diagnose.system import Drive, GzSide, GzWorld
+from gz_course.grader.diagnose.world_text import WorldText
+from gz_course.sim.gz.msgs.odometry_pb2 import Odometry
+from gz_course.sim.gz.msgs.sdf_generator_config_pb2 import SdfGeneratorConfig
+from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+from gz_course.sim.gz.msgs.twist_pb2 import Twist
+from gz_course.sim.gz.msgs.world_stats_pb2 import WorldStatistics
+from gz_course.sim.gz.transport import Node, naming, network
 
 TEXT_WITHIN_MS = 1000
 MOST_WORLDS = 10

@@ -9,9 +9,9 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
-from grader.diagnose.finding import Finding, Severity, findings
-from grader.diagnose.system import System
-from grader.errors import InfrastructureError
+from gz_course.grader.diagnose.finding import Finding, Severity, findings
+from gz_course.grader.diagnose.system import System
+from gz_course.grader.errors import InfrastructureError
 
 
 @dataclass(frozen=True)
@@ -71,9 +71,9 @@ def diagnose(seconds: float = 2.0) -> Diagnosis:
 
 def observe(seconds: float) -> System:
     """Look at both sides at the same time."""
-    from grader.diagnose import gz_side, ros_side
-    from grader.diagnose.stopped import stopped_processes
-    from ros2.errors import CommandError
+    from gz_course.grader.diagnose import gz_side, ros_side
+    from gz_course.grader.diagnose.stopped import stopped_processes
+    from gz_course.sim.ros2.errors import CommandError
 
     stop = threading.Event()
     with ThreadPoolExecutor(1, "gz-side") as pool:

@@ -16,13 +16,13 @@ from rcl_interfaces.msg import ParameterType
 from rcl_interfaces.srv import GetParameters
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
-from grader.diagnose.system import Heard, HeardMessage, RosEndpoint, RosNode, RosSide, RunningBridge
-from ros2.errors import CommandError
-from ros2.graph import FIRST_CONTACT, UNKNOWN_NODE, Graph
-from ros2.interface import message_class
-from ros_gz_bridge import bridged_topics
-from ros_gz_bridge.config import ConfigError, load_yaml
-from ros_gz_bridge.entry import BridgeEntry, Direction
+from gz_course.grader.diagnose.system import Heard, HeardMessage, RosEndpoint, RosNode, RosSide, RunningBridge
+from gz_course.sim.ros2.errors import CommandError
+from gz_course.sim.ros2.graph import FIRST_CONTACT, UNKNOWN_NODE, Graph
+from gz_course.sim.ros2.interface import message_class
+from gz_course.sim.ros_gz_bridge import bridged_topics
+from gz_course.sim.ros_gz_bridge.config import ConfigError, load_yaml
+from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction
 
 ANSWER_WITHIN = 1.0  # s for all nodes to tell their parameters; they answer from memory
 KEEP = 5  # messages of a topic

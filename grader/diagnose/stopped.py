@@ -9,8 +9,8 @@ import contextlib
 
 import psutil
 
-from grader.diagnose.system import StoppedProcess
-from gz.transport.environment import NetworkSettings, default_partition
+from gz_course.grader.diagnose.system import StoppedProcess
+from gz_course.sim.gz.transport.environment import NetworkSettings, default_partition
 
 _FIRST_PORT, _PORTS_PER_DOMAIN = 7400, 250  # DDSI-RTPS 2.2, 9.6.1
 

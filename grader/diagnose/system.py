@@ -11,9 +11,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
-from grader.diagnose.world_text import WorldText
-from gz.transport import MessagePublisher, ServicePublisher
-from ros_gz_bridge.entry import BridgeEntry
+from gz_course.grader.diagnose.world_text import WorldText
+from gz_course.sim.gz.transport import MessagePublisher, ServicePublisher
+from gz_course.sim.ros_gz_bridge.entry import BridgeEntry
 
 OTHER_TYPE = 0.8
 """How much alike a name must be to be meant although its type differs."""

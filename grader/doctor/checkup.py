@@ -13,9 +13,9 @@ from dataclasses import asdict, dataclass
 from types import ModuleType
 from typing import Any
 
-from grader.doctor import checks
-from grader.doctor.probe import ProbeError, Probes
-from grader.doctor.verdict import Verdict, failed
+from gz_course.grader.doctor import checks
+from gz_course.grader.doctor.probe import ProbeError, Probes
+from gz_course.grader.doctor.verdict import Verdict, failed
 
 AT_ONCE = 4  # questions; most of them wait for a process
 

@@ -17,7 +17,7 @@ from collections.abc import Mapping
 from types import TracebackType
 from typing import IO
 
-from grader.temporary_folder import TemporaryFolder
+from gz_course.grader.temporary_folder import TemporaryFolder
 
 GRACE = 0.3  # [s] between SIGINT, SIGTERM and SIGKILL
 _ALARM = "import signal; signal.alarm({seconds})\n"

@@ -11,15 +11,15 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from grader.kinds.kind import Cast, Kind
-from grader.kinds.table import GIVEN_NODE, given_node
-from grader.printable import shown
+from gz_course.grader.kinds.kind import Cast, Kind
+from gz_course.grader.kinds.table import GIVEN_NODE, given_node
+from gz_course.grader.printable import shown
 
 if TYPE_CHECKING:
-    from grader.exercise import Exercise
-    from grader.submission import Submission
-    from ros_gz_bridge.config import Config
-    from ros_gz_bridge.entry import BridgeEntry
+    from gz_course.grader.exercise import Exercise
+    from gz_course.grader.submission import Submission
+    from gz_course.sim.ros_gz_bridge.config import Config
+    from gz_course.sim.ros_gz_bridge.entry import BridgeEntry
 
 NODE = "ros_gz_bridge"  # the node a bridge is; `~` in a ROS name stands for it
 MOST_BRIDGES = 100
@@ -27,8 +27,8 @@ MOST_BRIDGES = 100
 
 def read(name: str, content: bytes) -> Config:
     """What the file holds, faults included."""
-    from ros_gz_bridge.checks import private_gz_names
-    from ros_gz_bridge.config import read_yaml
+    from gz_course.sim.ros_gz_bridge.checks import private_gz_names
+    from gz_course.sim.ros_gz_bridge.config import read_yaml
 
     config = read_yaml(content, name)
     config.findings += private_gz_names(config.topics, config.services)

@@ -12,12 +12,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from grader.errors import ManifestError, nearest
+from gz_course.grader.errors import ManifestError, nearest
 
 if TYPE_CHECKING:
-    from grader.exercise import Exercise
-    from grader.submission import Submission
-    from ros_gz_bridge.entry import BridgeEntry
+    from gz_course.grader.exercise import Exercise
+    from gz_course.grader.submission import Submission
+    from gz_course.sim.ros_gz_bridge.entry import BridgeEntry
 
 
 @dataclass(frozen=True)
@@ -65,5 +65,5 @@ def find_kind(name: str) -> Kind:
     names = kind_names()
     if name not in names:
         raise ManifestError(f"there is no kind of submission called {name!r}{nearest(name, names)}")
-    kind: Kind = importlib.import_module(f"grader.kinds.{name}").KIND
+    kind: Kind = importlib.import_module(f"gz_course.grader.kinds.{name}").KIND
     return kind

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from grader.kinds.kind import Cast, Kind
-from grader.kinds.node import fault
+from gz_course.grader.kinds.kind import Cast, Kind
+from gz_course.grader.kinds.node import fault
 
 if TYPE_CHECKING:
-    from grader.exercise import Exercise
-    from grader.submission import Submission
+    from gz_course.grader.exercise import Exercise
+    from gz_course.grader.submission import Submission
 
 
 def cast(exercise: Exercise, submission: Submission) -> Cast:

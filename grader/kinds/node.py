@@ -9,14 +9,14 @@ import tokenize
 import warnings
 from typing import TYPE_CHECKING
 
-from grader.kinds.kind import Cast, Kind
-from grader.printable import shown
-from grader.wall_clock import wall_clock
-from grader.whole_numbers import float_fields, whole_numbers
+from gz_course.grader.kinds.kind import Cast, Kind
+from gz_course.grader.printable import shown
+from gz_course.grader.wall_clock import wall_clock
+from gz_course.grader.whole_numbers import float_fields, whole_numbers
 
 if TYPE_CHECKING:
-    from grader.exercise import Exercise
-    from grader.submission import Submission
+    from gz_course.grader.exercise import Exercise
+    from gz_course.grader.submission import Submission
 
 
 def fault(name: str, content: bytes) -> str | None:
@@ -58,7 +58,7 @@ def _not_a_text(name: str, content: bytes) -> str:
 
 def cast(exercise: Exercise, submission: Submission) -> Cast:
     """The student's node, and the bridge of the exercise."""
-    from grader.run.exercise_bridge import exercise_bridge
+    from gz_course.grader.run.exercise_bridge import exercise_bridge
 
     entries, content = exercise_bridge(exercise), submission.files[submission.main]
     heard = {e.ros_type for e in entries if e.direction.to_gz} | set(exercise.observe.values())

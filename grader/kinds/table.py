@@ -9,15 +9,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from grader.errors import ManifestError, nearest
-from grader.kinds.kind import Cast, Kind
-from grader.printable import shown
+from gz_course.grader.errors import ManifestError, nearest
+from gz_course.grader.kinds.kind import Cast, Kind
+from gz_course.grader.printable import shown
 
 if TYPE_CHECKING:
     import yaml
 
-    from grader.exercise import Exercise
-    from grader.submission import Submission
+    from gz_course.grader.exercise import Exercise
+    from gz_course.grader.submission import Submission
 
 GIVEN_NODE = "given_node.py"  # the exercise's own node, beside its manifest
 COLUMNS = ("ros_topic", "ros_type", "gz_topic", "gz_type", "direction", "publisher")
@@ -51,7 +51,7 @@ def read(name: str, content: bytes) -> list[dict[str, Any]]:
     """
     import yaml
 
-    from ros_gz_bridge.config import ConfigError, compose
+    from gz_course.sim.ros_gz_bridge.config import ConfigError, compose
 
     if len(content) > MOST_BYTES:
         raise TableError(1, f"the file has {len(content)} bytes; such a table needs no more than {MOST_BYTES}")
@@ -106,7 +106,7 @@ def _line(node: yaml.Node) -> int:
 
 def cast(exercise: Exercise, submission: Submission) -> Cast:
     """The exercise's own node and bridge; the rows go into the recording."""
-    from grader.run.exercise_bridge import exercise_bridge
+    from gz_course.grader.run.exercise_bridge import exercise_bridge
 
     rows = read(submission.main, submission.files[submission.main])
     return Cast(GIVEN_NODE, given_node(exercise), exercise_bridge(exercise), {"table": rows}, given=True)

@@ -12,12 +12,12 @@ import stat
 import zipfile
 from pathlib import Path
 
-from grader.bundle import bundle
-from grader.errors import UsageError
-from grader.exercise import Exercise
-from grader.intake import is_junk
-from grader.run.sandbox import level_module
-from grader.trial import TRIALS, chosen_trials
+from gz_course.grader.bundle import bundle
+from gz_course.grader.errors import UsageError
+from gz_course.grader.exercise import Exercise
+from gz_course.grader.intake import is_junk
+from gz_course.grader.run.sandbox import level_module
+from gz_course.grader.trial import TRIALS, chosen_trials
 
 HERE = Path(__file__).parent
 CHECKOUT = Path(__file__).parents[2]

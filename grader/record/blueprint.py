@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import rerun.blueprint as rrb
 
-from grader.record.timeline import TIMELINE
+from gz_course.grader.record.timeline import TIMELINE
 
 
 def blueprint(robot: str) -> rrb.Blueprint:

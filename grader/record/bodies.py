@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from grader.record.reading import Poses, Recording
+from gz_course.grader.record.reading import Poses, Recording
 
 SHAPES = ("Boxes3D", "Cylinders3D", "Capsules3D", "Ellipsoids3D", "Mesh3D")
 MOST_CORNERS = 4096  # of a surface; more do not change what a drawing shows

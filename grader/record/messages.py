@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from grader.record.recorder import Recorder
+from gz_course.grader.record.recorder import Recorder
 
 LONGEST_LIST = 20_000  # numbers; images and clouds are shown, not stored number by number
 LONGEST_TEXT = 2_000  # characters of a text that are kept

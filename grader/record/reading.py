@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from grader.errors import UsageError, nearest
+from gz_course.grader.errors import UsageError, nearest
 
 STUDENT_LOG, GIVEN_LOG = "log/student", "log/given_node"  # what the submission said; what the exercise's own node said
 

@@ -33,8 +33,8 @@ from typing import Any
 import numpy as np
 import rerun as rr
 
-from grader.record.blueprint import blueprint
-from grader.record.timeline import TIMELINE
+from gz_course.grader.record.blueprint import blueprint
+from gz_course.grader.record.timeline import TIMELINE
 
 APPLICATION = "gz_course"
 BLOCK_NS = 5_000_000_000  # simulated time per block [ns]

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import rerun as rr
 
-from grader.record.recorder import Recorder
+from gz_course.grader.record.recorder import Recorder
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
+    from gz_course.sim.gz.sim.world import World
 
 LINK_TICKS = 5  # links (wheels turn) are drawn every so many ticks
 UNITS = {"linear_x": " [m/s]", "angular_z": " [rad/s]", "distance": " [m]", "yaw": " [rad]"}

@@ -13,8 +13,8 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
-from grader.errors import ManifestError, UsageError
-from grader.exercise import Exercise, exercise_names, find_exercise
+from gz_course.grader.errors import ManifestError, UsageError
+from gz_course.grader.exercise import Exercise, exercise_names, find_exercise
 
 CHECKOUT = Path(__file__).parents[2]
 COURSE = ("exercises", "chapters")

@@ -16,10 +16,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from grader.errors import UsageError
+from gz_course.grader.errors import UsageError
 
 if TYPE_CHECKING:
-    from grader.report.report import Report
+    from gz_course.grader.report.report import Report
 
 RUNS = Path("runs")  # where `course grade` puts its folders unless told otherwise
 BEST = "best.json"

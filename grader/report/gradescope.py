@@ -9,11 +9,11 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from grader.printable import storable
-from grader.record.reading import Recording
-from grader.report.node_log import node_log
-from grader.report.report import OUTCOMES, Report, points
-from grader.score.score import CheckResult
+from gz_course.grader.printable import storable
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.report.node_log import node_log
+from gz_course.grader.report.report import OUTCOMES, Report, points
+from gz_course.grader.score.score import CheckResult
 
 LINES = 20  # of the node's log, from its end, below the verdict
 

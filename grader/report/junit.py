@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from xml.etree import ElementTree as XML
 
-from grader.printable import storable
-from grader.record.reading import Recording
-from grader.report.node_log import node_log
-from grader.report.report import Report, points
-from grader.score.score import CheckResult
+from gz_course.grader.printable import storable
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.report.node_log import node_log
+from gz_course.grader.report.report import Report, points
+from gz_course.grader.score.score import CheckResult
 
 
 def as_junit(report: Report) -> str:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from grader.printable import shown
-from grader.record.reading import GIVEN_LOG, Recording
+from gz_course.grader.printable import shown
+from gz_course.grader.record.reading import GIVEN_LOG, Recording
 
 FIRST, LAST = 40, 80  # lines that are kept from the beginning and from the end
 

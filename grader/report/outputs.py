@@ -11,9 +11,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.errors import UsageError
-from grader.printable import shown
-from grader.report.report import Report
+from gz_course.grader.errors import UsageError
+from gz_course.grader.printable import shown
+from gz_course.grader.report.report import Report
 
 FORMATS = ("json", "html", "gradescope", "junit")
 
@@ -66,15 +66,15 @@ def as_text(report: Report, name: str) -> str:
     """Return a report in one of FORMATS. Raises UsageError if a recording it needs cannot be read."""
     match name:
         case "html":
-            from grader.report.html.page import as_html
+            from gz_course.grader.report.html.page import as_html
 
             return as_html(report)
         case "gradescope":
-            from grader.report.gradescope import as_gradescope
+            from gz_course.grader.report.gradescope import as_gradescope
 
             return as_gradescope(report)
         case "junit":
-            from grader.report.junit import as_junit
+            from gz_course.grader.report.junit import as_junit
 
             return as_junit(report)
     return report.as_json()

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from grader.printable import storable
-from grader.score.score import CheckResult, Score
+from gz_course.grader.printable import storable
+from gz_course.grader.score.score import CheckResult, Score
 
 # What each outcome means, in a sentence.
 OUTCOMES = {

@@ -16,11 +16,11 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from grader.printable import shown
-from grader.record.reading import Recording
-from grader.report.node_log import node_log
-from grader.report.report import Report, points
-from grader.score.score import CheckResult
+from gz_course.grader.printable import shown
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.report.node_log import node_log
+from gz_course.grader.report.report import Report, points
+from gz_course.grader.score.score import CheckResult
 
 NO_LIMIT = 1 << 20
 MARKS = {True: ("pass", "green"), False: ("FAIL", "bold red")}

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import rerun as rr
 
-from grader.record.recorder import Recorder
-from grader.score.score import Score
+from gz_course.grader.record.recorder import Recorder
+from gz_course.grader.score.score import Score
 
 STATES = rr.StateConfiguration(
     values=["wait", "pass", "fail"],

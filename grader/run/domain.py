@@ -10,7 +10,7 @@ import random
 import socket
 from types import TracebackType
 
-from grader.errors import InfrastructureError
+from gz_course.grader.errors import InfrastructureError
 
 # DDS ports are 7400 + 250 * domain + ...; above domain 101 they reach Linux's ephemeral ports (32768 and up).
 # Domain 0 is everybody's default and stays free.

@@ -21,9 +21,9 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.serialization import serialize_message
 from rclpy.signals import SignalHandlerOptions
 
-from grader.errors import ManifestError
-from gz.transport import Node as GzNode
-from ros_gz_bridge.bridge import Bridge, BridgeEntry, HeaderOverrides
+from gz_course.grader.errors import ManifestError
+from gz_course.sim.gz.transport import Node as GzNode
+from gz_course.sim.ros_gz_bridge.bridge import Bridge, BridgeEntry, HeaderOverrides
 
 HOUSEKEEPING = ("/parameter_events", "/rosout")  # topics every node has
 UNKNOWN = "_NODE_NAME_UNKNOWN_"  # what rcl calls the node of an endpoint that has not told it yet

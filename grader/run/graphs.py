@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from grader.run.ears import NODE, Ears
-from gz.transport import MessagePublisher, Node
+from gz_course.grader.run.ears import NODE, Ears
+from gz_course.sim.gz.transport import MessagePublisher, Node
 
 SIMULATOR = "gz sim"
 

@@ -14,11 +14,11 @@ import time
 from collections import Counter
 from typing import Any
 
-from grader.run.box.course_box.watch import HOUSEKEEPING
-from grader.run.matching import can_match, will_match
-from grader.run.participant import Participant
-from grader.run.real_time import LOOK_ROUND, MATCHING, PATIENCE, Ears, RealTime
-from grader.run.student import Student
+from gz_course.grader.run.box.course_box.watch import HOUSEKEEPING
+from gz_course.grader.run.matching import can_match, will_match
+from gz_course.grader.run.participant import Participant
+from gz_course.grader.run.real_time import LOOK_ROUND, MATCHING, PATIENCE, Ears, RealTime
+from gz_course.grader.run.student import Student
 
 LONG_WAIT = 0.5  # [s] of wall time for one message: a busy machine alone hardly takes so long
 GIVING_UP = 3  # after so many times it is paced for the rest of the run

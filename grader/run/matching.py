@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from grader.run.box.course_box.watch import qos_can_match
-from grader.run.progress import Endpoint
+from gz_course.grader.run.box.course_box.watch import qos_can_match
+from gz_course.grader.run.progress import Endpoint
 
 if TYPE_CHECKING:
-    from grader.run.real_time import Ears
+    from gz_course.grader.run.real_time import Ears
 
 
 def can_match(endpoint: Endpoint, ears: Ears) -> bool:

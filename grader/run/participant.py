@@ -13,7 +13,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from grader.run.progress import Progress
+from gz_course.grader.run.progress import Progress
 
 LARGEST = 1 << 20  # [bytes] of one message
 MOST_AT_ONCE = 1_000  # messages taken in one go: who sends without end does not keep the grader from going on

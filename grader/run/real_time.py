@@ -9,9 +9,9 @@ import time
 from collections import Counter
 from typing import Any, Protocol
 
-from grader.run.children import START_UP
-from grader.run.matching import can_match
-from grader.run.student import Student
+from gz_course.grader.run.children import START_UP
+from gz_course.grader.run.matching import can_match
+from gz_course.grader.run.student import Student
 
 PATIENCE = 3.0  # [s] of wall time a node may need for one message before it is paced
 MATCHING = 5.0  # [s] of wall time for DDS to match the endpoints of a new node; a lost announcement costs 3 s

@@ -14,13 +14,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from grader.run.ears import Ears
-from grader.run.participant import Participant
-from gz.sim.errors import SimError
-from gz.sim.sdf.resources import BUILT_IN_WORLDS
-from gz.sim.world import World
-from gz.transport import Node
-from ros_gz_bridge.entry import BridgeEntry, BridgeError, Direction, HeaderOverrides
+from gz_course.grader.run.ears import Ears
+from gz_course.grader.run.participant import Participant
+from gz_course.sim.gz.sim.errors import SimError
+from gz_course.sim.gz.sim.sdf.resources import BUILT_IN_WORLDS
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node
+from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, BridgeError, Direction, HeaderOverrides
 
 MOST_ENTRIES = 200  # of one bridge
 URI = re.compile(r"<(?:uri|filename)>\s*(.*?)\s*</")
@@ -157,7 +157,7 @@ class Served:
 
     def _call(self, asked: dict[str, Any]) -> bool:
         """Ask one of the world's services for what `create` and its like ask."""
-        from gz.msgs.boolean_pb2 import Boolean
+        from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
 
         if self.world is None or asked["verb"] not in ("create", "remove", "set_pose"):
             return False

@@ -12,22 +12,22 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grader.errors import ManifestError
-from grader.exercise import MANIFEST, Exercise
-from grader.kinds.kind import find_kind
-from grader.printable import shown
-from grader.run.box.course_box.hooks import SERVE
-from grader.run.box.course_box.watch import HOLD, RELIABLE
-from grader.run.domain import Domain
-from grader.run.sandbox import AUTO, Sandbox
-from grader.run.student import Student, launch_command, node_command
-from grader.submission import Submission
-from grader.temporary_folder import sweep
-from grader.trial import Trial
-from ros_gz_bridge.qos_profile import reliable
+from gz_course.grader.errors import ManifestError
+from gz_course.grader.exercise import MANIFEST, Exercise
+from gz_course.grader.kinds.kind import find_kind
+from gz_course.grader.printable import shown
+from gz_course.grader.run.box.course_box.hooks import SERVE
+from gz_course.grader.run.box.course_box.watch import HOLD, RELIABLE
+from gz_course.grader.run.domain import Domain
+from gz_course.grader.run.sandbox import AUTO, Sandbox
+from gz_course.grader.run.student import Student, launch_command, node_command
+from gz_course.grader.submission import Submission
+from gz_course.grader.temporary_folder import sweep
+from gz_course.grader.trial import Trial
+from gz_course.sim.ros_gz_bridge.qos_profile import reliable
 
 if TYPE_CHECKING:
-    from grader.record.recorder import Recorder
+    from gz_course.grader.record.recorder import Recorder
 
 
 @dataclass(frozen=True)
@@ -42,8 +42,8 @@ class RunResult:
 
 def record_unrunnable(exercise: Exercise, submission: Submission, trial: Trial, path: Path) -> RunResult:
     """Write the recording of a submission that cannot be started; it holds the reason and nothing else."""
-    from grader.record.recorder import Recorder
-    from grader.run.properties import write_properties
+    from gz_course.grader.record.recorder import Recorder
+    from gz_course.grader.run.properties import write_properties
 
     recorder = Recorder(path, exercise.robot)
     recorder.text("log/grader", submission.fault or "", "ERROR")
@@ -81,11 +81,11 @@ def run(
         stack.callback(student.close)
         stack.enter_context(_environment(sandbox.grader_environment()))
 
-        from grader.record.recorder import Recorder
-        from grader.run.launch_stage import LaunchStage
-        from grader.run.properties import write_properties
-        from grader.run.stage import Stage
-        from ros_gz_bridge.entry import BridgeError
+        from gz_course.grader.record.recorder import Recorder
+        from gz_course.grader.run.launch_stage import LaunchStage
+        from gz_course.grader.run.properties import write_properties
+        from gz_course.grader.run.stage import Stage
+        from gz_course.sim.ros_gz_bridge.entry import BridgeError
 
         try:
             kind_of_stage = LaunchStage if cast.launch else Stage

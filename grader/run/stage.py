@@ -12,26 +12,25 @@ from contextlib import ExitStack
 from dataclasses import asdict
 from typing import Any
 
-from gz.msgs.twist_pb2 import Twist
-
-from grader.errors import InfrastructureError
-from grader.exercise import Exercise
-from grader.kinds.kind import Cast
-from grader.record.messages import record_message
-from grader.record.reading import GIVEN_LOG, STUDENT_LOG
-from grader.record.recorder import Recorder
-from grader.record.scene import Scene
-from grader.run.ears import Ears
-from grader.run.graphs import both_graphs
-from grader.run.lockstep import LockStep
-from grader.run.real_time import RealTime
-from grader.run.student import Student
-from grader.run.trial_world import load_trial_world
-from grader.trial import ScriptedCommand, Trial
-from gz.sim.errors import SimError
-from gz.sim.server import Server
-from gz.sim.world import World
-from gz.transport import Node, NodeOptions, Scope
+from gz_course.grader.errors import InfrastructureError
+from gz_course.grader.exercise import Exercise
+from gz_course.grader.kinds.kind import Cast
+from gz_course.grader.record.messages import record_message
+from gz_course.grader.record.reading import GIVEN_LOG, STUDENT_LOG
+from gz_course.grader.record.recorder import Recorder
+from gz_course.grader.record.scene import Scene
+from gz_course.grader.run.ears import Ears
+from gz_course.grader.run.graphs import both_graphs
+from gz_course.grader.run.lockstep import LockStep
+from gz_course.grader.run.real_time import RealTime
+from gz_course.grader.run.student import Student
+from gz_course.grader.run.trial_world import load_trial_world
+from gz_course.grader.trial import ScriptedCommand, Trial
+from gz_course.sim.gz.msgs.twist_pb2 import Twist
+from gz_course.sim.gz.sim.errors import SimError
+from gz_course.sim.gz.sim.server import Server
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node, NodeOptions, Scope
 
 MOST_MESSAGES = 20_000  # of one topic that are recorded; the rest is counted
 # A run may take 2 x its simulated time + 10 s of wall time. Then it is ended if the student's processes took half of

@@ -21,11 +21,11 @@ from typing import Any
 
 import psutil
 
-from grader.run.box.course_box import channel, watch
-from grader.run.children import Children
-from grader.run.participant import Participant
-from grader.run.progress import Endpoint
-from grader.run.sandbox import Sandbox
+from gz_course.grader.run.box.course_box import channel, watch
+from gz_course.grader.run.children import Children
+from gz_course.grader.run.participant import Participant
+from gz_course.grader.run.progress import Endpoint
+from gz_course.grader.run.sandbox import Sandbox
 
 LONGEST_LINE = 2_000  # [characters] of one line that are kept
 MOST_LINES = 20_000  # kept per run; of the rest
@@ -299,7 +299,7 @@ def _listener(folder: Path) -> socket.socket:
 def launch_command(file: Path, arguments: Mapping[str, Any]) -> list[str]:
     """Return the command that runs a launch file, as `ros2 launch FILE NAME:=VALUE ...` does."""
     words = [f"{name}:={str(value).lower() if isinstance(value, bool) else value}" for name, value in arguments.items()]
-    ros2 = "import sys; from ros2.command_line import main; sys.exit(main())"
+    ros2 = "import sys; from gz_course.sim.ros2.command_line import main; sys.exit(main())"
     return [sys.executable, "-P", "-c", ros2, "launch", str(file), *words]
 
 

@@ -7,17 +7,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from grader.errors import ManifestError, nearest
-from grader.exercise import MANIFEST, Exercise
-from grader.trial import Trial
-from gz.sim.errors import Diagnostics, SimError
-from gz.sim.pose import Pose
-from gz.sim.sdf.reader import read_world_file
-from gz.sim.sdf.resources import find_world
-from gz.sim.world import World
+from gz_course.grader.errors import ManifestError, nearest
+from gz_course.grader.exercise import MANIFEST, Exercise
+from gz_course.grader.trial import Trial
+from gz_course.sim.gz.sim.errors import Diagnostics, SimError
+from gz_course.sim.gz.sim.pose import Pose
+from gz_course.sim.gz.sim.sdf.reader import read_world_file
+from gz_course.sim.gz.sim.sdf.resources import find_world
+from gz_course.sim.gz.sim.world import World
 
 if TYPE_CHECKING:
-    from gz.transport import Node
+    from gz_course.sim.gz.transport import Node
 
 
 def load_trial_world(exercise: Exercise, trial: Trial, node: Node | None) -> World:

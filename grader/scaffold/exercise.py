@@ -10,8 +10,8 @@ import re
 import shutil
 from pathlib import Path
 
-from grader.errors import UsageError
-from grader.exercise import exercise_names
+from gz_course.grader.errors import UsageError
+from gz_course.grader.exercise import exercise_names
 
 TEMPLATE = Path(__file__).with_name("template")
 NAME = re.compile(r"[0-9]{2}_[a-z][a-z0-9]*(_[a-z0-9]+)*")

@@ -19,10 +19,10 @@ from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
-from grader.errors import ManifestError, nearest
-from grader.exercise import CheckSpec
-from grader.record.reading import Recording
-from grader.table import Table
+from gz_course.grader.errors import ManifestError, nearest
+from gz_course.grader.exercise import CheckSpec
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.table import Table
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ def check_kind(name: str) -> Callable[[Kind], Kind]:
 @cache
 def check_kinds() -> dict[str, Kind]:
     """Return every kind there is, by name."""
-    from grader.score import checks
+    from gz_course.grader.score import checks
 
     for module in pkgutil.iter_modules(checks.__path__):
         importlib.import_module(f"{checks.__name__}.{module.name}")

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from grader.printable import shown
-from grader.record.reading import Recording
-from grader.score.check import Finding
-from grader.score.launched import launch_facts
+from gz_course.grader.printable import shown
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.score.check import Finding
+from gz_course.grader.score.launched import launch_facts
 
 
 def clock_fault(recording: Recording, findings: Iterable[Finding]) -> str:

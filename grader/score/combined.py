@@ -10,7 +10,7 @@ import hashlib
 from collections.abc import Sequence
 from dataclasses import replace
 
-from grader.score.score import CheckResult, Score
+from gz_course.grader.score.score import CheckResult, Score
 
 
 def combined(scores: Sequence[tuple[str, Score]]) -> Score:

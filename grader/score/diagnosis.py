@@ -10,10 +10,10 @@ import signal
 from difflib import get_close_matches
 from typing import Any
 
-from grader.printable import shown
-from grader.record.reading import Recording
-from grader.score.launched import launch_fault
-from grader.score.python_errors import meaning
+from gz_course.grader.printable import shown
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.score.launched import launch_fault
+from gz_course.grader.score.python_errors import meaning
 
 FRAME = re.compile(r'\s+File "(.*)", line (\d+)')
 

@@ -16,9 +16,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from grader.record.reading import Recording
-from grader.score.steps import Condition
-from grader.table import Table
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.score.steps import Condition
+from gz_course.grader.table import Table
 
 # What the console format of the sandbox puts before a logger's message; a printed line lacks it.
 LOGGED = re.compile(r"^\[[A-Z]+\] \[[^\]]*\]: ")

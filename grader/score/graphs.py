@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Any
 
-from grader.record.reading import Recording
+from gz_course.grader.record.reading import Recording
 
 WAYS = ("GZ_TO_ROS", "ROS_TO_GZ", "BIDIRECTIONAL")
 

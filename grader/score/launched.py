@@ -11,8 +11,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from grader.printable import shown
-from grader.record.reading import Recording
+from gz_course.grader.printable import shown
+from gz_course.grader.record.reading import Recording
 
 SAID = re.compile(r"^\[[^\]]+\] (gz sim|parameter_bridge|create|gzserver): (.*)")
 OUTPUT = re.compile(r"^\[([^\] ]+-\d+)\] (.*\S)")  # a line of a process that the launch started

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from grader.exercise import CheckSpec, Exercise
-from grader.record.reading import Recording
-from grader.score.check import Finding, perform_all
-from grader.score.clocks import clock_fault
-from grader.score.diagnosis import diagnose, outcome_of, whole_number_fault
+from gz_course.grader.exercise import CheckSpec, Exercise
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.score.check import Finding, perform_all
+from gz_course.grader.score.clocks import clock_fault
+from gz_course.grader.score.diagnosis import diagnose, outcome_of, whole_number_fault
 
 NOT_RUN = Finding(False, "a file that runs", "nothing was run")
 SPOILT: dict[str, Any] = {"passed": False, "measured": "not counted: the run was tampered with", "at_s": None}

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from grader.record.reading import Recording
-from grader.table import Table
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.table import Table
 
 
 @dataclass(frozen=True)

@@ -19,10 +19,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.errors import ManifestError, nearest
-from grader.exercise import Exercise
-from grader.table import Table
-from grader.trial import chosen_trials
+from gz_course.grader.errors import ManifestError, nearest
+from gz_course.grader.exercise import Exercise
+from gz_course.grader.table import Table
+from gz_course.grader.trial import chosen_trials
 
 FEWEST_ACCEPTED = 2
 FEWEST_REJECTED = 6

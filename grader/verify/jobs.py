@@ -19,13 +19,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
-from grader.errors import InfrastructureError
-from grader.exercise import Exercise
-from grader.grade import grade
-from grader.interruption import end_on
-from grader.report.report import Report
-from grader.temporary_folder import TemporaryFolder
-from grader.trial import Trial
+from gz_course.grader.errors import InfrastructureError
+from gz_course.grader.exercise import Exercise
+from gz_course.grader.grade import grade
+from gz_course.grader.interruption import end_on
+from gz_course.grader.report.report import Report
+from gz_course.grader.temporary_folder import TemporaryFolder
+from gz_course.grader.trial import Trial
 
 PR_SET_PDEATHSIG = 1
 ATTEMPTS = 3  # at a grading that fails by a fault of the machine

@@ -12,13 +12,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from grader.exercise import Exercise
-from grader.report.report import Report
-from grader.score.score import Score
-from grader.trial import chosen_trials
-from grader.verify.declared import FEWEST_ACCEPTED, FEWEST_REJECTED, Variant, equivalent_mutants, variants
-from grader.verify.jobs import Job, Pool
-from grader.verify.mutants import MOST, Mutant, choose, mutants_of
+from gz_course.grader.exercise import Exercise
+from gz_course.grader.report.report import Report
+from gz_course.grader.score.score import Score
+from gz_course.grader.trial import chosen_trials
+from gz_course.grader.verify.declared import FEWEST_ACCEPTED, FEWEST_REJECTED, Variant, equivalent_mutants, variants
+from gz_course.grader.verify.jobs import Job, Pool
+from gz_course.grader.verify.mutants import MOST, Mutant, choose, mutants_of
 
 REJECTED = "rejected/"
 

@@ -21,20 +21,20 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from grader import bundle
-from grader.errors import InfrastructureError, RefusedError, UnreadableError, UsageError
-from grader.exercise import Exercise
-from grader.intake import Selection
-from grader.printable import shown
-from grader.run.sandbox import choose
-from grader.temporary_folder import TemporaryFolder, sweep
-from grader.trial import chosen_trials
-from grader.whole_class.dask_cluster import dask_executor
-from grader.whole_class.found import Found
-from grader.whole_class.gradebook import GRADEBOOK, as_csv, write_gradebook
-from grader.whole_class.grading import REPORT, Graded, Job, Setup, grade_one, gradings_end_here
-from grader.whole_class.journal import JOURNAL, Journal
-from grader.whole_class.versions import versions
+from gz_course.grader import bundle
+from gz_course.grader.errors import InfrastructureError, RefusedError, UnreadableError, UsageError
+from gz_course.grader.exercise import Exercise
+from gz_course.grader.intake import Selection
+from gz_course.grader.printable import shown
+from gz_course.grader.run.sandbox import choose
+from gz_course.grader.temporary_folder import TemporaryFolder, sweep
+from gz_course.grader.trial import chosen_trials
+from gz_course.grader.whole_class.dask_cluster import dask_executor
+from gz_course.grader.whole_class.found import Found
+from gz_course.grader.whole_class.gradebook import GRADEBOOK, as_csv, write_gradebook
+from gz_course.grader.whole_class.grading import REPORT, Graded, Job, Setup, grade_one, gradings_end_here
+from gz_course.grader.whole_class.journal import JOURNAL, Journal
+from gz_course.grader.whole_class.versions import versions
 
 LOOK = 2.0  # [s] between two looks whether who grades is still there
 ATTEMPTS = 3  # at one submission, if the fault is ours

@@ -10,10 +10,10 @@ import contextlib
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
 
-from grader.errors import UsageError
-from grader.printable import shown
-from grader.temporary_folder import TemporaryFolder
-from grader.whole_class.versions import versions
+from gz_course.grader.errors import UsageError
+from gz_course.grader.printable import shown
+from gz_course.grader.temporary_folder import TemporaryFolder
+from gz_course.grader.whole_class.versions import versions
 
 CONNECT = 15.0  # [s] to reach a scheduler
 

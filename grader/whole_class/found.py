@@ -17,12 +17,21 @@ from typing import Any, NamedTuple
 
 import yaml
 
-from grader.archive import LONGEST_PART, Member, Tree, damaged, is_archive, plain_name, zip_folders, zip_members
-from grader.errors import RefusedError, UsageError
-from grader.exercise import Exercise
-from grader.intake import JUNK, Selection, folder_member, folder_tree, is_junk, select
-from grader.kinds.kind import find_kind
-from grader.printable import shown
+from gz_course.grader.archive import (
+    LONGEST_PART,
+    Member,
+    Tree,
+    damaged,
+    is_archive,
+    plain_name,
+    zip_folders,
+    zip_members,
+)
+from gz_course.grader.errors import RefusedError, UsageError
+from gz_course.grader.exercise import Exercise
+from gz_course.grader.intake import JUNK, Selection, folder_member, folder_tree, is_junk, select
+from gz_course.grader.kinds.kind import find_kind
+from gz_course.grader.printable import shown
 
 METADATA = "submission_metadata.yml"  # Gradescope's, beside the folders of an export
 LARGEST_METADATA = 4 << 20  # [bytes]

@@ -13,8 +13,8 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from grader.exercise import Exercise
-from grader.printable import shown
+from gz_course.grader.exercise import Exercise
+from gz_course.grader.printable import shown
 
 GRADEBOOK = "gradebook.csv"
 FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "\N{FULLWIDTH EQUALS SIGN}", "\N{FULLWIDTH PLUS SIGN}",

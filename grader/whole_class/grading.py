@@ -21,9 +21,9 @@ from typing import Any
 
 import psutil
 
-from grader import bundle
-from grader.printable import shown
-from grader.temporary_folder import TemporaryFolder, sweep
+from gz_course.grader import bundle
+from gz_course.grader.printable import shown
+from gz_course.grader.temporary_folder import TemporaryFolder, sweep
 
 PR_SET_CHILD_SUBREAPER = 36
 LARGEST_FILE = 256 << 20  # [bytes] of a recording or report that is brought back
@@ -140,7 +140,15 @@ def _grade(setup: Setup, job: Job, folder: Path) -> Graded:
     submission = folder / "submission"
     # A single file may have any name; a folder is searched for the one asked for.
     given = submission / job.main if len(job.files) == 1 else submission
-    command = [sys.executable, "-P", "-m", "grader.whole_class.start", str(os.getpid()), "grade", setup.exercise]
+    command = [
+        sys.executable,
+        "-P",
+        "-m",
+        "gz_course.grader.whole_class.start",
+        str(os.getpid()),
+        "grade",
+        setup.exercise,
+    ]
     command += ["--submission", str(given), "--out", RECORDINGS, "--json", REPORT, *setup.options]
     for name in setup.reports:
         command += [f"--{name}", _report_name(name)]

@@ -13,7 +13,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from grader.errors import UsageError
+from gz_course.grader.errors import UsageError
 
 JOURNAL = "journal.jsonl"
 

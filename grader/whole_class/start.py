@@ -18,7 +18,7 @@ def main() -> None:
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)  # `course` closes everything on SIGTERM
     if os.getppid() != int(sys.argv.pop(1)):
         sys.exit(3)
-    from grader.course import main as course
+    from gz_course.grader.course import main as course
 
     course()
 

@@ -22,7 +22,7 @@ _ENGINES = ("mujoco", "pyzmq", "protobuf")
 def find_commands(folders: Iterable[str | Path] | None = None) -> dict[str, Path]:
     """Sub-command name -> its file, sorted by name; by default from all folders of the `gz` package."""
     if folders is None:
-        import gz
+        from gz_course.sim import gz
 
         folders = list(gz.__path__)
     found: dict[str, Path] = {}
@@ -96,7 +96,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 2
     code = _run(first, commands[first], arguments[1:])
     if argv is None:
-        from gz.command_line import leave_signals
+        from gz_course.sim.gz.command_line import leave_signals
 
         leave_signals()
     return code
@@ -104,10 +104,10 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _run(name: str, path: Path, arguments: list[str]) -> int:
     if path.parent.name != "commands":
-        return importlib.import_module(f"gz.{name}.command").main(arguments) or 0
-    from gz import command_line
+        return importlib.import_module(f"gz_course.sim.gz.{name}.command").main(arguments) or 0
+    from gz_course.sim.gz import command_line
 
-    module = f"gz.{path.parents[1].name}.commands.{name}"
+    module = f"gz_course.sim.gz.{path.parents[1].name}.commands.{name}"
     return command_line.run(module, f"gz {name}", arguments, _summary(path))
 
 

@@ -5,7 +5,7 @@ imported. A launch file is loaded by `launch_description_sources`, visited by `L
 `substitutions`, `conditions` and `event_handlers`.
 """
 
-from launch import (
+from gz_course.sim.launch import (
     actions,
     conditions,
     descriptions,
@@ -16,18 +16,18 @@ from launch import (
     substitutions,
     utilities,
 )
-from launch.action import Action
-from launch.condition import Condition
-from launch.event import Event
-from launch.event_handler import EventHandler
-from launch.invalid_launch_file_error import InvalidLaunchFileError
-from launch.launch_context import LaunchContext
-from launch.launch_description import LaunchDescription
-from launch.launch_description_entity import LaunchDescriptionEntity, SomeEntitiesType
-from launch.launch_description_source import LaunchDescriptionSource
-from launch.launch_introspector import LaunchIntrospector
-from launch.launch_service import LaunchService
-from launch.substitution import SomeSubstitutionsType, SomeSubstitutionsType_types_tuple, Substitution
+from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.condition import Condition
+from gz_course.sim.launch.event import Event
+from gz_course.sim.launch.event_handler import EventHandler
+from gz_course.sim.launch.invalid_launch_file_error import InvalidLaunchFileError
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.launch_description import LaunchDescription
+from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity, SomeEntitiesType
+from gz_course.sim.launch.launch_description_source import LaunchDescriptionSource
+from gz_course.sim.launch.launch_introspector import LaunchIntrospector
+from gz_course.sim.launch.launch_service import LaunchService
+from gz_course.sim.launch.substitution import SomeSubstitutionsType, SomeSubstitutionsType_types_tuple, Substitution
 
 __all__ = [
     "Action",

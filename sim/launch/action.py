@@ -6,12 +6,12 @@ import inspect
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-from launch.condition import Condition
-from launch.errors import locate, nearest, place_of_caller
-from launch.launch_description_entity import LaunchDescriptionEntity
+from gz_course.sim.launch.condition import Condition
+from gz_course.sim.launch.errors import locate, nearest, place_of_caller
+from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
-    from launch.launch_context import LaunchContext
+    from gz_course.sim.launch.launch_context import LaunchContext
 
 
 class Action(LaunchDescriptionEntity):
@@ -70,7 +70,7 @@ class Action(LaunchDescriptionEntity):
 
     def _announce_completion(self, context: LaunchContext) -> None:
         """Emit ExecutionComplete, now or when the future of this action is done, if anybody waits for it."""
-        from launch.events import ExecutionComplete
+        from gz_course.sim.launch.events import ExecutionComplete
 
         event = ExecutionComplete(action=self)
         future = self.get_asyncio_future()

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from launch.launch_context import LaunchContext
+    from gz_course.sim.launch.launch_context import LaunchContext
 
 
 class Condition:

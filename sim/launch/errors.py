@@ -14,7 +14,7 @@ import sysconfig
 import traceback
 from collections.abc import Iterable
 
-from launch.ament_prefix import nearest_package_of
+from gz_course.sim.launch.ament_prefix import nearest_package_of
 
 _OWN_FOLDER = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))  # noqa: PTH100, PTH120 - at every start
 _OWN_FOLDERS = tuple(os.path.join(_OWN_FOLDER, name) + os.sep for name in ("launch", "launch_ros", "ros2"))  # noqa: PTH118

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
-from launch.event import Event
-from launch.launch_description_entity import LaunchDescriptionEntity, SomeEntitiesType, listed
+from gz_course.sim.launch.event import Event
+from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity, SomeEntitiesType, listed
 
 if TYPE_CHECKING:
-    from launch.launch_context import LaunchContext
+    from gz_course.sim.launch.launch_context import LaunchContext
 
 
 class EventHandler:

@@ -15,10 +15,10 @@ from collections.abc import Iterable, Iterator, MutableMapping
 from types import SimpleNamespace
 from typing import Any
 
-from launch.errors import LaunchError
-from launch.event import Event
-from launch.event_handler import EventHandler
-from launch.substitution import Substitution
+from gz_course.sim.launch.errors import LaunchError
+from gz_course.sim.launch.event import Event
+from gz_course.sim.launch.event_handler import EventHandler
+from gz_course.sim.launch.substitution import Substitution
 
 
 class LaunchContext:

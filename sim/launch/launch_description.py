@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-from launch.errors import locate, place_of_caller
-from launch.launch_description_entity import LaunchDescriptionEntity, listed
+from gz_course.sim.launch.errors import locate, place_of_caller
+from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity, listed
 
 if TYPE_CHECKING:
-    from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
-    from launch.launch_context import LaunchContext
+    from gz_course.sim.launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
+    from gz_course.sim.launch.launch_context import LaunchContext
 
 
 class LaunchDescription(LaunchDescriptionEntity):
@@ -60,9 +60,9 @@ class LaunchDescription(LaunchDescriptionEntity):
     def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Return the entities to be visited."""
         if self.__deprecated_reason is not None:
-            import launch.logging
+            import gz_course.sim.launch.logging as launch_logging
 
-            launch.logging.get_logger("launch").warning(
+            launch_logging.get_logger("launch").warning(
                 f"this launch description is deprecated: {self.__deprecated_reason}"
             )
         return self.__entities
@@ -91,7 +91,11 @@ class LaunchDescription(LaunchDescriptionEntity):
         self, conditional_inclusion: bool = False, *, only_search_local: bool = False
     ) -> list[tuple[DeclareLaunchArgument, list[IncludeLaunchDescription]]]:
         """Return the declared arguments, each with the chain of includes that leads to it, the innermost last."""
-        from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription, ResetLaunchConfigurations
+        from gz_course.sim.launch.actions import (
+            DeclareLaunchArgument,
+            IncludeLaunchDescription,
+            ResetLaunchConfigurations,
+        )
 
         found: list[tuple[DeclareLaunchArgument, list[IncludeLaunchDescription]]] = []
 

@@ -8,12 +8,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, Union
 
-from launch.errors import LaunchError
+from gz_course.sim.launch.errors import LaunchError
 
 if TYPE_CHECKING:
     from asyncio import Future
 
-    from launch.launch_context import LaunchContext
+    from gz_course.sim.launch.launch_context import LaunchContext
 
 
 class LaunchDescriptionEntity:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Any
 
-from launch.invalid_launch_file_error import InvalidLaunchFileError
-from launch.substitution import (
+from gz_course.sim.launch.invalid_launch_file_error import InvalidLaunchFileError
+from gz_course.sim.launch.substitution import (
     SomeSubstitutionsType,
     Substitution,
     describe_substitutions,
@@ -15,8 +15,8 @@ from launch.substitution import (
 )
 
 if TYPE_CHECKING:
-    from launch.launch_context import LaunchContext
-    from launch.launch_description import LaunchDescription
+    from gz_course.sim.launch.launch_context import LaunchContext
+    from gz_course.sim.launch.launch_description import LaunchDescription
 
 
 class LaunchDescriptionSource:
@@ -46,7 +46,7 @@ class LaunchDescriptionSource:
     @property
     def plain_location(self) -> str | None:
         """The path if it is known before the launch runs, else None."""
-        from launch.substitutions import TextSubstitution
+        from gz_course.sim.launch.substitutions import TextSubstitution
 
         texts = [part.text for part in self.__location if isinstance(part, TextSubstitution)]
         return "".join(texts) if texts and len(texts) == len(self.__location) else None
@@ -82,8 +82,8 @@ def as_source(source: Any) -> LaunchDescriptionSource:
     """Return a source for what IncludeLaunchDescription was given: a source, or the path of a launch file."""
     if isinstance(source, LaunchDescriptionSource):
         return source
-    from launch.launch_description import LaunchDescription
-    from launch.launch_description_sources import AnyLaunchDescriptionSource
+    from gz_course.sim.launch.launch_description import LaunchDescription
+    from gz_course.sim.launch.launch_description_sources import AnyLaunchDescriptionSource
 
     if isinstance(source, LaunchDescription):
         return LaunchDescriptionSource(source)

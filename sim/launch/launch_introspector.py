@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from launch.actions import IncludeLaunchDescription
-from launch.launch_description import LaunchDescription
-from launch.launch_description_entity import LaunchDescriptionEntity
+from gz_course.sim.launch.actions import IncludeLaunchDescription
+from gz_course.sim.launch.launch_description import LaunchDescription
+from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity
 
 
 class LaunchIntrospector:

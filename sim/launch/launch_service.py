@@ -18,16 +18,16 @@ import traceback
 from collections.abc import Callable, Coroutine, Iterable
 from types import FrameType
 
-import launch.logging
-from launch.errors import LaunchError, sentence
-from launch.event import Event
-from launch.events import IncludeLaunchDescription, Shutdown
-from launch.launch_context import LaunchContext
-from launch.launch_description import LaunchDescription
-from launch.launch_description_entity import listed, visit
+import gz_course.sim.launch.logging as launch_logging
+from gz_course.sim.launch.errors import LaunchError, sentence
+from gz_course.sim.launch.event import Event
+from gz_course.sim.launch.events import IncludeLaunchDescription, Shutdown
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.launch_description import LaunchDescription
+from gz_course.sim.launch.launch_description_entity import listed, visit
 
 _OTHER_ENDS = (signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
-_LOG = launch.logging.get_logger("launch")
+_LOG = launch_logging.get_logger("launch")
 
 
 class LaunchService:
@@ -42,7 +42,7 @@ class LaunchService:
         self.__visiting = False
         self.__loop: asyncio.AbstractEventLoop | None = None
         if debug:
-            launch.logging.launch_config.level = "DEBUG"
+            launch_logging.launch_config.level = "DEBUG"
 
     @property
     def context(self) -> LaunchContext:
@@ -113,7 +113,7 @@ class LaunchService:
         self.__return_code = 0
         self.__context._set_is_shutdown(False)
         self.__loop = asyncio.get_running_loop()
-        launch.logging.launch_config.announce()
+        launch_logging.launch_config.announce()
         restore_signals = self._take_signals()
         self.__context._set_asyncio_loop(self.__loop)
         try:

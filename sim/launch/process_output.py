@@ -19,8 +19,8 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from launch.errors import LaunchError, nearest
-from launch.logging import launch_config, stamp
+from gz_course.sim.launch.errors import LaunchError, nearest
+from gz_course.sim.launch.logging import launch_config, stamp
 
 _LONGEST_LINE = 65536  # bytes; what comes without any newline is cut, not kept for ever
 STREAMS = ("stdout", "stderr")

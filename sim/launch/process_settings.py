@@ -8,12 +8,12 @@ import signal
 from dataclasses import dataclass
 from typing import Any
 
-from launch.errors import LaunchError
-from launch.launch_context import LaunchContext
-from launch.process_output import sinks
-from launch.substitution import Substitution, normalize_to_list_of_substitutions, perform_substitutions
-from launch.substitutions import LaunchConfiguration
-from launch.substitutions.paths import nearest_program
+from gz_course.sim.launch.errors import LaunchError
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.process_output import sinks
+from gz_course.sim.launch.substitution import Substitution, normalize_to_list_of_substitutions, perform_substitutions
+from gz_course.sim.launch.substitutions import LaunchConfiguration
+from gz_course.sim.launch.substitutions.paths import nearest_program
 
 _DEFAULT_TIMEOUT = 5  # [s]
 

@@ -1,3 +1,3 @@
 """SomeEntitiesType, in the module where launch of ROS 2 has it."""
 
-from launch.launch_description_entity import SomeEntitiesType as SomeEntitiesType
+from gz_course.sim.launch.launch_description_entity import SomeEntitiesType as SomeEntitiesType

@@ -1,5 +1,5 @@
 """SomeSubstitutionsType, in the module where launch of ROS 2 has it."""
 
-from launch.substitution import SomeSubstitutionsType, SomeSubstitutionsType_types_tuple
+from gz_course.sim.launch.substitution import SomeSubstitutionsType, SomeSubstitutionsType_types_tuple
 
 __all__ = ["SomeSubstitutionsType", "SomeSubstitutionsType_types_tuple"]

@@ -10,10 +10,10 @@ import os
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Union
 
-from launch.errors import NotTextError
+from gz_course.sim.launch.errors import NotTextError
 
 if TYPE_CHECKING:
-    from launch.launch_context import LaunchContext
+    from gz_course.sim.launch.launch_context import LaunchContext
 
 
 class Substitution:
@@ -37,7 +37,7 @@ def normalize_to_list_of_substitutions(subst: Any) -> list[Substitution]:
 
     Raises NotTextError (a TypeError) for anything else.
     """
-    from launch.substitutions import TextSubstitution
+    from gz_course.sim.launch.substitutions import TextSubstitution
 
     if isinstance(subst, Substitution):
         return [subst]

@@ -5,7 +5,7 @@ It builds on the `launch` beside it. Where the real launch_ros is installed, it 
 
 from pathlib import Path
 
-import launch
+from gz_course.sim import launch
 
 _ours = Path(__file__).resolve().parents[1] / "launch"
 if Path(launch.__file__ or "").resolve().parent != _ours:
@@ -14,6 +14,6 @@ if Path(launch.__file__ or "").resolve().parent != _ours:
         "course works with the course's launch only; install launch_ros there, too, or remove that launch"
     )
 
-from launch_ros import actions, descriptions, parameter_descriptions, substitutions  # noqa: E402
+from gz_course.sim.launch_ros import actions, descriptions, parameter_descriptions, substitutions  # noqa: E402
 
 __all__ = ["actions", "descriptions", "parameter_descriptions", "substitutions"]

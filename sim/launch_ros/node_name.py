@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from launch.errors import LaunchError
+from gz_course.sim.launch.errors import LaunchError
 
 _TOKEN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _LONGEST_NAME = 255

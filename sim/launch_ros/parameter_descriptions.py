@@ -8,16 +8,16 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-from launch.errors import LaunchError
-from launch.frontend import parse_substitution
-from launch.launch_context import LaunchContext
-from launch.substitution import (
+from gz_course.sim.launch.errors import LaunchError
+from gz_course.sim.launch.frontend import parse_substitution
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.substitution import (
     SomeSubstitutionsType,
     Substitution,
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from launch_ros.parameter_values import Value, check_value, coerce, evaluate_value
+from gz_course.sim.launch_ros.parameter_values import Value, check_value, coerce, evaluate_value
 
 
 class ParameterValue:
@@ -112,7 +112,7 @@ class ParameterFile:
         """Return the path of the file to be used, a new one when it holds substitutions."""
         import yaml
 
-        from launch.conditions import evaluate_condition_expression
+        from gz_course.sim.launch.conditions import evaluate_condition_expression
 
         path = Path(perform_substitutions(context, self.__param_file))
         if not evaluate_condition_expression(context, self.__allow_substs) or not path.is_file():

@@ -17,9 +17,9 @@ import os
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, get_args, get_origin
 
-from launch.errors import LaunchError
-from launch.launch_context import LaunchContext
-from launch.substitution import Substitution, normalize_to_list_of_substitutions, perform_substitutions
+from gz_course.sim.launch.errors import LaunchError
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.substitution import Substitution, normalize_to_list_of_substitutions, perform_substitutions
 
 SCALARS = (bool, int, float, str)
 Value = bool | int | float | str | list[bool] | list[int] | list[float] | list[str]
@@ -31,7 +31,7 @@ class ParameterTypeError(LaunchError, TypeError):
 
 def check_value(name: str, value: Any) -> None:
     """Raise ParameterTypeError for a value that cannot become a parameter's, as far as that is known already."""
-    from launch_ros.parameter_descriptions import ParameterValue
+    from gz_course.sim.launch_ros.parameter_descriptions import ParameterValue
 
     if isinstance(value, Mapping):
         for key, each in value.items():
@@ -50,7 +50,7 @@ def check_value(name: str, value: Any) -> None:
 
 def evaluate_value(context: LaunchContext, name: str, value: Any) -> Value:
     """Return the value a node is to get. Raises ParameterTypeError."""
-    from launch_ros.parameter_descriptions import ParameterValue
+    from gz_course.sim.launch_ros.parameter_descriptions import ParameterValue
 
     if isinstance(value, ParameterValue):
         return value.evaluate(context, name)

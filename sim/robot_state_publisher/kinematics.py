@@ -10,11 +10,11 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from gz.sim.errors import Diagnostics
-from gz.sim.pose import Pose
-from gz.sim.sdf.element import Element, parse
-from gz.sim.sdf.urdf.robot import UrdfJoint, numbers, read_robot
-from gz.sim.sdf.urdf.xacro_file import restore_places
+from gz_course.sim.gz.sim.errors import Diagnostics
+from gz_course.sim.gz.sim.pose import Pose
+from gz_course.sim.gz.sim.sdf.element import Element, parse
+from gz_course.sim.gz.sim.sdf.urdf.robot import UrdfJoint, numbers, read_robot
+from gz_course.sim.gz.sim.sdf.urdf.xacro_file import restore_places
 
 _TURNING = ("revolute", "continuous")
 _MOVING = (*_TURNING, "prismatic")
@@ -101,7 +101,7 @@ class Kinematics:
             self.fixed.append(Transform(joint.parent, joint.child, joint.origin))
 
     def _check_mimics(self, joints: Mapping[str, UrdfJoint]) -> None:
-        from gz.sim.errors import nearest
+        from gz_course.sim.gz.sim.errors import nearest
 
         for name, joint in self.moving.items():
             if joint.mimic is None:

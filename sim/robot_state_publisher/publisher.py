@@ -16,9 +16,9 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 
-from gz.sim.errors import SimError
-from robot_state_publisher.kinematics import Kinematics, Transform
-from ros_gz_bridge.ros_program import UsageError, first_line
+from gz_course.sim.gz.sim.errors import SimError
+from gz_course.sim.robot_state_publisher.kinematics import Kinematics, Transform
+from gz_course.sim.ros_gz_bridge.ros_program import UsageError, first_line
 
 if TYPE_CHECKING:
     from rclpy.node import Node

@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ros_gz_bridge.ros_program import UsageError, first_line, run, wait_for_signal
+from gz_course.sim.ros_gz_bridge.ros_program import UsageError, first_line, run, wait_for_signal
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -56,7 +56,7 @@ def _is_ours(program: Path) -> bool:
 
 
 def _publish(node: Node, arguments: list[str]) -> int:
-    from robot_state_publisher.publisher import DEFAULTS, StatePublisher
+    from gz_course.sim.robot_state_publisher.publisher import DEFAULTS, StatePublisher
 
     values = {name: _parameter(node, name, default) for name, default in DEFAULTS.items()}
     if len(arguments) > 1:
@@ -82,11 +82,11 @@ def _publish(node: Node, arguments: list[str]) -> int:
 
 def text_of(path: Path) -> str:
     """Return the URDF in a file; one that ends in `.xacro` is expanded. Raises `UsageError`."""
-    from gz.sim.errors import SimError
-    from gz.sim.sdf.element import parse
-    from gz.sim.sdf.resources import read_text
-    from gz.sim.sdf.urdf.xacro_file import restore_places
-    from gz.sim.sdf.writer import to_xml
+    from gz_course.sim.gz.sim.errors import SimError
+    from gz_course.sim.gz.sim.sdf.element import parse
+    from gz_course.sim.gz.sim.sdf.resources import read_text
+    from gz_course.sim.gz.sim.sdf.urdf.xacro_file import restore_places
+    from gz_course.sim.gz.sim.sdf.writer import to_xml
 
     try:
         text = read_text(path)

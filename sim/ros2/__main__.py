@@ -2,6 +2,6 @@
 
 import sys
 
-from ros2.command_line import main
+from gz_course.sim.ros2.command_line import main
 
 sys.exit(main())

@@ -18,10 +18,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from prefix import local_setup
-from ros2 import completion, interruption
-from ros2.errors import CommandError
-from ros2.hand_over import hand_over
+from gz_course.sim.prefix import local_setup
+from gz_course.sim.ros2 import completion, interruption
+from gz_course.sim.ros2.errors import CommandError
+from gz_course.sim.ros2.hand_over import hand_over
 
 COMMANDS = Path(__file__).parent / "command"
 _INTERRUPTED = 2

@@ -14,7 +14,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from ros2.errors import CommandError
+from gz_course.sim.ros2.errors import CommandError
 
 PRINT, COMPLETE = "--print-completion", "--complete"
 HELP = (
@@ -61,7 +61,7 @@ def print_candidates(words: list[str]) -> int:
 
 def candidates(words: list[str]) -> list[str]:
     """What the last word can become, sorted; the words before it are the command, its verb and its arguments."""
-    from ros2.command_line import COMMANDS, found, load
+    from gz_course.sim.ros2.command_line import COMMANDS, found, load
 
     *before, start = words
     folder = COMMANDS
@@ -118,7 +118,7 @@ Given = Mapping[str, str]
 
 def _look(question: Callable[[Any], Iterable[str]]) -> list[str]:
     """Ask the live graph."""
-    from ros2.graph import Graph
+    from gz_course.sim.ros2.graph import Graph
 
     with Graph(argparse.Namespace(spin_time=None, use_sim_time=False)) as graph:
         graph.settle()
@@ -130,7 +130,7 @@ def _topics(given: Given) -> Iterable[str]:
 
 
 def _message_types(given: Given) -> Iterable[str]:
-    from ros2.interface import interface_names
+    from gz_course.sim.ros2.interface import interface_names
 
     topic = given.get("topic_name", "")
     return (topic and _look(lambda graph: dict(graph.topics(hidden=True)).get(topic, []))) or interface_names("msg")
@@ -141,7 +141,7 @@ def _services(given: Given) -> Iterable[str]:
 
 
 def _service_types(given: Given) -> Iterable[str]:
-    from ros2.interface import interface_names
+    from gz_course.sim.ros2.interface import interface_names
 
     service = given.get("service_name", "")
     live = service and _look(lambda graph: dict(graph.services(hidden=True)).get(service, []))
@@ -153,27 +153,27 @@ def _nodes(given: Given) -> Iterable[str]:
 
 
 def _parameters(given: Given) -> Iterable[str]:
-    from ros2.parameter import NodeParameters
+    from gz_course.sim.ros2.parameter import NodeParameters
 
     return _look(lambda graph: NodeParameters(graph, given["node_name"]).names())
 
 
 def _packages(given: Given) -> Iterable[str]:
-    from ros2.packages import package_names
+    from gz_course.sim.ros2.packages import package_names
 
     return package_names()
 
 
 def _executables(given: Given) -> Iterable[str]:
-    from ros2.packages import executables
+    from gz_course.sim.ros2.packages import executables
 
     return (path.name for path in executables(given["package_name"]))
 
 
 def _launch_files(given: Given) -> Iterable[str]:
     """The launch files of a package; after a path, the arguments of that launch file."""
-    from ros2.command.launch import launch_files_of
-    from ros2.packages import package_names
+    from gz_course.sim.ros2.command.launch import launch_files_of
+    from gz_course.sim.ros2.packages import package_names
 
     package = given["package_name"]
     if Path(package).is_file():
@@ -182,7 +182,7 @@ def _launch_files(given: Given) -> Iterable[str]:
 
 
 def _launch_arguments(given: Given) -> Iterable[str]:
-    from ros2.command.launch import launch_file, load
+    from gz_course.sim.ros2.command.launch import launch_file, load
 
     named: dict[str, Any] = {"launch_file_name": None, **given, "launch_arguments": []}
     path, _ = launch_file(argparse.Namespace(**named))
@@ -190,15 +190,15 @@ def _launch_arguments(given: Given) -> Iterable[str]:
 
 
 def _interfaces(given: Given) -> Iterable[str]:
-    from ros2.interface import interface_names
+    from gz_course.sim.ros2.interface import interface_names
 
     return interface_names()
 
 
 def _values(given: Given) -> Iterable[str]:
     """A message with default values in one line, quoted for the shell, to be edited."""
-    from ros2.interface import message_class, service_class
-    from ros2.message_text import to_line
+    from gz_course.sim.ros2.interface import message_class, service_class
+    from gz_course.sim.ros2.message_text import to_line
 
     service = given.get("service_type")
     message = service_class(service).Request() if service else message_class(given["message_type"])()

@@ -22,10 +22,10 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
 
-from ros2.discovery import Participants
-from ros2.errors import CommandError
-from ros2.interruption import check
-from ros2.option_values import seconds
+from gz_course.sim.ros2.discovery import Participants
+from gz_course.sim.ros2.errors import CommandError
+from gz_course.sim.ros2.interruption import check
+from gz_course.sim.ros2.option_values import seconds
 
 FIRST_CONTACT = 3.3  # s within which every node there is has announced itself to a new one
 OTHER_MACHINES = 0.5  # s for answers that come over a network

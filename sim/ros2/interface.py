@@ -14,8 +14,8 @@ from typing import Any
 
 from ament_index_python import get_resource, get_resources
 
-from ros2.errors import CommandError, did_you_mean
-from ros2.packages import package_share
+from gz_course.sim.ros2.errors import CommandError, did_you_mean
+from gz_course.sim.ros2.packages import package_share
 
 KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}
 """Folder (and end of the file name) of a kind of interface -> heading."""

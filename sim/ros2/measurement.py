@@ -14,9 +14,9 @@ from typing import Any
 
 from rclpy.qos import QoSPresetProfiles
 
-from ros2.graph import Graph
-from ros2.option_values import positive_number
-from ros2.topic import full_name, nearest_topic, not_published, only_type, warn
+from gz_course.sim.ros2.graph import Graph
+from gz_course.sim.ros2.option_values import positive_number
+from gz_course.sim.ros2.topic import full_name, nearest_topic, not_published, only_type, warn
 
 REPORT_EVERY = 1.0  # s
 

@@ -23,7 +23,7 @@ from rosidl_parser.definition import (
     NamespacedType,
 )
 
-from ros2.errors import CommandError, did_you_mean
+from gz_course.sim.ros2.errors import CommandError, did_you_mean
 
 _TIME, _HEADER = "builtin_interfaces/Time", "std_msgs/Header"
 _LARGEST_FLOAT32 = 3.4028234663852886e38

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from ros2.errors import CommandError, did_you_mean
-from ros2.graph import Graph
-from ros2.topic import warn
+from gz_course.sim.ros2.errors import CommandError, did_you_mean
+from gz_course.sim.ros2.graph import Graph
+from gz_course.sim.ros2.topic import warn
 
 
 def find_node(graph: Graph, name: str, unknown: str) -> str:

@@ -16,10 +16,10 @@ from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.msg import ParameterType, ParameterValue
 from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters, SetParameters
 
-from ros2.errors import CommandError, did_you_mean
-from ros2.graph import Graph
-from ros2.message_value import parse_yaml
-from ros2.service import ANSWER_DEADLINE, call
+from gz_course.sim.ros2.errors import CommandError, did_you_mean
+from gz_course.sim.ros2.graph import Graph
+from gz_course.sim.ros2.message_value import parse_yaml
+from gz_course.sim.ros2.service import ANSWER_DEADLINE, call
 
 _FIELDS = {
     ParameterType.PARAMETER_BOOL: ("Boolean", "boolean", "bool_value"),

@@ -14,7 +14,7 @@ from rclpy.qos import (
     ReliabilityPolicy,
 )
 
-from ros2.option_values import seconds, whole_number
+from gz_course.sim.ros2.option_values import seconds, whole_number
 
 
 def add_qos_options(parser: argparse.ArgumentParser, default: str) -> None:

@@ -8,8 +8,8 @@ from rclpy.exceptions import InvalidServiceNameException
 from rclpy.expand_topic_name import expand_topic_name
 from rclpy.validate_full_topic_name import validate_full_topic_name
 
-from ros2.errors import CommandError, did_you_mean
-from ros2.graph import Graph
+from gz_course.sim.ros2.errors import CommandError, did_you_mean
+from gz_course.sim.ros2.graph import Graph
 
 ANSWER_DEADLINE = 5.0  # s for services that answer from memory, those of parameters
 

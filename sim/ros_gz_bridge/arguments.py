@@ -8,13 +8,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-from ros_gz_bridge.checks import check
-from ros_gz_bridge.config import Config
-from ros_gz_bridge.entry import BridgeEntry, Direction, ServiceEntry
-from ros_gz_bridge.entry_reader import old_type_warning, service_type_faults, type_faults
-from ros_gz_bridge.finding import Finding, raise_errors
-from ros_gz_bridge.names import gz_name_fault, ros_name_fault
-from ros_gz_bridge.type_pairs import UnknownPairError, canonical_gz_type, find_service, pairs
+from gz_course.sim.ros_gz_bridge.checks import check
+from gz_course.sim.ros_gz_bridge.config import Config
+from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction, ServiceEntry
+from gz_course.sim.ros_gz_bridge.entry_reader import old_type_warning, service_type_faults, type_faults
+from gz_course.sim.ros_gz_bridge.finding import Finding, raise_errors
+from gz_course.sim.ros_gz_bridge.names import gz_name_fault, ros_name_fault
+from gz_course.sim.ros_gz_bridge.type_pairs import UnknownPairError, canonical_gz_type, find_service, pairs
 
 _MARKS = {"@": Direction.BIDIRECTIONAL, "[": Direction.GZ_TO_ROS, "]": Direction.ROS_TO_GZ}
 _SYNTAX = "TOPIC@ROS_TYPE@GZ_TYPE, with [ (Gazebo to ROS) or ] (ROS to Gazebo) in place of the second @"

@@ -18,14 +18,21 @@ from rclpy.node import Node as RosNode
 from rclpy.publisher import Publisher
 from rclpy.timer import Timer
 
-from gz.transport import AdvertiseMessageOptions, naming
-from gz.transport import Node as GzNode
-from ros_gz_bridge.echo_filter import EchoFilter, GzEcho
-from ros_gz_bridge.entry import BridgeEntry, BridgeError, Direction, EntryStatus, HeaderOverrides, ServiceEntry
-from ros_gz_bridge.link import GzToRos, RosToGz, Row, error_text, sentence
-from ros_gz_bridge.ros_listener import RosListener
-from ros_gz_bridge.service_link import ServiceLink
-from ros_gz_bridge.type_pairs import TypePair, UnknownPairError, find_pair, find_service
+from gz_course.sim.gz.transport import AdvertiseMessageOptions, naming
+from gz_course.sim.gz.transport import Node as GzNode
+from gz_course.sim.ros_gz_bridge.echo_filter import EchoFilter, GzEcho
+from gz_course.sim.ros_gz_bridge.entry import (
+    BridgeEntry,
+    BridgeError,
+    Direction,
+    EntryStatus,
+    HeaderOverrides,
+    ServiceEntry,
+)
+from gz_course.sim.ros_gz_bridge.link import GzToRos, RosToGz, Row, error_text, sentence
+from gz_course.sim.ros_gz_bridge.ros_listener import RosListener
+from gz_course.sim.ros_gz_bridge.service_link import ServiceLink
+from gz_course.sim.ros_gz_bridge.type_pairs import TypePair, UnknownPairError, find_pair, find_service
 
 __all__ = [
     "Bridge",

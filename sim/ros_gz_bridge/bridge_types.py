@@ -12,7 +12,7 @@ import os
 import sys
 from collections.abc import Iterable, Sequence
 
-from ros_gz_bridge.type_pairs import (
+from gz_course.sim.ros_gz_bridge.type_pairs import (
     TypePair,
     UnknownPairError,
     canonical_gz_type,

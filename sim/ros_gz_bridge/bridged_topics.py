@@ -10,7 +10,7 @@ import json
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from ros_gz_bridge.entry import BridgeEntry, Direction
+from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction
 
 if TYPE_CHECKING:
     from rclpy.node import Node

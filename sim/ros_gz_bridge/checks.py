@@ -10,8 +10,8 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
-from ros_gz_bridge.entry import BridgeEntry, Direction, ServiceEntry
-from ros_gz_bridge.finding import Finding
+from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction, ServiceEntry
+from gz_course.sim.ros_gz_bridge.finding import Finding
 
 _Check = Callable[[Sequence[BridgeEntry], Sequence[ServiceEntry]], Iterator[Finding]]
 _checks: list[_Check] = []

@@ -14,10 +14,10 @@ from pathlib import Path
 
 import yaml
 
-from ros_gz_bridge.checks import check
-from ros_gz_bridge.entry import BridgeEntry, ServiceEntry
-from ros_gz_bridge.entry_reader import KEYS, SERVICE_KEYS, EntryReader, Value, unknown_key
-from ros_gz_bridge.finding import ConfigError, Finding, raise_errors
+from gz_course.sim.ros_gz_bridge.checks import check
+from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, ServiceEntry
+from gz_course.sim.ros_gz_bridge.entry_reader import KEYS, SERVICE_KEYS, EntryReader, Value, unknown_key
+from gz_course.sim.ros_gz_bridge.finding import ConfigError, Finding, raise_errors
 
 __all__ = [
     "MAX_BYTES",

@@ -10,11 +10,11 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from ros_gz_bridge.entry import BridgeEntry, Direction, ServiceEntry
-from ros_gz_bridge.finding import Finding
-from ros_gz_bridge.names import gz_name_fault, nearest, ros_name_fault
-from ros_gz_bridge.qos_profile import QOS_PROFILES, depth_of
-from ros_gz_bridge.type_pairs import UnknownPairError, canonical_gz_type, find_pair, find_service
+from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction, ServiceEntry
+from gz_course.sim.ros_gz_bridge.finding import Finding
+from gz_course.sim.ros_gz_bridge.names import gz_name_fault, nearest, ros_name_fault
+from gz_course.sim.ros_gz_bridge.qos_profile import QOS_PROFILES, depth_of
+from gz_course.sim.ros_gz_bridge.type_pairs import UnknownPairError, canonical_gz_type, find_pair, find_service
 
 KEYS = (
     "topic_name",

@@ -12,10 +12,10 @@ from typing import Any, Protocol
 
 from std_msgs.msg import ColorRGBA
 
-from gz.msgs import message_class
-from ros_gz_bridge.blank import blank
-from ros_gz_bridge.header import header_to_gz, header_to_ros
-from ros_gz_bridge.type_pairs import ConversionError, add_pair
+from gz_course.sim.gz.msgs import message_class
+from gz_course.sim.ros_gz_bridge.blank import blank
+from gz_course.sim.ros_gz_bridge.header import header_to_gz, header_to_ros
+from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError, add_pair
 
 
 class Kind(Protocol):

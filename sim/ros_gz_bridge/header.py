@@ -16,8 +16,8 @@ from builtin_interfaces.msg import Duration as RosDuration
 from builtin_interfaces.msg import Time as RosTime
 from std_msgs.msg import Header as RosHeader
 
-from ros_gz_bridge.blank import blank
-from ros_gz_bridge.type_pairs import ConversionError
+from gz_course.sim.ros_gz_bridge.blank import blank
+from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError
 
 FRAME_ID = "frame_id"
 CHILD_FRAME_ID = "child_frame_id"

@@ -18,15 +18,15 @@ from rclpy.publisher import Publisher
 from rclpy.qos import QoSPolicyKind
 from rclpy.qos_overriding_options import QoSOverridingOptions
 
-from gz.transport import MessageInfo
-from ros_gz_bridge.echo_filter import EchoAwarePublisher, EchoFilter
-from ros_gz_bridge.entry import BridgeEntry, BridgeError, EntryStatus, ServiceEntry
-from ros_gz_bridge.lane import HEAVY_BYTES, Lane
-from ros_gz_bridge.qos_profile import qos
-from ros_gz_bridge.type_pairs import TypePair
+from gz_course.sim.gz.transport import MessageInfo
+from gz_course.sim.ros_gz_bridge.echo_filter import EchoAwarePublisher, EchoFilter
+from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, BridgeError, EntryStatus, ServiceEntry
+from gz_course.sim.ros_gz_bridge.lane import HEAVY_BYTES, Lane
+from gz_course.sim.ros_gz_bridge.qos_profile import qos
+from gz_course.sim.ros_gz_bridge.type_pairs import TypePair
 
 if TYPE_CHECKING:
-    from ros_gz_bridge.bridge import Bridge
+    from gz_course.sim.ros_gz_bridge.bridge import Bridge
 
 _PUBLISHER_POLICIES = (
     QoSPolicyKind.DEADLINE,

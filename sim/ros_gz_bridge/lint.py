@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ros_gz_bridge.config import Config
+    from gz_course.sim.ros_gz_bridge.config import Config
 
 HELP = """\
 usage: lint [--compat] FILE ...
@@ -49,7 +49,7 @@ def main(argv: list[str] | None = None) -> int:
 
 
 def _report(words: list[str], compat: bool) -> int:
-    from ros_gz_bridge.finding import one_line
+    from gz_course.sim.ros_gz_bridge.finding import one_line
 
     errors = warnings = bridges = 0
     for config in _read(words):
@@ -67,10 +67,10 @@ def _report(words: list[str], compat: bool) -> int:
 
 def _read(words: list[str]) -> list[Config]:
     """What each file holds, and all arguments together."""
-    from ros_gz_bridge.arguments import read_arguments
-    from ros_gz_bridge.checks import private_gz_names
-    from ros_gz_bridge.config import read_file
-    from ros_gz_bridge.finding import Finding
+    from gz_course.sim.ros_gz_bridge.arguments import read_arguments
+    from gz_course.sim.ros_gz_bridge.checks import private_gz_names
+    from gz_course.sim.ros_gz_bridge.config import read_file
+    from gz_course.sim.ros_gz_bridge.finding import Finding
 
     arguments = [word for word in words if "@" in word and not Path(word[:1000]).exists()]
     read = [read_file(word) for word in words if word not in arguments]

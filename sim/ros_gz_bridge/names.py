@@ -9,7 +9,7 @@ import difflib
 import re
 from collections.abc import Iterable
 
-from gz.transport import naming
+from gz_course.sim.gz.transport import naming
 
 _ROS_TOKEN = r"(?:[A-Za-z_]|\{\w+\})(?:\w|\{\w+\})*"
 _ROS_NAME = re.compile(rf"(?:~|(?:~/|/)?{_ROS_TOKEN}(?:/{_ROS_TOKEN})*)", re.ASCII)

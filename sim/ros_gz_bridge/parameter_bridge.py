@@ -11,13 +11,13 @@ import sys
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from ros_gz_bridge.ros_program import UsageError, run, wait_for_signal
+from gz_course.sim.ros_gz_bridge.ros_program import UsageError, run, wait_for_signal
 
 if TYPE_CHECKING:
     from rclpy.node import Node
 
-    from ros_gz_bridge.config import Config
-    from ros_gz_bridge.finding import Finding
+    from gz_course.sim.ros_gz_bridge.config import Config
+    from gz_course.sim.ros_gz_bridge.finding import Finding
 
 HELP = """\
 usage: parameter_bridge TOPIC@ROS_TYPE@GZ_TYPE ... [--compat] [--ros-args ...]
@@ -62,10 +62,10 @@ def main(argv: list[str] | None = None) -> int:
 
 def _bridge(node: Node, texts: list[str]) -> int:
     """Set the bridges up, wait for a signal, take them down."""
-    from gz.transport import Node as GzNode
-    from ros_gz_bridge import bridged_topics, parameters
-    from ros_gz_bridge.bridge import Bridge, BridgeError, HeaderOverrides
-    from ros_gz_bridge.watch import Watch, Watcher
+    from gz_course.sim.gz.transport import Node as GzNode
+    from gz_course.sim.ros_gz_bridge import bridged_topics, parameters
+    from gz_course.sim.ros_gz_bridge.bridge import Bridge, BridgeError, HeaderOverrides
+    from gz_course.sim.ros_gz_bridge.watch import Watch, Watcher
 
     given = parameters.read_parameters(node)
     config = _configured(node, [text for text in texts if text != _COMPAT], given, compat=_COMPAT in texts)
@@ -111,10 +111,10 @@ def _configured(node: Node, texts: list[str], given: Any, compat: bool) -> Confi
 
     Raises ``UsageError`` with every error, unless ``compat`` turns them into warnings.
     """
-    from ros_gz_bridge.arguments import read_arguments
-    from ros_gz_bridge.checks import check, private_gz_names
-    from ros_gz_bridge.config import read_file
-    from ros_gz_bridge.finding import Finding
+    from gz_course.sim.ros_gz_bridge.arguments import read_arguments
+    from gz_course.sim.ros_gz_bridge.checks import check, private_gz_names
+    from gz_course.sim.ros_gz_bridge.config import read_file
+    from gz_course.sim.ros_gz_bridge.finding import Finding
 
     path, lazy = given.values["config_file"], given.values["lazy"]
     options = [text for text in texts if text.startswith("-")]
@@ -151,7 +151,7 @@ def _configured(node: Node, texts: list[str], given: Any, compat: bool) -> Confi
 
 def _expand(config: Config, node: Node) -> None:
     """Give the Gazebo names the namespace of the node, as the parameter expand_gz_topic_names asks."""
-    from ros_gz_bridge.names import expand_gz_name
+    from gz_course.sim.ros_gz_bridge.names import expand_gz_name
 
     namespace, name = node.get_namespace(), node.get_name()
     config.topics = [

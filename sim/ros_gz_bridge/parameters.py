@@ -11,12 +11,12 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from ros_gz_bridge import bridged_topics
-from ros_gz_bridge.config import Config
-from ros_gz_bridge.entry import BridgeEntry, Direction
-from ros_gz_bridge.entry_reader import KEYS, SERVICE_KEYS, EntryReader, Value, unknown_key
-from ros_gz_bridge.finding import Finding
-from ros_gz_bridge.names import nearest
+from gz_course.sim.ros_gz_bridge import bridged_topics
+from gz_course.sim.ros_gz_bridge.config import Config
+from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction
+from gz_course.sim.ros_gz_bridge.entry_reader import KEYS, SERVICE_KEYS, EntryReader, Value, unknown_key
+from gz_course.sim.ros_gz_bridge.finding import Finding
+from gz_course.sim.ros_gz_bridge.names import nearest
 
 if TYPE_CHECKING:
     from rclpy.node import Node

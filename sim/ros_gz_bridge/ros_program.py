@@ -90,7 +90,7 @@ def _with_node(node_name: str, work: Callable[[Node, list[str]], int], argv: lis
     from rclpy.signals import SignalHandlerOptions
     from rclpy.utilities import remove_ros_args
 
-    from ros_gz_bridge.shared_memory import room_for_pictures
+    from gz_course.sim.ros_gz_bridge.shared_memory import room_for_pictures
 
     context = rclpy.Context()
     try:

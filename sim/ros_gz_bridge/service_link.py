@@ -14,10 +14,10 @@ from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.node import Node as RosNode
 from rclpy.task import Future
 
-from gz.transport import Node as GzNode
-from ros_gz_bridge.entry import ServiceEntry
-from ros_gz_bridge.names import nearest
-from ros_gz_bridge.type_pairs import find_service
+from gz_course.sim.gz.transport import Node as GzNode
+from gz_course.sim.ros_gz_bridge.entry import ServiceEntry
+from gz_course.sim.ros_gz_bridge.names import nearest
+from gz_course.sim.ros_gz_bridge.type_pairs import find_service
 
 TIMEOUT_S = 5.0
 """So long Gazebo has time to answer."""

@@ -18,8 +18,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any, cast
 
-import ros_gz_bridge.convert
-from gz.msgs import message_class
+import gz_course.sim.ros_gz_bridge.convert as ros_gz_bridge_convert
+from gz_course.sim.gz.msgs import message_class
 
 _GZ_PREFIXES = ("ignition.msgs.", "gz_msgs.", "ign_msgs.")
 
@@ -156,7 +156,7 @@ def add_service(
 
 def convertible_packages() -> list[str]:
     """ROS packages that have a file in ``convert/``, installed or not."""
-    return sorted(module.name for module in pkgutil.iter_modules(ros_gz_bridge.convert.__path__))
+    return sorted(module.name for module in pkgutil.iter_modules(ros_gz_bridge_convert.__path__))
 
 
 def missing_packages() -> list[str]:
@@ -243,7 +243,7 @@ def _load(package: str) -> None:
     with _lock:
         if package not in _loaded and _installed(package):
             _loaded.add(package)
-            importlib.import_module(f"ros_gz_bridge.convert.{package}")
+            importlib.import_module(f"gz_course.sim.ros_gz_bridge.convert.{package}")
 
 
 def _explain_unknown(ros_type: str, gz_type: str) -> str:

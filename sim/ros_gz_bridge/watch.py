@@ -11,13 +11,13 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from ros_gz_bridge.names import nearest
+from gz_course.sim.ros_gz_bridge.names import nearest
 
 if TYPE_CHECKING:
     from rclpy.impl.rcutils_logger import RcutilsLogger
 
-    from gz.transport import Node as GzNode
-    from ros_gz_bridge.bridge import Bridge
+    from gz_course.sim.gz.transport import Node as GzNode
+    from gz_course.sim.ros_gz_bridge.bridge import Bridge
 
 MISSING_AFTER_S = 5.0
 """So long a topic may have no publisher before that is worth a line."""
@@ -94,7 +94,7 @@ class Watch:
             self._logger.warning(f"nor {len(missing) - _MOST_NAMED} more of the bridged topics")
 
     def _wrong_type(self, topic: str, wanted: str, seen: set[str]) -> None:
-        from gz.msgs.fortress import same_type
+        from gz_course.sim.gz.msgs.fortress import same_type
 
         if any(same_type(each, wanted) for each in seen) or ("type", topic) in self._reported:
             return

@@ -10,13 +10,13 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING, Any
 
-from ros_gz_bridge.ros_program import UsageError, first_line, run, wait_for_signal
+from gz_course.sim.ros_gz_bridge.ros_program import UsageError, first_line, run, wait_for_signal
 
 if TYPE_CHECKING:
     from rclpy.node import Node
     from rclpy.qos import QoSProfile
 
-    from gz.transport import Node as GzNode
+    from gz_course.sim.gz.transport import Node as GzNode
 
 HELP = """\
 usage: image_bridge TOPIC ... [--ros-args ...]
@@ -40,7 +40,7 @@ def main(argv: list[str] | None = None) -> int:
 
 
 def _bridge(node: Node, topics: list[str]) -> int:
-    from gz.transport import Node as GzNode
+    from gz_course.sim.gz.transport import Node as GzNode
 
     values = _read_parameters(node)
     profile = qos_profile(values["qos"])
@@ -72,8 +72,8 @@ class ImageTopic:
     """
 
     def __init__(self, node: Node, gz_node: GzNode, topic: str, profile: QoSProfile) -> None:
-        from gz.transport import naming
-        from ros_gz_bridge.type_pairs import find_pair
+        from gz_course.sim.gz.transport import naming
+        from gz_course.sim.ros_gz_bridge.type_pairs import find_pair
 
         self._pair = find_pair("sensor_msgs/msg/Image", "gz.msgs.Image")
         naming.fully_qualified("", "", topic)

@@ -13,13 +13,13 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ros_gz_bridge.ros_program import Failure, Spinner, UsageError, first_line, run
-from ros_gz_sim.flags import Flag, read, usage, with_parameters
+from gz_course.sim.ros_gz_bridge.ros_program import Failure, Spinner, UsageError, first_line, run
+from gz_course.sim.ros_gz_sim.flags import Flag, read, usage, with_parameters
 
 if TYPE_CHECKING:
     from rclpy.node import Node
 
-    from ros_gz_sim.running_world import RunningWorld
+    from gz_course.sim.ros_gz_sim.running_world import RunningWorld
 
 FLAGS = (
     Flag("world", "World to create it in (default: the one that runs)"),
@@ -51,8 +51,8 @@ def main(argv: list[str] | None = None) -> int:
 
 
 def _create(node: Node, arguments: list[str]) -> int:
-    from gz.transport import Node as GzNode
-    from ros_gz_sim.running_world import DEFAULT_TIMEOUT_S, RunningWorld
+    from gz_course.sim.gz.transport import Node as GzNode
+    from gz_course.sim.ros_gz_sim.running_world import DEFAULT_TIMEOUT_S, RunningWorld
 
     values = with_parameters(node, read(arguments, FLAGS), FLAGS)
     given = [name for name in SOURCES if values.get(name)]
@@ -83,7 +83,7 @@ def factory(values: dict[str, Any]) -> Any:
 
     R = Rz(Y) Ry(P) Rx(R), as in SDF. A pose is set only when one of its numbers is given.
     """
-    from gz.msgs.entity_factory_pb2 import EntityFactory
+    from gz_course.sim.gz.msgs.entity_factory_pb2 import EntityFactory
 
     request = EntityFactory(name=values.get("name", ""), allow_renaming=values.get("allow_renaming", False))
     numbers = {axis: values.get(axis, 0.0) for axis in ("x", "y", "z", "R", "P", "Y")}
@@ -94,7 +94,7 @@ def factory(values: dict[str, Any]) -> Any:
 
 def set_pose(pose: Any, position: list[float], rpy: list[float]) -> None:
     """Fill a gz.msgs.Pose from a position (m) and roll, pitch, yaw (rad)."""
-    from gz.sim.pose import quaternion_from_rpy
+    from gz_course.sim.gz.sim.pose import quaternion_from_rpy
 
     pose.position.x, pose.position.y, pose.position.z = position
     w, x, y, z = map(float, quaternion_from_rpy(*(math.remainder(angle, math.tau) for angle in rpy)))
@@ -106,8 +106,8 @@ def find(name: str, world: RunningWorld) -> str:
 
     Raises `Failure`.
     """
-    from gz.sim.errors import SimError
-    from gz.sim.sdf.resources import find_model
+    from gz_course.sim.gz.sim.errors import SimError
+    from gz_course.sim.gz.sim.sdf.resources import find_model
 
     try:
         if Path(name).is_file():
@@ -122,9 +122,9 @@ def find(name: str, world: RunningWorld) -> str:
 
 def why_refused(world: RunningWorld, request: Any) -> str:
     """Return the sentence for a creation the simulator refused: the text or the name is at fault."""
-    from gz.sim.errors import Diagnostics, SimError
-    from gz.sim.sdf.reader import read_model
-    from gz.sim.sdf.resources import read_text
+    from gz_course.sim.gz.sim.errors import Diagnostics, SimError
+    from gz_course.sim.gz.sim.sdf.reader import read_model
+    from gz_course.sim.gz.sim.sdf.resources import read_text
 
     try:
         file = request.sdf_filename or "<string>"
@@ -157,7 +157,7 @@ def _text(node: Node, source: str, value: str, timeout: float) -> str:
 
 
 def _from_parameter(node: Node, name: str) -> str:
-    from gz.sim.errors import nearest
+    from gz_course.sim.gz.sim.errors import nearest
 
     value = node.get_parameter(name).value if node.has_parameter(name) else None
     if not isinstance(value, str) or not value:

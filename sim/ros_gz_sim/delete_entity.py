@@ -9,13 +9,13 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING, Any
 
-from ros_gz_bridge.ros_program import Failure, UsageError, run
-from ros_gz_sim.flags import Flag, read, usage
+from gz_course.sim.ros_gz_bridge.ros_program import Failure, UsageError, run
+from gz_course.sim.ros_gz_sim.flags import Flag, read, usage
 
 if TYPE_CHECKING:
     from rclpy.node import Node
 
-    from ros_gz_sim.running_world import RunningWorld
+    from gz_course.sim.ros_gz_sim.running_world import RunningWorld
 
 MODEL = 2
 TYPES = {"none": 0, "light": 1, "model": MODEL, "link": 3, "visual": 4, "collision": 5, "sensor": 6, "joint": 7}
@@ -48,7 +48,7 @@ def which(values: dict[str, Any]) -> dict[str, Any]:
     word = str(values.get("type", "model")).lower()
     number = TYPES.get(word, int(word) if word.isascii() and word.isdigit() and len(word) < 3 else -1)
     if number not in TYPES.values():
-        from gz.sim.errors import nearest
+        from gz_course.sim.gz.sim.errors import nearest
 
         raise UsageError(f"there is no type '{word}'; {nearest(word, TYPES, listing='types are')}")
     if word == str(_MODEL_OF_OLD):
@@ -60,10 +60,9 @@ def which(values: dict[str, Any]) -> dict[str, Any]:
 
 def delete(node: Node, values: dict[str, Any], entity: dict[str, Any]) -> int:
     """Remove the entity with these fields of a gz.msgs.Entity; return 0, or raise `Failure`."""
-    from gz.msgs.entity_pb2 import Entity
-
-    from gz.transport import Node as GzNode
-    from ros_gz_sim.running_world import DEFAULT_TIMEOUT_S, RunningWorld
+    from gz_course.sim.gz.msgs.entity_pb2 import Entity
+    from gz_course.sim.gz.transport import Node as GzNode
+    from gz_course.sim.ros_gz_sim.running_world import DEFAULT_TIMEOUT_S, RunningWorld
 
     logger = node.get_logger()
     with GzNode() as gz_node:
@@ -77,7 +76,7 @@ def delete(node: Node, values: dict[str, Any], entity: dict[str, Any]) -> int:
 
 def missing(world: RunningWorld, entity: dict[str, Any]) -> str:
     """Return the sentence for an entity the world does not have; empty when it has it."""
-    from gz.sim.errors import nearest
+    from gz_course.sim.gz.sim.errors import nearest
 
     name = entity.get("name", "")
     if not name:

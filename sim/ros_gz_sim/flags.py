@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ros_gz_bridge.ros_program import UsageError
+from gz_course.sim.ros_gz_bridge.ros_program import UsageError
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -106,7 +106,7 @@ def _value(flag: Flag, text: str, what: str) -> Any:
 
 
 def _nearest(word: str, known: Iterable[str]) -> str:
-    from gz.sim.errors import nearest
+    from gz_course.sim.gz.sim.errors import nearest
 
     dashes = "--" if word.startswith("--") else "-"
     return nearest(word.partition("=")[0], [dashes + name for name in known], listing="options are")

@@ -8,9 +8,9 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-from ros_gz_bridge.ros_program import UsageError, run
-from ros_gz_sim.delete_entity import MODEL, delete
-from ros_gz_sim.flags import Flag, read, usage, with_parameters
+from gz_course.sim.ros_gz_bridge.ros_program import UsageError, run
+from gz_course.sim.ros_gz_sim.delete_entity import MODEL, delete
+from gz_course.sim.ros_gz_sim.flags import Flag, read, usage, with_parameters
 
 if TYPE_CHECKING:
     from rclpy.node import Node

@@ -13,11 +13,11 @@ from collections.abc import Callable
 
 from google.protobuf.message import Message
 
-from gz.sim.errors import nearest
-from gz.sim.systems.topics import valid_topic
-from gz.transport import Node
-from ros_gz_bridge.ros_program import Failure, UsageError
-from ros_gz_sim.flags import Flag
+from gz_course.sim.gz.sim.errors import nearest
+from gz_course.sim.gz.sim.systems.topics import valid_topic
+from gz_course.sim.gz.transport import Node
+from gz_course.sim.ros_gz_bridge.ros_program import Failure, UsageError
+from gz_course.sim.ros_gz_sim.flags import Flag
 
 TIMEOUT = Flag("timeout", "Longest wait for the world, in s of wall time (default 10)", "number")
 DEFAULT_TIMEOUT_S = 10.0
@@ -36,8 +36,8 @@ class RunningWorld:
     def __init__(
         self, node: Node, name: str, timeout: float, warn: Callable[[str], object], *, start: float | None = None
     ) -> None:
-        from gz.msgs.empty_pb2 import Empty
-        from gz.msgs.stringmsg_v_pb2 import StringMsg_V
+        from gz_course.sim.gz.msgs.empty_pb2 import Empty
+        from gz_course.sim.gz.msgs.stringmsg_v_pb2 import StringMsg_V
 
         if not 0.0 < timeout <= _LONGEST_S:
             raise UsageError(f"-{TIMEOUT.name} must be above 0 and at most {_LONGEST_S:g} s, got {timeout:g}")
@@ -61,7 +61,7 @@ class RunningWorld:
 
         Raises `Failure` when there is no answer in time.
         """
-        from gz.msgs.boolean_pb2 import Boolean
+        from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
 
         service = f"{self._topic}/{verb}/blocking"  # the plain service answers before anything was done
         kind = request.DESCRIPTOR.full_name
@@ -74,8 +74,8 @@ class RunningWorld:
 
     def entities(self) -> tuple[list[str], list[str]]:
         """Return the names of all models and of all lights; nothing where the world has no SceneBroadcaster."""
-        from gz.msgs.empty_pb2 import Empty
-        from gz.msgs.scene_pb2 import Scene
+        from gz_course.sim.gz.msgs.empty_pb2 import Empty
+        from gz_course.sim.gz.msgs.scene_pb2 import Scene
 
         patience = min(2000, max(500, self._left_ms()))
         _, scene = self._node.request(f"{self._topic}/scene/info", None, Empty, Scene, patience)
@@ -83,7 +83,7 @@ class RunningWorld:
 
     def resolve(self, uri: str) -> str:
         """Return the path the simulator finds for a URI; empty when it finds none."""
-        from gz.msgs.stringmsg_pb2 import StringMsg
+        from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
 
         service = "/gazebo/resource_paths/resolve"
         done, answer = self._node.request(service, StringMsg(data=uri), StringMsg, StringMsg, self._left_ms())

@@ -9,10 +9,10 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-from ros_gz_bridge.ros_program import Failure, UsageError, run
-from ros_gz_sim.delete_entity import WHICH, missing, which
-from ros_gz_sim.flags import read, usage
-from ros_gz_sim.spawn_entity import POSE, fill_pose
+from gz_course.sim.ros_gz_bridge.ros_program import Failure, UsageError, run
+from gz_course.sim.ros_gz_sim.delete_entity import WHICH, missing, which
+from gz_course.sim.ros_gz_sim.flags import read, usage
+from gz_course.sim.ros_gz_sim.spawn_entity import POSE, fill_pose
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -27,10 +27,9 @@ def main(argv: list[str] | None = None) -> int:
 
 
 def _set_pose(node: Node, arguments: list[str]) -> int:
-    from gz.msgs.pose_pb2 import Pose
-
-    from gz.transport import Node as GzNode
-    from ros_gz_sim.running_world import DEFAULT_TIMEOUT_S, RunningWorld
+    from gz_course.sim.gz.msgs.pose_pb2 import Pose
+    from gz_course.sim.gz.transport import Node as GzNode
+    from gz_course.sim.ros_gz_sim.running_world import DEFAULT_TIMEOUT_S, RunningWorld
 
     values = read(arguments, FLAGS)
     entity = which(values)

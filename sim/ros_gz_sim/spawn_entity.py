@@ -10,9 +10,9 @@ import math
 import sys
 from typing import TYPE_CHECKING, Any
 
-from ros_gz_bridge.ros_program import Failure, UsageError, run
-from ros_gz_sim.create import find, set_pose, why_refused
-from ros_gz_sim.flags import Flag, read, usage
+from gz_course.sim.ros_gz_bridge.ros_program import Failure, UsageError, run
+from gz_course.sim.ros_gz_sim.create import find, set_pose, why_refused
+from gz_course.sim.ros_gz_sim.flags import Flag, read, usage
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -40,10 +40,9 @@ def main(argv: list[str] | None = None) -> int:
 
 
 def _spawn(node: Node, arguments: list[str]) -> int:
-    from gz.msgs.entity_factory_pb2 import EntityFactory
-
-    from gz.transport import Node as GzNode
-    from ros_gz_sim.running_world import DEFAULT_TIMEOUT_S, RunningWorld
+    from gz_course.sim.gz.msgs.entity_factory_pb2 import EntityFactory
+    from gz_course.sim.gz.transport import Node as GzNode
+    from gz_course.sim.ros_gz_sim.running_world import DEFAULT_TIMEOUT_S, RunningWorld
 
     values = read(arguments, FLAGS)
     if bool(values.get("sdf_filename")) == bool(values.get("sdf_string")):

@@ -12,7 +12,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from tests import bench
+from gz_course.tests import bench
 
 
 def main() -> None:
@@ -24,7 +24,7 @@ def main() -> None:
     for module in pkgutil.iter_modules([str(Path(bench.__path__[0]))]):
         if module.name == "__main__" or not module.name.startswith("bench_") or (chosen and module.name not in chosen):
             continue
-        for row in importlib.import_module(f"tests.bench.{module.name}").rows():
+        for row in importlib.import_module(f"gz_course.tests.bench.{module.name}").rows():
             console.print(f"done: {row.name}: {row.measured}", highlight=False, style="dim")
             table.add_row(row.name, row.measured, row.reference, row.ratio, row.wanted)
     console.print(table)

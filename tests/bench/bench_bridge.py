@@ -22,9 +22,9 @@ import psutil
 import zmq
 from rosgraph_msgs.msg import Clock
 
-from tests.bench.bridge_pair import GZ, ROS, Ros, sent, stamp, until
-from tests.bench.row import Row
-from tests.bench.transport_pair import paced
+from gz_course.tests.bench.bridge_pair import GZ, ROS, Ros, sent, stamp, until
+from gz_course.tests.bench.row import Row
+from gz_course.tests.bench.transport_pair import paced
 
 TURNS = 10
 PLAN = {"Twist": (50, 200), "LaserScan": (50, 200), "Image": (12, 30)}
@@ -48,7 +48,7 @@ class Process:
 
     def __init__(self):
         self.process = subprocess.Popen(
-            [sys.executable, "-m", "tests.bench.bridge_pair"],
+            [sys.executable, "-m", "gz_course.tests.bench.bridge_pair"],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
@@ -83,7 +83,7 @@ class Process:
 def running_bridge(*arguments, **environment):
     """A parameter_bridge that is ready."""
     process = subprocess.Popen(
-        [sys.executable, "-m", "ros_gz_bridge.parameter_bridge", *arguments],
+        [sys.executable, "-m", "gz_course.sim.ros_gz_bridge.parameter_bridge", *arguments],
         stderr=subprocess.PIPE,
         stdout=subprocess.DEVNULL,
         text=True,

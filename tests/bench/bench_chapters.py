@@ -10,12 +10,12 @@ from pathlib import Path
 import nbformat
 from nbclient import NotebookClient
 
-from tests.bench.row import Row
+from gz_course.tests.bench.row import Row
 
 ROOT = Path(__file__).parents[2]
 LONGEST_RUN = 90  # [s] of one chapter
 LONGEST_OF_ALL = 360  # [s] of all chapters together
-EMPTY = "from grader.playground import Playground\nimport matplotlib.pyplot as plt\nPlayground().close()"
+EMPTY = "from gz_course.grader.playground import Playground\nimport matplotlib.pyplot as plt\nPlayground().close()"
 
 
 def seconds(notebook: nbformat.NotebookNode, folder: Path) -> float:

@@ -7,7 +7,7 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
-from tests.bench.row import Row
+from gz_course.tests.bench.row import Row
 
 PROGRAM = Path(__file__).parents[1] / "sim" / "gz" / "sim" / "world_digest.py"
 RUNS = 4

@@ -14,7 +14,7 @@ from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
-from tests.bench.row import Row
+from gz_course.tests.bench.row import Row
 
 ROOT = Path(__file__).parents[2]
 COURSE = Path(sys.executable).parent / "course"

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import psutil
 
-from tests.bench.row import Row
+from gz_course.tests.bench.row import Row
 
 ROOT = Path(__file__).parents[2]
 COURSE = Path(sys.executable).parent / "course"

@@ -10,7 +10,7 @@ import uuid
 from collections.abc import Iterator
 from pathlib import Path
 
-from tests.bench.row import Row
+from gz_course.tests.bench.row import Row
 
 GZ = Path(sys.executable).with_name("gz")
 RUNS = 15
@@ -37,9 +37,8 @@ def whole_run(command: list) -> float:
 
 def rows() -> Iterator[Row]:
     os.environ |= {"GZ_PARTITION": f"bench-{uuid.uuid4()}", "GZ_IP": "127.0.0.1"}
-    from gz.msgs.twist_pb2 import Twist
-
-    from gz.transport import Node
+    from gz_course.sim.gz.msgs.twist_pb2 import Twist
+    from gz_course.sim.gz.transport import Node
 
     ended = threading.Event()
     with Node() as node:

@@ -11,7 +11,7 @@ import uuid
 from collections.abc import Iterator
 from pathlib import Path
 
-from tests.bench.row import Row
+from gz_course.tests.bench.row import Row
 
 ROS2 = Path(sys.executable).with_name("ros2")
 RUNS = 11

@@ -6,16 +6,16 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import mujoco
-from gz.msgs.double_pb2 import Double
-from gz.msgs.model_pb2 import Model
-from gz.msgs.odometry_pb2 import Odometry
 
-from gz.sim.world import World
-from gz.transport import Node, NodeOptions, Scope
-from tests.bench.row import Row
-from tests.sim.gz.sim.physics.driving import endure, measure
-from tests.sim.gz.sim.physics.wheeled_robots import ROBOTS, drive_of
-from tests.sim.gz.sim.systems.motion_world import plugin
+from gz_course.sim.gz.msgs.double_pb2 import Double
+from gz_course.sim.gz.msgs.model_pb2 import Model
+from gz_course.sim.gz.msgs.odometry_pb2 import Odometry
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node, NodeOptions, Scope
+from gz_course.tests.bench.row import Row
+from gz_course.tests.sim.gz.sim.physics.driving import endure, measure
+from gz_course.tests.sim.gz.sim.physics.wheeled_robots import ROBOTS, drive_of
+from gz_course.tests.sim.gz.sim.systems.motion_world import plugin
 
 STEPS = 20_000
 REPORTS = plugin("JointStatePublisher") + plugin("OdometryPublisher", "<odom_topic>/truth</odom_topic>")

@@ -10,8 +10,8 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
-from grader.run.domain import Domain
-from tests.bench.row import Row
+from gz_course.grader.run.domain import Domain
+from gz_course.tests.bench.row import Row
 
 ROS2 = Path(sys.executable).with_name("ros2")
 RUNS = 15

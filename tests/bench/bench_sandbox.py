@@ -5,9 +5,9 @@ import sys
 import time
 from collections.abc import Iterator
 
-from grader.run.sandbox import LEVELS, Sandbox, level_module
-from grader.run.sandbox.probe import try_level
-from tests.bench.row import Row
+from gz_course.grader.run.sandbox import LEVELS, Sandbox, level_module
+from gz_course.grader.run.sandbox.probe import try_level
+from gz_course.tests.bench.row import Row
 
 RUNS = 20
 # Bare: what is measured is the box, not the libraries of the environment.

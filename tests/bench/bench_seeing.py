@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterator
 import mujoco
 import numpy as np
 
-from gz.sim.sdf.resources import find_model
-from gz.sim.world import World
-from gz.transport import Node, NodeOptions, Scope
-from tests.bench.row import Row
+from gz_course.sim.gz.sim.sdf.resources import find_model
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node, NodeOptions, Scope
+from gz_course.tests.bench.row import Row
 
 ROUNDS = 15
 SIM_SECONDS = 4.0

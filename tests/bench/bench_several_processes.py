@@ -13,7 +13,7 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
-from tests.bench.row import Row
+from gz_course.tests.bench.row import Row
 
 ROOT = Path(__file__).parents[2]
 COURSE = Path(sys.executable).parent / "course"

@@ -11,7 +11,7 @@ import uuid
 from collections.abc import Iterator
 from pathlib import Path
 
-from tests.bench.row import Row
+from gz_course.tests.bench.row import Row
 
 GZ = Path(sys.executable).with_name("gz")
 RUNS = 7
@@ -20,9 +20,8 @@ DEADLINE = 60
 
 def first_clock(world: str) -> float:
     """Start a world; return how long it took until its first clock arrived here [s]."""
-    from gz.msgs.clock_pb2 import Clock
-
-    from gz.transport import Node
+    from gz_course.sim.gz.msgs.clock_pb2 import Clock
+    from gz_course.sim.gz.transport import Node
 
     heard = threading.Event()
     with Node() as node:

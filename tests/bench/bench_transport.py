@@ -17,11 +17,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import zmq
-from gz.msgs.stringmsg_pb2 import StringMsg
 
-from gz.transport import Node
-from tests.bench.row import Row
-from tests.bench.transport_pair import KINDS
+from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+from gz_course.sim.gz.transport import Node
+from gz_course.tests.bench.row import Row
+from gz_course.tests.bench.transport_pair import KINDS
 
 LATENCY = {"100 B": (1000, 500), "6 kB": (1000, 500), "0.9 MB": (200, 50)}
 """Kind -> (messages, hertz)"""

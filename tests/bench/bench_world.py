@@ -5,10 +5,10 @@ from collections.abc import Callable, Iterator
 
 import mujoco
 
-from gz.sim.pose import Pose
-from gz.sim.sdf.resources import BUILT_IN_MODELS
-from gz.sim.world import World
-from tests.bench.row import Row
+from gz_course.sim.gz.sim.pose import Pose
+from gz_course.sim.gz.sim.sdf.resources import BUILT_IN_MODELS
+from gz_course.sim.gz.sim.world import World
+from gz_course.tests.bench.row import Row
 
 STEPS, RUNS = 2000, 7
 

@@ -11,16 +11,16 @@ import time
 import rclpy
 import zmq
 from geometry_msgs.msg import Twist as RosTwist
-from gz.msgs.clock_pb2 import Clock as GzClock
-from gz.msgs.image_pb2 import Image as GzImage
-from gz.msgs.laserscan_pb2 import LaserScan as GzScan
-from gz.msgs.twist_pb2 import Twist as GzTwist
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from sensor_msgs.msg import Image as RosImage
 from sensor_msgs.msg import LaserScan as RosScan
 
-from gz.transport import Node
-from tests.bench.transport_pair import paced
+from gz_course.sim.gz.msgs.clock_pb2 import Clock as GzClock
+from gz_course.sim.gz.msgs.image_pb2 import Image as GzImage
+from gz_course.sim.gz.msgs.laserscan_pb2 import LaserScan as GzScan
+from gz_course.sim.gz.msgs.twist_pb2 import Twist as GzTwist
+from gz_course.sim.gz.transport import Node
+from gz_course.tests.bench.transport_pair import paced
 
 GZ = {"Twist": GzTwist, "LaserScan": GzScan, "Image": GzImage, "HD": GzImage, "Clock": GzClock}
 ROS = {"Twist": RosTwist, "LaserScan": RosScan, "Image": RosImage, "HD": RosImage}

@@ -6,11 +6,11 @@ import threading
 import time
 
 import zmq
-from gz.msgs.image_pb2 import Image
-from gz.msgs.laserscan_pb2 import LaserScan
-from gz.msgs.stringmsg_pb2 import StringMsg
 
-from gz.transport import Node
+from gz_course.sim.gz.msgs.image_pb2 import Image
+from gz_course.sim.gz.msgs.laserscan_pb2 import LaserScan
+from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+from gz_course.sim.gz.transport import Node
 
 KINDS = {"100 B": StringMsg, "6 kB": LaserScan, "0.9 MB": Image}
 

@@ -5,8 +5,8 @@ import os
 import sys
 import threading
 
-from gz.msgs import message_class
-from gz.transport import Node
+from gz_course.sim.gz.msgs import message_class
+from gz_course.sim.gz.transport import Node
 
 node = Node()
 publishers = {}
@@ -44,7 +44,7 @@ for line in sys.stdin:
         case "serve":
             say(answer=node.advertise_service(name, message_class(types[0]), message_class(types[1]), serve))
         case "serve for fortress":
-            from gz.transport.options import AdvertiseServiceOptions
+            from gz_course.sim.gz.transport.options import AdvertiseServiceOptions
 
             options = AdvertiseServiceOptions(fortress=True)
             say(answer=node.advertise_service(name, types[0], types[1], serve, options))

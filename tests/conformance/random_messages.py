@@ -3,7 +3,7 @@
 from google.protobuf.descriptor import FieldDescriptor
 from hypothesis import strategies
 
-from gz.msgs.proto_reader import read_proto
+from gz_course.sim.gz.msgs.proto_reader import read_proto
 
 _DEPTH = 2
 _BITS = {

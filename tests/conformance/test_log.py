@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from gz.sim.tlog import FILE_NAME, Entry, LogWriter
+from gz_course.sim.gz.sim.tlog import FILE_NAME, Entry, LogWriter
 
 PACKAGE = "ignition-transport11-log"
 NEEDS_CLIENT = False

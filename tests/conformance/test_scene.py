@@ -4,11 +4,11 @@ import re
 
 import pytest
 
-from gz.msgs.text import to_text
-from gz.sim.scene.graph import SceneGraph
-from gz.sim.scene.message import scene_message
-from gz.sim.scene.state import full_state
-from gz.sim.world import World
+from gz_course.sim.gz.msgs.text import to_text
+from gz_course.sim.gz.sim.scene.graph import SceneGraph
+from gz_course.sim.gz.sim.scene.message import scene_message
+from gz_course.sim.gz.sim.scene.state import full_state
+from gz_course.sim.gz.sim.world import World
 
 WORLD = "lidar_room"
 UNKNOWN = re.compile(r"^( *)[0-9]+(: .*| \{\n(.*\n)*?\1\})\n", re.MULTILINE)

@@ -5,11 +5,11 @@ import time
 import pytest
 from hypothesis import HealthCheck, Phase, given, settings, strategies
 
-from gz.msgs import message_class, type_names
-from gz.msgs.descriptor_text import describe
-from gz.msgs.proto_reader import read_proto
-from gz.msgs.text import from_text, to_text
-from tests.conformance.random_messages import Vocabulary
+from gz_course.sim.gz.msgs import message_class, type_names
+from gz_course.sim.gz.msgs.descriptor_text import describe
+from gz_course.sim.gz.msgs.proto_reader import read_proto
+from gz_course.sim.gz.msgs.text import from_text, to_text
+from gz_course.tests.conformance.random_messages import Vocabulary
 
 OURS = [name.replace("gz.", "ignition.") for name in type_names()]
 NEWER = {

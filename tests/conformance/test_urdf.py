@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, Phase, given, settings
 
-from gz.sim.errors import Diagnostics
-from gz.sim.pose import Pose, matrix
-from gz.sim.sdf.reader import read_model
-from tests.conformance.libsdformat import libsdformat
-from tests.conformance.random_robots import robots
+from gz_course.sim.gz.sim.errors import Diagnostics
+from gz_course.sim.gz.sim.pose import Pose, matrix
+from gz_course.sim.gz.sim.sdf.reader import read_model
+from gz_course.tests.conformance.libsdformat import libsdformat
+from gz_course.tests.conformance.random_robots import robots
 
 NEEDS_CLIENT = False
 TYPES = {"ball": 1, "continuous": 2, "fixed": 3, "prismatic": 5, "revolute": 6}

@@ -11,11 +11,11 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from gz.sim.errors import Diagnostics
-from gz.sim.pose import Pose, rotate
-from gz.sim.sdf.reader import read_world
-from tests.conformance.libsdformat import libsdformat
-from tests.conformance.random_worlds import WorldMaker
+from gz_course.sim.gz.sim.errors import Diagnostics
+from gz_course.sim.gz.sim.pose import Pose, rotate
+from gz_course.sim.gz.sim.sdf.reader import read_world
+from gz_course.tests.conformance.libsdformat import libsdformat
+from gz_course.tests.conformance.random_worlds import WorldMaker
 
 NEEDS_CLIENT = False
 

@@ -23,7 +23,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
-from tests.fuzz.worlds import WORLDS
+from gz_course.tests.fuzz.worlds import WORLDS
 
 DEADLINE = 20.0  # [s] one case
 MEMORY = 6 * 1024**3  # [bytes] address space of a child
@@ -122,8 +122,8 @@ def _damage_text(text: str, chance: random.Random) -> str:
 
 def fault(text: str) -> str:
     """Load and step a text; return what went wrong ("" for a world that loads or is refused as it should be)."""
-    from gz.sim.errors import SdfError, SimError
-    from gz.sim.world import World
+    from gz_course.sim.gz.sim.errors import SdfError, SimError
+    from gz_course.sim.gz.sim.world import World
 
     try:
         world = World.from_string(text, file_name="case.sdf")
@@ -169,7 +169,14 @@ class _Child:
         self._start()
 
     def _start(self) -> None:
-        command = [sys.executable, "-m", "tests.fuzz.load_worlds", "--work", str(self.next), str(self.end - self.next)]
+        command = [
+            sys.executable,
+            "-m",
+            "gz_course.tests.fuzz.load_worlds",
+            "--work",
+            str(self.next),
+            str(self.end - self.next),
+        ]
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, start_new_session=True)
         self.began = time.monotonic()
         self.running = self.next

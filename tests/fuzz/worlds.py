@@ -5,8 +5,8 @@ from __future__ import annotations
 import tempfile
 from pathlib import Path
 
-from gz.sim.sdf.resources import BUILT_IN_MODELS, BUILT_IN_WORLDS
-from tests.sim.gz.sim.sdf.shapes_on_disk import write_heightmap, write_obj, write_stl
+from gz_course.sim.gz.sim.sdf.resources import BUILT_IN_MODELS, BUILT_IN_WORLDS
+from gz_course.tests.sim.gz.sim.sdf.shapes_on_disk import write_heightmap, write_obj, write_stl
 
 _FOLDER = tempfile.TemporaryDirectory(prefix="gz_sim_fuzz_")
 _SHAPES = {

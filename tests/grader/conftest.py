@@ -18,7 +18,7 @@ with warnings.catch_warnings():
     import rosidl_generator_py  # noqa: F401
 
 ROOT = Path(__file__).parents[2]
-COURSE = [sys.executable, "-c", "from grader.course import main; main()"]
+COURSE = [sys.executable, "-c", "from gz_course.grader.course import main; main()"]
 
 
 @dataclasses.dataclass
@@ -164,8 +164,8 @@ def root():
 @pytest.fixture
 def record(tmp_path):
     """Make a recording by hand: `record({"signal": [(seconds, value), ...]}, ...)` returns it, read back."""
-    from grader.record.reading import Recording
-    from grader.record.recorder import Recorder
+    from gz_course.grader.record.reading import Recording
+    from gz_course.grader.record.recorder import Recorder
 
     numbers = iter(range(100_000))
 

@@ -9,10 +9,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from grader import archive, intake
-from grader.errors import RefusedError, UsageError
-from grader.exercise import find_exercise
-from grader.intake import take_in
+from gz_course.grader import archive, intake
+from gz_course.grader.errors import RefusedError, UsageError
+from gz_course.grader.exercise import find_exercise
+from gz_course.grader.intake import take_in
 
 NODE = b"x = 1\n"
 WANTED = {"teleop_node.py": NODE}

@@ -166,7 +166,7 @@ def test_an_exercise_that_is_wrong_is_our_fault_and_says_where(grade, root, tmp_
 
 def test_debug_shows_where_an_internal_error_is(course, root):
     prelude = """
-import grader.exercise as module
+import gz_course.grader.exercise as module
 def find_exercise(*_):
     raise ZeroDivisionError("planted")
 module.find_exercise = find_exercise
@@ -180,7 +180,7 @@ module.find_exercise = find_exercise
 # A shell's background job ignores SIGINT; the command of a person at a terminal does not.
 START = """
 import signal, sys
-from grader.course import main
+from gz_course.grader.course import main
 signal.signal(signal.SIGINT, signal.default_int_handler)
 sys.argv.append("--pace=realtime")
 main()

@@ -2,7 +2,7 @@
 
 import pytest
 
-from grader.errors import CourseError, InfrastructureError, ManifestError, UsageError, nearest
+from gz_course.grader.errors import CourseError, InfrastructureError, ManifestError, UsageError, nearest
 
 
 @pytest.mark.parametrize(

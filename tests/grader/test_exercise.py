@@ -5,8 +5,8 @@ import shutil
 
 import pytest
 
-from grader.errors import ManifestError, UsageError
-from grader.exercise import course_root, exercise_names, find_exercise, load_exercise
+from gz_course.grader.errors import ManifestError, UsageError
+from gz_course.grader.exercise import course_root, exercise_names, find_exercise, load_exercise
 
 GOOD = """\
 title = "A title"

@@ -4,8 +4,8 @@ import json
 
 import pytest
 
-from grader.errors import UsageError
-from grader.grade import grade_again, recordings_in
+from gz_course.grader.errors import UsageError
+from gz_course.grader.grade import grade_again, recordings_in
 
 X = "truth/robot/x"
 

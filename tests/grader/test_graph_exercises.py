@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.record.reading import Recording
+from gz_course.grader.record.reading import Recording
 
 BRIDGES, TABLES = "05_yaml_bridge", "01_two_transports"
 

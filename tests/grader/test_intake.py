@@ -8,11 +8,11 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from grader.errors import RefusedError, UsageError
-from grader.exercise import find_exercise
-from grader.intake import LARGEST, LARGEST_FOLDER, MOST_FILES, take_in
-from grader.submission import Submission
-from grader.temporary_folder import remove
+from gz_course.grader.errors import RefusedError, UsageError
+from gz_course.grader.exercise import find_exercise
+from gz_course.grader.intake import LARGEST, LARGEST_FOLDER, MOST_FILES, take_in
+from gz_course.grader.submission import Submission
+from gz_course.grader.temporary_folder import remove
 
 
 @pytest.fixture(scope="module")
@@ -79,7 +79,7 @@ def test_what_would_stand_in_for_other_modules_stays_out_of_the_box(exercise, tm
 
 
 def test_a_folder_without_end_is_not_walked_to_it(exercise, tmp_path, monkeypatch):
-    monkeypatch.setattr("grader.intake.MOST_MEMBERS", 50)
+    monkeypatch.setattr("gz_course.grader.intake.MOST_MEMBERS", 50)
     for number in range(60):
         write(tmp_path / f"{number}.txt", "")
     refused(exercise, tmp_path, "too large", "50 files")

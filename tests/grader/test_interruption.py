@@ -8,7 +8,7 @@ import pytest
 
 PROGRAM = """
 import os, signal, sys, threading
-from grader.interruption import end_on
+from gz_course.grader.interruption import end_on
 
 class Deaf:
     def __del__(self):
@@ -45,7 +45,7 @@ def test_a_signal_that_python_drops_comes_once_more(number):
 @pytest.mark.parametrize(("before", "code"), [("SIG_DFL", 129), ("SIG_IGN", 0)])
 def test_nohup_is_respected(before, code):
     program = (
-        "import os, signal; from grader.interruption import end_on\n"
+        "import os, signal; from gz_course.grader.interruption import end_on\n"
         f"signal.signal(signal.SIGHUP, signal.{before}); end_on(signal.SIGHUP); os.kill(os.getpid(), signal.SIGHUP)"
     )
     assert subprocess.run([sys.executable, "-c", program], timeout=60).returncode == code

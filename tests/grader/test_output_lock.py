@@ -7,10 +7,10 @@ import sys
 
 import pytest
 
-from grader.errors import UsageError
-from grader.exercise import find_exercise
-from grader.grade import grade
-from grader.output_lock import sole_writer
+from gz_course.grader.errors import UsageError
+from gz_course.grader.exercise import find_exercise
+from gz_course.grader.grade import grade
+from gz_course.grader.output_lock import sole_writer
 
 
 def test_the_second_is_told_and_leaves_no_trace(root, tmp_path):
@@ -32,7 +32,7 @@ def test_another_exercise_another_folder_and_a_second_time_are_free(tmp_path):
 
 def test_a_killed_grader_keeps_nobody_out(tmp_path):
     code = (
-        "import sys, pathlib; from grader.output_lock import sole_writer\n"
+        "import sys, pathlib; from gz_course.grader.output_lock import sole_writer\n"
         "with sole_writer(pathlib.Path(sys.argv[1]), 'a'): print('mine', flush=True); sys.stdin.read()"
     )
     with subprocess.Popen(

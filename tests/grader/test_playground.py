@@ -13,9 +13,9 @@ from pathlib import Path
 import psutil
 import pytest
 
-from grader import playground
-from grader.errors import UsageError
-from grader.playground import Playground
+from gz_course.grader import playground
+from gz_course.grader.errors import UsageError
+from gz_course.grader.playground import Playground
 
 DEADLINE = 20.0
 FENCE = ("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE", "GZ_PARTITION", "ROS_LOG_DIR")
@@ -175,7 +175,7 @@ def test_who_does_not_listen_is_ended_with_all_it_started(room, tmp_path, monkey
 
 OWNER = """
 import signal, sys
-from grader.playground import Playground
+from gz_course.grader.playground import Playground
 room = Playground()
 program = room.start("sleep 1000")
 print(program.pid, room.environment["ROS_LOG_DIR"], flush=True)

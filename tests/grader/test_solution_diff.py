@@ -4,9 +4,9 @@ import shutil
 
 import pytest
 
-from grader.commands.diff import style_of
-from grader.exercise import find_exercise
-from grader.solution_diff import solution_diff
+from gz_course.grader.commands.diff import style_of
+from gz_course.grader.exercise import find_exercise
+from gz_course.grader.solution_diff import solution_diff
 
 NAME, FILE = "03_teleop", "teleop_node.py"
 

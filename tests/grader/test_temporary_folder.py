@@ -12,14 +12,14 @@ from pathlib import Path
 import psutil
 import pytest
 
-from grader import temporary_folder
-from grader.temporary_folder import OWNER, TemporaryFolder, abandoned, remove, sweep
-from tests.descriptors import own_descriptors
+from gz_course.grader import temporary_folder
+from gz_course.grader.temporary_folder import OWNER, TemporaryFolder, abandoned, remove, sweep
+from gz_course.tests.descriptors import own_descriptors
 
 DEADLINE = 30.0
 MAKES_ONE = """
 import sys
-from grader.temporary_folder import TemporaryFolder
+from gz_course.grader.temporary_folder import TemporaryFolder
 folder = TemporaryFolder("course-")
 print(folder.path, flush=True)
 sys.stdin.read()
@@ -211,8 +211,8 @@ def test_folders_nested_deeper_than_python_can_call_are_removed(here, request):
 AS_A_USER = """
 import os, sys
 from pathlib import Path
-from grader.run.inside import kernel
-from grader.temporary_folder import TemporaryFolder
+from gz_course.grader.run.inside import kernel
+from gz_course.grader.temporary_folder import TemporaryFolder
 kernel.drop_capabilities(61_950, 61_950)
 with TemporaryFolder("course-", sys.argv[1]) as folder:
     for name in ("closed", "closed/within", "closed/within/deeper"):
@@ -245,8 +245,8 @@ def test_what_may_not_be_read_or_written_is_removed(tmp_path_factory):
 MOUNTS = """
 import os, sys
 from pathlib import Path
-from grader.run.inside import kernel
-from grader.temporary_folder import TemporaryFolder
+from gz_course.grader.run.inside import kernel
+from gz_course.grader.temporary_folder import TemporaryFolder
 kernel.unshare(kernel.CLONE_NEWNS)
 kernel.mount("", "/", flags=kernel.MS_REC | kernel.MS_PRIVATE)
 precious = Path(sys.argv[1])

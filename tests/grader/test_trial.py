@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grader.errors import ManifestError, UsageError
-from grader.exercise import find_exercise
-from grader.run.trial_world import load_trial_world
-from grader.trial import PUBLIC, SCRIPT_SPREAD, ScriptedCommand, Trial, chosen_trials, load_trials, numbered
+from gz_course.grader.errors import ManifestError, UsageError
+from gz_course.grader.exercise import find_exercise
+from gz_course.grader.run.trial_world import load_trial_world
+from gz_course.grader.trial import PUBLIC, SCRIPT_SPREAD, ScriptedCommand, Trial, chosen_trials, load_trials, numbered
 
 COMMAND = ScriptedCommand(at=0.5, topic="/model/robot/cmd_vel", linear_x=0.3, angular_z=-0.25)
 

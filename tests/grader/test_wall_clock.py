@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grader.wall_clock import wall_clock
+from gz_course.grader.wall_clock import wall_clock
 
 
 @pytest.mark.parametrize(

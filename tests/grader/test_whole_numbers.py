@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rclpy.serialization import deserialize_message, serialize_message
 
-from grader.whole_numbers import float_fields, whole_numbers
+from gz_course.grader.whole_numbers import float_fields, whole_numbers
 
 FIELDS = {"Twist": {"linear.x", "angular.z"}, "Vector3": {"x", "y", "z"}, "Float32": {"data"}}
 

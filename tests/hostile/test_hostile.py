@@ -12,9 +12,9 @@ from pathlib import Path
 
 import pytest
 
-from grader.run.children import START_UP
-from grader.run.sandbox.probe import try_level
-from grader.run.stage import WALL_FACTOR, WALL_GRACE
+from gz_course.grader.run.children import START_UP
+from gz_course.grader.run.sandbox.probe import try_level
+from gz_course.grader.run.stage import WALL_FACTOR, WALL_GRACE
 
 from .conftest import ORDINARY
 

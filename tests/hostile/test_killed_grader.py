@@ -9,8 +9,8 @@ import sys
 import psutil
 import pytest
 
-from grader.run.sandbox.probe import try_level
-from grader.temporary_folder import sweep
+from gz_course.grader.run.sandbox.probe import try_level
+from gz_course.grader.temporary_folder import sweep
 
 DEADLINE = 30.0
 # Leaves the process group, hears no signal, does not die with its parent.
@@ -26,7 +26,7 @@ time.sleep(600)
 """
 GRADER = f"""
 import sys
-from grader.run.sandbox import Sandbox
+from gz_course.grader.run.sandbox import Sandbox
 sandbox = Sandbox(101, sys.argv[1])
 file = sandbox.stage({{"stubborn.py": {STUBBORN.encode()!r}}}) / "stubborn.py"
 boxed = sandbox.start([sys.executable, "-I", "-S", str(file)], {{}})

@@ -14,7 +14,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from grader.run.domain import Domain
+from gz_course.grader.run.domain import Domain
 
 DEADLINE = 30.0
 
@@ -116,7 +116,7 @@ class Programs:
         return self.start(Path(sys.executable).with_name("gz"), "sim", "-r", "-s", path)
 
     def gz_node(self):
-        from gz.transport import Node, NodeOptions
+        from gz_course.sim.gz.transport import Node, NodeOptions
 
         options = NodeOptions()
         options.partition = self.partition
@@ -124,8 +124,8 @@ class Programs:
 
     def scene(self):
         """Name -> gz.msgs.Model of every model in the world `small`."""
-        from gz.msgs.empty_pb2 import Empty
-        from gz.msgs.scene_pb2 import Scene
+        from gz_course.sim.gz.msgs.empty_pb2 import Empty
+        from gz_course.sim.gz.msgs.scene_pb2 import Scene
 
         with self.gz_node() as node:
             done, scene = node.request("/world/small/scene/info", None, Empty, Scene, round(DEADLINE * 1000))

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from grader.diagnose.finding import Finding, Severity
-from grader.diagnose.system import System
+from gz_course.grader.diagnose.finding import Finding, Severity
+from gz_course.grader.diagnose.system import System
 
 RANK = 90
 FAST = 400.0  # Hz; at 1000 Hz an idle rclpy node uses 20 to 35 % of a core

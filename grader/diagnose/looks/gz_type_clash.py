@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from grader.diagnose.finding import Finding, Severity
-from grader.diagnose.system import System, names
-from gz.msgs import canonical_name
+from gz_course.grader.diagnose.finding import Finding, Severity
+from gz_course.grader.diagnose.system import System, names
+from gz_course.sim.gz.msgs import canonical_name
 
 RANK = 11
 _ANY = "google.protobuf.Message"

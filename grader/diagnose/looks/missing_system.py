@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from grader.diagnose.finding import Finding, Severity
-from grader.diagnose.system import System, names
+from gz_course.grader.diagnose.finding import Finding, Severity
+from gz_course.grader.diagnose.system import System, names
 
 RANK = 9
 
@@ -15,8 +15,8 @@ def look(system: System) -> Iterator[Finding]:
     for world in system.gz.worlds:
         if world.text is None or not world.text.sensors:
             continue
-        from gz.sim.sensors.registry import sensor_types
-        from gz.sim.systems.registry import systems
+        from gz_course.sim.gz.sim.sensors.registry import sensor_types
+        from gz_course.sim.gz.sim.systems.registry import systems
 
         types = sensor_types()
         needed: dict[str, list[str]] = {}

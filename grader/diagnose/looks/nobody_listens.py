@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from grader.diagnose.finding import Finding, Severity
-from grader.diagnose.system import INFRASTRUCTURE, System, nearest_topic, users
-from gz.msgs import canonical_name
+from gz_course.grader.diagnose.finding import Finding, Severity
+from gz_course.grader.diagnose.system import INFRASTRUCTURE, System, nearest_topic, users
+from gz_course.sim.gz.msgs import canonical_name
 
 RANK = 21
 _ANY = "google.protobuf.Message"

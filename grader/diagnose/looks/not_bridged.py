@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from grader.diagnose.advice import bridge_command, can_bridge
-from grader.diagnose.finding import Finding, Severity
-from grader.diagnose.system import INFRASTRUCTURE, RosEndpoint, System, users
-from ros_gz_bridge.entry import Direction
+from gz_course.grader.diagnose.advice import bridge_command, can_bridge
+from gz_course.grader.diagnose.finding import Finding, Severity
+from gz_course.grader.diagnose.system import INFRASTRUCTURE, RosEndpoint, System, users
+from gz_course.sim.ros_gz_bridge.entry import Direction
 
 RANK = 7
 

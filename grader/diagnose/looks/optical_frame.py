@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from grader.diagnose.finding import Finding, Severity
-from grader.diagnose.system import System
+from gz_course.grader.diagnose.finding import Finding, Severity
+from gz_course.grader.diagnose.system import System
 
 RANK = 80
 _CAMERAS = {"camera", "depth_camera", "rgbd_camera", "segmentation_camera", "thermal_camera", "wideanglecamera"}

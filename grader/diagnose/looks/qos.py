@@ -7,8 +7,8 @@ from typing import Any
 
 from rclpy.qos import DurabilityPolicy, LivelinessPolicy, ReliabilityPolicy
 
-from grader.diagnose.finding import Finding, Severity
-from grader.diagnose.system import System
+from gz_course.grader.diagnose.finding import Finding, Severity
+from gz_course.grader.diagnose.system import System
 
 RANK = 13
 

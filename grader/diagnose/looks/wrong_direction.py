@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from grader.diagnose.finding import Finding, Severity
-from grader.diagnose.system import System
-from ros_gz_bridge.entry import Direction
+from gz_course.grader.diagnose.finding import Finding, Severity
+from gz_course.grader.diagnose.system import System
+from gz_course.sim.ros_gz_bridge.entry import Direction
 
 RANK = 12
 

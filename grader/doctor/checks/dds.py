@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from grader.doctor.probe import ProbeError, Probes
-from grader.doctor.verdict import Verdict, failed, fine
-from grader.run.domain import Domain
-from grader.run.sandbox import ros_environment
+from gz_course.grader.doctor.probe import ProbeError, Probes
+from gz_course.grader.doctor.verdict import Verdict, failed, fine
+from gz_course.grader.run.domain import Domain
+from gz_course.grader.run.sandbox import ros_environment
 
 TITLE = "DDS between two processes"
 TOPIC = "/course_doctor"

@@ -6,8 +6,8 @@ import shutil
 import tempfile
 from pathlib import Path
 
-from grader.doctor.probe import Probes
-from grader.doctor.verdict import Verdict, failed, fine, warning
+from gz_course.grader.doctor.probe import Probes
+from gz_course.grader.doctor.verdict import Verdict, failed, fine, warning
 
 TITLE = "disk space and temporary folder"
 LEAST, COMFORTABLE = 200 << 20, 1 << 30  # [bytes] free: a class of recordings is some hundred MB

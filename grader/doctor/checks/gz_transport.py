@@ -7,8 +7,8 @@ import uuid
 
 import psutil
 
-from grader.doctor.probe import ProbeError, Probes
-from grader.doctor.verdict import Verdict, failed, fine, warning
+from gz_course.grader.doctor.probe import ProbeError, Probes
+from gz_course.grader.doctor.verdict import Verdict, failed, fine, warning
 
 TITLE = "Gazebo transport between two processes"
 TOPIC = "/course_doctor"

@@ -9,9 +9,9 @@ import sys
 from collections.abc import Mapping
 from pathlib import Path
 
-from grader.doctor.probe import Probes
-from grader.doctor.verdict import Verdict, fine, warning
-from ros2.hand_over import sourced_ros2
+from gz_course.grader.doctor.probe import Probes
+from gz_course.grader.doctor.verdict import Verdict, fine, warning
+from gz_course.sim.ros2.hand_over import sourced_ros2
 
 TITLE = "other installations of ROS 2 and Gazebo"
 COMMANDS = ("course", "ros2", "gz", "parameter_bridge")

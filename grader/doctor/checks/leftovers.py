@@ -14,9 +14,9 @@ from pathlib import Path
 
 import psutil
 
-from grader.doctor.probe import Probes
-from grader.doctor.verdict import Verdict, fine, warning
-from grader.temporary_folder import OWNER, abandoned
+from gz_course.grader.doctor.probe import Probes
+from gz_course.grader.doctor.verdict import Verdict, fine, warning
+from gz_course.grader.temporary_folder import OWNER, abandoned
 
 TITLE = "leftovers of earlier runs"
 SHARED_MEMORY = Path("/dev/shm")

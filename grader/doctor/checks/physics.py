@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from grader.doctor.probe import ProbeError, Probes
-from grader.doctor.verdict import Verdict, failed, fine
+from gz_course.grader.doctor.probe import ProbeError, Probes
+from gz_course.grader.doctor.verdict import Verdict, failed, fine
 
 TITLE = "physics"
 WORLD, STEPS = "lidar_room.sdf", 50
@@ -11,7 +11,7 @@ _CODE = """
 import sys
 import mujoco
 import numpy
-from gz.sim.world import World
+from gz_course.sim.gz.sim.world import World
 world = World.load(sys.argv[1])
 before = world.sim_time_ns
 for _ in range(int(sys.argv[2])):

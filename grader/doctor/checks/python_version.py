@@ -5,8 +5,8 @@ from __future__ import annotations
 import platform
 import sys
 
-from grader.doctor.probe import Probes
-from grader.doctor.verdict import Verdict, failed, fine, warning
+from gz_course.grader.doctor.probe import Probes
+from gz_course.grader.doctor.verdict import Verdict, failed, fine, warning
 
 TITLE = "Python and platform"
 OLDEST, NEWEST = (3, 11), (3, 14)

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from grader.doctor.probe import ProbeError, Probes
-from grader.doctor.verdict import Verdict, failed, fine
+from gz_course.grader.doctor.probe import ProbeError, Probes
+from gz_course.grader.doctor.verdict import Verdict, failed, fine
 
 TITLE = "recordings"
 _CODE = """
 import sys
 from pathlib import Path
 import rerun
-from grader.record.reading import Recording
-from grader.record.recorder import Recorder
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.record.recorder import Recorder
 path = Path(sys.argv[1])
 values = [0.25, 0.5, 0.75]
 with Recorder(path, "robot") as recorder:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from grader.doctor.probe import ProbeError, Probes
-from grader.doctor.verdict import Verdict, fine, warning
+from gz_course.grader.doctor.probe import ProbeError, Probes
+from gz_course.grader.doctor.verdict import Verdict, fine, warning
 
 TITLE = "renderer of cameras"
-_CODE = "from gz.sim.sensors.renderer import gl_backend; print(gl_backend() or '')"
+_CODE = "from gz_course.sim.gz.sim.sensors.renderer import gl_backend; print(gl_backend() or '')"
 _FIX = (
     "nothing to do for the exercises; for `--render-engine mujoco` install EGL (Debian: libegl1 libgl1-mesa-dri) "
     "or OSMesa (libosmesa6)"

@@ -12,9 +12,9 @@ import sysconfig
 from collections.abc import Mapping
 from pathlib import Path
 
-from grader.doctor.probe import Probes
-from grader.doctor.verdict import Verdict, failed, fine
-from grader.run.sandbox import WHEEL_VARIABLES
+from gz_course.grader.doctor.probe import Probes
+from gz_course.grader.doctor.verdict import Verdict, failed, fine
+from gz_course.grader.run.sandbox import WHEEL_VARIABLES
 
 TITLE = "libraries of the ROS wheels"
 GUARD, LIBRARY_PATH = WHEEL_VARIABLES

@@ -9,8 +9,8 @@ import os
 from collections.abc import Mapping
 from pathlib import Path
 
-from grader.doctor.probe import Probes
-from grader.doctor.verdict import Verdict, failed, fine, warning
+from gz_course.grader.doctor.probe import Probes
+from gz_course.grader.doctor.verdict import Verdict, failed, fine, warning
 
 TITLE = "ROS 2 variables"
 MIDDLEWARE = "rmw_fastrtps_cpp"

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import resource
 
-from grader.doctor.probe import ProbeError, Probes
-from grader.doctor.verdict import Verdict, failed, fine, warning
-from grader.run.sandbox import LEVELS, LIMITS, level_module
-from grader.run.sandbox.level import remember
-from grader.run.sandbox.probe import try_levels
+from gz_course.grader.doctor.probe import ProbeError, Probes
+from gz_course.grader.doctor.verdict import Verdict, failed, fine, warning
+from gz_course.grader.run.sandbox import LEVELS, LIMITS, level_module
+from gz_course.grader.run.sandbox.level import remember
+from gz_course.grader.run.sandbox.probe import try_levels
 
 TITLE = "sandbox of submissions"
 # What one rclpy node needs at least, and what to write for it in a shell.
@@ -18,8 +18,8 @@ NEEDS = {
 }
 _CODE = """
 import os, sys
-from grader.errors import CourseError
-from grader.run.sandbox.probe import exchange
+from gz_course.grader.errors import CourseError
+from gz_course.grader.run.sandbox.probe import exchange
 try:
     print(exchange(sys.argv[1], float(sys.argv[2])), flush=True)
 except CourseError as error:

@@ -6,8 +6,8 @@ import shutil
 import tempfile
 from pathlib import Path
 
-from grader.doctor.probe import Probes
-from grader.doctor.verdict import Verdict, fine, warning
+from gz_course.grader.doctor.probe import Probes
+from gz_course.grader.doctor.verdict import Verdict, fine, warning
 
 TITLE = "shared memory"
 FOLDER = Path("/dev/shm")

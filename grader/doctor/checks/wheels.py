@@ -7,8 +7,8 @@ from collections.abc import Iterable, Mapping
 from importlib import metadata
 from pathlib import Path
 
-from grader.doctor.probe import Probes
-from grader.doctor.verdict import Verdict, failed, fine, warning
+from gz_course.grader.doctor.probe import Probes
+from gz_course.grader.doctor.verdict import Verdict, failed, fine, warning
 
 TITLE = "installed packages"
 COURSE = "gz-ros2-course"

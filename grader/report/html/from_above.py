@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from markupsafe import Markup, escape
 
-from grader.record.bodies import Body, bodies, chain_of, hull, placed
-from grader.record.reading import Recording
-from grader.score.steps import told
+from gz_course.grader.record.bodies import Body, bodies, chain_of, hull, placed
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.score.steps import told
 
 WIDEST = 40.0  # [m] a world larger than this is shown around the path only
 MARGIN = 1.5  # [m] around the path when only that is shown

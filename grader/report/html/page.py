@@ -14,14 +14,14 @@ from typing import Any
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
-from grader.printable import shown, storable
-from grader.record.reading import Recording
-from grader.report.html.from_above import Map
-from grader.report.html.plot import key
-from grader.report.html.signals import Figure, figures_of, speeds_of
-from grader.report.node_log import node_log
-from grader.report.report import OUTCOMES, Report, TrialReport, points
-from grader.score.score import CheckResult
+from gz_course.grader.printable import shown, storable
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.report.html.from_above import Map
+from gz_course.grader.report.html.plot import key
+from gz_course.grader.report.html.signals import Figure, figures_of, speeds_of
+from gz_course.grader.report.node_log import node_log
+from gz_course.grader.report.report import OUTCOMES, Report, TrialReport, points
+from gz_course.grader.score.score import CheckResult
 
 FOLDER = Path(__file__).parent
 LONGEST = 4000  # characters of one piece of text

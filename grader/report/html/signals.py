@@ -13,9 +13,9 @@ from typing import Any
 
 from markupsafe import Markup
 
-from grader.record.reading import Recording
-from grader.report.html.plot import Area, Curve, Moment, number, plot
-from grader.score.score import CheckResult
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.report.html.plot import Area, Curve, Moment, number, plot
+from gz_course.grader.score.score import CheckResult
 
 MOST_FIGURES = 4  # of one check
 SPEEDS = (

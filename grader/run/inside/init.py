@@ -16,7 +16,7 @@ import select
 import sys
 from _socket import AF_UNIX, SOCK_STREAM, socket, socketpair
 
-from grader.run.inside import kernel, landlock, seccomp, walls
+from gz_course.grader.run.inside import kernel, landlock, seccomp, walls
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ import os
 import stat
 import struct
 
-from grader.run.inside.kernel import LIBC, checked
+from gz_course.grader.run.inside.kernel import LIBC, checked
 
 TYPE_CHECKING = False  # the module `typing` would take longer to import than all else here
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ import errno
 import os
 import struct
 
-from grader.run.inside.kernel import LIBC, checked
+from gz_course.grader.run.inside.kernel import LIBC, checked
 
 PR_SET_SECCOMP, SECCOMP_MODE_FILTER = 22, 2
 AUDIT_ARCH_X86_64 = 0xC000003E

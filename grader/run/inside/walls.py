@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 
-from grader.run.inside import kernel
+from gz_course.grader.run.inside import kernel
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -5,10 +5,10 @@
 `grader/run/inside/`.
 """
 
-from grader.run.sandbox.environment import WHEEL_VARIABLES, ros_environment
-from grader.run.sandbox.level import AUTO, LEVELS, choose, level_module
-from grader.run.sandbox.order import LIMITS
-from grader.run.sandbox.sandbox import Sandbox, enter_early
+from gz_course.grader.run.sandbox.environment import WHEEL_VARIABLES, ros_environment
+from gz_course.grader.run.sandbox.level import AUTO, LEVELS, choose, level_module
+from gz_course.grader.run.sandbox.order import LIMITS
+from gz_course.grader.run.sandbox.sandbox import Sandbox, enter_early
 
 __all__ = [
     "AUTO",

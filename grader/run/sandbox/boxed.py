@@ -10,8 +10,8 @@ import socket
 import subprocess
 from typing import IO
 
-from grader.errors import InfrastructureError
-from grader.run.sandbox.watch import Watch
+from gz_course.grader.errors import InfrastructureError
+from gz_course.grader.run.sandbox.watch import Watch
 
 LONGEST_MESSAGE = 1 << 16  # [bytes]
 

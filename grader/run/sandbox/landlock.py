@@ -5,12 +5,12 @@ A level is a file of `levels/`; these are its `missing` and `command`. The locki
 
 from __future__ import annotations
 
-from grader.run.sandbox.order import Order
+from gz_course.grader.run.sandbox.order import Order
 
 
 def missing() -> str:
     """Say in a few words what such a level lacks here; an empty text if it can be tried."""
-    from grader.run.inside import landlock
+    from gz_course.grader.run.inside import landlock
 
     return "" if landlock.abi() else "this kernel has no Landlock"
 

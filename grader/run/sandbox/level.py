@@ -19,8 +19,8 @@ from functools import cache
 from pathlib import Path
 from typing import Protocol, cast
 
-from grader.errors import InfrastructureError, UsageError, nearest
-from grader.run.sandbox.order import Order
+from gz_course.grader.errors import InfrastructureError, UsageError, nearest
+from gz_course.grader.run.sandbox.order import Order
 
 AUTO = "auto"
 LEVELS = ("A", "B", "C", "D")  # from the firmest
@@ -47,7 +47,7 @@ def level_module(level: str) -> Level:
     """Return a level by its letter. Raises UsageError if there is none."""
     if level not in LEVELS:
         raise UsageError(f"there is no sandbox level {level!r}{nearest(level, (AUTO, *LEVELS))}")
-    return cast(Level, importlib.import_module(f"grader.run.sandbox.levels.{level.lower()}"))
+    return cast(Level, importlib.import_module(f"gz_course.grader.run.sandbox.levels.{level.lower()}"))
 
 
 def choose(wanted: str = AUTO, demand: str | None = None) -> str:
@@ -73,7 +73,7 @@ def choose(wanted: str = AUTO, demand: str | None = None) -> str:
 @cache
 def best_level() -> tuple[str, dict[str, str]]:
     """Return the best level that works here, and why each better one does not; found out once a boot."""
-    from grader.run.sandbox.probe import try_level, try_levels
+    from gz_course.grader.run.sandbox.probe import try_level, try_levels
 
     path, key = _cache(), _fingerprint()
     with contextlib.suppress(OSError, ValueError, KeyError, TypeError):

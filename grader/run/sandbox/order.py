@@ -8,7 +8,7 @@ import sys
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
-from grader.run.sandbox.view import Place
+from gz_course.grader.run.sandbox.view import Place
 
 # One rclpy node needs about 600 MB of address space, 16 threads and 18 files.
 LIMITS = {
@@ -58,5 +58,5 @@ class Order:
 def init_command(channel: int) -> list[str]:
     """Return the command that starts `init.py`, which takes its order from the socket `channel`."""
     root = Path(__file__).parents[3]
-    start = f"import sys; sys.path.insert(0, {str(root)!r}); from grader.run.inside.init import main; main()"
+    start = f"import sys; sys.path.insert(0, {str(root)!r}); from gz_course.grader.run.inside.init import main; main()"
     return [sys.executable, "-I", "-S", "-c", start, str(channel)]

@@ -12,8 +12,8 @@ import sys
 import time
 from collections.abc import Callable
 
-from grader.errors import CourseError
-from grader.run.sandbox.level import LEVELS, level_module
+from gz_course.grader.errors import CourseError
+from gz_course.grader.run.sandbox.level import LEVELS, level_module
 
 DEADLINE = 20.0  # [s] for one level; it takes about one
 TOPIC = "/course_sandbox"
@@ -65,8 +65,8 @@ def try_level(level: str, deadline: float = DEADLINE) -> str:
 
 def exchange(level: str, deadline: float) -> str:
     """Send a message into a box of a level and wait for its answer; an empty text, or what went wrong."""
-    from grader.run.domain import Domain
-    from grader.run.sandbox.sandbox import Sandbox
+    from gz_course.grader.run.domain import Domain
+    from gz_course.grader.run.sandbox.sandbox import Sandbox
 
     with Domain() as domain:
         sandbox = Sandbox(domain.id, level)

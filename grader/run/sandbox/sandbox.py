@@ -14,16 +14,24 @@ import subprocess
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from grader.errors import InfrastructureError
-from grader.run.inside import seccomp
-from grader.run.sandbox.boxed import Boxed
-from grader.run.sandbox.environment import box_environment, student_environment
-from grader.run.sandbox.level import AUTO, choose, level_module
-from grader.run.sandbox.network import NetworkError, PrivateNetwork
-from grader.run.sandbox.order import HOST, LIMITS, MOST_PROCESSES, OPEN_DEVICES, OPEN_FOLDERS, Order, init_command
-from grader.run.sandbox.view import DOOR, HOME, SUBMISSION, TMP_FILES, TMP_SIZE, view
-from grader.run.sandbox.watch import Watch, descendants
-from grader.temporary_folder import TemporaryFolder
+from gz_course.grader.errors import InfrastructureError
+from gz_course.grader.run.inside import seccomp
+from gz_course.grader.run.sandbox.boxed import Boxed
+from gz_course.grader.run.sandbox.environment import box_environment, student_environment
+from gz_course.grader.run.sandbox.level import AUTO, choose, level_module
+from gz_course.grader.run.sandbox.network import NetworkError, PrivateNetwork
+from gz_course.grader.run.sandbox.order import (
+    HOST,
+    LIMITS,
+    MOST_PROCESSES,
+    OPEN_DEVICES,
+    OPEN_FOLDERS,
+    Order,
+    init_command,
+)
+from gz_course.grader.run.sandbox.view import DOOR, HOME, SUBMISSION, TMP_FILES, TMP_SIZE, view
+from gz_course.grader.run.sandbox.watch import Watch, descendants
+from gz_course.grader.temporary_folder import TemporaryFolder
 
 PR_SET_CHILD_SUBREAPER = 36
 WITHOUT_NETWORK = "C"  # the best level for a process that cannot enter a private network (any more)

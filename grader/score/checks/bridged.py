@@ -16,11 +16,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from grader.record.reading import Recording
-from grader.score.check import Finding, check_kind
-from grader.score.graphs import WAYS, Bridged, bridges, did_you_mean
-from grader.score.launched import deaths
-from grader.table import Table
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.score.check import Finding, check_kind
+from gz_course.grader.score.graphs import WAYS, Bridged, bridges, did_you_mean
+from gz_course.grader.score.launched import deaths
+from gz_course.grader.table import Table
 
 KEYS = ("ros_topic", "ros_type", "gz_topic", "gz_type", "direction")
 CLOCK = "/clock"

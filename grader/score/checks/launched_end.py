@@ -5,10 +5,10 @@ kind = "launched_end"
 
 from __future__ import annotations
 
-from grader.record.reading import Recording
-from grader.score.check import Finding, check_kind
-from grader.score.launched import launch_facts
-from grader.table import Table
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.score.check import Finding, check_kind
+from gz_course.grader.score.launched import launch_facts
+from gz_course.grader.table import Table
 
 
 @check_kind("launched_end")

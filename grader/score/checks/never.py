@@ -9,10 +9,10 @@ Doing nothing does nothing forbidden: give such a check a gate.
 
 from __future__ import annotations
 
-from grader.record.reading import Recording
-from grader.score.check import Band, Finding, check_kind
-from grader.score.steps import Condition, fulfilled, shown_at, window_of
-from grader.table import Table
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.score.check import Band, Finding, check_kind
+from gz_course.grader.score.steps import Condition, fulfilled, shown_at, window_of
+from gz_course.grader.table import Table
 
 
 @check_kind("never")

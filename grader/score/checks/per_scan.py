@@ -20,11 +20,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from grader.printable import shown
-from grader.record.reading import Recording
-from grader.score.check import Finding, check_kind
-from grader.score.events import log_lines
-from grader.table import Table
+from gz_course.grader.printable import shown
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.score.check import Finding, check_kind
+from gz_course.grader.score.events import log_lines
+from gz_course.grader.table import Table
 
 LONGEST_LINE = 120  # [characters] of a line that is quoted
 

@@ -23,10 +23,10 @@ import traceback
 from pathlib import Path
 from typing import Any
 
-from grader.errors import ManifestError, nearest
-from grader.record.reading import Recording
-from grader.score.check import Finding, check_kind
-from grader.table import Table
+from gz_course.grader.errors import ManifestError, nearest
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.score.check import Finding, check_kind
+from gz_course.grader.table import Table
 
 
 @check_kind("python")

@@ -9,11 +9,11 @@ An event is a signal in its band, a message (saying something), or a line of the
 
 from __future__ import annotations
 
-from grader.record.reading import Recording
-from grader.score.check import Band, Finding, check_kind
-from grader.score.events import Event
-from grader.score.steps import told, window_of
-from grader.table import Table
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.score.check import Band, Finding, check_kind
+from gz_course.grader.score.events import Event
+from gz_course.grader.score.steps import told, window_of
+from gz_course.grader.table import Table
 
 
 @check_kind("reaches")

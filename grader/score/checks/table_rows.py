@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from collections import Counter
 
-from grader.record.reading import Recording
-from grader.score.check import Finding, check_kind
-from grader.score.diagnosis import OWN_TOPICS
-from grader.score.graphs import did_you_mean, links
-from grader.table import Table
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.score.check import Finding, check_kind
+from gz_course.grader.score.diagnosis import OWN_TOPICS
+from gz_course.grader.score.graphs import did_you_mean, links
+from gz_course.grader.table import Table
 
 
 @check_kind("table_rows")

@@ -11,10 +11,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from grader.record.reading import Recording
-from grader.score.check import Band, Finding, check_kind
-from grader.score.steps import Condition, fulfilled, told
-from grader.table import Table
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.score.check import Band, Finding, check_kind
+from gz_course.grader.score.steps import Condition, fulfilled, told
+from gz_course.grader.table import Table
 
 
 @check_kind("time_in_band")

@@ -4,6 +4,6 @@
 here.
 """
 
-from grader.verify.mutants.mutant import MOST, Mutant, choose, mutants_of
+from gz_course.grader.verify.mutants.mutant import MOST, Mutant, choose, mutants_of
 
 __all__ = ["MOST", "Mutant", "choose", "mutants_of"]

@@ -40,7 +40,7 @@ def mutants_of(file: str, content: bytes) -> list[Mutant]:
     sort = BY_SUFFIX.get(file.rpartition(".")[2])
     if sort is None:
         return []
-    found: list[Mutant] = import_module(f"grader.verify.mutants.{sort}").mutants(file, content)
+    found: list[Mutant] = import_module(f"gz_course.grader.verify.mutants.{sort}").mutants(file, content)
     once = {mutant.content: mutant for mutant in reversed(found) if mutant.content != content}
     return sorted(once.values(), key=lambda mutant: (mutant.line, mutant.change))
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import ast
 
-from grader.verify.mutants.mutant import Mutant, Text
+from gz_course.grader.verify.mutants.mutant import Mutant, Text
 
 COMPARED: dict[type[ast.cmpop], str] = {
     ast.Lt: ">",

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 import yaml
 
-from grader.verify.mutants.mutant import Mutant, Text
+from gz_course.grader.verify.mutants.mutant import Mutant, Text
 
 DIRECTIONS = {"GZ_TO_ROS": "ROS_TO_GZ", "ROS_TO_GZ": "GZ_TO_ROS", "BIDIRECTIONAL": "GZ_TO_ROS"}
 SWITCHES = {"true": "false", "false": "true"}

@@ -7,7 +7,7 @@ Fortress has too is compared with it, number by number, in `tests/conformance`; 
 `proto/fortress/` holds what was different in Fortress. Nothing else of this project is imported from here.
 """
 
-from gz.msgs.pb2_modules import PROTO_MODULES
-from gz.msgs.registry import UnknownTypeError, canonical_name, message_class, type_names
+from gz_course.sim.gz.msgs.pb2_modules import PROTO_MODULES
+from gz_course.sim.gz.msgs.registry import UnknownTypeError, canonical_name, message_class, type_names
 
 __all__ = ["PROTO_MODULES", "UnknownTypeError", "canonical_name", "message_class", "type_names"]

@@ -6,7 +6,7 @@ is described in `proto/fortress/`; gz.transport converts when a message arrives 
 
 from __future__ import annotations
 
-from gz.msgs.registry import canonical_name, differs_in_fortress, message_class
+from gz_course.sim.gz.msgs.registry import canonical_name, differs_in_fortress, message_class
 
 
 def same_type(name: str, other: str) -> bool:

@@ -17,7 +17,7 @@ from types import ModuleType
 from google.protobuf import message_factory
 from google.protobuf.internal import enum_type_wrapper
 
-from gz.msgs import registry
+from gz_course.sim.gz.msgs import registry
 
 _PREFIX = "gz.msgs."
 _ALIAS_PREFIX = "gz.msgs10."

@@ -18,7 +18,7 @@ from google.protobuf import message_factory
 from google.protobuf.descriptor_pool import DescriptorPool
 from google.protobuf.message import Message
 
-from gz.msgs.proto_reader import read_proto
+from gz_course.sim.gz.msgs.proto_reader import read_proto
 
 PROTO_FOLDER = Path(__file__).with_name("proto")
 _IMPORT_PREFIX = "gz/msgs/"

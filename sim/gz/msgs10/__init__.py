@@ -3,8 +3,8 @@
 Where the real gz.msgs10 is installed, it is what is imported.
 """
 
-from gz.msgs.real_installation import give_way
+from gz_course.sim.gz.msgs.real_installation import give_way
 
 if not give_way(__name__, __file__):
-    from gz.msgs import *  # noqa: F403
-    from gz.msgs import __all__ as __all__
+    from gz_course.sim.gz.msgs import *  # noqa: F403
+    from gz_course.sim.gz.msgs import __all__ as __all__

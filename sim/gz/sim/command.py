@@ -20,8 +20,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
 if TYPE_CHECKING:
-    from gz.sim.sdf.description import Plugin
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.sdf.description import Plugin
+    from gz_course.sim.gz.transport import Node
 
 _LEVELS = {0: logging.CRITICAL + 1, 1: logging.WARNING, 2: logging.WARNING, 3: logging.INFO, 4: logging.DEBUG}
 _PREFIXES = {logging.WARNING: "[Wrn]", logging.INFO: "[Msg]", logging.DEBUG: "[Dbg]"}
@@ -169,8 +169,8 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _recorder(arguments: argparse.Namespace) -> list[Plugin]:
     """Return the LogRecord plugin that the options ask for, if they ask for one."""
-    from gz.sim.sdf.description import Plugin
-    from gz.sim.sdf.element import Element
+    from gz_course.sim.gz.sim.sdf.description import Plugin
+    from gz_course.sim.gz.sim.sdf.element import Element
 
     if not (arguments.record or arguments.record_path or arguments.record_topic):
         return []
@@ -190,7 +190,7 @@ def _recorder(arguments: argparse.Namespace) -> list[Plugin]:
 
 def _look_for_others(node: Node) -> None:
     """Say so when another simulator tells another time to the same listeners; takes a second, in its own thread."""
-    from gz.sim.errors import LOG
+    from gz_course.sim.gz.sim.errors import LOG
 
     try:
         others = len(node.topic_info("/clock")[0]) - 1
@@ -206,10 +206,10 @@ def _look_for_others(node: Node) -> None:
 
 def _simulate(arguments: argparse.Namespace, stop: threading.Event) -> int:
     # These load MuJoCo and the transport; help and usage errors do not wait for them.
-    from gz.sim.errors import LOG, SimError
-    from gz.sim.server import Server
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.errors import LOG, SimError
+    from gz_course.sim.gz.sim.server import Server
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
     try:
         world = World.load(

@@ -10,10 +10,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from gz.sim.errors import LOG, SimError
+from gz_course.sim.gz.sim.errors import LOG, SimError
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
+    from gz_course.sim.gz.sim.world import World
 
 MOST_STEPS = 2**32 - 1
 

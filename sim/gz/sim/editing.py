@@ -15,18 +15,18 @@ from typing import TYPE_CHECKING, Any
 import mujoco
 import numpy as np
 
-from gz.sim.errors import Diagnostics, SimError, nearest
-from gz.sim.physics.builder import scoped
-from gz.sim.pose import Pose, multiply, rotate
-from gz.sim.sdf.description import Collision, Light, Model, Visual
-from gz.sim.sdf.reader import FARTHEST, read_model
-from gz.sim.spherical_coordinates import SphericalCoordinates
-from gz.sim.system_manager import SystemManager
-from gz.sim.truth import Truth
+from gz_course.sim.gz.sim.errors import Diagnostics, SimError, nearest
+from gz_course.sim.gz.sim.physics.builder import scoped
+from gz_course.sim.gz.sim.pose import Pose, multiply, rotate
+from gz_course.sim.gz.sim.sdf.description import Collision, Light, Model, Visual
+from gz_course.sim.gz.sim.sdf.reader import FARTHEST, read_model
+from gz_course.sim.gz.sim.spherical_coordinates import SphericalCoordinates
+from gz_course.sim.gz.sim.system_manager import SystemManager
+from gz_course.sim.gz.sim.truth import Truth
 
 if TYPE_CHECKING:
-    from gz.sim.entities import Entities
-    from gz.sim.requests import Requests
+    from gz_course.sim.gz.sim.entities import Entities
+    from gz_course.sim.gz.sim.requests import Requests
 
 DEEP_M = 0.01
 """A model that starts this deep inside others is worth a sentence."""

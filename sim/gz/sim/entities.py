@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from gz.sim.sdf.description import Light, Model, WorldDescription
+from gz_course.sim.gz.sim.sdf.description import Light, Model, WorldDescription
 
 
 @dataclass(frozen=True, slots=True)

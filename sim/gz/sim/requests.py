@@ -14,7 +14,7 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any
 
-from gz.sim.errors import LOG, SimError
+from gz_course.sim.gz.sim.errors import LOG, SimError
 
 PATIENCE_S = 5.0
 """How long a caller waits for its work to be done. When nobody steps the world by then, it is not done at all."""

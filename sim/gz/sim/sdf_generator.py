@@ -11,15 +11,15 @@ import copy
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gz.sim.errors import LOG, ResourceError
-from gz.sim.pose import Pose
-from gz.sim.sdf.description import Light, Model
-from gz.sim.sdf.element import Element
-from gz.sim.sdf.resources import find_model
-from gz.sim.sdf.writer import pose_element, to_xml
+from gz_course.sim.gz.sim.errors import LOG, ResourceError
+from gz_course.sim.gz.sim.pose import Pose
+from gz_course.sim.gz.sim.sdf.description import Light, Model
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sdf.resources import find_model
+from gz_course.sim.gz.sim.sdf.writer import pose_element, to_xml
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
+    from gz_course.sim.gz.sim.world import World
 
 _FRAMES_CHANGED = (1, 7)
 _ROOTS = ("model", "light", "include")

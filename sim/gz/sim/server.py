@@ -15,14 +15,13 @@ import threading
 import time
 from typing import Any
 
-from gz.msgs.clock_pb2 import Clock
-from gz.msgs.world_stats_pb2 import WorldStatistics
-
-from gz.sim.control import Control
-from gz.sim.errors import LOG, SimError
-from gz.sim.world import World
-from gz.sim.world_services import WorldServices
-from gz.transport import Node
+from gz_course.sim.gz.msgs.clock_pb2 import Clock
+from gz_course.sim.gz.msgs.world_stats_pb2 import WorldStatistics
+from gz_course.sim.gz.sim.control import Control
+from gz_course.sim.gz.sim.errors import LOG, SimError
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.sim.world_services import WorldServices
+from gz_course.sim.gz.transport import Node
 
 STATS_PERIOD_NS = 100_000_000
 PACE_NS = 5_000_000

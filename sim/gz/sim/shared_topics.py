@@ -12,9 +12,9 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from itertools import combinations
 
-from gz.sim.errors import Diagnostics
-from gz.sim.sdf.element import Element
-from gz.transport import Node
+from gz_course.sim.gz.sim.errors import Diagnostics
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.transport import Node
 
 NAMED_EVERYWHERE = frozenset(("gz.msgs.Pose", "gz.msgs.Pose_V"))
 """Types whose messages say which entity they are about: anybody may add to such a topic."""

@@ -14,9 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gz.sim.errors import Diagnostics, nearest
-from gz.sim.pose import Vector
-from gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.errors import Diagnostics, nearest
+from gz_course.sim.gz.sim.pose import Vector
+from gz_course.sim.gz.sim.sdf.element import Element
 
 SURFACES = {
     "EARTH_WGS84": (6378137.0, 6356752.314245),

@@ -11,18 +11,18 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from gz.sim.errors import nearest
-from gz.sim.physics.servos import JointServo
-from gz.sim.sdf.description import Model, Plugin, Sensor
-from gz.sim.sdf.element import Element
-from gz.sim.sensors.registry import KNOWN_TYPES, sensor_types
-from gz.sim.shared_topics import SharedTopics, Talker
-from gz.sim.systems.registry import System, UpdateInfo, find_system, system_name, systems
-from gz.sim.systems.sensor_system import SensorSystem
+from gz_course.sim.gz.sim.errors import nearest
+from gz_course.sim.gz.sim.physics.servos import JointServo
+from gz_course.sim.gz.sim.sdf.description import Model, Plugin, Sensor
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sensors.registry import KNOWN_TYPES, sensor_types
+from gz_course.sim.gz.sim.shared_topics import SharedTopics, Talker
+from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, find_system, system_name, systems
+from gz_course.sim.gz.sim.systems.sensor_system import SensorSystem
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
 Hook = Callable[[UpdateInfo], None]
 

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from gz.sim.errors import SimError
+from gz_course.sim.gz.sim.errors import SimError
 
 FILE_NAME = "state.tlog"
 VERSION = "0.1.0"

@@ -11,11 +11,11 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from gz.sim.errors import SimError, nearest
-from gz.sim.physics.builder import scoped
-from gz.sim.pose import Pose, Velocity, rotate
-from gz.sim.sdf.description import Link, Model, WorldDescription
-from gz.sim.visuals import VisualShape, visual_shapes
+from gz_course.sim.gz.sim.errors import SimError, nearest
+from gz_course.sim.gz.sim.physics.builder import scoped
+from gz_course.sim.gz.sim.pose import Pose, Velocity, rotate
+from gz_course.sim.gz.sim.sdf.description import Link, Model, WorldDescription
+from gz_course.sim.gz.sim.visuals import VisualShape, visual_shapes
 
 
 @dataclass(frozen=True, slots=True)

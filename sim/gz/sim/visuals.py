@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gz.sim.pose import Pose, quaternion_between
-from gz.sim.sdf.description import WorldDescription
+from gz_course.sim.gz.sim.pose import Pose, quaternion_between
+from gz_course.sim.gz.sim.sdf.description import WorldDescription
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -15,25 +15,25 @@ from typing import TYPE_CHECKING
 
 import mujoco
 
-from gz.sim.editing import Editing
-from gz.sim.entities import Entities
-from gz.sim.errors import LOG, Diagnostics, SimError
-from gz.sim.physics.builder import build_spec
-from gz.sim.physics.compiler import compile_world
-from gz.sim.physics.instability import UNSTABLE, why_unstable
-from gz.sim.physics.state import copy_state
-from gz.sim.requests import Requests
-from gz.sim.sdf.description import Plugin, WorldDescription
-from gz.sim.sdf.reader import LONGEST_GOOD_STEP_NS, long_step, read_world, read_world_file
-from gz.sim.sdf.resources import find_world
-from gz.sim.sensors.renderer import check_engine
-from gz.sim.system_manager import SystemManager, default_plugins
-from gz.sim.systems.registry import System, UpdateInfo
-from gz.sim.systems.topics import valid_topic
-from gz.sim.truth import JointAddress
+from gz_course.sim.gz.sim.editing import Editing
+from gz_course.sim.gz.sim.entities import Entities
+from gz_course.sim.gz.sim.errors import LOG, Diagnostics, SimError
+from gz_course.sim.gz.sim.physics.builder import build_spec
+from gz_course.sim.gz.sim.physics.compiler import compile_world
+from gz_course.sim.gz.sim.physics.instability import UNSTABLE, why_unstable
+from gz_course.sim.gz.sim.physics.state import copy_state
+from gz_course.sim.gz.sim.requests import Requests
+from gz_course.sim.gz.sim.sdf.description import Plugin, WorldDescription
+from gz_course.sim.gz.sim.sdf.reader import LONGEST_GOOD_STEP_NS, long_step, read_world, read_world_file
+from gz_course.sim.gz.sim.sdf.resources import find_world
+from gz_course.sim.gz.sim.sensors.renderer import check_engine
+from gz_course.sim.gz.sim.system_manager import SystemManager, default_plugins
+from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo
+from gz_course.sim.gz.sim.systems.topics import valid_topic
+from gz_course.sim.gz.sim.truth import JointAddress
 
 if TYPE_CHECKING:
-    from gz.transport import Node
+    from gz_course.sim.gz.transport import Node
 
 __all__ = ["JointAddress", "World"]
 

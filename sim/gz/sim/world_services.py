@@ -11,24 +11,23 @@ import os
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from gz.msgs.boolean_pb2 import Boolean
-from gz.msgs.empty_pb2 import Empty
-from gz.msgs.sdf_generator_config_pb2 import SdfGeneratorConfig
-from gz.msgs.server_control_pb2 import ServerControl
-from gz.msgs.stringmsg_pb2 import StringMsg
-from gz.msgs.stringmsg_v_pb2 import StringMsg_V
-from gz.msgs.world_control_pb2 import WorldControl
-from gz.msgs.world_control_state_pb2 import WorldControlState
-
-from gz.sim.errors import LOG, ResourceError, SimError
-from gz.sim.requests import logged
-from gz.sim.sdf.resources import find_model, resource_paths
-from gz.sim.sdf_generator import generate_world
+from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
+from gz_course.sim.gz.msgs.empty_pb2 import Empty
+from gz_course.sim.gz.msgs.sdf_generator_config_pb2 import SdfGeneratorConfig
+from gz_course.sim.gz.msgs.server_control_pb2 import ServerControl
+from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+from gz_course.sim.gz.msgs.stringmsg_v_pb2 import StringMsg_V
+from gz_course.sim.gz.msgs.world_control_pb2 import WorldControl
+from gz_course.sim.gz.msgs.world_control_state_pb2 import WorldControlState
+from gz_course.sim.gz.sim.errors import LOG, ResourceError, SimError
+from gz_course.sim.gz.sim.requests import logged
+from gz_course.sim.gz.sim.sdf.resources import find_model, resource_paths
+from gz_course.sim.gz.sim.sdf_generator import generate_world
 
 if TYPE_CHECKING:
-    from gz.sim.control import Control
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.control import Control
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
 CONTROL_PATIENCE_S = 0.5
 """A control request is answered when it was obeyed, or after this long: then it waits for the next step."""

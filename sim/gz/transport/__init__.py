@@ -5,9 +5,9 @@ import; what is ours alone (`Scope` for a whole node, `wait_for_subscribers`, `a
 where it is defined.
 """
 
-from gz.transport.message_info import MessageInfo, MessagePublisher, ServicePublisher
-from gz.transport.node import Node
-from gz.transport.options import (
+from gz_course.sim.gz.transport.message_info import MessageInfo, MessagePublisher, ServicePublisher
+from gz_course.sim.gz.transport.node import Node
+from gz_course.sim.gz.transport.options import (
     UNTHROTTLED,
     AdvertiseMessageOptions,
     AdvertiseOptions,
@@ -16,8 +16,8 @@ from gz.transport.options import (
     Scope,
     SubscribeOptions,
 )
-from gz.transport.publisher import Publisher
-from gz.transport.service import CallResult
+from gz_course.sim.gz.transport.publisher import Publisher
+from gz_course.sim.gz.transport.service import CallResult
 
 __all__ = [
     "UNTHROTTLED",

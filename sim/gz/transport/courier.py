@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable, Sequence
 
 import zmq
 
-from gz.transport.environment import complain
+from gz_course.sim.gz.transport.environment import complain
 
 RETRY_S = 0.001
 """How often the I/O thread tries again while something waits."""

@@ -8,7 +8,8 @@ dropped here, so that nothing malformed gets any further. Format: gz-transport's
 from __future__ import annotations
 
 from google.protobuf.message import DecodeError
-from gz.msgs.discovery_pb2 import Discovery
+
+from gz_course.sim.gz.msgs.discovery_pb2 import Discovery
 
 WIRE_VERSION = 10
 """The protocol version of gz-transport 11 to 15."""

@@ -14,12 +14,11 @@ import threading
 import time
 from collections.abc import Callable, Iterable
 
-from gz.msgs.discovery_pb2 import Discovery
-
-from gz.transport import datagram, naming
-from gz.transport.address import is_loopback, is_of_this_machine, is_usable, within_reach
-from gz.transport.environment import NetworkSettings, complain
-from gz.transport.options import Scope
+from gz_course.sim.gz.msgs.discovery_pb2 import Discovery
+from gz_course.sim.gz.transport import datagram, naming
+from gz_course.sim.gz.transport.address import is_loopback, is_of_this_machine, is_usable, within_reach
+from gz_course.sim.gz.transport.environment import NetworkSettings, complain
+from gz_course.sim.gz.transport.options import Scope
 
 HEARTBEAT_S = 1.0
 SILENCE_LIMIT_S = 3.0

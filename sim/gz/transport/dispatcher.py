@@ -11,11 +11,11 @@ import select
 import socket
 import threading
 
-from gz.transport import naming
-from gz.transport.environment import complain
-from gz.transport.inlet import Arrival, Inlet
-from gz.transport.message_info import MessageInfo
-from gz.transport.switchboard import Switchboard
+from gz_course.sim.gz.transport import naming
+from gz_course.sim.gz.transport.environment import complain
+from gz_course.sim.gz.transport.inlet import Arrival, Inlet
+from gz_course.sim.gz.transport.message_info import MessageInfo
+from gz_course.sim.gz.transport.switchboard import Switchboard
 
 _MOST_DESCRIBED = 1000
 

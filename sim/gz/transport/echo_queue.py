@@ -16,8 +16,8 @@ import time
 from types import TracebackType
 from typing import NamedTuple
 
-from gz.transport.message_info import MessageInfo
-from gz.transport.node import Node
+from gz_course.sim.gz.transport.message_info import MessageInfo
+from gz_course.sim.gz.transport.node import Node
 
 _WAITING = 1000
 _LOOK_AT_READER_S = 0.25

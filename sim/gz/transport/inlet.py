@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import zmq
 
-from gz.transport.environment import complain
+from gz_course.sim.gz.transport.environment import complain
 
 LEAVE_AFTER_S = 5.0
 """So long the connection to a publisher that is gone stays open: what it sent last is still to be read."""

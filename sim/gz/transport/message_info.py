@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from gz.transport.options import UNTHROTTLED, AdvertiseMessageOptions, AdvertiseServiceOptions, Scope
+from gz_course.sim.gz.transport.options import UNTHROTTLED, AdvertiseMessageOptions, AdvertiseServiceOptions, Scope
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,23 +20,23 @@ from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING
 
 import zmq
-from gz.msgs.discovery_pb2 import Discovery
 
-from gz.transport import naming
-from gz.transport.discovery import HEARTBEAT_S
-from gz.transport.dispatcher import Dispatcher
-from gz.transport.environment import DEFAULT_IP, NetworkSettings, complain
-from gz.transport.inlet import Inlet
-from gz.transport.message_info import MessagePublisher
-from gz.transport.options import UNTHROTTLED, Scope
-from gz.transport.outlet import Outlet
-from gz.transport.publisher import Publisher
-from gz.transport.subscription import Subscription
-from gz.transport.switchboard import SWITCHBOARD
-from gz.transport.topic_discovery import TopicDiscovery
+from gz_course.sim.gz.msgs.discovery_pb2 import Discovery
+from gz_course.sim.gz.transport import naming
+from gz_course.sim.gz.transport.discovery import HEARTBEAT_S
+from gz_course.sim.gz.transport.dispatcher import Dispatcher
+from gz_course.sim.gz.transport.environment import DEFAULT_IP, NetworkSettings, complain
+from gz_course.sim.gz.transport.inlet import Inlet
+from gz_course.sim.gz.transport.message_info import MessagePublisher
+from gz_course.sim.gz.transport.options import UNTHROTTLED, Scope
+from gz_course.sim.gz.transport.outlet import Outlet
+from gz_course.sim.gz.transport.publisher import Publisher
+from gz_course.sim.gz.transport.subscription import Subscription
+from gz_course.sim.gz.transport.switchboard import SWITCHBOARD
+from gz_course.sim.gz.transport.topic_discovery import TopicDiscovery
 
 if TYPE_CHECKING:
-    from gz.transport.service_network import ServiceNetwork
+    from gz_course.sim.gz.transport.service_network import ServiceNetwork
 
 _STOP_WITHIN_S = 1.0
 _LINGER_MS = 200
@@ -123,7 +123,7 @@ class Network:
         """The half of the network that serves services; opened by the first call. OSError when it cannot be."""
         with self._services_lock:
             if self._services is None:
-                from gz.transport.service_network import ServiceNetwork  # many processes never need it
+                from gz_course.sim.gz.transport.service_network import ServiceNetwork  # many processes never need it
 
                 self._services = ServiceNetwork(self._context, self._settings, self.process_uuid, self._wake)
                 self._wake()

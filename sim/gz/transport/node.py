@@ -14,14 +14,14 @@ from typing import Any
 
 from google.protobuf.message import Message
 
-from gz.transport import naming
-from gz.transport.message_info import MessageInfo, MessagePublisher
-from gz.transport.options import AdvertiseMessageOptions, NodeOptions, Scope, SubscribeOptions
-from gz.transport.publisher import Publisher
-from gz.transport.service_calls import ServiceCalls
-from gz.transport.subscription import GENERIC_TYPE, Subscription
-from gz.transport.switchboard import SWITCHBOARD
-from gz.transport.type_name import for_fortress, type_name
+from gz_course.sim.gz.transport import naming
+from gz_course.sim.gz.transport.message_info import MessageInfo, MessagePublisher
+from gz_course.sim.gz.transport.options import AdvertiseMessageOptions, NodeOptions, Scope, SubscribeOptions
+from gz_course.sim.gz.transport.publisher import Publisher
+from gz_course.sim.gz.transport.service_calls import ServiceCalls
+from gz_course.sim.gz.transport.subscription import GENERIC_TYPE, Subscription
+from gz_course.sim.gz.transport.switchboard import SWITCHBOARD
+from gz_course.sim.gz.transport.type_name import for_fortress, type_name
 
 
 class Node(ServiceCalls):
@@ -52,7 +52,7 @@ class Node(ServiceCalls):
         scope = min(self._options.scope, options.scope)
         joined = None
         if scope != Scope.PROCESS:
-            from gz.transport import network
+            from gz_course.sim.gz.transport import network
 
             joined = network.joined
         publisher = Publisher(
@@ -122,7 +122,7 @@ class Node(ServiceCalls):
         SWITCHBOARD.add_subscription(subscription)
         self._subscriptions.append(subscription)
         if subscription.scope != Scope.PROCESS:
-            from gz.transport import network
+            from gz_course.sim.gz.transport import network
 
             network.joined().subscribe(subscription)
         return True
@@ -140,7 +140,7 @@ class Node(ServiceCalls):
             self._subscriptions.remove(subscription)
         SWITCHBOARD.remove_subscription(subscription)
         if subscription.scope != Scope.PROCESS:
-            from gz.transport import network
+            from gz_course.sim.gz.transport import network
 
             network.joined().unsubscribe(subscription)
 
@@ -187,7 +187,7 @@ class Node(ServiceCalls):
             if each.name == name
         ]
         if self._options.scope != Scope.PROCESS:
-            from gz.transport import network
+            from gz_course.sim.gz.transport import network
 
             found += network.joined().known_publishers(name)
         return found
@@ -198,7 +198,7 @@ class Node(ServiceCalls):
         named_published: list[tuple[str, MessagePublisher]] = []
         named_subscribed: list[tuple[str, MessagePublisher]] = []
         if self._options.scope != Scope.PROCESS:
-            from gz.transport import network
+            from gz_course.sim.gz.transport import network
 
             joined = network.joined()
             process, address = joined.process_uuid, joined.address

@@ -10,7 +10,7 @@ import copy
 import enum
 from typing import TypeVar
 
-from gz.transport import environment, naming
+from gz_course.sim.gz.transport import environment, naming
 
 UNTHROTTLED = 2**64 - 1
 """The rate that means "no limit", as it is written on the wire."""

@@ -11,16 +11,16 @@ from typing import TYPE_CHECKING
 
 from google.protobuf.message import Message
 
-from gz.msgs.fortress import converted, same_type
-from gz.transport import naming
-from gz.transport.environment import complain
-from gz.transport.message_info import MessageInfo
-from gz.transport.options import AdvertiseMessageOptions, Scope
-from gz.transport.switchboard import SWITCHBOARD
-from gz.transport.throttle import Throttle
+from gz_course.sim.gz.msgs.fortress import converted, same_type
+from gz_course.sim.gz.transport import naming
+from gz_course.sim.gz.transport.environment import complain
+from gz_course.sim.gz.transport.message_info import MessageInfo
+from gz_course.sim.gz.transport.options import AdvertiseMessageOptions, Scope
+from gz_course.sim.gz.transport.switchboard import SWITCHBOARD
+from gz_course.sim.gz.transport.throttle import Throttle
 
 if TYPE_CHECKING:
-    from gz.transport.network import Network
+    from gz_course.sim.gz.transport.network import Network
 
 
 class Publisher:

@@ -12,12 +12,12 @@ from typing import Any, NamedTuple
 
 from google.protobuf.message import DecodeError, Message
 
-from gz.msgs import canonical_name
-from gz.msgs.fortress import same_type
-from gz.transport import naming
-from gz.transport.environment import complain
-from gz.transport.options import Scope
-from gz.transport.subscription import one_line
+from gz_course.sim.gz.msgs import canonical_name
+from gz_course.sim.gz.msgs.fortress import same_type
+from gz_course.sim.gz.transport import naming
+from gz_course.sim.gz.transport.environment import complain
+from gz_course.sim.gz.transport.options import Scope
+from gz_course.sim.gz.transport.subscription import one_line
 
 EMPTY_TYPE = "gz.msgs.Empty"
 """As the type of a response it means that there is none: the call is one-way."""

@@ -10,13 +10,13 @@ from typing import Any
 
 from google.protobuf.message import Message
 
-from gz.msgs import message_class
-from gz.transport import naming
-from gz.transport.message_info import ServicePublisher
-from gz.transport.options import AdvertiseServiceOptions, NodeOptions, Scope
-from gz.transport.service import TIMED_OUT, CallResult, Service
-from gz.transport.switchboard import SWITCHBOARD
-from gz.transport.type_name import for_fortress, type_name
+from gz_course.sim.gz.msgs import message_class
+from gz_course.sim.gz.transport import naming
+from gz_course.sim.gz.transport.message_info import ServicePublisher
+from gz_course.sim.gz.transport.options import AdvertiseServiceOptions, NodeOptions, Scope
+from gz_course.sim.gz.transport.service import TIMED_OUT, CallResult, Service
+from gz_course.sim.gz.transport.switchboard import SWITCHBOARD
+from gz_course.sim.gz.transport.type_name import for_fortress, type_name
 
 DEFAULT_TIMEOUT_MS = 1000
 
@@ -62,7 +62,7 @@ class ServiceCalls:
         )
         SWITCHBOARD.add_service(offered)
         if offered.scope != Scope.PROCESS:
-            from gz.transport import network
+            from gz_course.sim.gz.transport import network
 
             network.joined().services().advertise(offered)
         return True
@@ -78,7 +78,7 @@ class ServiceCalls:
     def _end_service(self, service: Service) -> None:
         SWITCHBOARD.remove_service(service)
         if service.scope != Scope.PROCESS:
-            from gz.transport import network
+            from gz_course.sim.gz.transport import network
 
             network.joined().services().unadvertise(service)
 
@@ -140,7 +140,7 @@ class ServiceCalls:
                 return offered.answer(request)
         if self._options.scope == Scope.PROCESS:
             return TIMED_OUT
-        from gz.transport import network
+        from gz_course.sim.gz.transport import network
 
         services = network.joined().services()
         return services.request(name, self._uuid, bytes(request), request_type, response_type, timeout_ms / 1000)
@@ -163,7 +163,7 @@ class ServiceCalls:
         found: list[tuple[str, ServicePublisher]] = []
         process, address = "", ""
         if self._options.scope != Scope.PROCESS:
-            from gz.transport import network
+            from gz_course.sim.gz.transport import network
 
             joined = network.joined()
             process, address = joined.process_uuid, joined.services().address

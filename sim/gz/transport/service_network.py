@@ -14,18 +14,18 @@ import uuid
 from collections.abc import Callable, Iterable, Iterator
 
 import zmq
-from gz.msgs.discovery_pb2 import Discovery
 
-from gz.transport import naming
-from gz.transport.address import is_usable
-from gz.transport.courier import RETRY_S, Courier, Letter, Target
-from gz.transport.discovery import DiscoveryChannel
-from gz.transport.environment import NetworkSettings
-from gz.transport.message_info import ServicePublisher
-from gz.transport.options import Scope
-from gz.transport.service import FAILED, TIMED_OUT, CallResult, Service, is_one_way, same_types
-from gz.transport.service_threads import ServiceThreads, while_waiting
-from gz.transport.switchboard import SWITCHBOARD
+from gz_course.sim.gz.msgs.discovery_pb2 import Discovery
+from gz_course.sim.gz.transport import naming
+from gz_course.sim.gz.transport.address import is_usable
+from gz_course.sim.gz.transport.courier import RETRY_S, Courier, Letter, Target
+from gz_course.sim.gz.transport.discovery import DiscoveryChannel
+from gz_course.sim.gz.transport.environment import NetworkSettings
+from gz_course.sim.gz.transport.message_info import ServicePublisher
+from gz_course.sim.gz.transport.options import Scope
+from gz_course.sim.gz.transport.service import FAILED, TIMED_OUT, CallResult, Service, is_one_way, same_types
+from gz_course.sim.gz.transport.service_threads import ServiceThreads, while_waiting
+from gz_course.sim.gz.transport.switchboard import SWITCHBOARD
 
 RESPONSE_DEADLINE_S = 5.0
 """So long a response is tried to be delivered to a requester that cannot be reached."""

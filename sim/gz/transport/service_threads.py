@@ -12,7 +12,7 @@ import queue
 import threading
 from collections.abc import Callable, Iterator
 
-from gz.transport.environment import complain
+from gz_course.sim.gz.transport.environment import complain
 
 _MOST_QUEUED = 1000
 _MOST_THREADS = 32

@@ -16,11 +16,11 @@ from typing import Any
 
 from google.protobuf.message import DecodeError, Message
 
-from gz.msgs.fortress import converted, same_type
-from gz.transport.environment import complain
-from gz.transport.message_info import MessageInfo
-from gz.transport.options import Scope, SubscribeOptions
-from gz.transport.throttle import Throttle
+from gz_course.sim.gz.msgs.fortress import converted, same_type
+from gz_course.sim.gz.transport.environment import complain
+from gz_course.sim.gz.transport.message_info import MessageInfo
+from gz_course.sim.gz.transport.options import Scope, SubscribeOptions
+from gz_course.sim.gz.transport.throttle import Throttle
 
 GENERIC_TYPE = "google.protobuf.Message"
 """The type name of a raw subscription that takes messages of every type."""

@@ -11,12 +11,12 @@ import threading
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from gz.transport.options import Scope
-from gz.transport.subscription import Subscription
+from gz_course.sim.gz.transport.options import Scope
+from gz_course.sim.gz.transport.subscription import Subscription
 
 if TYPE_CHECKING:
-    from gz.transport.publisher import Publisher
-    from gz.transport.service import Service
+    from gz_course.sim.gz.transport.publisher import Publisher
+    from gz_course.sim.gz.transport.service import Service
 
 
 class Switchboard:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import threading
 import time
 
-from gz.transport.options import UNTHROTTLED
+from gz_course.sim.gz.transport.options import UNTHROTTLED
 
 
 class Throttle:

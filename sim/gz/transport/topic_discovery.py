@@ -11,12 +11,11 @@ import time
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from gz.msgs.discovery_pb2 import Discovery
-
-from gz.msgs.fortress import same_type
-from gz.transport.discovery import DiscoveryChannel
-from gz.transport.environment import NetworkSettings
-from gz.transport.subscription import GENERIC_TYPE, Subscription
+from gz_course.sim.gz.msgs.discovery_pb2 import Discovery
+from gz_course.sim.gz.msgs.fortress import same_type
+from gz_course.sim.gz.transport.discovery import DiscoveryChannel
+from gz_course.sim.gz.transport.environment import NetworkSettings
+from gz_course.sim.gz.transport.subscription import GENERIC_TYPE, Subscription
 
 ANSWER_TIME_S = 0.1
 """How long answers to "who subscribes?" are collected: the protocol does not say how many will come."""

@@ -1,3 +1,3 @@
 """AppendEnvironmentVariable, in the module where launch of ROS 2 has it."""
 
-from launch.actions.set_environment_variable import AppendEnvironmentVariable as AppendEnvironmentVariable
+from gz_course.sim.launch.actions.set_environment_variable import AppendEnvironmentVariable as AppendEnvironmentVariable

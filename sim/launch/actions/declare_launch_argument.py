@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-import launch.logging
-from launch.action import Action
-from launch.errors import InvalidArgumentError, MissingArgumentError, nearest
-from launch.launch_context import LaunchContext
-from launch.substitution import (
+import gz_course.sim.launch.logging as launch_logging
+from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.errors import InvalidArgumentError, MissingArgumentError, nearest
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.substitution import (
     SomeSubstitutionsType,
     Substitution,
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from launch.substitutions import TextSubstitution
+from gz_course.sim.launch.substitutions import TextSubstitution
 
 
 class DeclareLaunchArgument(Action):
@@ -94,7 +94,7 @@ class DeclareLaunchArgument(Action):
                 f'Argument "{self.__name}" provided value "{value}" is not valid. Valid options are: {self.__choices}'
             )
             hint = nearest(str(value), self.__choices)
-            launch.logging.get_logger("launch").error(sentence)
+            launch_logging.get_logger("launch").error(sentence)
             raise InvalidArgumentError(sentence + (hint if "did you mean" in hint else ""))
 
     def _description_with_choices(self, description: str | None) -> str:

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-import launch.events
-import launch.logging
-from launch.action import Action
-from launch.errors import LaunchError
-from launch.event import Event
-from launch.event_handler import EventHandler
-from launch.events.process import ProcessExited
-from launch.launch_context import LaunchContext
-from launch.launch_description_entity import LaunchDescriptionEntity
+import gz_course.sim.launch.events as launch_events
+import gz_course.sim.launch.logging as launch_logging
+from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.errors import LaunchError
+from gz_course.sim.launch.event import Event
+from gz_course.sim.launch.event_handler import EventHandler
+from gz_course.sim.launch.events.process import ProcessExited
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity
 
 
 class EmitEvent(Action):
@@ -49,13 +49,13 @@ class Shutdown(EmitEvent):
     """Ends the launch. As `on_exit` of a process it says that this process was required."""
 
     def __init__(self, *, reason: str = "reason not given", **kwargs: Any) -> None:
-        super().__init__(event=launch.events.Shutdown(reason=reason), **kwargs)
+        super().__init__(event=launch_events.Shutdown(reason=reason), **kwargs)
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Emit launch.events.Shutdown."""
         event = context.get_locals_as_dict().get("event")
         if isinstance(event, ProcessExited):
-            launch.logging.get_logger("launch").info(
+            launch_logging.get_logger("launch").info(
                 f"process[{event.process_name}] was required: shutting down launched system"
             )
         return super().execute(context)

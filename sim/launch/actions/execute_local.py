@@ -13,16 +13,16 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
-import launch.logging
-from launch.action import Action
-from launch.child_process import ChildProcess
-from launch.conditions.evaluate_condition_expression_impl import as_bool, evaluate_condition_expression
-from launch.descriptions.executable import Executable
-from launch.errors import LaunchError, UsedTwiceError, locate
-from launch.event import Event
-from launch.event_handler import EventHandler, answer, known_entities
-from launch.events import Shutdown
-from launch.events.process import (
+import gz_course.sim.launch.logging as launch_logging
+from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.child_process import ChildProcess
+from gz_course.sim.launch.conditions.evaluate_condition_expression_impl import as_bool, evaluate_condition_expression
+from gz_course.sim.launch.descriptions.executable import Executable
+from gz_course.sim.launch.errors import LaunchError, UsedTwiceError, locate
+from gz_course.sim.launch.event import Event
+from gz_course.sim.launch.event_handler import EventHandler, answer, known_entities
+from gz_course.sim.launch.events import Shutdown
+from gz_course.sim.launch.events.process import (
     ProcessExited,
     ProcessStarted,
     ProcessStderr,
@@ -32,10 +32,10 @@ from launch.events.process import (
     ShutdownProcess,
     SignalProcess,
 )
-from launch.launch_context import LaunchContext
-from launch.launch_description_entity import LaunchDescriptionEntity, SomeEntitiesType
-from launch.process_output import ProcessOutput
-from launch.process_settings import (
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity, SomeEntitiesType
+from gz_course.sim.launch.process_output import ProcessOutput
+from gz_course.sim.launch.process_settings import (
     ProcessSettings,
     normalized_output,
     performed_output,
@@ -43,7 +43,7 @@ from launch.process_settings import (
     timeout_substitutions,
     why_not_started,
 )
-from launch.substitution import (
+from gz_course.sim.launch.substitution import (
     SomeSubstitutionsType,
     normalize_to_list_of_substitutions,
 )
@@ -187,7 +187,7 @@ class ExecuteLocal(Action):
         if loop is None:
             raise LaunchError("processes can only be started by a LaunchService that runs")
         if context.is_shutdown:
-            launch.logging.get_logger("launch").info(f"not started, for the launch is shutting down: {self.describe()}")
+            launch_logging.get_logger("launch").info(f"not started, for the launch is shutting down: {self.describe()}")
             return None
         self.prepare(context)
         label = self.__process_description.final_name
@@ -197,7 +197,7 @@ class ExecuteLocal(Action):
             emulate_tty=self.__emulate_tty or as_bool(context.launch_configurations.get("emulate_tty", "")) is True,
             respawn=evaluate_condition_expression(context, self.__respawn),
             timeouts={number: seconds(context, parts) for number, parts in self.__timeouts.items()},
-            logger=launch.logging.get_logger(label),
+            logger=launch_logging.get_logger(label),
         )
         line_format = self._line_format() if self.__output_format is not None else None
         self.__printed = ProcessOutput(label, settings.output, cached=self.__cached_output, line_format=line_format)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from launch.actions.execute_local import ExecuteLocal
-from launch.descriptions.executable import Environment, Executable
-from launch.substitution import SomeSubstitutionsType, Substitution, describe_substitutions
+from gz_course.sim.launch.actions.execute_local import ExecuteLocal
+from gz_course.sim.launch.descriptions.executable import Environment, Executable
+from gz_course.sim.launch.substitution import SomeSubstitutionsType, Substitution, describe_substitutions
 
 
 class ExecuteProcess(ExecuteLocal):

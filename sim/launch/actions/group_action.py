@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from launch.action import Action
-from launch.actions.set_environment_variable import PopEnvironment, PushEnvironment, ResetEnvironment
-from launch.actions.set_launch_configuration import (
+from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.actions.set_environment_variable import PopEnvironment, PushEnvironment, ResetEnvironment
+from gz_course.sim.launch.actions.set_launch_configuration import (
     PopLaunchConfigurations,
     PushLaunchConfigurations,
     ResetLaunchConfigurations,
     SetLaunchConfiguration,
 )
-from launch.launch_context import LaunchContext
-from launch.launch_description_entity import LaunchDescriptionEntity, listed
-from launch.substitution import SomeSubstitutionsType
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity, listed
+from gz_course.sim.launch.substitution import SomeSubstitutionsType
 
 
 class GroupAction(Action):

@@ -8,22 +8,22 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-import launch.logging
-from launch.action import Action
-from launch.actions.opaque_function import OpaqueCoroutine, OpaqueFunction
-from launch.actions.set_launch_configuration import SetLaunchConfiguration
-from launch.errors import LaunchError, MissingArgumentError, nearest
-from launch.launch_context import LaunchContext
-from launch.launch_description import LaunchDescription
-from launch.launch_description_entity import LaunchDescriptionEntity
-from launch.launch_description_source import LaunchDescriptionSource, as_source
-from launch.substitution import (
+import gz_course.sim.launch.logging as launch_logging
+from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.actions.opaque_function import OpaqueCoroutine, OpaqueFunction
+from gz_course.sim.launch.actions.set_launch_configuration import SetLaunchConfiguration
+from gz_course.sim.launch.errors import LaunchError, MissingArgumentError, nearest
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.launch_description import LaunchDescription
+from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity
+from gz_course.sim.launch.launch_description_source import LaunchDescriptionSource, as_source
+from gz_course.sim.launch.substitution import (
     SomeSubstitutionsType,
     Substitution,
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from launch.substitutions.this_launch_file import CURRENT_FILE, CURRENT_FOLDER
+from gz_course.sim.launch.substitutions.this_launch_file import CURRENT_FILE, CURRENT_FOLDER
 
 _CHAIN = "launch_file_chain"
 _DEEPEST = 50
@@ -68,7 +68,7 @@ class IncludeLaunchDescription(Action):
         try:
             description = self.__source.try_get_launch_description_without_context()
         except Exception as error:
-            launch.logging.get_logger("launch").debug(f"{self.__source.location} cannot be looked into: {error}")
+            launch_logging.get_logger("launch").debug(f"{self.__source.location} cannot be looked into: {error}")
             return []
         return [] if description is None else [description]
 
@@ -135,7 +135,7 @@ class IncludeLaunchDescription(Action):
         for name in unknown:
             if not re.search(rf"""["']{re.escape(name)}["']""", source):
                 listing = nearest(name, known, "its arguments are") or "; it has no arguments"
-                launch.logging.get_logger("launch").warning(
+                launch_logging.get_logger("launch").warning(
                     f"'{name}' is not an argument of {self.__source.location} and has no effect there{listing}"
                 )
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import launch.logging
-from launch.action import Action
-from launch.launch_context import LaunchContext
-from launch.substitution import (
+import gz_course.sim.launch.logging as launch_logging
+from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.substitution import (
     SomeSubstitutionsType,
     Substitution,
     describe_substitutions,
@@ -34,4 +34,4 @@ class LogInfo(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """Print the message."""
-        launch.logging.get_logger("launch.user").info(perform_substitutions(context, self.__msg))
+        launch_logging.get_logger("launch.user").info(perform_substitutions(context, self.__msg))

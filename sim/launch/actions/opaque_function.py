@@ -7,11 +7,11 @@ import inspect
 from collections.abc import Awaitable, Callable, Iterable, Mapping
 from typing import Any
 
-from launch.action import Action
-from launch.errors import LaunchError
-from launch.event_handlers import OnShutdown
-from launch.launch_context import LaunchContext
-from launch.launch_description_entity import LaunchDescriptionEntity, SomeEntitiesType, listed
+from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.errors import LaunchError
+from gz_course.sim.launch.event_handlers import OnShutdown
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity, SomeEntitiesType, listed
 
 
 class OpaqueFunction(Action):

@@ -1,3 +1,3 @@
 """PopEnvironment, in the module where launch of ROS 2 has it."""
 
-from launch.actions.set_environment_variable import PopEnvironment as PopEnvironment
+from gz_course.sim.launch.actions.set_environment_variable import PopEnvironment as PopEnvironment

@@ -1,3 +1,3 @@
 """PushLaunchConfigurations, in the module where launch of ROS 2 has it."""
 
-from launch.actions.set_launch_configuration import PushLaunchConfigurations as PushLaunchConfigurations
+from gz_course.sim.launch.actions.set_launch_configuration import PushLaunchConfigurations as PushLaunchConfigurations

@@ -1,3 +1,3 @@
 """RegisterEventHandler, in the module where launch of ROS 2 has it."""
 
-from launch.actions.emit_event import RegisterEventHandler as RegisterEventHandler
+from gz_course.sim.launch.actions.emit_event import RegisterEventHandler as RegisterEventHandler

@@ -1,3 +1,3 @@
 """ResetEnvironment, in the module where launch of ROS 2 has it."""
 
-from launch.actions.set_environment_variable import ResetEnvironment as ResetEnvironment
+from gz_course.sim.launch.actions.set_environment_variable import ResetEnvironment as ResetEnvironment

@@ -1,3 +1,3 @@
 """ResetLaunchConfigurations, in the module where launch of ROS 2 has it."""
 
-from launch.actions.set_launch_configuration import ResetLaunchConfigurations as ResetLaunchConfigurations
+from gz_course.sim.launch.actions.set_launch_configuration import ResetLaunchConfigurations as ResetLaunchConfigurations

@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 from typing import Any
 
-from launch.action import Action
-from launch.launch_context import LaunchContext
-from launch.substitution import (
+from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.substitution import (
     SomeSubstitutionsType,
     Substitution,
     describe_substitutions,
@@ -71,7 +71,7 @@ class AppendEnvironmentVariable(SetEnvironmentVariable):
 
     def execute(self, context: LaunchContext) -> None:
         """Add it."""
-        from launch.conditions import evaluate_condition_expression
+        from gz_course.sim.launch.conditions import evaluate_condition_expression
 
         name = perform_substitutions(context, self.name)
         value = perform_substitutions(context, self.value)

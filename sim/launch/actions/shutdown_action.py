@@ -1,3 +1,3 @@
 """Shutdown, in the module where launch of ROS 2 has it."""
 
-from launch.actions.emit_event import Shutdown as Shutdown
+from gz_course.sim.launch.actions.emit_event import Shutdown as Shutdown

@@ -7,14 +7,18 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
-from launch.action import Action
-from launch.errors import LaunchError
-from launch.event import Event
-from launch.event_handler import EventHandler
-from launch.events import Shutdown, TimerEvent
-from launch.launch_context import LaunchContext
-from launch.launch_description_entity import LaunchDescriptionEntity, listed
-from launch.substitution import SomeSubstitutionsType, normalize_to_list_of_substitutions, perform_substitutions
+from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.errors import LaunchError
+from gz_course.sim.launch.event import Event
+from gz_course.sim.launch.event_handler import EventHandler
+from gz_course.sim.launch.events import Shutdown, TimerEvent
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity, listed
+from gz_course.sim.launch.substitution import (
+    SomeSubstitutionsType,
+    normalize_to_list_of_substitutions,
+    perform_substitutions,
+)
 
 
 class TimerAction(Action):
@@ -67,7 +71,7 @@ class TimerAction(Action):
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Start the timer. Raises LaunchError for a period that is no number of seconds."""
-        from launch.conditions import evaluate_condition_expression
+        from gz_course.sim.launch.conditions import evaluate_condition_expression
 
         text = perform_substitutions(context, self.__period)
         try:

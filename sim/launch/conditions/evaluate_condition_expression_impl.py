@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from launch.errors import LaunchError
-from launch.substitution import Substitution, perform_substitutions
+from gz_course.sim.launch.errors import LaunchError
+from gz_course.sim.launch.substitution import Substitution, perform_substitutions
 
 if TYPE_CHECKING:
-    from launch.launch_context import LaunchContext
+    from gz_course.sim.launch.launch_context import LaunchContext
 
 VALID_TRUE_EXPRESSIONS = ["true", "1"]
 VALID_FALSE_EXPRESSIONS = ["false", "0"]

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from launch.condition import Condition
-from launch.conditions.evaluate_condition_expression_impl import evaluate_condition_expression
-from launch.launch_context import LaunchContext
-from launch.substitution import SomeSubstitutionsType, normalize_to_list_of_substitutions
+from gz_course.sim.launch.condition import Condition
+from gz_course.sim.launch.conditions.evaluate_condition_expression_impl import evaluate_condition_expression
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.substitution import SomeSubstitutionsType, normalize_to_list_of_substitutions
 
 
 class IfCondition(Condition):

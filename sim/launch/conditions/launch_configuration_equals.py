@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from launch.condition import Condition
-from launch.launch_context import LaunchContext
-from launch.substitution import SomeSubstitutionsType, normalize_to_list_of_substitutions, perform_substitutions
+from gz_course.sim.launch.condition import Condition
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.substitution import (
+    SomeSubstitutionsType,
+    normalize_to_list_of_substitutions,
+    perform_substitutions,
+)
 
 
 class LaunchConfigurationEquals(Condition):

@@ -1,3 +1,5 @@
 """LaunchConfigurationNotEquals, in the module where launch of ROS 2 has it."""
 
-from launch.conditions.launch_configuration_equals import LaunchConfigurationNotEquals as LaunchConfigurationNotEquals
+from gz_course.sim.launch.conditions.launch_configuration_equals import (
+    LaunchConfigurationNotEquals as LaunchConfigurationNotEquals,
+)

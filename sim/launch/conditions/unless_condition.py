@@ -1,3 +1,3 @@
 """UnlessCondition, in the module where launch of ROS 2 has it."""
 
-from launch.conditions.if_condition import UnlessCondition as UnlessCondition
+from gz_course.sim.launch.conditions.if_condition import UnlessCondition as UnlessCondition

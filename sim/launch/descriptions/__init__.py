@@ -1,5 +1,5 @@
 """Descriptions of what can be executed."""
 
-from launch.descriptions.executable import Executable
+from gz_course.sim.launch.descriptions.executable import Executable
 
 __all__ = ["Executable"]

@@ -8,9 +8,9 @@ import shlex
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
-from launch.errors import LaunchError
-from launch.launch_context import LaunchContext
-from launch.substitution import (
+from gz_course.sim.launch.errors import LaunchError
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.substitution import (
     SomeSubstitutionsType,
     Substitution,
     normalize_to_list_of_substitutions,
@@ -18,7 +18,7 @@ from launch.substitution import (
 )
 
 if TYPE_CHECKING:
-    from launch.action import Action
+    from gz_course.sim.launch.action import Action
 
 Environment = Mapping[SomeSubstitutionsType, SomeSubstitutionsType]
 

@@ -1,13 +1,13 @@
 """Event handlers for RegisterEventHandler."""
 
-from launch.event_handlers.on_action_event_base import (
+from gz_course.sim.launch.event_handlers.on_action_event_base import (
     OnActionEventBase,
     OnExecutionComplete,
     OnProcessExit,
     OnProcessIO,
     OnProcessStart,
 )
-from launch.event_handlers.on_shutdown import OnShutdown
+from gz_course.sim.launch.event_handlers.on_shutdown import OnShutdown
 
 __all__ = [
     "OnActionEventBase",

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from launch.action import Action
-from launch.event import Event
-from launch.event_handler import EventHandler, answer, known_entities
-from launch.events import ExecutionComplete
-from launch.events.process import ProcessExited, ProcessIO, ProcessStarted
-from launch.launch_description_entity import LaunchDescriptionEntity, SomeEntitiesType
+from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.event import Event
+from gz_course.sim.launch.event_handler import EventHandler, answer, known_entities
+from gz_course.sim.launch.events import ExecutionComplete
+from gz_course.sim.launch.events.process import ProcessExited, ProcessIO, ProcessStarted
+from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity, SomeEntitiesType
 
 if TYPE_CHECKING:
-    from launch.launch_context import LaunchContext
+    from gz_course.sim.launch.launch_context import LaunchContext
 
 TargetAction = Action | Callable[[Action], bool] | None
 Reaction = SomeEntitiesType | Callable[[Any, "LaunchContext"], SomeEntitiesType | None]
@@ -77,7 +77,7 @@ class OnActionEventBase(EventHandler):
 
 
 def _process_action() -> type[Action]:
-    from launch.actions import ExecuteLocal
+    from gz_course.sim.launch.actions import ExecuteLocal
 
     return ExecuteLocal
 

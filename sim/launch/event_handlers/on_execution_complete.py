@@ -1,3 +1,3 @@
 """OnExecutionComplete, in the module where launch of ROS 2 has it."""
 
-from launch.event_handlers.on_action_event_base import OnExecutionComplete as OnExecutionComplete
+from gz_course.sim.launch.event_handlers.on_action_event_base import OnExecutionComplete as OnExecutionComplete

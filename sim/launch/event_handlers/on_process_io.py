@@ -1,3 +1,3 @@
 """OnProcessIO, in the module where launch of ROS 2 has it."""
 
-from launch.event_handlers.on_action_event_base import OnProcessIO as OnProcessIO
+from gz_course.sim.launch.event_handlers.on_action_event_base import OnProcessIO as OnProcessIO

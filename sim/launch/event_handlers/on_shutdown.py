@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from launch.event import Event
-from launch.event_handler import EventHandler, answer, known_entities
-from launch.event_handlers.on_action_event_base import Reaction
-from launch.events import Shutdown
-from launch.launch_description_entity import LaunchDescriptionEntity
+from gz_course.sim.launch.event import Event
+from gz_course.sim.launch.event_handler import EventHandler, answer, known_entities
+from gz_course.sim.launch.event_handlers.on_action_event_base import Reaction
+from gz_course.sim.launch.events import Shutdown
+from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
-    from launch.launch_context import LaunchContext
+    from gz_course.sim.launch.launch_context import LaunchContext
 
 
 class OnShutdown(EventHandler):

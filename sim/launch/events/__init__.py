@@ -1,7 +1,7 @@
 """What happens while a launch file runs. Events of processes are in `launch.events.process`."""
 
-from launch.events import process as process
-from launch.events.execution_complete import (
+from gz_course.sim.launch.events import process as process
+from gz_course.sim.launch.events.execution_complete import (
     ExecutionComplete,
     IncludeLaunchDescription,
     Shutdown,

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from launch.event import Event
+from gz_course.sim.launch.event import Event
 
 if TYPE_CHECKING:
-    from launch.action import Action
-    from launch.launch_description import LaunchDescription
+    from gz_course.sim.launch.action import Action
+    from gz_course.sim.launch.launch_description import LaunchDescription
 
 
 class ExecutionComplete(Event):

@@ -1,3 +1,3 @@
 """IncludeLaunchDescription, in the module where launch of ROS 2 has it."""
 
-from launch.events.execution_complete import IncludeLaunchDescription as IncludeLaunchDescription
+from gz_course.sim.launch.events.execution_complete import IncludeLaunchDescription as IncludeLaunchDescription

@@ -1,3 +1,3 @@
 """Shutdown, in the module where launch of ROS 2 has it."""
 
-from launch.events.execution_complete import Shutdown as Shutdown
+from gz_course.sim.launch.events.execution_complete import Shutdown as Shutdown

@@ -1,5 +1,5 @@
 """Substitutions written as text, `$(var name)`, as parameter files with `allow_substs` hold them."""
 
-from launch.frontend.parse_substitution import expose_substitution, parse_substitution
+from gz_course.sim.launch.frontend.parse_substitution import expose_substitution, parse_substitution
 
 __all__ = ["expose_substitution", "parse_substitution"]

@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from launch.errors import nearest
-from launch.substitution import Substitution
-from launch.substitutions import (
+from gz_course.sim.launch.errors import nearest
+from gz_course.sim.launch.substitution import Substitution
+from gz_course.sim.launch.substitutions import (
     AnonName,
     Command,
     EnvironmentVariable,

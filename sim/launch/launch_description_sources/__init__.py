@@ -1,11 +1,11 @@
 """Loads launch files: Python ones. XML and YAML launch files are refused with a sentence."""
 
-from launch.invalid_launch_file_error import InvalidLaunchFileError
-from launch.launch_description_sources.any_launch_description_source import (
+from gz_course.sim.launch.invalid_launch_file_error import InvalidLaunchFileError
+from gz_course.sim.launch.launch_description_sources.any_launch_description_source import (
     AnyLaunchDescriptionSource,
     get_launch_description_from_any_launch_file,
 )
-from launch.launch_description_sources.python_launch_description_source import (
+from gz_course.sim.launch.launch_description_sources.python_launch_description_source import (
     InvalidPythonLaunchFileError,
     PythonLaunchDescriptionSource,
     get_launch_description_from_python_launch_file,

@@ -5,13 +5,13 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from launch.invalid_launch_file_error import InvalidLaunchFileError
-from launch.launch_description import LaunchDescription
-from launch.launch_description_source import LaunchDescriptionSource
-from launch.launch_description_sources.python_launch_description_source import (
+from gz_course.sim.launch.invalid_launch_file_error import InvalidLaunchFileError
+from gz_course.sim.launch.launch_description import LaunchDescription
+from gz_course.sim.launch.launch_description_source import LaunchDescriptionSource
+from gz_course.sim.launch.launch_description_sources.python_launch_description_source import (
     get_launch_description_from_python_launch_file,
 )
-from launch.substitution import SomeSubstitutionsType
+from gz_course.sim.launch.substitution import SomeSubstitutionsType
 
 _OTHER_KINDS = {".xml": "an XML", ".yaml": "a YAML", ".yml": "a YAML"}
 

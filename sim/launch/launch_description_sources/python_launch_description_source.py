@@ -6,12 +6,12 @@ import os
 from pathlib import Path
 from types import ModuleType
 
-from launch.ament_prefix import packages_with_launch_file
-from launch.errors import nearest
-from launch.invalid_launch_file_error import InvalidLaunchFileError
-from launch.launch_description import LaunchDescription
-from launch.launch_description_source import LaunchDescriptionSource
-from launch.substitution import SomeSubstitutionsType
+from gz_course.sim.launch.ament_prefix import packages_with_launch_file
+from gz_course.sim.launch.errors import nearest
+from gz_course.sim.launch.invalid_launch_file_error import InvalidLaunchFileError
+from gz_course.sim.launch.launch_description import LaunchDescription
+from gz_course.sim.launch.launch_description_source import LaunchDescriptionSource
+from gz_course.sim.launch.substitution import SomeSubstitutionsType
 
 _FUNCTION = "generate_launch_description"
 

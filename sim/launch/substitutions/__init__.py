@@ -1,6 +1,6 @@
 """Text that is known only when the launch file runs: values of arguments, paths, results of commands."""
 
-from launch.substitutions.boolean_substitution import (
+from gz_course.sim.launch.substitutions.boolean_substitution import (
     AllSubstitution,
     AndSubstitution,
     AnySubstitution,
@@ -10,20 +10,25 @@ from launch.substitutions.boolean_substitution import (
     NotSubstitution,
     OrSubstitution,
 )
-from launch.substitutions.command import Command
-from launch.substitutions.environment_variable import EnvironmentVariable
-from launch.substitutions.launch_configuration import LaunchConfiguration
-from launch.substitutions.paths import (
+from gz_course.sim.launch.substitutions.command import Command
+from gz_course.sim.launch.substitutions.environment_variable import EnvironmentVariable
+from gz_course.sim.launch.substitutions.launch_configuration import LaunchConfiguration
+from gz_course.sim.launch.substitutions.paths import (
     FileContent,
     FindExecutable,
     LaunchLogDir,
     PathJoinSubstitution,
     PathSubstitution,
 )
-from launch.substitutions.python_expression import PythonExpression
-from launch.substitutions.substitution_failure import SubstitutionFailure
-from launch.substitutions.text_substitution import TextSubstitution
-from launch.substitutions.this_launch_file import AnonName, LocalSubstitution, ThisLaunchFile, ThisLaunchFileDir
+from gz_course.sim.launch.substitutions.python_expression import PythonExpression
+from gz_course.sim.launch.substitutions.substitution_failure import SubstitutionFailure
+from gz_course.sim.launch.substitutions.text_substitution import TextSubstitution
+from gz_course.sim.launch.substitutions.this_launch_file import (
+    AnonName,
+    LocalSubstitution,
+    ThisLaunchFile,
+    ThisLaunchFileDir,
+)
 
 __all__ = [
     "AllSubstitution",

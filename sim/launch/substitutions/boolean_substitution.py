@@ -6,16 +6,16 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
-from launch.conditions.evaluate_condition_expression_impl import as_bool
-from launch.launch_context import LaunchContext
-from launch.substitution import (
+from gz_course.sim.launch.conditions.evaluate_condition_expression_impl import as_bool
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.substitution import (
     SomeSubstitutionsType,
     Substitution,
     describe_substitutions,
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from launch.substitutions.substitution_failure import SubstitutionFailure
+from gz_course.sim.launch.substitutions.substitution_failure import SubstitutionFailure
 
 
 class _Boolean(Substitution):

@@ -7,17 +7,17 @@ import shlex
 import signal
 import subprocess
 
-import launch.logging
-from launch.launch_context import LaunchContext
-from launch.substitution import (
+import gz_course.sim.launch.logging as launch_logging
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.substitution import (
     SomeSubstitutionsType,
     Substitution,
     describe_substitutions,
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from launch.substitutions.paths import nearest_program
-from launch.substitutions.substitution_failure import SubstitutionFailure
+from gz_course.sim.launch.substitutions.paths import nearest_program
+from gz_course.sim.launch.substitutions.substitution_failure import SubstitutionFailure
 
 _ON_STDERR = ("fail", "ignore", "warn", "capture")
 _TRACE = ("Traceback (most recent", "During handling of the above", "The above exception was")
@@ -70,7 +70,7 @@ class Command(Substitution):
                 f"the command '{text}' wrote to stderr, which on_stderr='warn' would allow: {errors.strip()}"
             )
         if errors and on_stderr == "warn":
-            launch.logging.get_logger("launch.substitutions.command").warning(
+            launch_logging.get_logger("launch.substitutions.command").warning(
                 f"the command '{text}' wrote to stderr: {errors.strip()}"
             )
         return output + errors if on_stderr == "capture" else output

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from launch.launch_context import LaunchContext
-from launch.substitution import (
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.substitution import (
     SomeSubstitutionsType,
     Substitution,
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from launch.substitutions.substitution_failure import SubstitutionFailure
+from gz_course.sim.launch.substitutions.substitution_failure import SubstitutionFailure
 
 
 class EnvironmentVariable(Substitution):

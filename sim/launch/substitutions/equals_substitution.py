@@ -1,3 +1,3 @@
 """EqualsSubstitution, in the module where launch of ROS 2 has it."""
 
-from launch.substitutions.boolean_substitution import EqualsSubstitution as EqualsSubstitution
+from gz_course.sim.launch.substitutions.boolean_substitution import EqualsSubstitution as EqualsSubstitution

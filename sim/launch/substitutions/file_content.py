@@ -1,3 +1,3 @@
 """FileContent, in the module where launch of ROS 2 has it."""
 
-from launch.substitutions.paths import FileContent as FileContent
+from gz_course.sim.launch.substitutions.paths import FileContent as FileContent

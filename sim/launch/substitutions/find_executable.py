@@ -1,3 +1,3 @@
 """FindExecutable, in the module where launch of ROS 2 has it."""
 
-from launch.substitutions.paths import FindExecutable as FindExecutable
+from gz_course.sim.launch.substitutions.paths import FindExecutable as FindExecutable

@@ -1,3 +1,3 @@
 """IfElseSubstitution, in the module where launch of ROS 2 has it."""
 
-from launch.substitutions.boolean_substitution import IfElseSubstitution as IfElseSubstitution
+from gz_course.sim.launch.substitutions.boolean_substitution import IfElseSubstitution as IfElseSubstitution

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from launch.errors import nearest
-from launch.launch_context import LaunchContext
-from launch.substitution import (
+from gz_course.sim.launch.errors import nearest
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.substitution import (
     SomeSubstitutionsType,
     Substitution,
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from launch.substitutions.substitution_failure import SubstitutionFailure
+from gz_course.sim.launch.substitutions.substitution_failure import SubstitutionFailure
 
 
 class LaunchConfiguration(Substitution):

@@ -1,3 +1,3 @@
 """LaunchLogDir, in the module where launch of ROS 2 has it."""
 
-from launch.substitutions.paths import LaunchLogDir as LaunchLogDir
+from gz_course.sim.launch.substitutions.paths import LaunchLogDir as LaunchLogDir

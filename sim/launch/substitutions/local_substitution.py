@@ -1,3 +1,3 @@
 """LocalSubstitution, in the module where launch of ROS 2 has it."""
 
-from launch.substitutions.this_launch_file import LocalSubstitution as LocalSubstitution
+from gz_course.sim.launch.substitutions.this_launch_file import LocalSubstitution as LocalSubstitution

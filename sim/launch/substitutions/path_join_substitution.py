@@ -1,3 +1,3 @@
 """PathJoinSubstitution, in the module where launch of ROS 2 has it."""
 
-from launch.substitutions.paths import PathJoinSubstitution as PathJoinSubstitution
+from gz_course.sim.launch.substitutions.paths import PathJoinSubstitution as PathJoinSubstitution

@@ -1,3 +1,3 @@
 """PathSubstitution, in the module where launch of ROS 2 has it."""
 
-from launch.substitutions.paths import PathSubstitution as PathSubstitution
+from gz_course.sim.launch.substitutions.paths import PathSubstitution as PathSubstitution

@@ -8,17 +8,17 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-import launch.logging
-from launch.errors import nearest
-from launch.launch_context import LaunchContext
-from launch.substitution import (
+import gz_course.sim.launch.logging as launch_logging
+from gz_course.sim.launch.errors import nearest
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.substitution import (
     SomeSubstitutionsType,
     Substitution,
     describe_substitutions,
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from launch.substitutions.substitution_failure import SubstitutionFailure
+from gz_course.sim.launch.substitutions.substitution_failure import SubstitutionFailure
 
 
 class PathJoinSubstitution(Substitution):
@@ -125,4 +125,4 @@ class LaunchLogDir(Substitution):
 
     def perform(self, context: LaunchContext) -> str:
         """Return the path."""
-        return launch.logging.launch_config.log_dir
+        return launch_logging.launch_config.log_dir

@@ -6,15 +6,15 @@ import importlib
 from collections.abc import Iterable
 from typing import Any
 
-from launch.launch_context import LaunchContext
-from launch.substitution import (
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.substitution import (
     SomeSubstitutionsType,
     Substitution,
     describe_substitutions,
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from launch.substitutions.substitution_failure import SubstitutionFailure
+from gz_course.sim.launch.substitutions.substitution_failure import SubstitutionFailure
 
 
 class PythonExpression(Substitution):

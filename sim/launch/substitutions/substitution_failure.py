@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from launch.errors import LaunchError
+from gz_course.sim.launch.errors import LaunchError
 
 
 class SubstitutionFailure(LaunchError, RuntimeError):

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from launch.errors import NotTextError
-from launch.launch_context import LaunchContext
-from launch.substitution import Substitution
+from gz_course.sim.launch.errors import NotTextError
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.substitution import Substitution
 
 
 class TextSubstitution(Substitution):

@@ -7,16 +7,16 @@ import os
 import random
 import socket
 
-from launch.errors import nearest
-from launch.launch_context import LaunchContext
-from launch.substitution import (
+from gz_course.sim.launch.errors import nearest
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.substitution import (
     SomeSubstitutionsType,
     Substitution,
     describe_substitutions,
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from launch.substitutions.substitution_failure import SubstitutionFailure
+from gz_course.sim.launch.substitutions.substitution_failure import SubstitutionFailure
 
 CURRENT_FILE = "current_launch_file_path"
 CURRENT_FOLDER = "current_launch_file_directory"

@@ -1,3 +1,3 @@
 """ThisLaunchFileDir, in the module where launch of ROS 2 has it."""
 
-from launch.substitutions.this_launch_file import ThisLaunchFileDir as ThisLaunchFileDir
+from gz_course.sim.launch.substitutions.this_launch_file import ThisLaunchFileDir as ThisLaunchFileDir

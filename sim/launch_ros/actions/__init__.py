@@ -1,10 +1,14 @@
 """Actions for ROS: nodes, and what holds for all nodes of a scope."""
 
-from launch_ros.actions.composable_node_container import ComposableNodeContainer, LifecycleNode, LoadComposableNodes
-from launch_ros.actions.node import Node
-from launch_ros.actions.push_ros_namespace import PushROSNamespace, PushRosNamespace
-from launch_ros.actions.set_parameter import SetParameter, SetParametersFromFile, SetUseSimTime
-from launch_ros.actions.set_remap import SetRemap
+from gz_course.sim.launch_ros.actions.composable_node_container import (
+    ComposableNodeContainer,
+    LifecycleNode,
+    LoadComposableNodes,
+)
+from gz_course.sim.launch_ros.actions.node import Node
+from gz_course.sim.launch_ros.actions.push_ros_namespace import PushROSNamespace, PushRosNamespace
+from gz_course.sim.launch_ros.actions.set_parameter import SetParameter, SetParametersFromFile, SetUseSimTime
+from gz_course.sim.launch_ros.actions.set_remap import SetRemap
 
 __all__ = [
     "ComposableNodeContainer",

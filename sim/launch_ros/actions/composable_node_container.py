@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from launch.action import Action
-from launch.errors import NotAvailableError
-from launch.launch_context import LaunchContext
+from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.errors import NotAvailableError
+from gz_course.sim.launch.launch_context import LaunchContext
 
 
 class _OnlyDescribed(Action):

@@ -1,3 +1,3 @@
 """LoadComposableNodes, in the module where launch_ros of ROS 2 has it."""
 
-from launch_ros.actions.composable_node_container import LoadComposableNodes as LoadComposableNodes
+from gz_course.sim.launch_ros.actions.composable_node_container import LoadComposableNodes as LoadComposableNodes

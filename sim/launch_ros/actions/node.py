@@ -15,26 +15,26 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-import launch.logging
-from launch.actions.execute_process import ExecuteProcess
-from launch.launch_context import LaunchContext
-from launch.substitution import (
+import gz_course.sim.launch.logging as launch_logging
+from gz_course.sim.launch.actions.execute_process import ExecuteProcess
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.substitution import (
     SomeSubstitutionsType,
     Substitution,
     describe_substitutions,
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from launch_ros.actions.push_ros_namespace import NAMESPACE
-from launch_ros.actions.set_parameter import PARAMETERS
-from launch_ros.actions.set_remap import REMAPS
-from launch_ros.node_name import check_namespace, check_node_name, joined
-from launch_ros.parameter_descriptions import Parameter, ParameterFile, write_parameter_file
-from launch_ros.parameter_values import ParameterTypeError, as_argument, as_file, check_value, flattened
-from launch_ros.substitutions import ExecutableInPackage
+from gz_course.sim.launch_ros.actions.push_ros_namespace import NAMESPACE
+from gz_course.sim.launch_ros.actions.set_parameter import PARAMETERS
+from gz_course.sim.launch_ros.actions.set_remap import REMAPS
+from gz_course.sim.launch_ros.node_name import check_namespace, check_node_name, joined
+from gz_course.sim.launch_ros.parameter_descriptions import Parameter, ParameterFile, write_parameter_file
+from gz_course.sim.launch_ros.parameter_values import ParameterTypeError, as_argument, as_file, check_value, flattened
+from gz_course.sim.launch_ros.substitutions import ExecutableInPackage
 
 _NODE_NAMES = "launch_ros_node_names"
-_LOG = launch.logging.get_logger("launch_ros.actions.node")
+_LOG = launch_logging.get_logger("launch_ros.actions.node")
 
 
 class Node(ExecuteProcess):

@@ -5,15 +5,15 @@ from __future__ import annotations
 import os
 from typing import Any
 
-from launch.action import Action
-from launch.launch_context import LaunchContext
-from launch.substitution import (
+from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.substitution import (
     SomeSubstitutionsType,
     Substitution,
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from launch_ros.parameter_descriptions import Parameter
+from gz_course.sim.launch_ros.parameter_descriptions import Parameter
 
 # Name -> value pairs and paths of files, in the order they were set. A tuple: scopes must not share a list.
 PARAMETERS = "global_params"

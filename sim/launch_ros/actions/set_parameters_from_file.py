@@ -1,3 +1,3 @@
 """SetParametersFromFile, in the module where launch_ros of ROS 2 has it."""
 
-from launch_ros.actions.set_parameter import SetParametersFromFile as SetParametersFromFile
+from gz_course.sim.launch_ros.actions.set_parameter import SetParametersFromFile as SetParametersFromFile

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from launch.action import Action
-from launch.launch_context import LaunchContext
-from launch.substitution import (
+from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.substitution import (
     SomeSubstitutionsType,
     Substitution,
     normalize_to_list_of_substitutions,

@@ -1,3 +1,3 @@
 """SetUseSimTime, in the module where launch_ros of ROS 2 has it."""
 
-from launch_ros.actions.set_parameter import SetUseSimTime as SetUseSimTime
+from gz_course.sim.launch_ros.actions.set_parameter import SetUseSimTime as SetUseSimTime

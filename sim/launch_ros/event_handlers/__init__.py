@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from launch.event_handler import EventHandler, known_entities
-from launch_ros.events.lifecycle import StateTransition
+from gz_course.sim.launch.event_handler import EventHandler, known_entities
+from gz_course.sim.launch_ros.events.lifecycle import StateTransition
 
 
 class OnStateTransition(EventHandler):

@@ -1,8 +1,8 @@
 """Substitutions that find ROS packages and what is in them."""
 
-from launch.frontend import expose_substitution
-from launch_ros.substitutions.executable_in_package import ExecutableInPackage
-from launch_ros.substitutions.find_package import FindPackage, FindPackagePrefix, FindPackageShare
+from gz_course.sim.launch.frontend import expose_substitution
+from gz_course.sim.launch_ros.substitutions.executable_in_package import ExecutableInPackage
+from gz_course.sim.launch_ros.substitutions.find_package import FindPackage, FindPackagePrefix, FindPackageShare
 
 expose_substitution("find-pkg-prefix", 1, 1, FindPackagePrefix)
 expose_substitution("find-pkg-share", 1, 1, FindPackageShare)

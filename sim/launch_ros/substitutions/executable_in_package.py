@@ -5,17 +5,17 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from launch.errors import nearest
-from launch.launch_context import LaunchContext
-from launch.substitution import (
+from gz_course.sim.launch.errors import nearest
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.substitution import (
     SomeSubstitutionsType,
     Substitution,
     describe_substitutions,
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from launch.substitutions import SubstitutionFailure
-from launch_ros.substitutions.find_package import FindPackagePrefix
+from gz_course.sim.launch.substitutions import SubstitutionFailure
+from gz_course.sim.launch_ros.substitutions.find_package import FindPackagePrefix
 
 
 class ExecutableInPackage(FindPackagePrefix):

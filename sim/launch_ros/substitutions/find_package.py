@@ -6,16 +6,16 @@ from pathlib import Path
 
 from ament_index_python.packages import PackageNotFoundError, get_package_prefix
 
-from launch.ament_prefix import nearest_package_of
-from launch.launch_context import LaunchContext
-from launch.substitution import (
+from gz_course.sim.launch.ament_prefix import nearest_package_of
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.substitution import (
     SomeSubstitutionsType,
     Substitution,
     describe_substitutions,
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from launch.substitutions import PathJoinSubstitution, SubstitutionFailure
+from gz_course.sim.launch.substitutions import PathJoinSubstitution, SubstitutionFailure
 
 
 class FindPackage(Substitution):

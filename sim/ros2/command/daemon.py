@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from ros2.errors import CommandError
+from gz_course.sim.ros2.errors import CommandError
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

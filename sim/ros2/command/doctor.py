@@ -8,8 +8,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-from ros2.child import ChildError, run_child
-from ros2.errors import CommandError
+from gz_course.sim.ros2.child import ChildError, run_child
+from gz_course.sim.ros2.errors import CommandError
 
 _DEADLINE = 30.0  # s for the course to say what it can do
 

@@ -10,11 +10,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ros2.errors import CommandError, did_you_mean
-from ros2.packages import package_names
+from gz_course.sim.ros2.errors import CommandError, did_you_mean
+from gz_course.sim.ros2.packages import package_names
 
 if TYPE_CHECKING:
-    from launch import LaunchDescription
+    from gz_course.sim.launch import LaunchDescription
 
 _LAUNCH_FILE = re.compile(r".*[._-]?launch\.(py|xml|yaml|yml)$|.*\.launch$")
 
@@ -134,7 +134,7 @@ def _pairs(words: Sequence[str]) -> list[tuple[str, str]]:
 
 def load(path: str) -> LaunchDescription:
     """What a launch file holds; CommandError if it cannot be read."""
-    from launch.launch_description_sources import get_launch_description_from_any_launch_file
+    from gz_course.sim.launch.launch_description_sources import get_launch_description_from_any_launch_file
 
     try:
         return get_launch_description_from_any_launch_file(path)
@@ -144,7 +144,7 @@ def load(path: str) -> LaunchDescription:
 
 def _sentence(error: Exception) -> str:
     try:
-        from launch.errors import sentence
+        from gz_course.sim.launch.errors import sentence
     except ImportError:  # a real launch
         return f"{type(error).__name__}: {error}"
     return sentence(error)
@@ -170,16 +170,16 @@ def _show_arguments(path: str) -> int:
 
 
 def _print_description(path: str) -> int:
-    from launch import LaunchIntrospector
+    from gz_course.sim.launch import LaunchIntrospector
 
     print(LaunchIntrospector().format_launch_description(load(path)))
     return 0
 
 
 def _run(path: str, pairs: list[tuple[str, str]], arguments: argparse.Namespace) -> int:
-    import launch
-    from launch.actions import IncludeLaunchDescription, SetLaunchConfiguration
-    from launch.launch_description_sources import AnyLaunchDescriptionSource
+    from gz_course.sim import launch
+    from gz_course.sim.launch.actions import IncludeLaunchDescription, SetLaunchConfiguration
+    from gz_course.sim.launch.launch_description_sources import AnyLaunchDescriptionSource
 
     service = launch.LaunchService(
         argv=[f"{name}:={value}" for name, value in pairs],

@@ -6,9 +6,9 @@ import argparse
 import shlex
 import signal
 
-from ros2.child import ChildError, run_child
-from ros2.errors import CommandError, did_you_mean
-from ros2.packages import executables
+from gz_course.sim.ros2.child import ChildError, run_child
+from gz_course.sim.ros2.errors import CommandError, did_you_mean
+from gz_course.sim.ros2.packages import executables
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -6,7 +6,7 @@ import math
 
 from actuator_msgs.msg import Actuators
 
-from ros_gz_bridge.fields import DOUBLES, HEADER, Fields, add_fields
+from gz_course.sim.ros_gz_bridge.fields import DOUBLES, HEADER, Fields, add_fields
 
 _NUMBERS = ("position", "velocity", "normalized")
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from builtin_interfaces.msg import Time
-from gz.msgs.time_pb2 import Time as GzTime
 
-from ros_gz_bridge.header import stamp_to_gz, stamp_to_ros
-from ros_gz_bridge.type_pairs import type_pair
+from gz_course.sim.gz.msgs.time_pb2 import Time as GzTime
+from gz_course.sim.ros_gz_bridge.header import stamp_to_gz, stamp_to_ros
+from gz_course.sim.ros_gz_bridge.type_pairs import type_pair
 
 
 @type_pair("builtin_interfaces/msg/Time", "gz.msgs.Time")

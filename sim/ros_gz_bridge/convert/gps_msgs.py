@@ -6,10 +6,10 @@ import math
 from typing import Any
 
 from gps_msgs.msg import GPSFix, GPSStatus
-from gz.msgs.navsat_pb2 import NavSat
 
-from ros_gz_bridge.header import frame_to_ros, header_to_gz, header_to_ros
-from ros_gz_bridge.type_pairs import type_pair
+from gz_course.sim.gz.msgs.navsat_pb2 import NavSat
+from gz_course.sim.ros_gz_bridge.header import frame_to_ros, header_to_gz, header_to_ros
+from gz_course.sim.ros_gz_bridge.type_pairs import type_pair
 
 
 @type_pair("gps_msgs/msg/GPSFix", "gz.msgs.NavSat")

@@ -6,14 +6,14 @@ import math
 from typing import Any
 
 import numpy as np
-from gz.msgs.dvl_kinematic_estimate_pb2 import DVLKinematicEstimate
-from gz.msgs.dvl_tracking_target_pb2 import DVLTrackingTarget
-from gz.msgs.dvl_velocity_tracking_pb2 import DVLVelocityTracking
 from marine_acoustic_msgs.msg import Dvl
 
-from ros_gz_bridge.convert.geometry_msgs.poses import copy_xyz, vector_to_ros
-from ros_gz_bridge.header import header_to_gz, header_to_ros
-from ros_gz_bridge.type_pairs import type_pair
+from gz_course.sim.gz.msgs.dvl_kinematic_estimate_pb2 import DVLKinematicEstimate
+from gz_course.sim.gz.msgs.dvl_tracking_target_pb2 import DVLTrackingTarget
+from gz_course.sim.gz.msgs.dvl_velocity_tracking_pb2 import DVLVelocityTracking
+from gz_course.sim.ros_gz_bridge.convert.geometry_msgs.poses import copy_xyz, vector_to_ros
+from gz_course.sim.ros_gz_bridge.header import header_to_gz, header_to_ros
+from gz_course.sim.ros_gz_bridge.type_pairs import type_pair
 
 _BEAMS = 4
 _UNKNOWN = -1.0

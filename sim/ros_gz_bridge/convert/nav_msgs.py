@@ -4,25 +4,25 @@ from __future__ import annotations
 
 from typing import Any
 
-from gz.msgs.odometry_pb2 import Odometry as GzOdometry
-from gz.msgs.odometry_with_covariance_pb2 import OdometryWithCovariance
 from nav_msgs.msg import Odometry
 
-from ros_gz_bridge.blank import blank
-from ros_gz_bridge.convert.geometry_msgs.poses import (
+from gz_course.sim.gz.msgs.odometry_pb2 import Odometry as GzOdometry
+from gz_course.sim.gz.msgs.odometry_with_covariance_pb2 import OdometryWithCovariance
+from gz_course.sim.ros_gz_bridge.blank import blank
+from gz_course.sim.ros_gz_bridge.convert.geometry_msgs.poses import (
     copy_pose,
     copy_pose_with_covariance,
     fill_pose,
     fill_pose_with_covariance,
 )
-from ros_gz_bridge.convert.geometry_msgs.twists import (
+from gz_course.sim.ros_gz_bridge.convert.geometry_msgs.twists import (
     copy_twist,
     copy_twist_with_covariance,
     fill_twist,
     fill_twist_with_covariance,
 )
-from ros_gz_bridge.header import CHILD_FRAME_ID, fill_header, header_to_gz, header_value, set_header_value
-from ros_gz_bridge.type_pairs import type_pair
+from gz_course.sim.ros_gz_bridge.header import CHILD_FRAME_ID, fill_header, header_to_gz, header_value, set_header_value
+from gz_course.sim.ros_gz_bridge.type_pairs import type_pair
 
 
 def _frames_to_ros(gz: Any) -> Odometry:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from gz.msgs.any_pb2 import Any as GzAny
 from rcl_interfaces.msg import ParameterType, ParameterValue
 
-from ros_gz_bridge.type_pairs import ConversionError, type_pair
+from gz_course.sim.gz.msgs.any_pb2 import Any as GzAny
+from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError, type_pair
 
 _INT32 = (-(2**31), 2**31 - 1)
 # Gazebo type, its field, ROS type, its field: what both sides have.

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from gz.msgs.clock_pb2 import Clock as GzClock
 from rosgraph_msgs.msg import Clock
 
-from ros_gz_bridge.blank import blank
-from ros_gz_bridge.header import fill_stamp, stamp_to_gz
-from ros_gz_bridge.type_pairs import type_pair
+from gz_course.sim.gz.msgs.clock_pb2 import Clock as GzClock
+from gz_course.sim.ros_gz_bridge.blank import blank
+from gz_course.sim.ros_gz_bridge.header import fill_stamp, stamp_to_gz
+from gz_course.sim.ros_gz_bridge.type_pairs import type_pair
 
 
 @type_pair("rosgraph_msgs/msg/Clock", "gz.msgs.Clock")

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from typing import Any
 
-from gz.msgs.color_pb2 import Color
-from gz.msgs.empty_pb2 import Empty as GzEmpty
-from gz.msgs.header_pb2 import Header as GzHeader
 from std_msgs.msg import ColorRGBA, Empty, Header
 
-from ros_gz_bridge.header import header_to_gz, header_to_ros
-from ros_gz_bridge.type_pairs import add_pair, type_pair
+from gz_course.sim.gz.msgs.color_pb2 import Color
+from gz_course.sim.gz.msgs.empty_pb2 import Empty as GzEmpty
+from gz_course.sim.gz.msgs.header_pb2 import Header as GzHeader
+from gz_course.sim.ros_gz_bridge.header import header_to_gz, header_to_ros
+from gz_course.sim.ros_gz_bridge.type_pairs import add_pair, type_pair
 
 
 def _data_pair(ros_type: str, gz_type: str) -> None:
     """Pair two messages that carry their value in one field ``data``."""
     import std_msgs.msg
 
-    from gz.msgs import message_class
+    from gz_course.sim.gz.msgs import message_class
 
     ros_class = getattr(std_msgs.msg, ros_type.rpartition("/")[2])
     gz_class = message_class(gz_type)

@@ -6,8 +6,8 @@ import math
 
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from ros_gz_bridge.fields import DOUBLES, HEADER, TEXTS, Each, Fields, Part, add_fields
-from ros_gz_bridge.header import duration_to_ros, stamp_to_gz
+from gz_course.sim.ros_gz_bridge.fields import DOUBLES, HEADER, TEXTS, Each, Fields, Part, add_fields
+from gz_course.sim.ros_gz_bridge.header import duration_to_ros, stamp_to_gz
 
 _NUMBERS = ("positions", "velocities", "accelerations", "effort")
 

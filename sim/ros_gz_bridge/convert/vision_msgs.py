@@ -13,16 +13,16 @@ from vision_msgs.msg import (
     ObjectHypothesisWithPose,
 )
 
-from ros_gz_bridge.convert.geometry_msgs.poses import (
+from gz_course.sim.ros_gz_bridge.convert.geometry_msgs.poses import (
     copy_xyz,
     copy_xyzw,
     point_to_ros,
     quaternion_to_ros,
     vector_to_ros,
 )
-from ros_gz_bridge.fields import HEADER, Each, Fields, Part, add_fields
-from ros_gz_bridge.header import header_to_gz, header_to_ros
-from ros_gz_bridge.type_pairs import ConversionError
+from gz_course.sim.ros_gz_bridge.fields import HEADER, Each, Fields, Part, add_fields
+from gz_course.sim.ros_gz_bridge.header import header_to_gz, header_to_ros
+from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError
 
 _LABELS = range(2**32)
 

@@ -8,8 +8,8 @@ import sys
 import nbformat
 import pytest
 
-from grader.book.chapter import chapters
-from grader.book.objectives import lessons
+from gz_course.grader.book.chapter import chapters
+from gz_course.grader.book.objectives import lessons
 
 NAME = "03_teleop"
 HEAD = """\
@@ -45,7 +45,11 @@ def course(tmp_path, root):
 
 def book(course, out):
     return subprocess.run(
-        [sys.executable, "-m", "grader.book", str(out)], cwd=course, capture_output=True, text=True, timeout=120
+        [sys.executable, "-m", "gz_course.grader.book", str(out)],
+        cwd=course,
+        capture_output=True,
+        text=True,
+        timeout=120,
     )
 
 
@@ -97,5 +101,7 @@ def test_a_chapter_that_does_not_run_is_named_with_its_error(course, tmp_path):
 
 @pytest.mark.parametrize("words", [[], ["a", "b"], ["--help"]])
 def test_without_a_folder_it_says_how_it_is_used(words):
-    done = subprocess.run([sys.executable, "-m", "grader.book", *words], capture_output=True, text=True, timeout=60)
+    done = subprocess.run(
+        [sys.executable, "-m", "gz_course.grader.book", *words], capture_output=True, text=True, timeout=60
+    )
     assert done.returncode == 2 and done.stderr.startswith("usage: ")

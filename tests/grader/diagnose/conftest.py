@@ -11,11 +11,11 @@ from pathlib import Path
 
 import pytest
 
-from grader.playground import Playground
+from gz_course.grader.playground import Playground
 
 DEADLINE = 20.0
 ROOT = Path(__file__).parents[3]
-COURSE = [sys.executable, "-c", "from grader.course import main; main()"]
+COURSE = [sys.executable, "-c", "from gz_course.grader.course import main; main()"]
 
 WORLD = """
 <sdf version='1.10'><world name='{name}'>
@@ -57,9 +57,9 @@ class Broken:
 
     def world(self, inside=ROBOT, *, name="room", without=(), factor=1.0, paused=False):
         """A running server; `without` are systems that are left out."""
-        from gz.sim.server import Server
-        from gz.sim.world import World
-        from gz.transport import Node
+        from gz_course.sim.gz.sim.server import Server
+        from gz_course.sim.gz.sim.world import World
+        from gz_course.sim.gz.transport import Node
 
         plugins = "".join(PLUGIN.format(file=f, name=n) for f, n in SYSTEMS.items() if n not in without)
         world = World.from_string(WORLD.format(name=name, factor=factor, plugins=plugins, inside=inside))
@@ -114,10 +114,10 @@ class Broken:
 
     def bridge(self, *rows, name="ros_gz_bridge"):
         """A bridge of (ros topic, gz topic, ros type, gz type, direction), as parameter_bridge makes it."""
-        from gz.transport import Node
-        from ros_gz_bridge import bridged_topics
-        from ros_gz_bridge.bridge import Bridge
-        from ros_gz_bridge.entry import BridgeEntry, Direction
+        from gz_course.sim.gz.transport import Node
+        from gz_course.sim.ros_gz_bridge import bridged_topics
+        from gz_course.sim.ros_gz_bridge.bridge import Bridge
+        from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction
 
         node = self.node(name)
         entries = [BridgeEntry(*row[:4], direction=Direction[row[4]]) for row in rows]
@@ -127,7 +127,7 @@ class Broken:
         return node
 
     def gz_node(self):
-        from gz.transport import Node
+        from gz_course.sim.gz.transport import Node
 
         return self._stack.enter_context(Node())
 
@@ -138,7 +138,7 @@ class Broken:
         node.create_timer(period, publish, clock=Clock(clock_type=ClockType.STEADY_TIME))
 
     def diagnose(self, seconds=1.0):
-        from grader.diagnose.live import diagnose
+        from gz_course.grader.diagnose.live import diagnose
 
         return Told(diagnose(seconds))
 
@@ -166,8 +166,8 @@ class Told:
 @pytest.fixture(scope="module")
 def domain(tmp_path_factory):
     """A DDS domain and a Gazebo partition of this module, also for its children."""
-    from grader.run.domain import Domain
-    from grader.run.sandbox import ros_environment
+    from gz_course.grader.run.domain import Domain
+    from gz_course.grader.run.sandbox import ros_environment
 
     with Domain() as held, pytest.MonkeyPatch.context() as patch:
         environment = ros_environment(held.id, tmp_path_factory.mktemp("ros_log"))

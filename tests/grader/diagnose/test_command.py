@@ -127,7 +127,7 @@ def test_a_process_stopped_in_its_terminal(room, course, tmp_path):
 
 
 def test_an_interrupt_ends_it_at_once(room):
-    script = "from grader.course import main; main()"
+    script = "from gz_course.grader.course import main; main()"
     command = room.start(f"{sys.executable} -c '{script}' diagnose --seconds 60")
     ports = range(7400 + 250 * room.domain, 7650 + 250 * room.domain)
     process, pause, end = psutil.Process(command.pid), threading.Event(), time.monotonic() + DEADLINE

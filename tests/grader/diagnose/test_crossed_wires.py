@@ -26,8 +26,8 @@ def set_up(broken):
         ("/imu", "/imu", "sensor_msgs/msg/Imu", "gz.msgs.IMU", "GZ_TO_ROS"),
         ("/camera", "/camera/image", "sensor_msgs/msg/Image", "gz.msgs.Image", "GZ_TO_ROS"),
     )
-    from gz.msgs.boolean_pb2 import Boolean
-    from gz.msgs.stringmsg_pb2 import StringMsg
+    from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
+    from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
 
     outside = broken.gz_node()
     outside.subscribe(Boolean, "/stop", print)

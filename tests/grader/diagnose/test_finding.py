@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-import grader.diagnose.looks
-from grader.diagnose import finding as findings_module
-from grader.diagnose.finding import Finding, Severity, findings, kinds
-from grader.diagnose.system import (
+import gz_course.grader.diagnose.looks as grader_diagnose_looks
+from gz_course.grader.diagnose import finding as findings_module
+from gz_course.grader.diagnose.finding import Finding, Severity, findings, kinds
+from gz_course.grader.diagnose.system import (
     GzSide,
     Heard,
     HeardMessage,
@@ -23,8 +23,8 @@ from grader.diagnose.system import (
     nearest_topic,
     users,
 )
-from grader.diagnose.world_text import DEFAULT_SYSTEMS, WorldText
-from ros_gz_bridge.entry import BridgeEntry, Direction
+from gz_course.grader.diagnose.world_text import DEFAULT_SYSTEMS, WorldText
+from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction
 
 
 def test_nothing_is_wrong_with_nothing():
@@ -38,7 +38,7 @@ def test_every_kind_is_tested():
 
 
 def test_kinds_are_the_files_of_the_folder():
-    assert kinds() == sorted(module.name for module in pkgutil.iter_modules(grader.diagnose.looks.__path__))
+    assert kinds() == sorted(module.name for module in pkgutil.iter_modules(grader_diagnose_looks.__path__))
 
 
 class Look:
@@ -136,7 +136,7 @@ POLICIES = st.tuples(
 def test_policies_clash_where_ros_says_so(profiles, offered, wanted):
     from rclpy.qos import QoSCompatibility, qos_check_compatible
 
-    from grader.diagnose.looks.qos import clashes
+    from gz_course.grader.diagnose.looks.qos import clashes
 
     offer, want = profiles(*offered), profiles(*wanted)
     compatible, _ = qos_check_compatible(offer, want)

@@ -4,8 +4,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from grader.diagnose import ros_side
-from ros2.graph import UNKNOWN_NODE
+from gz_course.grader.diagnose import ros_side
+from gz_course.sim.ros2.graph import UNKNOWN_NODE
 
 
 class Graph:

@@ -27,8 +27,8 @@ def set_up_driving(broken):
         ("/imu", "/imu", "sensor_msgs/msg/Imu", "gz.msgs.IMU", "GZ_TO_ROS"),
         ("/faint", "/faint", "sensor_msgs/msg/FluidPressure", "gz.msgs.FluidPressure", "GZ_TO_ROS"),
     )
-    from gz.msgs.fluid_pressure_pb2 import FluidPressure
-    from gz.msgs.twist_pb2 import Twist
+    from gz_course.sim.gz.msgs.fluid_pressure_pb2 import FluidPressure
+    from gz_course.sim.gz.msgs.twist_pb2 import Twist
 
     gz = broken.gz_node()
     gz.advertise("/faint", FluidPressure)
@@ -68,7 +68,7 @@ def set_up_driving(broken):
 
 
 def _odometry():
-    from gz.msgs.odometry_pb2 import Odometry
+    from gz_course.sim.gz.msgs.odometry_pb2 import Odometry
 
     return Odometry
 
@@ -181,7 +181,7 @@ def test_a_clock_that_is_advertised_and_silent(broken):
 
 
 def _clock():
-    from gz.msgs.clock_pb2 import Clock
+    from gz_course.sim.gz.msgs.clock_pb2 import Clock
 
     return Clock
 

@@ -3,7 +3,7 @@
 import psutil
 import pytest
 
-from grader.doctor.probe import Probes
+from gz_course.grader.doctor.probe import Probes
 
 
 @pytest.fixture

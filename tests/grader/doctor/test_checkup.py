@@ -5,13 +5,13 @@ from pathlib import Path
 
 import pytest
 
-from grader.doctor import checks
-from grader.doctor.checkup import examine, questions
-from grader.doctor.verdict import fine
+from gz_course.grader.doctor import checks
+from gz_course.grader.doctor.checkup import examine, questions
+from gz_course.grader.doctor.verdict import fine
 
 
 def question(name, answer):
-    module = types.ModuleType(f"grader.doctor.checks.{name}")
+    module = types.ModuleType(f"gz_course.grader.doctor.checks.{name}")
     module.TITLE, module.examine = name.upper(), answer
     return module
 

@@ -9,7 +9,7 @@ import time
 
 import pytest
 
-from grader.doctor.checkup import questions
+from gz_course.grader.doctor.checkup import questions
 
 DEADLINE = 60.0
 
@@ -61,7 +61,7 @@ def test_bad_usage(doctor, arguments):
 
 def test_an_interrupt_leaves_nothing(tmp_path, course_environment, running_in):
     process = subprocess.Popen(
-        [sys.executable, "-c", "from grader.course import main; main()", "doctor", "--deadline", "60"],
+        [sys.executable, "-c", "from gz_course.grader.course import main; main()", "doctor", "--deadline", "60"],
         cwd=tmp_path,
         env=course_environment(tmp_path),
         stdout=subprocess.PIPE,

@@ -8,7 +8,7 @@ import time
 import psutil
 import pytest
 
-from grader.doctor.probe import ProbeError
+from gz_course.grader.doctor.probe import ProbeError
 
 HANGS = "print('begun', flush=True); import threading; threading.Event().wait()"
 

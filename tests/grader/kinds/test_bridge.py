@@ -3,7 +3,7 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grader.kinds.bridge import fault, read, usable
+from gz_course.grader.kinds.bridge import fault, read, usable
 
 GOOD = b"""\
 - ros_topic_name: /scan

@@ -7,7 +7,7 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grader.kinds.table import COLUMNS, LONGEST, TableError, fault, read
+from gz_course.grader.kinds.table import COLUMNS, LONGEST, TableError, fault, read
 
 VALUES = st.text(st.characters(codec="ascii", categories=("L", "N", "P")), min_size=1, max_size=30)
 TABLES = st.lists(st.dictionaries(st.sampled_from(COLUMNS), VALUES, min_size=1), min_size=1, max_size=8)

@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from grader.errors import UsageError
-from grader.exercise import find_exercise
-from grader.package.gradescope import package
+from gz_course.grader.errors import UsageError
+from gz_course.grader.exercise import find_exercise
+from gz_course.grader.package.gradescope import package
 
 FILE = "teleop_node.py"
 

@@ -8,10 +8,10 @@ import rerun as rr
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grader.record.bodies import bodies, hull
-from grader.record.reading import Recording
-from grader.record.recorder import Recorder
-from grader.record.scene import shape
+from gz_course.grader.record.bodies import bodies, hull
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.record.recorder import Recorder
+from gz_course.grader.record.scene import shape
 
 QUARTER = [0.0, 0.0, math.sin(math.pi / 4), math.cos(math.pi / 4)]  # a quarter turn to the left: x, y, z, w
 

@@ -5,9 +5,9 @@ import math
 
 import pytest
 
-from grader.record.messages import LONGEST_LIST, LONGEST_TEXT, fields, record_message
-from grader.record.reading import Recording
-from grader.record.recorder import Recorder
+from gz_course.grader.record.messages import LONGEST_LIST, LONGEST_TEXT, fields, record_message
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.record.recorder import Recorder
 
 
 @pytest.fixture

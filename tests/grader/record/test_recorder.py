@@ -8,9 +8,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from grader.errors import UsageError
-from grader.record.reading import Recording
-from grader.record.recorder import BLOCK_NS, Recorder
+from gz_course.grader.errors import UsageError
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.record.recorder import BLOCK_NS, Recorder
 
 FINITE = st.floats(allow_nan=False, allow_infinity=True)
 
@@ -126,7 +126,7 @@ def test_one_begun_stays_open_and_leaves_nothing_if_interrupted(tmp_path, monkey
         raise KeyboardInterrupt
 
     # While it is made: its file is there already.
-    monkeypatch.setattr("grader.record.recorder.defaultdict", interrupted)
+    monkeypatch.setattr("gz_course.grader.record.recorder.defaultdict", interrupted)
     with pytest.raises(KeyboardInterrupt), Recorder.begun(tmp_path / "run.rrd", "robot"):
         pass
     assert list(tmp_path.iterdir()) == []

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from grader.record import scene
-from gz.sim.world import World
+from gz_course.grader.record import scene
+from gz_course.sim.gz.sim.world import World
 
 CONE = (
     "<sdf version='1.11'><world name='w'><model name='m'><static>1</static><link name='l'><visual name='v'><geometry>"

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from grader.errors import ManifestError, UsageError
-from grader.release.student_copy import release
+from gz_course.grader.errors import ManifestError, UsageError
+from gz_course.grader.release.student_copy import release
 
 NAME, FILE = "03_teleop", "teleop_node.py"
 ORDINARY, OWN = 20, 40  # [characters] of a line: too short to give anything away; long enough to be nobody else's

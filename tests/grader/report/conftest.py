@@ -2,8 +2,8 @@
 
 import pytest
 
-from grader.report.report import HostFacts, Report, TrialReport
-from tests.grader.report.handmade import DURATION, result, score_of, write_run
+from gz_course.grader.report.report import HostFacts, Report, TrialReport
+from gz_course.tests.grader.report.handmade import DURATION, result, score_of, write_run
 
 
 @pytest.fixture

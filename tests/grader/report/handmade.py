@@ -7,11 +7,11 @@ import numpy as np
 import rerun as rr
 from hypothesis import strategies as st
 
-from grader.exercise import CheckSpec
-from grader.record.recorder import Recorder
-from grader.report.report import HostFacts, Report, TrialReport
-from grader.score.check import Band, Finding
-from grader.score.score import CheckResult, Score
+from gz_course.grader.exercise import CheckSpec
+from gz_course.grader.record.recorder import Recorder
+from gz_course.grader.report.report import HostFacts, Report, TrialReport
+from gz_course.grader.score.check import Band, Finding
+from gz_course.grader.score.score import CheckResult, Score
 
 DURATION = 4.0
 TWIST = {"/cmd_vel": "geometry_msgs/msg/Twist"}

@@ -10,9 +10,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from grader.errors import UsageError
-from grader.report.best import BEST, MOST_BYTES, best_scores, keep_best
-from tests.grader.report.handmade import REPORT, result, score_of
+from gz_course.grader.errors import UsageError
+from gz_course.grader.report.best import BEST, MOST_BYTES, best_scores, keep_best
+from gz_course.tests.grader.report.handmade import REPORT, result, score_of
 
 DEADLINE = 10.0  # [s]
 MOST = {"03_teleop": 100.0, "04_lidar_listener": 100.0}

@@ -6,8 +6,8 @@ import json
 import pytest
 from hypothesis import HealthCheck, given, settings
 
-from grader.report.gradescope import as_gradescope
-from tests.grader.report.handmade import nasty, result, score_of
+from gz_course.grader.report.gradescope import as_gradescope
+from gz_course.tests.grader.report.handmade import nasty, result, score_of
 
 FORMATS = {"text", "html", "simple_format", "md", "ansi"}
 VISIBILITIES = {"visible", "hidden", "after_due_date", "after_published"}

@@ -6,8 +6,8 @@ from xml.etree import ElementTree as XML
 import pytest
 from hypothesis import HealthCheck, given, settings
 
-from grader.report.junit import as_junit
-from tests.grader.report.handmade import NASTY, nasty, result, score_of
+from gz_course.grader.report.junit import as_junit
+from gz_course.tests.grader.report.handmade import NASTY, nasty, result, score_of
 
 COUNTS = {"name", "tests", "failures", "errors", "skipped", "time"}
 # Element -> attributes it must have, and the children it may have.

@@ -2,7 +2,7 @@
 
 import pytest
 
-from grader.report.node_log import FIRST, LAST, node_log
+from gz_course.grader.report.node_log import FIRST, LAST, node_log
 
 
 def made(record, count, **facts):

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from grader.errors import UsageError
-from grader.report.outputs import FORMATS, Outputs, as_text, check_writable
+from gz_course.grader.errors import UsageError
+from gz_course.grader.report.outputs import FORMATS, Outputs, as_text, check_writable
 
 
 def test_every_wanted_report_is_written(make_report, tmp_path):

@@ -7,11 +7,11 @@ import math
 import pytest
 from hypothesis import given
 
-from grader.exercise import CheckSpec
-from grader.report.report import points
-from grader.score.check import Finding
-from grader.score.score import CheckResult
-from tests.grader.report.handmade import REPORT, nasty, result, score_of
+from gz_course.grader.exercise import CheckSpec
+from gz_course.grader.report.report import points
+from gz_course.grader.score.check import Finding
+from gz_course.grader.score.score import CheckResult
+from gz_course.tests.grader.report.handmade import REPORT, nasty, result, score_of
 
 KEYS = {
     "exercise", "submission", "score", "max_score", "outcome", "checks", "trials", "sandbox", "pace", "recording",

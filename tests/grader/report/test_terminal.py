@@ -7,9 +7,9 @@ import re
 import pytest
 from hypothesis import given
 
-from grader.report.report import TrialReport
-from grader.report.terminal import disarmed, print_report
-from tests.grader.report.handmade import NASTY, REPORT, nasty, result, score_of
+from gz_course.grader.report.report import TrialReport
+from gz_course.grader.report.terminal import disarmed, print_report
+from gz_course.tests.grader.report.handmade import NASTY, REPORT, nasty, result, score_of
 
 
 def printed(report, width=100):

@@ -5,10 +5,10 @@ import gc
 import pytest
 import rclpy.executors
 
-from grader.run.domain import Domain
-from grader.run.ears import Ears
-from gz.transport import Node, NodeOptions, Scope
-from ros_gz_bridge.entry import BridgeEntry, BridgeError, Direction
+from gz_course.grader.run.domain import Domain
+from gz_course.grader.run.ears import Ears
+from gz_course.sim.gz.transport import Node, NodeOptions, Scope
+from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, BridgeError, Direction
 
 
 def executors():

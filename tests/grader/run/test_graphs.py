@@ -5,19 +5,19 @@ import time
 
 import pytest
 import rclpy
-from gz.msgs.double_pb2 import Double
-from gz.msgs.stringmsg_pb2 import StringMsg
 from rclpy.context import Context
 from std_msgs.msg import Float64, String
 
-from grader.run.domain import Domain
-from grader.run.ears import Ears
-from grader.run.graphs import both_graphs
-from grader.run.matching import can_match
-from grader.run.progress import Endpoint
-from grader.run.sandbox import ros_environment
-from gz.transport import Node, NodeOptions, Scope
-from ros_gz_bridge.entry import BridgeEntry, Direction
+from gz_course.grader.run.domain import Domain
+from gz_course.grader.run.ears import Ears
+from gz_course.grader.run.graphs import both_graphs
+from gz_course.grader.run.matching import can_match
+from gz_course.grader.run.progress import Endpoint
+from gz_course.grader.run.sandbox import ros_environment
+from gz_course.sim.gz.msgs.double_pb2 import Double
+from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+from gz_course.sim.gz.transport import Node, NodeOptions, Scope
+from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction
 
 BOTH = BridgeEntry(
     "/words", "/gz/words", "std_msgs/msg/String", "gz.msgs.StringMsg", Direction.BIDIRECTIONAL, source="/x/b.yaml:3"

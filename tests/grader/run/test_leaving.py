@@ -5,8 +5,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from grader.run.lockstep import CLOCK, PATIENCE, LockStep
-from grader.run.progress import Endpoint
+from gz_course.grader.run.lockstep import CLOCK, PATIENCE, LockStep
+from gz_course.grader.run.progress import Endpoint
 
 TYPE = "rosgraph_msgs/msg/Clock"
 
@@ -72,7 +72,7 @@ def tick(monkeypatch):
     def call(leaving, ticks=1):
         now = SimpleNamespace(monotonic=lambda: leaving.waited / 10)
         for module in ("lockstep", "real_time"):
-            monkeypatch.setattr(f"grader.run.{module}.time", now)
+            monkeypatch.setattr(f"gz_course.grader.run.{module}.time", now)
         pace = LockStep(leaving, leaving)
         pace._layout = leaving.layout
         for number in range(ticks):

@@ -9,22 +9,22 @@ from types import SimpleNamespace
 
 import pytest
 
-from grader.record.reading import Recording
-from grader.run import lockstep
-from grader.run.box.course_box.lossless import is_copy
-from grader.run.progress import Progress
-from grader.run.sandbox import environment
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.run import lockstep
+from gz_course.grader.run.box.course_box.lossless import is_copy
+from gz_course.grader.run.progress import Progress
+from gz_course.grader.run.sandbox import environment
 
 # The kernel bounds how much a socket holds, and less than a picture is usual. Here it is a packet or two.
 SMALL_SOCKETS = """
 import pathlib
-from grader.run.sandbox import environment
+from gz_course.grader.run.sandbox import environment
 environment.PROFILES = pathlib.Path({profiles!r})
 """
 ROOM, PICTURE = Path("/proc/sys/net/core/rmem_max"), 640 * 480 * 3  # [bytes]
 # A copy follows a large message at once, whether it is needed or not.
 ALWAYS_AGAIN = """
-from grader.run import lockstep
+from gz_course.grader.run import lockstep
 lockstep.LOST = 0.0
 """
 CAMERA = "<horizontal_fov>1.2</horizontal_fov><image><width>{}</width><height>{}</height></image>"

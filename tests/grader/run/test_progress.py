@@ -5,7 +5,7 @@ import json
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from grader.run.progress import Endpoint, Progress
+from gz_course.grader.run.progress import Endpoint, Progress
 
 GOOD = {"clock": 5, "idle": True, "taken": {"/a": 1}, "published": {"/b": 2}, "delivered": {"/b": 4}}
 GOOD |= {"holding": False, "held": 0, "released": 0, "flushes": 0, "endpoints": []}

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
-from grader.run.participant import Participant
-from grader.run.served import Served
-from gz.transport import Node, NodeOptions, Scope
+from gz_course.grader.run.participant import Participant
+from gz_course.grader.run.served import Served
+from gz_course.sim.gz.transport import Node, NodeOptions, Scope
 
 WORLD = "<sdf version='1.9'><world name='{}'/></sdf>"
 WORDS = (

@@ -6,12 +6,12 @@ import textwrap
 import time
 
 import pytest
-from gz.msgs.clock_pb2 import Clock
 
-from grader.run.box.course_box.watch import HOLD
-from grader.run.domain import Domain
-from grader.run.sandbox import Sandbox
-from grader.run.student import Student
+from gz_course.grader.run.box.course_box.watch import HOLD
+from gz_course.grader.run.domain import Domain
+from gz_course.grader.run.sandbox import Sandbox
+from gz_course.grader.run.student import Student
+from gz_course.sim.gz.msgs.clock_pb2 import Clock
 
 CLOCK = "/clock"
 TICK_NS = 100_000_000
@@ -65,10 +65,10 @@ class Played:
 @pytest.fixture
 def play(tmp_path, monkeypatch):
     """Run files as processes of one submission for some ticks of simulated time; what they said on `observe`."""
-    from grader.run.ears import Ears
-    from grader.run.lockstep import LockStep
-    from gz.transport import Node, NodeOptions, Scope
-    from ros_gz_bridge.entry import BridgeEntry, Direction
+    from gz_course.grader.run.ears import Ears
+    from gz_course.grader.run.lockstep import LockStep
+    from gz_course.sim.gz.transport import Node, NodeOptions, Scope
+    from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction
 
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
 

@@ -4,9 +4,9 @@ from types import SimpleNamespace
 
 import pytest
 
-from grader.errors import InfrastructureError
-from grader.run.lockstep import LONG_WAIT, LockStep
-from grader.run.stage import MACHINES_FACTOR, STUDENTS_SHARE, WALL_FACTOR, WALL_GRACE, Stage
+from gz_course.grader.errors import InfrastructureError
+from gz_course.grader.run.lockstep import LONG_WAIT, LockStep
+from gz_course.grader.run.stage import MACHINES_FACTOR, STUDENTS_SHARE, WALL_FACTOR, WALL_GRACE, Stage
 
 DURATION = 5.0
 LIMIT = WALL_FACTOR * DURATION + WALL_GRACE
@@ -46,7 +46,7 @@ def test_a_machine_that_gets_nowhere_is_our_fault(slow):
 @pytest.mark.parametrize(("waited", "held"), [(LONG_WAIT * 0.9, 0.0), (LONG_WAIT * 2, LONG_WAIT * 2)])
 def test_only_long_waits_count(monkeypatch, waited, held):
     now = iter([10.0, 10.0 + waited])
-    monkeypatch.setattr("grader.run.lockstep.time", SimpleNamespace(monotonic=lambda: next(now)))
+    monkeypatch.setattr("gz_course.grader.run.lockstep.time", SimpleNamespace(monotonic=lambda: next(now)))
     pace = object.__new__(LockStep)
     pace.held_seconds = 0.0
     pace._await_settled_until = lambda deadline: deadline > 10.0

@@ -9,10 +9,10 @@ import time
 import psutil
 import pytest
 
-from grader.run.domain import Domain
-from grader.run.sandbox import Sandbox
-from grader.run.student import LAST_BYTES, LONGEST_LINE, MOST_LINES, Student, node_command
-from tests.descriptors import own_descriptors
+from gz_course.grader.run.domain import Domain
+from gz_course.grader.run.sandbox import Sandbox
+from gz_course.grader.run.student import LAST_BYTES, LONGEST_LINE, MOST_LINES, Student, node_command
+from gz_course.tests.descriptors import own_descriptors
 
 DEADLINE = 20.0
 TOPICS = {"/clock": "rosgraph_msgs/msg/Clock", "/cmd_vel": "geometry_msgs/msg/Twist"}
@@ -268,7 +268,7 @@ def test_it_dies_with_the_grader(start, tmp_path):
     file = tmp_path / "sleeper.py"
     file.write_text("import os, time\nprint(os.getpid(), flush=True)\ntime.sleep(600)")
     code = (
-        "from pathlib import Path; from grader.run.sandbox import Sandbox; from grader.run.student import *\n"
+        "from pathlib import Path; from gz_course.grader.run.sandbox import Sandbox; from gz_course.grader.run.student import *\n"
         f's = Student(node_command(Path({str(file)!r})), Sandbox(101, "D"), {{}})\n'
         "while not (lines := s.take_lines()): s.wait(0.1)\n"
         "print(lines[0], flush=True); input()"

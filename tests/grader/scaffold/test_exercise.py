@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grader.errors import UsageError
-from grader.exercise import find_exercise
-from grader.scaffold.exercise import DEFECTS, NAME, check_name, contents, planted, scaffold
-from grader.verify import FEWEST_ACCEPTED, FEWEST_REJECTED, variants
+from gz_course.grader.errors import UsageError
+from gz_course.grader.exercise import find_exercise
+from gz_course.grader.scaffold.exercise import DEFECTS, NAME, check_name, contents, planted, scaffold
+from gz_course.grader.verify import FEWEST_ACCEPTED, FEWEST_REJECTED, variants
 
 NEW = "07_follow_the_wall"
 

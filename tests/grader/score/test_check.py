@@ -2,9 +2,9 @@
 
 import pytest
 
-from grader.errors import ManifestError
-from grader.exercise import CheckSpec
-from grader.score.check import check_kind, check_kinds, perform, perform_all
+from gz_course.grader.errors import ManifestError
+from gz_course.grader.exercise import CheckSpec
+from gz_course.grader.score.check import check_kind, check_kinds, perform, perform_all
 
 SIGNAL = "truth/robot/x"
 

@@ -2,8 +2,8 @@
 
 import pytest
 
-from grader.score.check import Finding
-from grader.score.clocks import clock_fault
+from gz_course.grader.score.check import Finding
+from gz_course.grader.score.clocks import clock_fault
 
 LATE = Finding(False, "so", "not so", timing=True)
 ASKED = {"wall_clock": [{"file": "node.py", "line": 7, "call": "time.time()", "waits": False}]}

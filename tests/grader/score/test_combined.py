@@ -5,10 +5,10 @@ import hashlib
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grader.exercise import CheckSpec
-from grader.score.check import Finding
-from grader.score.combined import combined
-from grader.score.score import CheckResult, Score
+from gz_course.grader.exercise import CheckSpec
+from gz_course.grader.score.check import Finding
+from gz_course.grader.score.combined import combined
+from gz_course.grader.score.score import CheckResult, Score
 
 
 def scored(*passes, name="t", outcome="graded"):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from grader.score.diagnosis import diagnose, outcome_of
+from gz_course.grader.score.diagnosis import diagnose, outcome_of
 
 TWIST, SCAN = "geometry_msgs/msg/Twist", "sensor_msgs/msg/LaserScan"
 COUNT = {"topics/cmd_vel/count": [(0.1, 1.0)]}

@@ -7,7 +7,7 @@ from rclpy.node import Node
 from rclpy.time import Time
 from std_msgs.msg import Float32, String
 
-from grader.score.python_errors import meaning
+from gz_course.grader.score.python_errors import meaning
 
 
 class Forgetful(Node):

@@ -6,8 +6,8 @@ import struct
 
 import pytest
 
-from grader.exercise import CheckSpec, find_exercise
-from grader.score.score import TRUTH, score, truth_sha256
+from gz_course.grader.exercise import CheckSpec, find_exercise
+from gz_course.grader.score.score import TRUTH, score, truth_sha256
 
 POSES = [(0.01, (1.0, 2.0, 0.0, 1.0, 0.0, 0.0, 0.0)), (0.02, (1.5, 2.0, 0.0, 1.0, 0.0, 0.0, 0.0))]
 

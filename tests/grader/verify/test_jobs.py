@@ -11,20 +11,20 @@ from unittest.mock import Mock
 import psutil
 import pytest
 
-from grader.errors import InfrastructureError
-from grader.exercise import find_exercise
-from grader.verify import jobs
-from grader.verify.jobs import Job
+from gz_course.grader.errors import InfrastructureError
+from gz_course.grader.exercise import find_exercise
+from gz_course.grader.verify import jobs
+from gz_course.grader.verify.jobs import Job
 
 pytestmark = pytest.mark.proof
 
-COURSE = [sys.executable, "-c", "from grader.course import main; main()"]
+COURSE = [sys.executable, "-c", "from gz_course.grader.course import main; main()"]
 FILES = ["solutions/03_teleop/teleop_node.py", "exercises/03_teleop/teleop_node.py"]
 GRADINGS = """
 import json, sys
 from pathlib import Path
-from grader.exercise import find_exercise
-from grader.verify.jobs import Job, pool
+from gz_course.grader.exercise import find_exercise
+from gz_course.grader.verify.jobs import Job, pool
 
 if __name__ == "__main__":
     root, out, count, trials, *files = sys.argv[1:]

@@ -7,7 +7,7 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grader.verify.mutants import Mutant, choose, mutants_of
+from gz_course.grader.verify.mutants import Mutant, choose, mutants_of
 
 NODE = '''\
 """A docstring, 0.5 and /cmd_vel in it."""

@@ -4,15 +4,15 @@ from pathlib import Path
 
 import pytest
 
-from grader.exercise import CheckSpec, find_exercise
-from grader.report.report import Report, TrialReport
-from grader.score.check import Finding
-from grader.score.combined import combined
-from grader.score.score import CheckResult, Score
-from grader.trial import Trial
-from grader.verify.declared import Variant
-from grader.verify.mutants import Mutant
-from grader.verify.proof import MutantProof, Verification, judge
+from gz_course.grader.exercise import CheckSpec, find_exercise
+from gz_course.grader.report.report import Report, TrialReport
+from gz_course.grader.score.check import Finding
+from gz_course.grader.score.combined import combined
+from gz_course.grader.score.score import CheckResult, Score
+from gz_course.grader.trial import Trial
+from gz_course.grader.verify.declared import Variant
+from gz_course.grader.verify.mutants import Mutant
+from gz_course.grader.verify.proof import MutantProof, Verification, judge
 
 CHECKS = ("a", "b")
 

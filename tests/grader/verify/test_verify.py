@@ -5,9 +5,9 @@ import shutil
 
 import pytest
 
-from grader.errors import ManifestError
-from grader.exercise import find_exercise
-from grader.verify import variants
+from gz_course.grader.errors import ManifestError
+from gz_course.grader.exercise import find_exercise
+from gz_course.grader.verify import variants
 
 NAME = "03_teleop"
 

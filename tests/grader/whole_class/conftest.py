@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.exercise import find_exercise
+from gz_course.grader.exercise import find_exercise
 
 
 @pytest.fixture(scope="session")

@@ -7,14 +7,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grader.errors import InfrastructureError, RefusedError, UnreadableError, UsageError
-from grader.intake import Selection
-from grader.whole_class import class_run
-from grader.whole_class.class_run import ClassRun, folder_name
-from grader.whole_class.found import Found
-from grader.whole_class.gradebook import GRADEBOOK
-from grader.whole_class.grading import Graded
-from grader.whole_class.journal import JOURNAL
+from gz_course.grader.errors import InfrastructureError, RefusedError, UnreadableError, UsageError
+from gz_course.grader.intake import Selection
+from gz_course.grader.whole_class import class_run
+from gz_course.grader.whole_class.class_run import ClassRun, folder_name
+from gz_course.grader.whole_class.found import Found
+from gz_course.grader.whole_class.gradebook import GRADEBOOK
+from gz_course.grader.whole_class.grading import Graded
+from gz_course.grader.whole_class.journal import JOURNAL
 
 
 class Machine:

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from grader.errors import RefusedError, UsageError
-from grader.whole_class.found import find_submissions
+from gz_course.grader.errors import RefusedError, UsageError
+from gz_course.grader.whole_class.found import find_submissions
 
 NODE = b"x = 1\n"
 FILE = "teleop_node.py"

@@ -40,7 +40,7 @@ def begin(tmp_path, short_course, submissions, course_environment):
     started = []
 
     def start(*options, out="out"):
-        command = [sys.executable, "-c", "from grader.course import main; main()", "grade-all", "03_teleop"]
+        command = [sys.executable, "-c", "from gz_course.grader.course import main; main()", "grade-all", "03_teleop"]
         process = subprocess.Popen(
             [*command, str(submissions), "--out", str(tmp_path / out), *map(str, options)],
             cwd=tmp_path,
@@ -81,7 +81,7 @@ def gone(folder, running_in):
 def reference(tmp_path_factory, short_course, submissions, course_environment):
     """The class graded in one go."""
     folder = tmp_path_factory.mktemp("reference")
-    command = [sys.executable, "-c", "from grader.course import main; main()", "grade-all", "03_teleop"]
+    command = [sys.executable, "-c", "from gz_course.grader.course import main; main()", "grade-all", "03_teleop"]
     done = subprocess.run(
         [*command, str(submissions), "--out", str(folder / "out"), "--html", "--gradescope"],
         cwd=folder,

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grader.whole_class.gradebook import GRADEBOOK, as_csv, cell, write_gradebook
+from gz_course.grader.whole_class.gradebook import GRADEBOOK, as_csv, cell, write_gradebook
 
 
 def result(**more):

@@ -16,9 +16,9 @@ ENDLESS = 600  # [s] of an exercise that nobody waits for
 GRADE_ONE = """
 import json, sys
 from pathlib import Path
-from grader import bundle
-from grader.exercise import load_exercise
-from grader.whole_class.grading import Job, Setup, grade_one
+from gz_course.grader import bundle
+from gz_course.grader.exercise import load_exercise
+from gz_course.grader.whole_class.grading import Job, Setup, grade_one
 folder, submission, deadline, options = json.loads(sys.argv[1])
 exercise = load_exercise(Path(folder))
 files, choice = bundle.bundle(exercise)
@@ -101,7 +101,7 @@ def test_when_its_worker_is_killed_a_grading_ends_at_once(grade_one, endless, tm
 def test_all_gradings_end_with_the_block(tmp_path):
     program = """
 import subprocess, sys
-from grader.whole_class.grading import RUNNING, gradings_end_here
+from gz_course.grader.whole_class.grading import RUNNING, gradings_end_here
 with gradings_end_here():
     process = RUNNING.start([sys.executable, "-c", "import signal; signal.pause()"])
 print(process.returncode)

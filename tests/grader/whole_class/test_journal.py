@@ -4,8 +4,8 @@ import json
 
 import pytest
 
-from grader.errors import UsageError
-from grader.whole_class.journal import JOURNAL, Journal
+from gz_course.grader.errors import UsageError
+from gz_course.grader.whole_class.journal import JOURNAL, Journal
 
 RESULTS = {f"key{n}": {"score": n, "student": "é\n" * n, "folder": str(n % 3)} for n in range(4)}
 

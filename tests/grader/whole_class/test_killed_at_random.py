@@ -20,7 +20,7 @@ import pytest
 pytestmark = [pytest.mark.proof, pytest.mark.slow, pytest.mark.timeout(600)]
 
 FILE = "teleop_node.py"
-COMMAND = [sys.executable, "-c", "from grader.course import main; main()", "grade-all", "03_teleop"]
+COMMAND = [sys.executable, "-c", "from gz_course.grader.course import main; main()", "grade-all", "03_teleop"]
 KILLS = 5  # of each class
 LATEST = 0.5  # of the undisturbed run's time, from one start to the kill
 DEADLINE = 240.0  # [s] for a run of a class

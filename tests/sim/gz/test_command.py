@@ -4,8 +4,8 @@ import sys
 
 import pytest
 
-import gz
-from gz import command
+from gz_course.sim import gz
+from gz_course.sim.gz import command
 
 
 @pytest.fixture
@@ -124,5 +124,7 @@ def test_versions_names_the_engines(capsys):
 
 
 def test_the_installed_command_answers():
-    done = subprocess.run([sys.executable, "-m", "gz.command"], capture_output=True, text=True, timeout=60)
+    done = subprocess.run(
+        [sys.executable, "-m", "gz_course.sim.gz.command"], capture_output=True, text=True, timeout=60
+    )
     assert done.returncode == 0

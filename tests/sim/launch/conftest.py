@@ -4,9 +4,9 @@ import threading
 
 import pytest
 
-import launch
-import launch.logging
-from launch import LaunchDescription, LaunchService
+import gz_course.sim.launch.logging as launch_logging
+from gz_course.sim import launch
+from gz_course.sim.launch import LaunchDescription, LaunchService
 
 DEADLINE = 30.0
 
@@ -15,9 +15,9 @@ DEADLINE = 30.0
 def log_folder(tmp_path, monkeypatch):
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "ros_log"))
     monkeypatch.delenv("OVERRIDE_LAUNCH_PROCESS_OUTPUT", raising=False)
-    launch.logging.reset()
+    launch_logging.reset()
     yield tmp_path / "ros_log"
-    launch.logging.reset()
+    launch_logging.reset()
 
 
 class Result:
@@ -39,7 +39,7 @@ def run(capsys):
     """Run actions to the end; the launch is shut down after a deadline."""
 
     def run(*entities, arguments=None, **options):
-        launch.logging.reset()
+        launch_logging.reset()
         service = LaunchService()
         service.context.launch_configurations.update(arguments or {})
         service.include_launch_description(LaunchDescription(list(entities)))

@@ -6,12 +6,11 @@ import pkgutil
 import re
 from pathlib import Path
 
-import pytest
-
 import launch
 import launch_ros
 import launch_ros.event_handlers
 import launch_ros.events
+import pytest
 
 # Modules that hold names of another spelling than their own.
 OF_ITS_OWN_NAME = {

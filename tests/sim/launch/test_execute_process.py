@@ -10,8 +10,8 @@ import threading
 import psutil
 import pytest
 
-from launch import LaunchDescription, LaunchService
-from launch.actions import (
+from gz_course.sim.launch import LaunchDescription, LaunchService
+from gz_course.sim.launch.actions import (
     EmitEvent,
     ExecuteLocal,
     ExecuteProcess,
@@ -20,10 +20,10 @@ from launch.actions import (
     RegisterEventHandler,
     Shutdown,
 )
-from launch.descriptions import Executable
-from launch.event_handlers import OnProcessExit, OnProcessIO, OnProcessStart
-from launch.events import matches_action
-from launch.events.process import (
+from gz_course.sim.launch.descriptions import Executable
+from gz_course.sim.launch.event_handlers import OnProcessExit, OnProcessIO, OnProcessStart
+from gz_course.sim.launch.events import matches_action
+from gz_course.sim.launch.events.process import (
     ProcessStdin,
     ShutdownProcess,
     SignalProcess,
@@ -31,8 +31,8 @@ from launch.events.process import (
     matches_name,
     matches_pid,
 )
-from launch.substitutions import LaunchConfiguration, LocalSubstitution
-from tests.descriptors import own_descriptors
+from gz_course.sim.launch.substitutions import LaunchConfiguration, LocalSubstitution
+from gz_course.tests.descriptors import own_descriptors
 
 
 def sh(script, *words, **options):

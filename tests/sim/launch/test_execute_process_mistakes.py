@@ -2,7 +2,7 @@
 
 import pytest
 
-from launch.actions import ExecuteProcess
+from gz_course.sim.launch.actions import ExecuteProcess
 
 
 @pytest.mark.parametrize(

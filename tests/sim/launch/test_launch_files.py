@@ -4,17 +4,23 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from launch import InvalidLaunchFileError, LaunchContext, LaunchDescription, LaunchIntrospector
-from launch.actions import DeclareLaunchArgument, GroupAction, IncludeLaunchDescription, LogInfo, SetLaunchConfiguration
-from launch.conditions import IfCondition
-from launch.errors import InvalidArgumentError, MissingArgumentError, sentence
-from launch.launch_description_sources import (
+from gz_course.sim.launch import InvalidLaunchFileError, LaunchContext, LaunchDescription, LaunchIntrospector
+from gz_course.sim.launch.actions import (
+    DeclareLaunchArgument,
+    GroupAction,
+    IncludeLaunchDescription,
+    LogInfo,
+    SetLaunchConfiguration,
+)
+from gz_course.sim.launch.conditions import IfCondition
+from gz_course.sim.launch.errors import InvalidArgumentError, MissingArgumentError, sentence
+from gz_course.sim.launch.launch_description_sources import (
     AnyLaunchDescriptionSource,
     PythonLaunchDescriptionSource,
     get_launch_description_from_any_launch_file,
     get_launch_description_from_python_launch_file,
 )
-from launch.substitutions import LaunchConfiguration, TextSubstitution, ThisLaunchFile, ThisLaunchFileDir
+from gz_course.sim.launch.substitutions import LaunchConfiguration, TextSubstitution, ThisLaunchFile, ThisLaunchFileDir
 
 HEAD = """\
 import os

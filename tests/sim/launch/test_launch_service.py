@@ -7,9 +7,9 @@ import threading
 
 import pytest
 
-import launch.events
-from launch import LaunchDescription, LaunchService
-from launch.actions import (
+import gz_course.sim.launch.events as launch_events
+from gz_course.sim.launch import LaunchDescription, LaunchService
+from gz_course.sim.launch.actions import (
     AppendEnvironmentVariable,
     DeclareLaunchArgument,
     EmitEvent,
@@ -32,14 +32,14 @@ from launch.actions import (
     UnsetEnvironmentVariable,
     UnsetLaunchConfiguration,
 )
-from launch.conditions import (
+from gz_course.sim.launch.conditions import (
     IfCondition,
     LaunchConfigurationEquals,
     LaunchConfigurationNotEquals,
     UnlessCondition,
 )
-from launch.event_handlers import OnExecutionComplete, OnProcessExit, OnProcessIO, OnShutdown
-from launch.substitutions import EnvironmentVariable, LaunchConfiguration, PythonExpression
+from gz_course.sim.launch.event_handlers import OnExecutionComplete, OnProcessExit, OnProcessIO, OnShutdown
+from gz_course.sim.launch.substitutions import EnvironmentVariable, LaunchConfiguration, PythonExpression
 
 
 def said(result):
@@ -220,7 +220,7 @@ def test_shutdown_handlers_are_asked_once_the_newest_first(run):
         RegisterEventHandler(OnShutdown(on_shutdown=[note("older")])),
         RegisterEventHandler(OnShutdown(on_shutdown=lambda event, context: [note("newer: ", event.reason)])),
         Shutdown(reason="enough"),
-        EmitEvent(event=launch.events.Shutdown(reason="again")),
+        EmitEvent(event=launch_events.Shutdown(reason="again")),
     )
     assert said(result) == ["newer: enough", "older"]
 
@@ -365,7 +365,7 @@ def test_functions_and_coroutines(run):
         return [note(text) for text in (*texts, last)]
 
     async def work(context, text):
-        await context.emit_event(launch.events.Shutdown(reason=text))
+        await context.emit_event(launch_events.Shutdown(reason=text))
 
     result = run(
         OpaqueFunction(function=several, args=["a", LaunchConfiguration("x").describe()], kwargs={"last": "c"}),

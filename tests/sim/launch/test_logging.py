@@ -8,18 +8,18 @@ import sys
 
 import pytest
 
-import launch.logging
+import gz_course.sim.launch.logging as launch_logging
 
 
 def test_a_line_has_a_level_and_a_name_and_in_the_file_a_time(capsys, log_folder):
-    launch.logging.get_logger("robot").warning("low battery")
+    launch_logging.get_logger("robot").warning("low battery")
     assert capsys.readouterr().out == "[WARNING] [robot]: low battery\n"
     (text,) = (path.read_text() for path in log_folder.glob("*-*/launch.log"))
     assert re.fullmatch(r"\d+\.\d{7} \[WARNING\] \[robot\]: low battery\n", text)
 
 
 def test_the_folder_is_named_after_the_time_the_host_and_the_process(log_folder):
-    name = os.path.basename(launch.logging.launch_config.log_dir)  # noqa: PTH119
+    name = os.path.basename(launch_logging.launch_config.log_dir)  # noqa: PTH119
     assert re.fullmatch(rf"\d{{4}}-\d\d-\d\d-\d\d-\d\d-\d\d-\d{{6}}-.+-{os.getpid()}", name)
     assert (log_folder / "latest").resolve().name == name
 
@@ -33,32 +33,32 @@ def test_where_the_folder_is(tmp_path, monkeypatch, variables, folder):
         monkeypatch.delenv(name, raising=False)
     for name, value in variables.items():
         monkeypatch.setenv(name, value.format(tmp_path))
-    assert os.path.dirname(launch.logging.launch_config.log_dir) == str(tmp_path / folder)  # noqa: PTH120
+    assert os.path.dirname(launch_logging.launch_config.log_dir) == str(tmp_path / folder)  # noqa: PTH120
 
 
 def test_without_a_folder_it_says_so_and_goes_on(tmp_path, monkeypatch, capsys):
     (tmp_path / "file").touch()
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "file"))
-    launch.logging.get_logger().info("hello")
+    launch_logging.get_logger().info("hello")
     text = capsys.readouterr().out
     assert "[WARNING] [launch]: there will be no log files" in text
     assert text.count("[INFO] [launch]: hello\n") == 1
 
 
 def test_levels(capsys):
-    logger = launch.logging.get_logger("robot")
+    logger = launch_logging.get_logger("robot")
     logger.debug("nobody sees this")
-    launch.logging.launch_config.level = "debug"
+    launch_logging.launch_config.level = "debug"
     logger.debug("seen")
     assert capsys.readouterr().out == "[DEBUG] [robot]: seen\n"
     with pytest.raises(ValueError, match="no logging level"):
-        launch.logging.launch_config.level = "loud"
+        launch_logging.launch_config.level = "loud"
 
 
 def test_a_screen_of_another_encoding(monkeypatch):
     screen = io.TextIOWrapper(io.BytesIO(), encoding="ascii")
     monkeypatch.setattr(sys, "stdout", screen)
-    launch.logging.launch_config.write_to_screen("grün\n")
+    launch_logging.launch_config.write_to_screen("grün\n")
     assert screen.buffer.getvalue() == b"gr?n\n"
 
 

@@ -10,9 +10,9 @@ import sys
 import psutil
 import pytest
 
-from launch import orphan_watch
-from launch.actions import ExecuteProcess, OpaqueFunction, RegisterEventHandler, Shutdown
-from launch.event_handlers import OnProcessStart
+from gz_course.sim.launch import orphan_watch
+from gz_course.sim.launch.actions import ExecuteProcess, OpaqueFunction, RegisterEventHandler, Shutdown
+from gz_course.sim.launch.event_handlers import OnProcessStart
 
 KILLED = """\
 import sys

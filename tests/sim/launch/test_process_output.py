@@ -6,10 +6,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-import launch.logging
-import launch.process_output
-from launch.errors import LaunchError
-from launch.process_output import ProcessOutput, sinks
+import gz_course.sim.launch.logging as launch_logging
+import gz_course.sim.launch.process_output as launch_process_output
+from gz_course.sim.launch.errors import LaunchError
+from gz_course.sim.launch.process_output import ProcessOutput, sinks
 
 
 class Screen:
@@ -34,7 +34,7 @@ def test_lines_come_out_whole_however_they_come_in(lines, newline, ended, data):
     cuts = sorted(data.draw(st.lists(st.integers(0, len(raw)), max_size=6)))
     with pytest.MonkeyPatch.context() as patch:
         screen = Screen()
-        patch.setattr(launch.process_output, "launch_config", screen)
+        patch.setattr(launch_process_output, "launch_config", screen)
         output = ProcessOutput("robot-1", "screen", cached=True, line_format=None)
         for start, end in zip([0, *cuts], [*cuts, len(raw)], strict=True):
             output.feed("stdout", raw[start:end])
@@ -91,7 +91,7 @@ def test_files_of_its_own():
     output.feed("stderr", b"two\n")
     output.feed("stdout", b"three")
     output.close()
-    folder = Path(launch.logging.launch_config.log_dir)
+    folder = Path(launch_logging.launch_config.log_dir)
     texts = {path.name: path.read_text() for path in folder.glob("robot-1*")}
     assert texts == {
         "robot-1-stdout.log": "one\nthree\n",

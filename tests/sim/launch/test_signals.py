@@ -9,8 +9,8 @@ import sys
 import psutil
 import pytest
 
-from launch.actions import LogInfo
-from launch.substitutions import Command
+from gz_course.sim.launch.actions import LogInfo
+from gz_course.sim.launch.substitutions import Command
 
 
 def living_with(name, value):
@@ -84,7 +84,7 @@ def test_a_command_that_is_interrupted_while_it_starts_is_ended(run, monkeypatch
             started.append(self)
             os.kill(os.getpid(), signal.SIGINT)
 
-    monkeypatch.setattr("launch.substitutions.command.subprocess.Popen", Interrupted)
+    monkeypatch.setattr("gz_course.sim.launch.substitutions.command.subprocess.Popen", Interrupted)
     result = run(LogInfo(msg=Command("sleep 1000")), LogInfo(msg="not reached"))
     assert result.code == 0
     assert result.lines == ["[WARNING] [launch]: user interrupted with ctrl-c (SIGINT)"]

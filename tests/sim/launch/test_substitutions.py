@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from launch import LaunchContext, Substitution
-from launch.frontend import parse_substitution
-from launch.substitutions import (
+from gz_course.sim.launch import LaunchContext, Substitution
+from gz_course.sim.launch.frontend import parse_substitution
+from gz_course.sim.launch.substitutions import (
     AllSubstitution,
     AndSubstitution,
     AnonName,
@@ -34,7 +34,7 @@ from launch.substitutions import (
     TextSubstitution,
     ThisLaunchFileDir,
 )
-from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 TEXT = st.text(st.characters(blacklist_categories=["Cs"], blacklist_characters="\0"))
 

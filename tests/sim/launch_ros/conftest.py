@@ -5,9 +5,9 @@ import sys
 
 import pytest
 
-import launch.logging
-from launch import LaunchDescription, LaunchService
-from tests.sim.launch.conftest import performed  # noqa: F401
+import gz_course.sim.launch.logging as launch_logging
+from gz_course.sim.launch import LaunchDescription, LaunchService
+from gz_course.tests.sim.launch.conftest import performed  # noqa: F401
 
 DEADLINE = 30.0
 # Writes its words, and what is in its parameter files, as one line of JSON.
@@ -23,9 +23,9 @@ print(json.dumps([words, files]))
 @pytest.fixture(autouse=True)
 def log_folder(tmp_path, monkeypatch):
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "ros_log"))
-    launch.logging.reset()
+    launch_logging.reset()
     yield
-    launch.logging.reset()
+    launch_logging.reset()
 
 
 @pytest.fixture
@@ -61,7 +61,7 @@ def tell(package, tmp_path, capsys):
     """Run actions to the end. No temporary file may be left."""
 
     def run(*entities, **configurations):
-        launch.logging.reset()
+        launch_logging.reset()
         service = LaunchService()
         service.context.launch_configurations.update(configurations)
         service.include_launch_description(LaunchDescription(list(entities)))

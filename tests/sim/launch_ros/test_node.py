@@ -10,11 +10,11 @@ from rclpy.exceptions import InvalidNamespaceException, InvalidNodeNameException
 from rclpy.validate_namespace import validate_namespace
 from rclpy.validate_node_name import validate_node_name
 
-from launch import LaunchContext
-from launch.actions import GroupAction
-from launch.errors import LaunchError
-from launch.substitutions import LaunchConfiguration, TextSubstitution
-from launch_ros.actions import (
+from gz_course.sim.launch import LaunchContext
+from gz_course.sim.launch.actions import GroupAction
+from gz_course.sim.launch.errors import LaunchError
+from gz_course.sim.launch.substitutions import LaunchConfiguration, TextSubstitution
+from gz_course.sim.launch_ros.actions import (
     ComposableNodeContainer,
     LifecycleNode,
     LoadComposableNodes,
@@ -26,10 +26,10 @@ from launch_ros.actions import (
     SetRemap,
     SetUseSimTime,
 )
-from launch_ros.descriptions import ComposableNode, ParameterFile
-from launch_ros.node_name import check_namespace, check_node_name, joined
-from launch_ros.parameter_descriptions import Parameter, ParameterValue
-from launch_ros.substitutions import ExecutableInPackage, FindPackage, FindPackagePrefix, FindPackageShare
+from gz_course.sim.launch_ros.descriptions import ComposableNode, ParameterFile
+from gz_course.sim.launch_ros.node_name import check_namespace, check_node_name, joined
+from gz_course.sim.launch_ros.parameter_descriptions import Parameter, ParameterValue
+from gz_course.sim.launch_ros.substitutions import ExecutableInPackage, FindPackage, FindPackagePrefix, FindPackageShare
 
 
 def node(**options):

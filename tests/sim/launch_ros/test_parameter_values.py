@@ -12,10 +12,16 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from launch import LaunchContext
-from launch.substitutions import LaunchConfiguration, TextSubstitution
-from launch_ros.parameter_descriptions import Parameter, ParameterValue
-from launch_ros.parameter_values import ParameterTypeError, as_argument, as_file, evaluate_value, flattened
+from gz_course.sim.launch import LaunchContext
+from gz_course.sim.launch.substitutions import LaunchConfiguration, TextSubstitution
+from gz_course.sim.launch_ros.parameter_descriptions import Parameter, ParameterValue
+from gz_course.sim.launch_ros.parameter_values import (
+    ParameterTypeError,
+    as_argument,
+    as_file,
+    evaluate_value,
+    flattened,
+)
 
 
 def text(value):

@@ -10,10 +10,10 @@ from pathlib import Path
 import psutil
 import pytest
 
-from launch import LaunchContext
-from launch.launch_description_sources import get_launch_description_from_python_launch_file
-from launch_ros.substitutions import FindPackageShare
-from prefix import local_setup
+from gz_course.sim.launch import LaunchContext
+from gz_course.sim.launch.launch_description_sources import get_launch_description_from_python_launch_file
+from gz_course.sim.launch_ros.substitutions import FindPackageShare
+from gz_course.sim.prefix import local_setup
 
 SHARE = Path(local_setup.PREFIX) / "share"
 FILES = sorted(SHARE.glob("*/launch/*.launch.py"))

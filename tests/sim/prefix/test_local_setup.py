@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from prefix import local_setup
+from gz_course.sim.prefix import local_setup
 
 PREFIX = Path(local_setup.PREFIX)
 WHEELS = ("_ROS_WHEELS_BOOTSTRAP_COMPLETE", "LD_LIBRARY_PATH")

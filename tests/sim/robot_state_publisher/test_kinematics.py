@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz.sim.errors import SdfError
-from gz.sim.pose import Pose
-from gz.sim.world import World
-from robot_state_publisher.kinematics import Kinematics
+from gz_course.sim.gz.sim.errors import SdfError
+from gz_course.sim.gz.sim.pose import Pose
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.robot_state_publisher.kinematics import Kinematics
 
 INERTIA = "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>"
 

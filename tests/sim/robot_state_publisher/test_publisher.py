@@ -14,7 +14,7 @@ URDF = (
 @pytest.fixture
 def publisher(ros_node):
     """A publisher with these values over the defaults; what it sends is in the lists `sent` and `static`."""
-    from robot_state_publisher.publisher import DEFAULTS, StatePublisher
+    from gz_course.sim.robot_state_publisher.publisher import DEFAULTS, StatePublisher
 
     def make(**values):
         sent, static = [], []
@@ -109,7 +109,7 @@ def test_joint_states_are_heard(publisher, ros_node, spin_until):
 
 @pytest.mark.parametrize("frequency", [-1.0, 1001.0, math.nan])
 def test_a_frequency_that_makes_no_sense(publisher, frequency):
-    from ros_gz_bridge.ros_program import UsageError
+    from gz_course.sim.ros_gz_bridge.ros_program import UsageError
 
     with pytest.raises(UsageError, match="publish_frequency must be 0 to 1000 Hz"):
         publisher(publish_frequency=frequency)

@@ -39,10 +39,10 @@ def test_who_comes_later_hears_the_description(programs, latched, number):
 
 
 def test_a_xacro_file_is_expanded(programs, latched):
-    from robot_state_publisher.kinematics import Kinematics
+    from gz_course.sim.robot_state_publisher.kinematics import Kinematics
 
     (programs.folder / "robot.urdf.xacro").write_text(XACRO)
-    program = programs.module("robot_state_publisher.robot_state_publisher", "robot.urdf.xacro")
+    program = programs.module("gz_course.sim.robot_state_publisher.robot_state_publisher", "robot.urdf.xacro")
     program.wait_for("Robot initialized")
     text = latched("/robot_description")
     assert "_place_" not in text
@@ -56,7 +56,9 @@ def test_an_installed_one_does_the_work(programs):
     program.write_text('#!/bin/sh\necho "the real one: $*"\nexit 7\n')
     program.chmod(0o755)
     path = f"{programs.environment['AMENT_PREFIX_PATH']}:{programs.folder}"
-    ended, said = programs.finished("robot_state_publisher.robot_state_publisher", "a.urdf", AMENT_PREFIX_PATH=path)
+    ended, said = programs.finished(
+        "gz_course.sim.robot_state_publisher.robot_state_publisher", "a.urdf", AMENT_PREFIX_PATH=path
+    )
     assert (ended, said) == (7, "the real one: a.urdf\n")
 
 
@@ -77,5 +79,5 @@ def test_an_installed_one_does_the_work(programs):
     ],
 )
 def test_what_makes_no_sense(call, words, sentence):
-    code, said = call("robot_state_publisher.robot_state_publisher", *words)
+    code, said = call("gz_course.sim.robot_state_publisher.robot_state_publisher", *words)
     assert (code, sentence in said) == (2, True), said

@@ -10,8 +10,8 @@ from concurrent.futures import ThreadPoolExecutor
 import psutil
 import pytest
 
-from grader.run.domain import Domain
-from tests.sim.spinning import spin
+from gz_course.grader.run.domain import Domain
+from gz_course.tests.sim.spinning import spin
 
 DEADLINE = 30.0
 

@@ -4,8 +4,8 @@ import sys
 
 import pytest
 
-from ros2.command_line import COMMANDS, found, load, main
-from ros2.hand_over import environment_without_wheels
+from gz_course.sim.ros2.command_line import COMMANDS, found, load, main
+from gz_course.sim.ros2.hand_over import environment_without_wheels
 
 
 @pytest.mark.parametrize("arguments", [[], ["--help"]])
@@ -86,9 +86,9 @@ def test_a_ros2cli_of_the_same_python_takes_over(ros2, tmp_path):
 
 def test_our_own_fault_is_one_sentence(monkeypatch, capsys):
     monkeypatch.setattr("signal.signal", lambda number, handler: None)
-    monkeypatch.setattr("ros2.command_line.hand_over", lambda arguments: None)
+    monkeypatch.setattr("gz_course.sim.ros2.command_line.hand_over", lambda arguments: None)
     monkeypatch.setattr("sys.stdout.reconfigure", lambda **options: None, raising=False)
-    monkeypatch.setattr("ros2.command_line._run", lambda *arguments: 1 / 0)
+    monkeypatch.setattr("gz_course.sim.ros2.command_line._run", lambda *arguments: 1 / 0)
     assert main(["topic"]) == 1
     assert capsys.readouterr().err == "ros2: internal error: ZeroDivisionError: division by zero\n"
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from ros2.command_line import COMMANDS, found
-from ros2.completion import candidates
+from gz_course.sim.ros2.command_line import COMMANDS, found
+from gz_course.sim.ros2.completion import candidates
 
 
 def offered(*words):

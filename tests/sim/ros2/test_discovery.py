@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ros2 import discovery, graph
-from ros2.discovery import Participants, announcement, farewell
-from ros2.graph import Graph
+from gz_course.sim.ros2 import discovery, graph
+from gz_course.sim.ros2.discovery import Participants, announcement, farewell
+from gz_course.sim.ros2.graph import Graph
 
 ROUNDS = 6
 PREFIXES = st.binary(min_size=12, max_size=12)

@@ -6,8 +6,8 @@ import sys
 
 import pytest
 
-from ros2.command import doctor
-from ros2.errors import CommandError
+from gz_course.sim.ros2.command import doctor
+from gz_course.sim.ros2.errors import CommandError
 
 
 @pytest.fixture

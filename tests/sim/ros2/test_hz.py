@@ -2,7 +2,7 @@
 
 import pytest
 
-from ros2.command.topic.hz import Rate
+from gz_course.sim.ros2.command.topic.hz import Rate
 
 MS = 1_000_000
 

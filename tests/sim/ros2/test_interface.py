@@ -4,9 +4,9 @@ import pytest
 import yaml
 from geometry_msgs.msg import Twist
 
-from ros2.command_line import main
-from ros2.interface import interface_names
-from ros2.message_text import TextFormat, to_yaml
+from gz_course.sim.ros2.command_line import main
+from gz_course.sim.ros2.interface import interface_names
+from gz_course.sim.ros2.message_text import TextFormat, to_yaml
 
 ODOMETRY = """\
 std_msgs/Header header
@@ -45,7 +45,7 @@ geometry_msgs/TwistWithCovariance twist
 def interface(capsys, monkeypatch):
     """Run `ros2 interface` in this process: (exit code, stdout, stderr)."""
     monkeypatch.setattr("signal.signal", lambda number, handler: None)
-    monkeypatch.setattr("ros2.command_line.hand_over", lambda arguments: None)
+    monkeypatch.setattr("gz_course.sim.ros2.command_line.hand_over", lambda arguments: None)
 
     def run(*words):
         monkeypatch.setattr("sys.stdout.reconfigure", lambda **options: None, raising=False)

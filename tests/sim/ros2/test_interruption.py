@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from ros2 import interruption
+from gz_course.sim.ros2 import interruption
 
 
 class Deaf:

@@ -338,7 +338,7 @@ def test_simulator_bridge_and_node_drive_a_robot_and_end_together(start, workspa
 
 @pytest.mark.skipif(not SEEDS.is_dir(), reason="the textbook's files are not here")
 def test_the_textbook_runs_as_printed(start, tmp_path, ros_domain, gz):
-    from gz.sim.sdf.resources import BUILT_IN_WORLDS
+    from gz_course.sim.gz.sim.sdf.resources import BUILT_IN_WORLDS
 
     shutil.copy(BUILT_IN_WORLDS / "lidar_room.sdf", tmp_path / "my_first_world.sdf")
     path = SEEDS / "sim_with_bridge.launch.py"

@@ -5,9 +5,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from std_msgs.msg import Header
 
-from ros2.command.topic.bw import Bandwidth
-from ros2.command.topic.delay import Delay
-from ros2.measurement import spread
+from gz_course.sim.ros2.command.topic.bw import Bandwidth
+from gz_course.sim.ros2.command.topic.delay import Delay
+from gz_course.sim.ros2.measurement import spread
 
 MS = 1_000_000
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from sensor_msgs.msg import Imu, LaserScan
 from std_msgs.msg import Byte, Header, String
 
-from ros2.message_text import TextFormat, to_csv, to_yaml
+from gz_course.sim.ros2.message_text import TextFormat, to_csv, to_yaml
 
 
 def test_fields_come_in_the_order_of_the_definition_with_floats_as_they_are():

@@ -18,9 +18,9 @@ from std_srvs.srv import SetBool
 from trajectory_msgs.msg import JointTrajectory
 from visualization_msgs.msg import Marker
 
-from ros2.errors import CommandError
-from ros2.message_text import TextFormat, to_line, to_yaml
-from ros2.message_value import fill, parse_yaml
+from gz_course.sim.ros2.errors import CommandError
+from gz_course.sim.ros2.message_text import TextFormat, to_line, to_yaml
+from gz_course.sim.ros2.message_value import fill, parse_yaml
 
 REAL_TYPES = [
     *(BatteryState, Bool, Byte, Char, Empty, Float32, Float64, Image, Imu, Int64, Int8, JointState, JointTrajectory),

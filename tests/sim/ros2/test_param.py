@@ -7,8 +7,16 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ros2.errors import CommandError
-from ros2.parameter import flat, kind_word, nested, parameter_value, python_value, type_word, value_from_yaml
+from gz_course.sim.ros2.errors import CommandError
+from gz_course.sim.ros2.parameter import (
+    flat,
+    kind_word,
+    nested,
+    parameter_value,
+    python_value,
+    type_word,
+    value_from_yaml,
+)
 
 NODE = "/robot/driver"
 VALUES = {

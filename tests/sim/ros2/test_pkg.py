@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from prefix.local_setup import PREFIX
+from gz_course.sim.prefix.local_setup import PREFIX
 
 
 def test_list_names_the_packages_of_all_prefixes(ros2, workspace):

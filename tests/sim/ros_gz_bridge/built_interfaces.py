@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy
 
-from tests.sim.ros_gz_bridge.absent_interfaces import generate
+from gz_course.tests.sim.ros_gz_bridge.absent_interfaces import generate
 
 BUILT = {
     "ros_gz_interfaces": [

@@ -11,8 +11,8 @@ import warnings
 
 import pytest
 
-from grader.run.domain import Domain
-from tests.sim.spinning import spin
+from gz_course.grader.run.domain import Domain
+from gz_course.tests.sim.spinning import spin
 
 with warnings.catch_warnings():
     # The parser that ROS's message packages bring along (lark) still imports a deprecated module.
@@ -20,7 +20,7 @@ with warnings.catch_warnings():
     import rosidl_generator_py  # noqa: F401
 
 DEADLINE = 20.0
-COMMAND = [sys.executable, "-m", "ros_gz_bridge.parameter_bridge"]
+COMMAND = [sys.executable, "-m", "gz_course.sim.ros_gz_bridge.parameter_bridge"]
 
 
 class Inbox:

@@ -11,7 +11,7 @@ from rcl_interfaces.msg import ParameterValue
 from sensor_msgs.msg import Image, JointState
 from std_msgs.msg import Header
 
-from ros_gz_bridge.convert.sensor_msgs.cameras import ENCODINGS
+from gz_course.sim.ros_gz_bridge.convert.sensor_msgs.cameras import ENCODINGS
 
 SCALARS = {
     "boolean": st.booleans(),

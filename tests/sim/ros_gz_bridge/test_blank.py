@@ -8,8 +8,8 @@ from geometry_msgs.msg import Twist, Vector3
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import CameraInfo, LaserScan
 
-from ros_gz_bridge.blank import blank
-from ros_gz_bridge.type_pairs import pairs
+from gz_course.sim.ros_gz_bridge.blank import blank
+from gz_course.sim.ros_gz_bridge.type_pairs import pairs
 
 CLASSES = sorted({pair.ros_class for pair in pairs()}, key=str)
 

@@ -6,18 +6,18 @@ import uuid
 
 import pytest
 from geometry_msgs.msg import Twist, TwistStamped
-from gz.msgs.clock_pb2 import Clock as GzClock
-from gz.msgs.image_pb2 import Image as GzImage
-from gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
-from gz.msgs.twist_pb2 import Twist as GzTwist
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Image, LaserScan
 
-from gz.transport import MessageInfo, Node, NodeOptions, Scope
-from ros_gz_bridge.arguments import parse_argument
-from ros_gz_bridge.bridge import Bridge, BridgeEntry, BridgeError, Direction, HeaderOverrides
-from ros_gz_bridge.qos_profile import QOS_PROFILES
+from gz_course.sim.gz.msgs.clock_pb2 import Clock as GzClock
+from gz_course.sim.gz.msgs.image_pb2 import Image as GzImage
+from gz_course.sim.gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
+from gz_course.sim.gz.msgs.twist_pb2 import Twist as GzTwist
+from gz_course.sim.gz.transport import MessageInfo, Node, NodeOptions, Scope
+from gz_course.sim.ros_gz_bridge.arguments import parse_argument
+from gz_course.sim.ros_gz_bridge.bridge import Bridge, BridgeEntry, BridgeError, Direction, HeaderOverrides
+from gz_course.sim.ros_gz_bridge.qos_profile import QOS_PROFILES
 
 TWIST = ("geometry_msgs/msg/Twist", "gz.msgs.Twist")
 SCAN = ("sensor_msgs/msg/LaserScan", "gz.msgs.LaserScan")

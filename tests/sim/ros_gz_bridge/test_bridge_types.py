@@ -6,8 +6,8 @@ import sys
 
 import pytest
 
-from ros_gz_bridge import type_pairs
-from ros_gz_bridge.bridge_types import main
+from gz_course.sim.ros_gz_bridge import type_pairs
+from gz_course.sim.ros_gz_bridge.bridge_types import main
 
 
 def test_every_pair_is_printed_once(capsys):
@@ -66,7 +66,7 @@ def test_a_wrong_call_says_how_it_is_done(capsys, arguments):
 
 
 def test_ros2_run_finds_it():
-    ros2 = "import sys; from ros2.command_line import main; sys.exit(main())"
+    ros2 = "import sys; from gz_course.sim.ros2.command_line import main; sys.exit(main())"
     command = [sys.executable, "-c", ros2, "run", "ros_gz_bridge", "bridge_types"]
     done = subprocess.run(
         [*command, "--get-gz-to-ros", "gz.msgs.Clock"], capture_output=True, text=True, timeout=60, check=False
@@ -76,7 +76,7 @@ def test_ros2_run_finds_it():
 
 def test_a_reader_that_has_seen_enough_is_no_fault():
     with subprocess.Popen(
-        [sys.executable, "-m", "ros_gz_bridge.bridge_types", "--print-pairs"],
+        [sys.executable, "-m", "gz_course.sim.ros_gz_bridge.bridge_types", "--print-pairs"],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,

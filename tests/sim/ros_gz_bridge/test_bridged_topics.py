@@ -4,8 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ros_gz_bridge import bridged_topics
-from ros_gz_bridge.entry import BridgeEntry, Direction
+from gz_course.sim.ros_gz_bridge import bridged_topics
+from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction
 
 NAMES = st.text(min_size=1, max_size=30)
 ENTRIES = st.builds(BridgeEntry, NAMES, NAMES, NAMES, NAMES, direction=st.sampled_from(Direction), lazy=st.booleans())

@@ -25,7 +25,7 @@ pytestmark = pytest.mark.skipif(not (shutil.which("gcc") and shutil.which("g++")
 def python_path(tmp_path_factory):
     """A folder with the built packages."""
     folder = tmp_path_factory.mktemp("built")
-    words = [sys.executable, "-m", "tests.sim.ros_gz_bridge.built_interfaces", str(folder)]
+    words = [sys.executable, "-m", "gz_course.tests.sim.ros_gz_bridge.built_interfaces", str(folder)]
     done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, timeout=400, check=False)
     assert done.returncode == 0, done.stderr
     return {"PYTHONPATH": os.pathsep.join(filter(None, [str(folder / "python"), os.environ.get("PYTHONPATH")]))}
@@ -76,7 +76,7 @@ def test_what_cannot_be_done_is_said(bridge, call):
 
 
 def test_transforms_arrive(programs, python_path, bridge):
-    from gz.msgs.pose_v_pb2 import Pose_V
+    from gz_course.sim.gz.msgs.pose_v_pb2 import Pose_V
 
     poses = Pose_V()
     pose = poses.pose.add()

@@ -5,11 +5,6 @@ import operator
 from array import array
 
 import pytest
-from gz.msgs.image_pb2 import Image as GzImage
-from gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
-from gz.msgs.odometry_pb2 import Odometry as GzOdometry
-from gz.msgs.pose_pb2 import Pose as GzPose
-from gz.msgs.time_pb2 import Time as GzTime
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rcl_interfaces.msg import ParameterValue
@@ -17,10 +12,15 @@ from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import CameraInfo, Image, JointState, LaserScan, PointCloud2, PointField, Range
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from ros_gz_bridge import type_pairs
-from ros_gz_bridge.header import header_to_ros, set_header_value
-from ros_gz_bridge.type_pairs import ConversionError, find_pair
-from tests.sim.ros_gz_bridge.ros_messages import messages, plain
+from gz_course.sim.gz.msgs.image_pb2 import Image as GzImage
+from gz_course.sim.gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
+from gz_course.sim.gz.msgs.odometry_pb2 import Odometry as GzOdometry
+from gz_course.sim.gz.msgs.pose_pb2 import Pose as GzPose
+from gz_course.sim.gz.msgs.time_pb2 import Time as GzTime
+from gz_course.sim.ros_gz_bridge import type_pairs
+from gz_course.sim.ros_gz_bridge.header import header_to_ros, set_header_value
+from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError, find_pair
+from gz_course.tests.sim.ros_gz_bridge.ros_messages import messages, plain
 
 PAIRS = type_pairs.pairs()
 # What a message of Gazebo cannot carry, and so what comes back.

@@ -9,15 +9,15 @@ import re
 import sys
 
 import pytest
-from gz.msgs.pose_v_pb2 import Pose_V
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from ros_gz_bridge import type_pairs
-from ros_gz_bridge.header import set_header_value
-from ros_gz_bridge.type_pairs import ConversionError, UnknownPairError, find_pair, find_service
-from tests.sim.ros_gz_bridge.absent_interfaces import DEFINITIONS, generate
-from tests.sim.ros_gz_bridge.ros_messages import messages, plain
+from gz_course.sim.gz.msgs.pose_v_pb2 import Pose_V
+from gz_course.sim.ros_gz_bridge import type_pairs
+from gz_course.sim.ros_gz_bridge.header import set_header_value
+from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError, UnknownPairError, find_pair, find_service
+from gz_course.tests.sim.ros_gz_bridge.absent_interfaces import DEFINITIONS, generate
+from gz_course.tests.sim.ros_gz_bridge.ros_messages import messages, plain
 
 PACKAGES = [name for name in DEFINITIONS if importlib.util.find_spec(name) is None]
 pytestmark = pytest.mark.skipif(len(PACKAGES) < len(DEFINITIONS), reason="some of the packages are installed")

@@ -3,11 +3,11 @@
 import threading
 from collections import Counter
 
-from gz.msgs.stringmsg_pb2 import StringMsg
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ros_gz_bridge.echo_filter import EchoFilter, GzEcho
+from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+from gz_course.sim.ros_gz_bridge.echo_filter import EchoFilter, GzEcho
 
 US = 1000
 

@@ -2,7 +2,7 @@
 
 import threading
 
-from ros_gz_bridge.lane import Lane
+from gz_course.sim.ros_gz_bridge.lane import Lane
 
 DEADLINE = 20.0
 
@@ -31,7 +31,7 @@ def test_order_bound_and_count_of_what_gave_way():
 
 
 def test_memory_is_bounded_however_deep_the_queue(monkeypatch):
-    monkeypatch.setattr("ros_gz_bridge.lane._MOST_BYTES", 1000)
+    monkeypatch.setattr("gz_course.sim.ros_gz_bridge.lane._MOST_BYTES", 1000)
     entered, let_go = threading.Event(), threading.Event()
 
     def work(data):

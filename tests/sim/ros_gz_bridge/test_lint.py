@@ -8,11 +8,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ros_gz_bridge.arguments import read_arguments
-from ros_gz_bridge.checks import check, private_gz_names
-from ros_gz_bridge.config import read_yaml
-from ros_gz_bridge.entry import BridgeEntry, Direction
-from ros_gz_bridge.lint import main
+from gz_course.sim.ros_gz_bridge.arguments import read_arguments
+from gz_course.sim.ros_gz_bridge.checks import check, private_gz_names
+from gz_course.sim.ros_gz_bridge.config import read_yaml
+from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction
+from gz_course.sim.ros_gz_bridge.lint import main
 
 CLOCK = ("rosgraph_msgs/msg/Clock", "gz.msgs.Clock")
 TF = ("tf2_msgs/msg/TFMessage", "gz.msgs.Pose_V")

@@ -7,14 +7,14 @@ import sys
 
 import pytest
 from geometry_msgs.msg import Twist
-from gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
-from gz.msgs.twist_pb2 import Twist as GzTwist
 from sensor_msgs.msg import LaserScan
 
-from gz.transport import Node
+from gz_course.sim.gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
+from gz_course.sim.gz.msgs.twist_pb2 import Twist as GzTwist
+from gz_course.sim.gz.transport import Node
 
 DEADLINE = 20.0
-COMMAND = [sys.executable, "-m", "ros_gz_bridge.parameter_bridge"]
+COMMAND = [sys.executable, "-m", "gz_course.sim.ros_gz_bridge.parameter_bridge"]
 
 
 def run(*arguments):

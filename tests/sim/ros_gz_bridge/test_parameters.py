@@ -6,11 +6,11 @@ import subprocess
 import sys
 
 import pytest
-from gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 from sensor_msgs.msg import LaserScan
 
-from gz.transport import Node
+from gz_course.sim.gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
+from gz_course.sim.gz.transport import Node
 
 DEADLINE = 20.0
 PARAMETERS = """\
@@ -38,7 +38,7 @@ PARAMETERS = """\
 
 def fails(*arguments):
     """The sentences of a bridge that does not start."""
-    command = [sys.executable, "-m", "ros_gz_bridge.parameter_bridge", *arguments]
+    command = [sys.executable, "-m", "gz_course.sim.ros_gz_bridge.parameter_bridge", *arguments]
     done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
     assert done.returncode == 2, done.stderr
     assert "Traceback" not in done.stderr

@@ -3,7 +3,7 @@
 import pytest
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 
-from ros_gz_bridge.qos_profile import depth_of, qos
+from gz_course.sim.ros_gz_bridge.qos_profile import depth_of, qos
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ from geometry_msgs.msg import Twist
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from std_msgs.msg import Int32
 
-from ros_gz_bridge.ros_listener import RosListener
+from gz_course.sim.ros_gz_bridge.ros_listener import RosListener
 
 DEADLINE = 20.0
 

@@ -5,17 +5,17 @@ import uuid
 
 import pytest
 from geometry_msgs.msg import Twist
-from gz.msgs.boolean_pb2 import Boolean
-from gz.msgs.stringmsg_pb2 import StringMsg
-from gz.msgs.twist_pb2 import Twist as GzTwist
 from std_srvs.srv import SetBool
 
-from gz.transport import Node, NodeOptions, Scope
-from ros_gz_bridge import type_pairs
-from ros_gz_bridge.arguments import parse_argument
-from ros_gz_bridge.bridge import Bridge, BridgeError
-from ros_gz_bridge.config import ConfigError, parse_yaml, read_yaml
-from ros_gz_bridge.entry import BridgeEntry, Direction, ServiceEntry
+from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
+from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+from gz_course.sim.gz.msgs.twist_pb2 import Twist as GzTwist
+from gz_course.sim.gz.transport import Node, NodeOptions, Scope
+from gz_course.sim.ros_gz_bridge import type_pairs
+from gz_course.sim.ros_gz_bridge.arguments import parse_argument
+from gz_course.sim.ros_gz_bridge.bridge import Bridge, BridgeError
+from gz_course.sim.ros_gz_bridge.config import ConfigError, parse_yaml, read_yaml
+from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction, ServiceEntry
 
 TYPES = ("std_srvs/srv/SetBool", "gz.msgs.Boolean", "gz.msgs.StringMsg")
 DEADLINE = 20.0

@@ -5,15 +5,15 @@ import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import pytest
-from gz.msgs.image_pb2 import Image as GzImage
-from gz.msgs.int32_pb2 import Int32 as GzInt32
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import Image
 from std_msgs.msg import Int32
 
-from gz.transport import Node
-from ros_gz_bridge import shared_memory
-from ros_gz_bridge.shared_memory import profile, room_for_pictures
+from gz_course.sim.gz.msgs.image_pb2 import Image as GzImage
+from gz_course.sim.gz.msgs.int32_pb2 import Int32 as GzInt32
+from gz_course.sim.gz.transport import Node
+from gz_course.sim.ros_gz_bridge import shared_memory
+from gz_course.sim.ros_gz_bridge.shared_memory import profile, room_for_pictures
 
 SETTINGS = (
     "FASTRTPS_DEFAULT_PROFILES_FILE",

@@ -4,9 +4,15 @@ import importlib.util
 
 import pytest
 
-import ros_gz_bridge.convert
-from ros_gz_bridge import type_pairs
-from ros_gz_bridge.type_pairs import MissingPackageError, UnknownPairError, canonical_gz_type, find_pair, find_service
+import gz_course.sim.ros_gz_bridge.convert as ros_gz_bridge_convert
+from gz_course.sim.ros_gz_bridge import type_pairs
+from gz_course.sim.ros_gz_bridge.type_pairs import (
+    MissingPackageError,
+    UnknownPairError,
+    canonical_gz_type,
+    find_pair,
+    find_service,
+)
 
 
 def test_every_package_of_the_folder_contributes_pairs():
@@ -43,7 +49,7 @@ def test_an_unknown_pair_names_the_nearest(ros_type, gz_type, words):
 
 def test_a_file_for_a_package_that_is_absent_is_passed_over(tmp_path, monkeypatch):
     (tmp_path / "absent_msgs.py").write_text("from absent_msgs.msg import Thing\n")
-    monkeypatch.setattr(ros_gz_bridge.convert, "__path__", [*ros_gz_bridge.convert.__path__, str(tmp_path)])
+    monkeypatch.setattr(ros_gz_bridge_convert, "__path__", [*ros_gz_bridge_convert.__path__, str(tmp_path)])
     assert "absent_msgs" in type_pairs.missing_packages()
     assert type_pairs.pairs()
     with pytest.raises(MissingPackageError, match="needs the ROS package absent_msgs, which is not installed"):
@@ -52,9 +58,9 @@ def test_a_file_for_a_package_that_is_absent_is_passed_over(tmp_path, monkeypatc
 
 def test_a_new_file_in_the_folder_is_a_new_pair(tmp_path, monkeypatch):
     (tmp_path / "std_srvs.py").write_text(
-        "from ros_gz_bridge.type_pairs import _pairs\n_pairs['std_srvs/msg/A', 'b'] = 'pair'\n"
+        "from gz_course.sim.ros_gz_bridge.type_pairs import _pairs\n_pairs['std_srvs/msg/A', 'b'] = 'pair'\n"
     )
-    monkeypatch.setattr(ros_gz_bridge.convert, "__path__", [*ros_gz_bridge.convert.__path__, str(tmp_path)])
+    monkeypatch.setattr(ros_gz_bridge_convert, "__path__", [*ros_gz_bridge_convert.__path__, str(tmp_path)])
     monkeypatch.setattr(type_pairs, "_pairs", dict(type_pairs._pairs))
     monkeypatch.setattr(type_pairs, "_loaded", set(type_pairs._loaded))
     assert find_pair("std_srvs/msg/A", "b") == "pair"

@@ -3,12 +3,12 @@
 import uuid
 
 import pytest
-from gz.msgs.laserscan_pb2 import LaserScan
-from gz.msgs.twist_pb2 import Twist
 
-from gz.transport import Node, NodeOptions, Scope
-from ros_gz_bridge.entry import BridgeEntry, Direction
-from ros_gz_bridge.watch import MISSING_AFTER_S, Watch
+from gz_course.sim.gz.msgs.laserscan_pb2 import LaserScan
+from gz_course.sim.gz.msgs.twist_pb2 import Twist
+from gz_course.sim.gz.transport import Node, NodeOptions, Scope
+from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction
+from gz_course.sim.ros_gz_bridge.watch import MISSING_AFTER_S, Watch
 
 SCAN = ("sensor_msgs/msg/LaserScan", "gz.msgs.LaserScan")
 

@@ -1,8 +1,9 @@
 """image_bridge as a process: pictures of a Gazebo node arrive in ROS as they were."""
 
 import pytest
-from gz.msgs.image_pb2 import Image as GzImage
-from gz.msgs.image_pb2 import PixelFormatType
+
+from gz_course.sim.gz.msgs.image_pb2 import Image as GzImage
+from gz_course.sim.gz.msgs.image_pb2 import PixelFormatType
 
 DEADLINE = 30.0
 
@@ -95,5 +96,5 @@ def test_a_picture_without_a_ros_format_is_told(programs, bridge):
     ],
 )
 def test_what_makes_no_sense(call, words, sentence):
-    code, said = call("ros_gz_image.image_bridge", *words)
+    code, said = call("gz_course.sim.ros_gz_image.image_bridge", *words)
     assert (code, sentence in said) == (2, True), said

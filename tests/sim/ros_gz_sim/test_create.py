@@ -35,7 +35,7 @@ def world(programs):
 
 @pytest.fixture
 def create(world):
-    return lambda *words, **variables: world.finished("ros_gz_sim.create", *words, **variables)
+    return lambda *words, **variables: world.finished("gz_course.sim.ros_gz_sim.create", *words, **variables)
 
 
 def test_a_file_at_a_pose(create, world):
@@ -120,12 +120,12 @@ def test_a_taken_name(create, world):
     ],
 )
 def test_what_goes_wrong(world, call, words, code, sentence):
-    ended, said = call("ros_gz_sim.create", *words)
+    ended, said = call("gz_course.sim.ros_gz_sim.create", *words)
     assert (ended, sentence in said) == (code, True), said
 
 
 def test_another_world_is_told_at_once_with_the_nearest_name(world, call):
-    said = call("ros_gz_sim.create", "-file", "cube.sdf", "-world", "smal", "-timeout", "0.5")[1]
+    said = call("gz_course.sim.ros_gz_sim.create", "-file", "cube.sdf", "-world", "smal", "-timeout", "0.5")[1]
     assert "Waiting for world 'smal': worlds that run are: small; did you mean 'small'?" in said
 
 
@@ -140,7 +140,7 @@ def test_a_world_without_user_commands(programs, create):
     partition = f"{programs.partition}-bare"
     path = programs.folder / "bare.sdf"
     path.write_text(f"<sdf version='1.9'><world name='bare'>{world}</world></sdf>")
-    programs.module("ros_gz_sim.gzserver", "-world_sdf_file", path, GZ_PARTITION=partition)
+    programs.module("gz_course.sim.ros_gz_sim.gzserver", "-world_sdf_file", path, GZ_PARTITION=partition)
     code, said = create("-string", CUBE, "-timeout", "3", GZ_PARTITION=partition)
     assert code == 1
     assert "world 'bare' runs but offers no service" in said
@@ -149,13 +149,15 @@ def test_a_world_without_user_commands(programs, create):
 
 def test_the_simulator_may_start_later(programs, create, free_domain):
     partition = f"{programs.partition}-late"
-    early = programs.module("ros_gz_sim.create", "-topic", "/late_text", "-timeout", "25", GZ_PARTITION=partition)
+    early = programs.module(
+        "gz_course.sim.ros_gz_sim.create", "-topic", "/late_text", "-timeout", "25", GZ_PARTITION=partition
+    )
     text = programs.module(
-        "ros_gz_sim.create", "-string", CUBE, "-world", "late", "-timeout", "25", GZ_PARTITION=partition
+        "gz_course.sim.ros_gz_sim.create", "-string", CUBE, "-world", "late", "-timeout", "25", GZ_PARTITION=partition
     )
     early.wait_for("Waiting messages on topic [/late_text].")
     programs.module(
-        "ros_gz_sim.gzserver",
+        "gz_course.sim.ros_gz_sim.gzserver",
         "-world_sdf_string",
         f"<sdf version='1.9'><world name='late'>{GROUND}</world></sdf>",
         GZ_PARTITION=partition,
@@ -166,7 +168,9 @@ def test_the_simulator_may_start_later(programs, create, free_domain):
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_an_interrupt_ends_the_wait(programs, world, number):
-    waiting = programs.module("ros_gz_sim.create", "-file", "cube.sdf", "-world", "nowhere", "-timeout", "600")
+    waiting = programs.module(
+        "gz_course.sim.ros_gz_sim.create", "-file", "cube.sdf", "-world", "nowhere", "-timeout", "600"
+    )
     waiting.wait_for("Waiting for world 'nowhere'")
     assert waiting.stop(number) == 130
     assert "create: interrupted" in waiting.said

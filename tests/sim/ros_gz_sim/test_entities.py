@@ -15,7 +15,7 @@ def world(programs):
 
 @pytest.fixture
 def run(world):
-    return lambda name, *words: world.finished(f"ros_gz_sim.{name}", *words)
+    return lambda name, *words: world.finished(f"gz_course.sim.ros_gz_sim.{name}", *words)
 
 
 def test_remove(world, run):
@@ -69,19 +69,19 @@ def test_spawn_and_move(world, run):
     ],
 )
 def test_what_goes_wrong(world, call, words, code, sentence):
-    ended, said = call(f"ros_gz_sim.{words[0]}", *words[1:])
+    ended, said = call(f"gz_course.sim.ros_gz_sim.{words[0]}", *words[1:])
     assert (ended, sentence in said) == (code, True), said
 
 
 @pytest.mark.parametrize("name", ["create", "remove", "spawn_entity", "delete_entity", "set_entity_pose", "gzserver"])
 def test_help(call, name):
-    code, said = call(f"ros_gz_sim.{name}", "--help")
+    code, said = call(f"gz_course.sim.ros_gz_sim.{name}", "--help")
     assert code == 0
     assert said.startswith(f"usage: {name} ")
 
 
 def test_all_are_executables_of_the_package():
-    from ros2.packages import executables
+    from gz_course.sim.ros2.packages import executables
 
     names = {path.name for path in executables("ros_gz_sim")}
     assert names == {"create", "remove", "spawn_entity", "delete_entity", "set_entity_pose", "gzserver"}

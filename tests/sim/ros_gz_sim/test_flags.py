@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ros_gz_bridge.ros_program import UsageError
-from ros_gz_sim.flags import Flag, read
+from gz_course.sim.ros_gz_bridge.ros_program import UsageError
+from gz_course.sim.ros_gz_sim.flags import Flag, read
 
 FLAGS = (
     Flag("name", ""),

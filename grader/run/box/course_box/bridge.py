@@ -28,7 +28,7 @@ class Bridge:
         services: Iterable[Any] = (),
         **options: Any,
     ) -> None:
-        from ros_gz_bridge.entry import BridgeError
+        from gz_course.sim.ros_gz_bridge.entry import BridgeError
 
         self.entries = list(entries)
         self.services = list(services)
@@ -46,7 +46,7 @@ class Bridge:
 
     def status(self) -> list[Any]:
         """The counters of every entry; they are outside."""
-        from ros_gz_bridge.entry import EntryStatus
+        from gz_course.sim.ros_gz_bridge.entry import EntryStatus
 
         return [EntryStatus(entry) for entry in self.entries]
 
@@ -73,13 +73,13 @@ class Watcher:
 
 def install() -> None:
     """Put `Bridge` in place; ros_gz_bridge.bridge has just been imported."""
-    from ros_gz_bridge import bridge
+    from gz_course.sim.ros_gz_bridge import bridge
 
     bridge.Bridge = Bridge  # type: ignore[assignment, misc]
 
 
 def install_watcher() -> None:
     """Put `Watcher` in place; ros_gz_bridge.watch has just been imported."""
-    from ros_gz_bridge import watch
+    from gz_course.sim.ros_gz_bridge import watch
 
     watch.Watcher = Watcher  # type: ignore[assignment, misc]

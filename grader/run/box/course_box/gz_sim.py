@@ -24,8 +24,8 @@ class World:
     @classmethod
     def load(cls, path_or_name: str | Path, **options: Any) -> World:
         """Have a world loaded outside: a built-in one, or a file that was handed in. Raises SimError as it would."""
-        from gz.sim.errors import SimError
-        from gz.sim.sdf.resources import BUILT_IN_WORLDS, find_world
+        from gz_course.sim.gz.sim.errors import SimError
+        from gz_course.sim.gz.sim.sdf.resources import BUILT_IN_WORLDS, find_world
 
         channel().listen(hear)
         found = find_world(path_or_name).resolve()

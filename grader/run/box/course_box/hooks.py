@@ -22,11 +22,11 @@ AFTER = {
 }
 # The same where the grader serves Gazebo's programs, and the modules of ours that stand for those on the left.
 AFTER_WHEN_SERVED = {
-    "ros_gz_bridge.bridge": ("bridge", "install"),
-    "ros_gz_bridge.watch": ("bridge", "install_watcher"),
-    "ros_gz_sim.running_world": ("running_world", "install"),
+    "gz_course.sim.ros_gz_bridge.bridge": ("bridge", "install"),
+    "gz_course.sim.ros_gz_bridge.watch": ("bridge", "install_watcher"),
+    "gz_course.sim.ros_gz_sim.running_world": ("running_world", "install"),
 }
-INSTEAD_WHEN_SERVED = {"gz.sim.world": "gz_sim", "gz.sim.server": "gz_sim"}
+INSTEAD_WHEN_SERVED = {"gz_course.sim.gz.sim.world": "gz_sim", "gz_course.sim.gz.sim.server": "gz_sim"}
 
 
 class Hooks:

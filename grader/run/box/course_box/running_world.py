@@ -23,7 +23,7 @@ class RunningWorld:
     def __init__(
         self, node: Any, name: str, timeout: float, warn: Callable[[str], object], *, start: float | None = None
     ) -> None:
-        from ros_gz_bridge.ros_program import Failure
+        from gz_course.sim.ros_gz_bridge.ros_program import Failure
 
         end = (time.monotonic() if start is None else start) + timeout
         worlds: list[str] = []
@@ -57,6 +57,6 @@ class RunningWorld:
 
 def install() -> None:
     """Put `RunningWorld` in place; ros_gz_sim.running_world has just been imported."""
-    from ros_gz_sim import running_world
+    from gz_course.sim.ros_gz_sim import running_world
 
     running_world.RunningWorld = RunningWorld  # type: ignore[assignment, misc]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
-from grader.run.sandbox.order import Order
+from gz_course.grader.run.sandbox.order import Order
 
 ABOUT = "namespaces built by bubblewrap, a user of its own, a private network, limits"
 PRIVATE_NETWORK = True

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from grader.run.sandbox.landlock import command as command
-from grader.run.sandbox.landlock import missing as missing
+from gz_course.grader.run.sandbox.landlock import command as command
+from gz_course.grader.run.sandbox.landlock import missing as missing
 
 ABOUT = "namespaces built by Python, a user of its own, a private network, Landlock, limits"
 PRIVATE_NETWORK = True

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from grader.run.sandbox.order import Order
+from gz_course.grader.run.sandbox.order import Order
 
 ABOUT = "limits and a process group of its own: keeps accidents in, no jail for hostile code"
 PRIVATE_NETWORK = False

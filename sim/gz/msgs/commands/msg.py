@@ -10,10 +10,10 @@ import argparse
 import sys
 from typing import TYPE_CHECKING
 
-from gz.msgs import message_class, type_names
+from gz_course.sim.gz.msgs import message_class, type_names
 
 if TYPE_CHECKING:
-    from gz.command_line import Parser
+    from gz_course.sim.gz.command_line import Parser
 
 
 def add_arguments(parser: Parser) -> None:
@@ -29,7 +29,7 @@ def run(values: argparse.Namespace) -> int:
         for name in type_names():
             print(name)
     if values.info:
-        from gz.msgs.descriptor_text import describe
+        from gz_course.sim.gz.msgs.descriptor_text import describe
 
         for each in [message_class(name) for name in values.info]:
             sys.stdout.write(describe(each))

@@ -9,9 +9,9 @@ import argparse
 import sys
 from pathlib import Path
 
-from gz.command_line import Parser, nearest, whole_number
-from gz.sim.errors import SimError
-from gz.sim.tlog import Log
+from gz_course.sim.gz.command_line import Parser, nearest, whole_number
+from gz_course.sim.gz.sim.errors import SimError
+from gz_course.sim.gz.sim.tlog import Log
 
 
 def add_arguments(parser: Parser) -> None:
@@ -51,8 +51,8 @@ def _info(log: Log) -> int:
 
 
 def _echo(log: Log, topic: str, most: int) -> int:
-    from gz.msgs import message_class
-    from gz.msgs.text import to_text
+    from gz_course.sim.gz.msgs import message_class
+    from gz_course.sim.gz.msgs.text import to_text
 
     known = [each.topic for each in log.topics()]
     if topic not in known:

@@ -11,9 +11,9 @@ import math
 import threading
 from typing import Any
 
-from gz.command_line import Parser, nearest
-from gz.sim.systems.topics import valid_topic
-from gz.transport.node import Node
+from gz_course.sim.gz.command_line import Parser, nearest
+from gz_course.sim.gz.sim.systems.topics import valid_topic
+from gz_course.sim.gz.transport.node import Node
 
 _TIMEOUT_MS = 5000
 
@@ -50,8 +50,8 @@ def run(values: argparse.Namespace) -> int:
 
 
 def _world(node: Node) -> str:
-    from gz.msgs.empty_pb2 import Empty
-    from gz.msgs.stringmsg_v_pb2 import StringMsg_V
+    from gz_course.sim.gz.msgs.empty_pb2 import Empty
+    from gz_course.sim.gz.msgs.stringmsg_v_pb2 import StringMsg_V
 
     done, worlds = node.request("/gazebo/worlds", None, Empty, StringMsg_V, _TIMEOUT_MS)
     if not done or not worlds.data:
@@ -60,8 +60,8 @@ def _world(node: Node) -> str:
 
 
 def _scene(node: Node, world: str) -> Any:
-    from gz.msgs.empty_pb2 import Empty
-    from gz.msgs.scene_pb2 import Scene
+    from gz_course.sim.gz.msgs.empty_pb2 import Empty
+    from gz_course.sim.gz.msgs.scene_pb2 import Scene
 
     done, scene = node.request(valid_topic(f"/world/{world}/scene/info"), None, Empty, Scene, _TIMEOUT_MS)
     if not done:
@@ -78,7 +78,7 @@ def _named(parts: Any, name: str, sentence: str) -> Any:
 
 def _pose_now(node: Node, world: str, model: Any) -> Any:
     """Return the present pose of a model; that of the scene when no poses come."""
-    from gz.msgs.pose_v_pb2 import Pose_V
+    from gz_course.sim.gz.msgs.pose_v_pb2 import Pose_V
 
     heard = threading.Event()
     found: list[Any] = []

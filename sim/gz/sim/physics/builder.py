@@ -14,14 +14,22 @@ from dataclasses import dataclass, field
 import mujoco
 import numpy as np
 
-from gz.sim.errors import Diagnostics
-from gz.sim.physics import recipe
-from gz.sim.physics.geoms import COLLISION_GROUP, SITE_GROUP, VISUAL_GROUP, VISUAL_SUFFIX, Geoms
-from gz.sim.physics.joints import add_gearbox, add_joint, add_loop, add_mimics, displacement, gears, link_map
-from gz.sim.physics.lights import add_light
-from gz.sim.physics.servos import WHEEL, JointServo, add_servo
-from gz.sim.pose import Pose, multiply
-from gz.sim.sdf.description import Joint, Link, Model, WorldDescription
+from gz_course.sim.gz.sim.errors import Diagnostics
+from gz_course.sim.gz.sim.physics import recipe
+from gz_course.sim.gz.sim.physics.geoms import COLLISION_GROUP, SITE_GROUP, VISUAL_GROUP, VISUAL_SUFFIX, Geoms
+from gz_course.sim.gz.sim.physics.joints import (
+    add_gearbox,
+    add_joint,
+    add_loop,
+    add_mimics,
+    displacement,
+    gears,
+    link_map,
+)
+from gz_course.sim.gz.sim.physics.lights import add_light
+from gz_course.sim.gz.sim.physics.servos import WHEEL, JointServo, add_servo
+from gz_course.sim.gz.sim.pose import Pose, multiply
+from gz_course.sim.gz.sim.sdf.description import Joint, Link, Model, WorldDescription
 
 __all__ = ["COLLISION_GROUP", "SITE_GROUP", "VISUAL_GROUP", "VISUAL_SUFFIX", "build_spec", "scoped"]
 

@@ -11,9 +11,9 @@ import warnings
 
 import mujoco
 
-from gz.sim.errors import Diagnostics, SdfError
-from gz.sim.sdf.description import Collision, Light, Model, Sensor, Visual, WorldDescription
-from gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.errors import Diagnostics, SdfError
+from gz_course.sim.gz.sim.sdf.description import Collision, Light, Model, Sensor, Visual, WorldDescription
+from gz_course.sim.gz.sim.sdf.element import Element
 
 _NAMED = re.compile(r"Element name '([^']*)'")
 _TAIL = re.compile(r"\s*Element (name|id).*", re.DOTALL)

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING
 import mujoco
 import numpy as np
 
-from gz.sim.physics.builder import COLLISION_GROUP
-from gz.sim.pose import Vector
+from gz_course.sim.gz.sim.physics.builder import COLLISION_GROUP
+from gz_course.sim.gz.sim.pose import Vector
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
+    from gz_course.sim.gz.sim.world import World
 
 CollisionPath = tuple[str, str, str]
 """Model, link and collision; the names of nested models' links are scoped."""

@@ -10,10 +10,10 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
-from gz.sim.errors import Diagnostics
-from gz.sim.physics import recipe
-from gz.sim.pose import Pose, Vector, quaternion_between
-from gz.sim.sdf.description import Collision, Geometry, TriangleMesh, Visual, WorldDescription
+from gz_course.sim.gz.sim.errors import Diagnostics
+from gz_course.sim.gz.sim.physics import recipe
+from gz_course.sim.gz.sim.pose import Pose, Vector, quaternion_between
+from gz_course.sim.gz.sim.sdf.description import Collision, Geometry, TriangleMesh, Visual, WorldDescription
 
 COLLISION_GROUP = 3
 VISUAL_GROUP = 1

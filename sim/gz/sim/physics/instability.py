@@ -9,7 +9,7 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
-from gz.sim.sdf.description import WorldDescription
+from gz_course.sim.gz.sim.sdf.description import WorldDescription
 
 _WHAT = {
     mujoco.mjtWarning.mjWARN_BADQPOS: "position",

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from gz.sim.physics.joints import AXIS2_SUFFIX
+from gz_course.sim.gz.sim.physics.joints import AXIS2_SUFFIX
 
 _JOINT = mujoco.mjtObj.mjOBJ_JOINT
 _BALL = int(mujoco.mjtJoint.mjJNT_BALL)

@@ -14,10 +14,10 @@ from collections.abc import Iterable, Mapping
 import mujoco
 import numpy as np
 
-from gz.sim.errors import Diagnostics
-from gz.sim.physics import recipe
-from gz.sim.pose import Pose, matrix
-from gz.sim.sdf.description import UNLIMITED, Axis, Joint, Link, Model
+from gz_course.sim.gz.sim.errors import Diagnostics
+from gz_course.sim.gz.sim.physics import recipe
+from gz_course.sim.gz.sim.pose import Pose, matrix
+from gz_course.sim.gz.sim.sdf.description import UNLIMITED, Axis, Joint, Link, Model
 
 AXIS2_SUFFIX = "#2"
 SLIDE_SUFFIX = "#slide"

@@ -10,8 +10,8 @@ import math
 import mujoco
 import numpy as np
 
-from gz.sim.pose import Pose, matrix
-from gz.sim.sdf.description import Light
+from gz_course.sim.gz.sim.pose import Pose, matrix
+from gz_course.sim.gz.sim.sdf.description import Light
 
 _TYPES = {
     "directional": mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,

@@ -14,10 +14,10 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from gz.sim.pose import Vector, multiply
+from gz_course.sim.gz.sim.pose import Vector, multiply
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
+    from gz_course.sim.gz.sim.world import World
 
 _SITE = mujoco.mjtObj.mjOBJ_SITE
 

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 
 import mujoco
 
-from gz.sim.physics import recipe
-from gz.sim.physics.joint_axis import JointAxis, axis_name, find_axes
-from gz.sim.sdf.description import UNLIMITED, Model
+from gz_course.sim.gz.sim.physics import recipe
+from gz_course.sim.gz.sim.physics.joint_axis import JointAxis, axis_name, find_axes
+from gz_course.sim.gz.sim.sdf.description import UNLIMITED, Model
 
 WHEEL = "wheel"
 """Holds a velocity as far as the tyre grips: the recipe for wheels that carry a robot."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from gz.sim.pose import Pose
+from gz_course.sim.gz.sim.pose import Pose
 
 
 def fill_pose(field: Any, position: Iterable[float], quaternion: Iterable[float]) -> None:

@@ -15,12 +15,12 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from gz.sim.physics.builder import scoped
-from gz.sim.pose import IDENTITY, Pose
-from gz.sim.sdf.description import Model
+from gz_course.sim.gz.sim.physics.builder import scoped
+from gz_course.sim.gz.sim.pose import IDENTITY, Pose
+from gz_course.sim.gz.sim.sdf.description import Model
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
+    from gz_course.sim.gz.sim.world import World
 
 Array = NDArray[np.float64]
 KINDS = ("model", "link", "visual", "light")

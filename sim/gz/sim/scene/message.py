@@ -11,20 +11,20 @@ from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from gz.msgs.joint_pb2 import Joint as JointMessage
-from gz.msgs.light_pb2 import Light as LightMessage
-from gz.msgs.scene_pb2 import Scene
 
-from gz.sim.errors import SdfError
-from gz.sim.pose import Pose, rotate
-from gz.sim.scene.fields import set_colour, set_pose, set_vector
-from gz.sim.scene.graph import SceneGraph, Vertex
-from gz.sim.scene.sensors import fill_sensor
-from gz.sim.scene.shapes import fill_geometry, fill_material, fill_surface, transparency
-from gz.sim.sdf.description import Axis, Inertial, Joint, Light, Model
+from gz_course.sim.gz.msgs.joint_pb2 import Joint as JointMessage
+from gz_course.sim.gz.msgs.light_pb2 import Light as LightMessage
+from gz_course.sim.gz.msgs.scene_pb2 import Scene
+from gz_course.sim.gz.sim.errors import SdfError
+from gz_course.sim.gz.sim.pose import Pose, rotate
+from gz_course.sim.gz.sim.scene.fields import set_colour, set_pose, set_vector
+from gz_course.sim.gz.sim.scene.graph import SceneGraph, Vertex
+from gz_course.sim.gz.sim.scene.sensors import fill_sensor
+from gz_course.sim.gz.sim.scene.shapes import fill_geometry, fill_material, fill_surface, transparency
+from gz_course.sim.gz.sim.sdf.description import Axis, Inertial, Joint, Light, Model
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
+    from gz_course.sim.gz.sim.world import World
 
 
 def scene_message(world: World, graph: SceneGraph | None = None, only: Iterable[int] | None = None) -> Scene:

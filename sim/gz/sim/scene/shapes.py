@@ -8,15 +8,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from gz.msgs.geometry_pb2 import Geometry as GeometryMessage
-from gz.msgs.material_pb2 import Material
-
-from gz.sim.errors import ResourceError
-from gz.sim.scene.fields import set_colour, set_vector
-from gz.sim.sdf.description import Collision, Geometry, Visual
-from gz.sim.sdf.element import Element
-from gz.sim.sdf.materials import GREY
-from gz.sim.sdf.resources import find_file
+from gz_course.sim.gz.msgs.geometry_pb2 import Geometry as GeometryMessage
+from gz_course.sim.gz.msgs.material_pb2 import Material
+from gz_course.sim.gz.sim.errors import ResourceError
+from gz_course.sim.gz.sim.scene.fields import set_colour, set_vector
+from gz_course.sim.gz.sim.sdf.description import Collision, Geometry, Visual
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sdf.materials import GREY
+from gz_course.sim.gz.sim.sdf.resources import find_file
 
 _MAPS = ("normal_map", "environment_map", "ambient_occlusion_map", "emissive_map", "light_map")
 _METAL_MAPS = ("metalness_map", "roughness_map")

@@ -13,16 +13,15 @@ import functools
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
-from gz.msgs.serialized_map_pb2 import SerializedStateMap
-
-from gz.sim.pose import Pose
-from gz.sim.scene.fields import set_stamp
-from gz.sim.scene.graph import SceneGraph, Vertex
-from gz.sim.scene.message import scene_message
-from gz.sim.sdf.description import Model
+from gz_course.sim.gz.msgs.serialized_map_pb2 import SerializedStateMap
+from gz_course.sim.gz.sim.pose import Pose
+from gz_course.sim.gz.sim.scene.fields import set_stamp
+from gz_course.sim.gz.sim.scene.graph import SceneGraph, Vertex
+from gz_course.sim.gz.sim.scene.message import scene_message
+from gz_course.sim.gz.sim.sdf.description import Model
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
+    from gz_course.sim.gz.sim.world import World
 
 JOINT_TYPES = (
     "invalid",

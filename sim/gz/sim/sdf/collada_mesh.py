@@ -16,7 +16,7 @@ import numpy as np
 from collada.common import DaeBrokenRefError, DaeUnsupportedError
 from numpy.typing import NDArray
 
-from gz.sim.errors import ResourceError
+from gz_course.sim.gz.sim.errors import ResourceError
 
 Corners = NDArray[np.float64]
 Part = tuple[tuple[str, ...], Corners]

@@ -13,9 +13,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from gz.sim.pose import IDENTITY, Pose
-from gz.sim.sdf.element import Element
-from gz.sim.spherical_coordinates import SphericalCoordinates
+from gz_course.sim.gz.sim.pose import IDENTITY, Pose
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.spherical_coordinates import SphericalCoordinates
 
 UNLIMITED = 1e16
 """Gazebo takes joint limits of this size and above as "no limit"."""

@@ -17,8 +17,8 @@ from pathlib import Path
 
 import numpy as np
 
-from gz.sim.errors import SdfError, one_line
-from gz.sim.pose import Pose
+from gz_course.sim.gz.sim.errors import SdfError, one_line
+from gz_course.sim.gz.sim.pose import Pose
 
 DEEPEST = 200
 """Elements deeper than this are refused; real worlds stay below 30."""

@@ -11,9 +11,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from gz.sim.errors import nearest
-from gz.sim.pose import IDENTITY, Pose
-from gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.errors import nearest
+from gz_course.sim.gz.sim.pose import IDENTITY, Pose
+from gz_course.sim.gz.sim.sdf.element import Element
 
 
 @dataclass(eq=False)

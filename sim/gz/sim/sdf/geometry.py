@@ -10,12 +10,12 @@ from functools import lru_cache
 
 import numpy as np
 
-from gz.sim.errors import Diagnostics
-from gz.sim.sdf.description import Geometry, TriangleMesh
-from gz.sim.sdf.element import Element
-from gz.sim.sdf.heightmap import read_heightmap
-from gz.sim.sdf.mesh_shape import read_mesh_shape
-from gz.sim.sdf.polyline import read_polyline
+from gz_course.sim.gz.sim.errors import Diagnostics
+from gz_course.sim.gz.sim.sdf.description import Geometry, TriangleMesh
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sdf.heightmap import read_heightmap
+from gz_course.sim.gz.sim.sdf.mesh_shape import read_mesh_shape
+from gz_course.sim.gz.sim.sdf.polyline import read_polyline
 
 SHAPES = ("box", "sphere", "cylinder", "capsule", "ellipsoid", "cone", "plane", "mesh", "heightmap", "polyline")
 _LARGEST = 1e6  # [m]

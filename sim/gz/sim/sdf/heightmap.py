@@ -14,10 +14,10 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from gz.sim.errors import Diagnostics, ResourceError
-from gz.sim.sdf.description import Geometry, TriangleMesh
-from gz.sim.sdf.element import Element
-from gz.sim.sdf.resources import find_file
+from gz_course.sim.gz.sim.errors import Diagnostics, ResourceError
+from gz_course.sim.gz.sim.sdf.description import Geometry, TriangleMesh
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sdf.resources import find_file
 
 _MOST_PIXELS = 4_200_000
 

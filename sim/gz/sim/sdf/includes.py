@@ -10,13 +10,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from gz.sim.errors import Diagnostics, ResourceError, SdfError
-from gz.sim.pose import Pose
-from gz.sim.sdf import plausibility, vocabulary
-from gz.sim.sdf.element import Element, parse
-from gz.sim.sdf.resources import find_model, read_text
-from gz.sim.sdf.urdf.convert import sdf_of_robot
-from gz.sim.sdf.urdf.xacro_file import restore_places
+from gz_course.sim.gz.sim.errors import Diagnostics, ResourceError, SdfError
+from gz_course.sim.gz.sim.pose import Pose
+from gz_course.sim.gz.sim.sdf import plausibility, vocabulary
+from gz_course.sim.gz.sim.sdf.element import Element, parse
+from gz_course.sim.gz.sim.sdf.resources import find_model, read_text
+from gz_course.sim.gz.sim.sdf.urdf.convert import sdf_of_robot
+from gz_course.sim.gz.sim.sdf.urdf.xacro_file import restore_places
 
 Version = tuple[int, int]
 MOST_INCLUDES = 5000

@@ -11,10 +11,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from gz.sim.errors import Diagnostics, SdfError
-from gz.sim.pose import Pose, matrix
-from gz.sim.sdf.description import Collision, Geometry, Inertial, TriangleMesh
-from gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.errors import Diagnostics, SdfError
+from gz_course.sim.gz.sim.pose import Pose, matrix
+from gz_course.sim.gz.sim.sdf.description import Collision, Geometry, Inertial, TriangleMesh
+from gz_course.sim.gz.sim.sdf.element import Element
 
 Matrix = NDArray[np.float64]
 WATER = 1000.0

@@ -11,12 +11,12 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from gz.sim.errors import Diagnostics, nearest
-from gz.sim.pose import Pose, matrix
-from gz.sim.sdf.description import UNLIMITED, Axis, Joint, Mimic, Model
-from gz.sim.sdf.element import Element
-from gz.sim.sdf.frames import Scope
-from gz.sim.sdf.sensors import read_joint_sensors
+from gz_course.sim.gz.sim.errors import Diagnostics, nearest
+from gz_course.sim.gz.sim.pose import Pose, matrix
+from gz_course.sim.gz.sim.sdf.description import UNLIMITED, Axis, Joint, Mimic, Model
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sdf.frames import Scope
+from gz_course.sim.gz.sim.sdf.sensors import read_joint_sensors
 
 KINDS = ("fixed", "revolute", "continuous", "prismatic", "ball", "universal", "revolute2", "screw", "gearbox")
 _ONE_AXIS = frozenset(("revolute", "continuous", "prismatic", "screw"))

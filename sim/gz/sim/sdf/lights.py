@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import math
 
-from gz.sim.errors import Diagnostics, nearest
-from gz.sim.pose import Pose
-from gz.sim.sdf.description import Light
-from gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.errors import Diagnostics, nearest
+from gz_course.sim.gz.sim.pose import Pose
+from gz_course.sim.gz.sim.sdf.description import Light
+from gz_course.sim.gz.sim.sdf.element import Element
 
 KINDS = ("directional", "point", "spot")
 

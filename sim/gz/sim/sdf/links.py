@@ -7,15 +7,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from gz.sim.errors import Diagnostics
-from gz.sim.pose import Pose
-from gz.sim.sdf.description import Collision, Link, Model, Sensor, Visual
-from gz.sim.sdf.element import Element
-from gz.sim.sdf.frames import Scope
-from gz.sim.sdf.geometry import read_geometry
-from gz.sim.sdf.inertia import WATER, automatic_inertial, is_automatic, read_inertial
-from gz.sim.sdf.lights import read_light
-from gz.sim.sdf.materials import read_bitmask, read_colour, read_friction
+from gz_course.sim.gz.sim.errors import Diagnostics
+from gz_course.sim.gz.sim.pose import Pose
+from gz_course.sim.gz.sim.sdf.description import Collision, Link, Model, Sensor, Visual
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sdf.frames import Scope
+from gz_course.sim.gz.sim.sdf.geometry import read_geometry
+from gz_course.sim.gz.sim.sdf.inertia import WATER, automatic_inertial, is_automatic, read_inertial
+from gz_course.sim.gz.sim.sdf.lights import read_light
+from gz_course.sim.gz.sim.sdf.materials import read_bitmask, read_colour, read_friction
 
 
 def read_link(element: Element, scope: Scope, model: Model, diagnostics: Diagnostics) -> Link:

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import math
 
-from gz.sim.errors import Diagnostics, nearest
-from gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.errors import Diagnostics, nearest
+from gz_course.sim.gz.sim.sdf.element import Element
 
 Rgba = tuple[float, float, float, float]
 GREY: Rgba = (0.7, 0.7, 0.7, 1.0)

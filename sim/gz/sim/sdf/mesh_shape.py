@@ -13,12 +13,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from gz.sim.errors import Diagnostics, ResourceError
-from gz.sim.sdf.convex import convex_pieces
-from gz.sim.sdf.description import Geometry, TriangleMesh
-from gz.sim.sdf.element import Element
-from gz.sim.sdf.meshes import read_mesh
-from gz.sim.sdf.resources import find_file
+from gz_course.sim.gz.sim.errors import Diagnostics, ResourceError
+from gz_course.sim.gz.sim.sdf.convex import convex_pieces
+from gz_course.sim.gz.sim.sdf.description import Geometry, TriangleMesh
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sdf.meshes import read_mesh
+from gz_course.sim.gz.sim.sdf.resources import find_file
 
 FULLER = 0.1
 """A hull that is larger than its mesh by more than this part is worth a sentence."""

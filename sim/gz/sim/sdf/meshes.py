@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from gz.sim.errors import ResourceError, nearest
+from gz_course.sim.gz.sim.errors import ResourceError, nearest
 
 Vertices = NDArray[np.float64]
 Triangles = NDArray[np.int32]
@@ -250,7 +250,7 @@ def _rows(vertices: list[tuple[float, ...]]) -> Vertices:
 
 def _collada(path: Path, data: bytes) -> tuple[Vertices, list[_Part]]:
     try:
-        from gz.sim.sdf import collada_mesh
+        from gz_course.sim.gz.sim.sdf import collada_mesh
     except ImportError:
         raise ResourceError(
             f"{path}: COLLADA meshes need one more package; install it with: pip install 'gz-ros2-course[collada]'"

@@ -6,14 +6,14 @@ Part of the reader: `gz.sim.sdf.reader` calls it for every model of a world. Fra
 
 from __future__ import annotations
 
-from gz.sim.errors import Diagnostics
-from gz.sim.pose import Pose
-from gz.sim.sdf.description import Model, NestedModel, Plugin
-from gz.sim.sdf.element import Element
-from gz.sim.sdf.frames import Scope
-from gz.sim.sdf.includes import Includes, Opened, lifted
-from gz.sim.sdf.joints import check_mimics, read_joint
-from gz.sim.sdf.links import read_link
+from gz_course.sim.gz.sim.errors import Diagnostics
+from gz_course.sim.gz.sim.pose import Pose
+from gz_course.sim.gz.sim.sdf.description import Model, NestedModel, Plugin
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sdf.frames import Scope
+from gz_course.sim.gz.sim.sdf.includes import Includes, Opened, lifted
+from gz_course.sim.gz.sim.sdf.joints import check_mimics, read_joint
+from gz_course.sim.gz.sim.sdf.links import read_link
 
 Placed = tuple[Model, Scope, Pose, str]
 """A model, its scope, the pose its file states and the frame that pose is given in."""

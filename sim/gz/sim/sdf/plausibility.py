@@ -10,10 +10,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 
-from gz.sim.errors import Diagnostics
-from gz.sim.sdf.description import Model
-from gz.sim.sdf.element import Element
-from gz.sim.sdf.vocabulary import CHILDREN
+from gz_course.sim.gz.sim.errors import Diagnostics
+from gz_course.sim.gz.sim.sdf.description import Model
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sdf.vocabulary import CHILDREN
 
 Found = Iterator[tuple[str, str]]
 """Places and sentences."""

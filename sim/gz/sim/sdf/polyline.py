@@ -12,8 +12,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from gz.sim.sdf.description import Geometry, TriangleMesh
-from gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sdf.description import Geometry, TriangleMesh
+from gz_course.sim.gz.sim.sdf.element import Element
 
 Point = tuple[float, float]
 _MOST_POINTS = 1000

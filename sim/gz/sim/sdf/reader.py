@@ -12,18 +12,18 @@ from pathlib import Path
 
 import numpy as np
 
-from gz.sim.errors import Diagnostics
-from gz.sim.pose import Pose
-from gz.sim.sdf import plausibility
-from gz.sim.sdf.description import Light, Model, WorldDescription
-from gz.sim.sdf.element import Element
-from gz.sim.sdf.frames import Scope
-from gz.sim.sdf.includes import Includes, Opened, read_root, sdf_version
-from gz.sim.sdf.joints import read_world_joint
-from gz.sim.sdf.lights import read_light, read_rgb
-from gz.sim.sdf.models import ModelReader, add_frame, joint_to_skipped, pose_and_base, read_plugin
-from gz.sim.sdf.resources import read_text
-from gz.sim.spherical_coordinates import SphericalCoordinates
+from gz_course.sim.gz.sim.errors import Diagnostics
+from gz_course.sim.gz.sim.pose import Pose
+from gz_course.sim.gz.sim.sdf import plausibility
+from gz_course.sim.gz.sim.sdf.description import Light, Model, WorldDescription
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sdf.frames import Scope
+from gz_course.sim.gz.sim.sdf.includes import Includes, Opened, read_root, sdf_version
+from gz_course.sim.gz.sim.sdf.joints import read_world_joint
+from gz_course.sim.gz.sim.sdf.lights import read_light, read_rgb
+from gz_course.sim.gz.sim.sdf.models import ModelReader, add_frame, joint_to_skipped, pose_and_base, read_plugin
+from gz_course.sim.gz.sim.sdf.resources import read_text
+from gz_course.sim.gz.sim.spherical_coordinates import SphericalCoordinates
 
 FARTHEST = 1e7  # [m]
 LONGEST_GOOD_STEP_NS = 20_000_000

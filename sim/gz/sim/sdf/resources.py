@@ -13,8 +13,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from urllib.parse import unquote
 
-from gz.sim.errors import ResourceError, SdfError, nearest
-from gz.sim.sdf.element import parse
+from gz_course.sim.gz.sim.errors import ResourceError, SdfError, nearest
+from gz_course.sim.gz.sim.sdf.element import parse
 
 BUILT_IN_WORLDS = Path(__file__).resolve().parent.parent / "worlds"
 BUILT_IN_MODELS = Path(__file__).resolve().parent.parent / "models"
@@ -196,7 +196,7 @@ def read_text(path: Path) -> str:
     A xacro file (`.xacro` is among its endings: `robot.urdf.xacro`, `robot.xacro.urdf`) is expanded first.
     """
     if ".xacro" in path.suffixes:
-        from gz.sim.sdf.urdf.xacro_file import expand  # few worlds need it
+        from gz_course.sim.gz.sim.sdf.urdf.xacro_file import expand  # few worlds need it
 
         return expand(path)
     try:

@@ -5,11 +5,11 @@ Part of the reader, called by `gz.sim.sdf.joints`; the sensors of links are read
 
 from __future__ import annotations
 
-from gz.sim.errors import Diagnostics
-from gz.sim.pose import Pose
-from gz.sim.sdf.description import Joint, Model, Sensor
-from gz.sim.sdf.element import Element
-from gz.sim.sdf.frames import Scope
+from gz_course.sim.gz.sim.errors import Diagnostics
+from gz_course.sim.gz.sim.pose import Pose
+from gz_course.sim.gz.sim.sdf.description import Joint, Model, Sensor
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sdf.frames import Scope
 
 
 def read_joint_sensors(joint: Joint, scope: Scope, model: Model, diagnostics: Diagnostics) -> list[Sensor]:

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from gz.sim.errors import Diagnostics, nearest
-from gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.errors import Diagnostics, nearest
+from gz_course.sim.gz.sim.sdf.element import Element
 
 _MOST_REPORTED = 100
 _AXES = "x y z"

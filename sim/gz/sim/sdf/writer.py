@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from xml.sax.saxutils import escape, quoteattr
 
-from gz.sim.pose import Pose
-from gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.pose import Pose
+from gz_course.sim.gz.sim.sdf.element import Element
 
 
 def to_xml(element: Element, indent: str = "") -> str:

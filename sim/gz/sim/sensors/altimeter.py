@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from gz.sim.sdf.element import Element
-from gz.sim.sensors.noise import Noise
-from gz.sim.sensors.registry import sensor_type
-from gz.sim.sensors.site_sensor import SiteSensor, noise_at
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sensors.noise import Noise
+from gz_course.sim.gz.sim.sensors.registry import sensor_type
+from gz_course.sim.gz.sim.sensors.site_sensor import SiteSensor, noise_at
 
 
 @sensor_type("altimeter")

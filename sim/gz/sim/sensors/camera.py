@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gz.sim.errors import nearest
-from gz.sim.sdf.description import Sensor
-from gz.sim.sensors.camera_sensor import CameraSensor
-from gz.sim.sensors.registry import sensor_type
-from gz.sim.sensors.renderer import renderer_for
+from gz_course.sim.gz.sim.errors import nearest
+from gz_course.sim.gz.sim.sdf.description import Sensor
+from gz_course.sim.gz.sim.sensors.camera_sensor import CameraSensor
+from gz_course.sim.gz.sim.sensors.registry import sensor_type
+from gz_course.sim.gz.sim.sensors.renderer import renderer_for
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
+    from gz_course.sim.gz.sim.world import World
 
 FORMATS = {
     "R8G8B8": "RGB_INT8",

@@ -12,19 +12,19 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gz.sim.physics.builder import VISUAL_GROUP
-from gz.sim.sdf.description import Sensor
-from gz.sim.sdf.element import Element
-from gz.sim.sensors.noise import Noise
-from gz.sim.sensors.pinhole import Pinhole
-from gz.sim.sensors.point_cloud import fill_cloud
-from gz.sim.sensors.ray_caster import ALL_BITS, Floats, Hits, RayCaster
-from gz.sim.sensors.registry import SensorBase
-from gz.sim.systems.topics import valid_topic
+from gz_course.sim.gz.sim.physics.builder import VISUAL_GROUP
+from gz_course.sim.gz.sim.sdf.description import Sensor
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sensors.noise import Noise
+from gz_course.sim.gz.sim.sensors.pinhole import Pinhole
+from gz_course.sim.gz.sim.sensors.point_cloud import fill_cloud
+from gz_course.sim.gz.sim.sensors.ray_caster import ALL_BITS, Floats, Hits, RayCaster
+from gz_course.sim.gz.sim.sensors.registry import SensorBase
+from gz_course.sim.gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
 
 class CameraSensor(SensorBase):
@@ -77,10 +77,10 @@ class CameraSensor(SensorBase):
 
     def connect(self, node: Node) -> None:
         """Advertise camera_info and the images; listen to the trigger."""
-        from gz.msgs.boolean_pb2 import Boolean
-        from gz.msgs.camera_info_pb2 import CameraInfo
-        from gz.msgs.image_pb2 import Image
-        from gz.msgs.pointcloud_packed_pb2 import PointCloudPacked
+        from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
+        from gz_course.sim.gz.msgs.camera_info_pb2 import CameraInfo
+        from gz_course.sim.gz.msgs.image_pb2 import Image
+        from gz_course.sim.gz.msgs.pointcloud_packed_pb2 import PointCloudPacked
 
         types = {"Image": Image, "PointCloudPacked": PointCloudPacked}
         self._types = types

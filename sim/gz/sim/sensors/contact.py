@@ -8,15 +8,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from gz.sim.errors import nearest
-from gz.sim.physics.contacts import CollisionGeoms, CollisionPath, ContactPoint, contact_points
-from gz.sim.sdf.description import Sensor
-from gz.sim.sensors.registry import SensorBase, sensor_type
-from gz.sim.systems.topics import valid_topic
+from gz_course.sim.gz.sim.errors import nearest
+from gz_course.sim.gz.sim.physics.contacts import CollisionGeoms, CollisionPath, ContactPoint, contact_points
+from gz_course.sim.gz.sim.sdf.description import Sensor
+from gz_course.sim.gz.sim.sensors.registry import SensorBase, sensor_type
+from gz_course.sim.gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
 NO_TOPIC = "__default_topic__"
 
@@ -72,7 +72,7 @@ class Contact(SensorBase):
 
     def connect(self, node: Node) -> None:
         """Advertise the contacts."""
-        from gz.msgs.contacts_pb2 import Contacts
+        from gz_course.sim.gz.msgs.contacts_pb2 import Contacts
 
         self._type = Contacts
         self._publisher = node.advertise(self.topic, Contacts)

@@ -11,16 +11,16 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gz.sim.sdf.description import Sensor
-from gz.sim.sensors.camera import to_bytes
-from gz.sim.sensors.camera_sensor import CameraSensor
-from gz.sim.sensors.point_cloud import COLOURED, pack_rgb
-from gz.sim.sensors.ray_caster import Hits
-from gz.sim.sensors.registry import sensor_type
-from gz.sim.sensors.shading import Shader
+from gz_course.sim.gz.sim.sdf.description import Sensor
+from gz_course.sim.gz.sim.sensors.camera import to_bytes
+from gz_course.sim.gz.sim.sensors.camera_sensor import CameraSensor
+from gz_course.sim.gz.sim.sensors.point_cloud import COLOURED, pack_rgb
+from gz_course.sim.gz.sim.sensors.ray_caster import Hits
+from gz_course.sim.gz.sim.sensors.registry import sensor_type
+from gz_course.sim.gz.sim.sensors.shading import Shader
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
+    from gz_course.sim.gz.sim.world import World
 
 
 class DepthSensing(CameraSensor):

@@ -12,19 +12,19 @@ from typing import TYPE_CHECKING, Any
 import mujoco
 import numpy as np
 
-from gz.sim.errors import nearest
-from gz.sim.physics.builder import scoped
-from gz.sim.physics.motion import start_of_step
-from gz.sim.pose import Vector
-from gz.sim.sdf.description import Joint, Model, Sensor
-from gz.sim.sdf.element import Element
-from gz.sim.sensors.noise import Noise
-from gz.sim.sensors.registry import sensor_type
-from gz.sim.sensors.site_sensor import SiteSensor, noise_at
+from gz_course.sim.gz.sim.errors import nearest
+from gz_course.sim.gz.sim.physics.builder import scoped
+from gz_course.sim.gz.sim.physics.motion import start_of_step
+from gz_course.sim.gz.sim.pose import Vector
+from gz_course.sim.gz.sim.sdf.description import Joint, Model, Sensor
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sensors.noise import Noise
+from gz_course.sim.gz.sim.sensors.registry import sensor_type
+from gz_course.sim.gz.sim.sensors.site_sensor import SiteSensor, noise_at
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
 FRAMES = ("child", "parent", "sensor")
 DIRECTIONS = ("child_to_parent", "parent_to_child")

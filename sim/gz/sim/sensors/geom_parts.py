@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import mujoco
 
-from gz.sim.physics.geoms import VISUAL_GROUP, geom_names
-from gz.sim.sdf.description import Collision, Link, Model, Visual
+from gz_course.sim.gz.sim.physics.geoms import VISUAL_GROUP, geom_names
+from gz_course.sim.gz.sim.sdf.description import Collision, Link, Model, Visual
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
+    from gz_course.sim.gz.sim.world import World
 
 
 class GeomPart(NamedTuple):

@@ -14,16 +14,16 @@ from typing import TYPE_CHECKING, Any
 import mujoco
 import numpy as np
 
-from gz.sim.errors import SimError, nearest
-from gz.sim.pose import Vector, multiply, quaternion_from_rpy, rotate
-from gz.sim.sdf.description import Sensor
-from gz.sim.sdf.element import Element
-from gz.sim.sensors.noise import Noise
-from gz.sim.sensors.registry import sensor_type
-from gz.sim.sensors.site_sensor import SiteSensor, noise_at
+from gz_course.sim.gz.sim.errors import SimError, nearest
+from gz_course.sim.gz.sim.pose import Vector, multiply, quaternion_from_rpy, rotate
+from gz_course.sim.gz.sim.sdf.description import Sensor
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sensors.noise import Noise
+from gz_course.sim.gz.sim.sensors.registry import sensor_type
+from gz_course.sim.gz.sim.sensors.site_sensor import SiteSensor, noise_at
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
+    from gz_course.sim.gz.sim.world import World
 
 _FROM_ENU = {
     "ENU": (0.0, 0.0, 0.0),

@@ -13,18 +13,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gz.sim.physics.builder import COLLISION_GROUP, VISUAL_GROUP
-from gz.sim.sdf.description import Sensor
-from gz.sim.sdf.element import Element
-from gz.sim.sensors.geom_parts import geom_parts
-from gz.sim.sensors.noise import Noise
-from gz.sim.sensors.point_cloud import LIDAR, fill_cloud
-from gz.sim.sensors.ray_caster import ALL_BITS, Floats, RayCaster, directions
-from gz.sim.sensors.registry import SensorBase, sensor_type
+from gz_course.sim.gz.sim.physics.builder import COLLISION_GROUP, VISUAL_GROUP
+from gz_course.sim.gz.sim.sdf.description import Sensor
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sensors.geom_parts import geom_parts
+from gz_course.sim.gz.sim.sensors.noise import Noise
+from gz_course.sim.gz.sim.sensors.point_cloud import LIDAR, fill_cloud
+from gz_course.sim.gz.sim.sensors.ray_caster import ALL_BITS, Floats, RayCaster, directions
+from gz_course.sim.gz.sim.sensors.registry import SensorBase, sensor_type
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
 MOST_RAYS = 2_000_000
 """More beams than this would take minutes a scan."""
@@ -109,8 +109,8 @@ class Lidar(SensorBase):
 
     def connect(self, node: Node) -> None:
         """Advertise the scan and, below it, the points."""
-        from gz.msgs.laserscan_pb2 import LaserScan
-        from gz.msgs.pointcloud_packed_pb2 import PointCloudPacked
+        from gz_course.sim.gz.msgs.laserscan_pb2 import LaserScan
+        from gz_course.sim.gz.msgs.pointcloud_packed_pb2 import PointCloudPacked
 
         self._scan_type, self._points_type = LaserScan, PointCloudPacked
         self._scan = node.advertise(self.topic, LaserScan)

@@ -10,16 +10,16 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from gz.sim.pose import Pose, Vector
-from gz.sim.sdf.description import Sensor
-from gz.sim.sdf.element import Element
-from gz.sim.sensors.noise import Noise
-from gz.sim.sensors.registry import sensor_type
-from gz.sim.sensors.site_sensor import SiteSensor
+from gz_course.sim.gz.sim.pose import Pose, Vector
+from gz_course.sim.gz.sim.sdf.description import Sensor
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sensors.noise import Noise
+from gz_course.sim.gz.sim.sensors.registry import sensor_type
+from gz_course.sim.gz.sim.sensors.site_sensor import SiteSensor
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
 
 @sensor_type("logical_camera")
@@ -55,7 +55,7 @@ class LogicalCamera(SiteSensor):
 
     def connect(self, node: Node) -> None:
         """Advertise what is seen, and the frustum."""
-        from gz.msgs.logical_camera_sensor_pb2 import LogicalCameraSensor
+        from gz_course.sim.gz.msgs.logical_camera_sensor_pb2 import LogicalCameraSensor
 
         super().connect(node)
         self._frustum_type = LogicalCameraSensor

@@ -12,12 +12,12 @@ from typing import Any
 
 import numpy as np
 
-from gz.sim.magnetic_field import earth_field
-from gz.sim.pose import Vector
-from gz.sim.sdf.element import Element
-from gz.sim.sensors.noise import Noise
-from gz.sim.sensors.registry import sensor_type
-from gz.sim.sensors.site_sensor import SiteSensor, noise_at
+from gz_course.sim.gz.sim.magnetic_field import earth_field
+from gz_course.sim.gz.sim.pose import Vector
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sensors.noise import Noise
+from gz_course.sim.gz.sim.sensors.registry import sensor_type
+from gz_course.sim.gz.sim.sensors.site_sensor import SiteSensor, noise_at
 
 GAUSS = 1e4
 """Gauss in a tesla."""

@@ -15,11 +15,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from gz.sim.errors import nearest
-from gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.errors import nearest
+from gz_course.sim.gz.sim.sdf.element import Element
 
 if TYPE_CHECKING:
-    from gz.sim.sensors.registry import SensorBase
+    from gz_course.sim.gz.sim.sensors.registry import SensorBase
 
 KINDS = ("none", "gaussian", "gaussian_quantized")
 COARSEST_IGNORED = 1e-6

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sdf.element import Element
 
 Floats = NDArray[np.float64]
 

@@ -15,12 +15,12 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from gz.sim.physics.builder import SITE_GROUP, VISUAL_GROUP
-from gz.sim.sensors.geom_parts import geom_parts
+from gz_course.sim.gz.sim.physics.builder import SITE_GROUP, VISUAL_GROUP
+from gz_course.sim.gz.sim.sensors.geom_parts import geom_parts
 
 if TYPE_CHECKING:
-    from gz.sim.sdf.description import Sensor
-    from gz.sim.world import World
+    from gz_course.sim.gz.sim.sdf.description import Sensor
+    from gz_course.sim.gz.sim.world import World
 
 Floats = NDArray[np.float64]
 ALL_BITS = 0xFFFFFFFF

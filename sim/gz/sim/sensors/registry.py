@@ -16,14 +16,14 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from gz.sim.requests import logged
-from gz.sim.sdf.description import Sensor
-from gz.sim.systems.period import period_ns
-from gz.sim.systems.topics import valid_topic
+from gz_course.sim.gz.sim.requests import logged
+from gz_course.sim.gz.sim.sdf.description import Sensor
+from gz_course.sim.gz.sim.systems.period import period_ns
+from gz_course.sim.gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
 KNOWN_TYPES = frozenset(
     [
@@ -142,8 +142,8 @@ class SensorBase:
 
     def offer_set_rate(self, node: Node) -> None:
         """Offer the one-way service `<topic>/set_rate` (gz.msgs.Double, Hz) on `node`."""
-        from gz.msgs.double_pb2 import Double
-        from gz.msgs.empty_pb2 import Empty
+        from gz_course.sim.gz.msgs.double_pb2 import Double
+        from gz_course.sim.gz.msgs.empty_pb2 import Empty
 
         service = f"{self.topic}/set_rate"
 
@@ -231,6 +231,6 @@ def sensor_types() -> dict[str, type[SensorBase]]:
     global _scanned
     if not _scanned:
         for module in pkgutil.iter_modules([str(Path(__file__).parent)]):
-            importlib.import_module(f"gz.sim.sensors.{module.name}")
+            importlib.import_module(f"gz_course.sim.gz.sim.sensors.{module.name}")
         _scanned = True
     return dict(_TYPES)

@@ -16,12 +16,12 @@ from typing import TYPE_CHECKING, Any, Protocol
 import mujoco
 import numpy as np
 
-from gz.sim.errors import LOG, SimError, nearest
-from gz.sim.physics.builder import VISUAL_GROUP
-from gz.sim.sensors.shading import Colours, Shader
+from gz_course.sim.gz.sim.errors import LOG, SimError, nearest
+from gz_course.sim.gz.sim.physics.builder import VISUAL_GROUP
+from gz_course.sim.gz.sim.sensors.shading import Colours, Shader
 
 if TYPE_CHECKING:
-    from gz.sim.sensors.camera_sensor import CameraSensor
+    from gz_course.sim.gz.sim.sensors.camera_sensor import CameraSensor
 
 RAYCAST, MUJOCO = "raycast", "mujoco"
 OF_GAZEBO = ("ogre", "ogre2", "optix")

@@ -6,9 +6,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from gz.sim.sensors.camera import encode
-from gz.sim.sensors.depth_camera import DepthSensing
-from gz.sim.sensors.registry import sensor_type
+from gz_course.sim.gz.sim.sensors.camera import encode
+from gz_course.sim.gz.sim.sensors.depth_camera import DepthSensing
+from gz_course.sim.gz.sim.sensors.registry import sensor_type
 
 
 @sensor_type("rgbd_camera", "rgbd")

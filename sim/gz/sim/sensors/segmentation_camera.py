@@ -14,16 +14,16 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gz.sim.errors import nearest
-from gz.sim.physics.builder import VISUAL_GROUP
-from gz.sim.sdf.description import Sensor
-from gz.sim.sensors.camera_sensor import CameraSensor
-from gz.sim.sensors.geom_parts import geom_parts
-from gz.sim.sensors.registry import sensor_type
-from gz.sim.systems.label import label_of
+from gz_course.sim.gz.sim.errors import nearest
+from gz_course.sim.gz.sim.physics.builder import VISUAL_GROUP
+from gz_course.sim.gz.sim.sdf.description import Sensor
+from gz_course.sim.gz.sim.sensors.camera_sensor import CameraSensor
+from gz_course.sim.gz.sim.sensors.geom_parts import geom_parts
+from gz_course.sim.gz.sim.sensors.registry import sensor_type
+from gz_course.sim.gz.sim.systems.label import label_of
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
+    from gz_course.sim.gz.sim.world import World
 
 _PANOPTIC = {"semantic": False, "instance": True, "panoptic": True}
 

@@ -13,12 +13,12 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from gz.sim.physics.builder import SITE_GROUP, VISUAL_GROUP
-from gz.sim.sensors.geom_parts import geom_parts
-from gz.sim.sensors.ray_caster import Floats, Hits
+from gz_course.sim.gz.sim.physics.builder import SITE_GROUP, VISUAL_GROUP
+from gz_course.sim.gz.sim.sensors.geom_parts import geom_parts
+from gz_course.sim.gz.sim.sensors.ray_caster import Floats, Hits
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
+    from gz_course.sim.gz.sim.world import World
 
 Colours = NDArray[np.float32]
 

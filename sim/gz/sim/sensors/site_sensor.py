@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from google.protobuf.message import Message
 
-from gz.sim.physics.motion import SiteMotion
-from gz.sim.sdf.description import Sensor
-from gz.sim.sdf.element import Element
-from gz.sim.sensors.noise import Channels, Noise
-from gz.sim.sensors.registry import SensorBase
+from gz_course.sim.gz.sim.physics.motion import SiteMotion
+from gz_course.sim.gz.sim.sdf.description import Sensor
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sensors.noise import Channels, Noise
+from gz_course.sim.gz.sim.sensors.registry import SensorBase
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
 
 class SiteSensor(SensorBase):
@@ -61,7 +61,7 @@ class SiteSensor(SensorBase):
 
     def connect(self, node: Node) -> None:
         """Advertise the sensor's topic."""
-        from gz.msgs import message_class
+        from gz_course.sim.gz.msgs import message_class
 
         self._message: type[Message] = message_class(self.message_type)
         self._publisher = node.advertise(self.topic, self._message)

@@ -11,19 +11,19 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from gz.sim.errors import nearest
-from gz.sim.physics.servos import MAX_WHEEL_SPEED, VELOCITY, WHEEL, Drive, JointServo, find_drive
-from gz.sim.sdf.description import Model, Plugin
-from gz.sim.sdf.element import Element
-from gz.sim.systems.model_scope import ModelScope
-from gz.sim.systems.odometry_reports import OdometryReports
-from gz.sim.systems.registry import System, UpdateInfo, system
-from gz.sim.systems.speed_limiter import SpeedLimiter
-from gz.sim.systems.topics import valid_topic
+from gz_course.sim.gz.sim.errors import nearest
+from gz_course.sim.gz.sim.physics.servos import MAX_WHEEL_SPEED, VELOCITY, WHEEL, Drive, JointServo, find_drive
+from gz_course.sim.gz.sim.sdf.description import Model, Plugin
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.systems.model_scope import ModelScope
+from gz_course.sim.gz.sim.systems.odometry_reports import OdometryReports
+from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, system
+from gz_course.sim.gz.sim.systems.speed_limiter import SpeedLimiter
+from gz_course.sim.gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
 STRAIGHT = 0.001
 """Turning rates (rad/s) below this are straight on."""
@@ -131,15 +131,15 @@ class AckermannSteering(System):
     def connect(self, node: Node) -> None:
         """Subscribe to the command, advertise the odometry."""
         if self._actuator_number >= 0:
-            from gz.msgs.actuators_pb2 import Actuators
+            from gz_course.sim.gz.msgs.actuators_pb2 import Actuators
 
             node.subscribe(Actuators, self.command_topic, self._on_actuators)
         elif self._steering_only:
-            from gz.msgs.double_pb2 import Double
+            from gz_course.sim.gz.msgs.double_pb2 import Double
 
             node.subscribe(Double, self.command_topic, self._on_angle)
         else:
-            from gz.msgs.twist_pb2 import Twist
+            from gz_course.sim.gz.msgs.twist_pb2 import Twist
 
             node.subscribe(Twist, self.command_topic, self._on_twist)
             self.reports.connect(node)

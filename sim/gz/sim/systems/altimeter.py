@@ -5,8 +5,8 @@ What is common to all systems that run sensors is in `gz.sim.systems.sensor_syst
 
 from __future__ import annotations
 
-from gz.sim.systems.registry import system
-from gz.sim.systems.sensor_system import SensorSystem
+from gz_course.sim.gz.sim.systems.registry import system
+from gz_course.sim.gz.sim.systems.sensor_system import SensorSystem
 
 
 @system("Altimeter", "gz-sim-altimeter-system")

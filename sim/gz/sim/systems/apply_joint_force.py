@@ -5,10 +5,10 @@
 
 from __future__ import annotations
 
-from gz.sim.physics.servos import APPLIED
-from gz.sim.sdf.element import Element
-from gz.sim.systems.joint_command import JointCommand
-from gz.sim.systems.registry import UpdateInfo, system
+from gz_course.sim.gz.sim.physics.servos import APPLIED
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.systems.joint_command import JointCommand
+from gz_course.sim.gz.sim.systems.registry import UpdateInfo, system
 
 
 @system("ApplyJointForce", "gz-sim-apply-joint-force-system")

@@ -15,16 +15,16 @@ from typing import TYPE_CHECKING, Any
 import mujoco
 import numpy as np
 
-from gz.sim.errors import nearest
-from gz.sim.pose import Vector, rotate
-from gz.sim.sdf.description import Model, Plugin
-from gz.sim.sdf.element import Element
-from gz.sim.systems.registry import System, UpdateInfo, system
-from gz.sim.systems.topics import valid_topic
+from gz_course.sim.gz.sim.errors import nearest
+from gz_course.sim.gz.sim.pose import Vector, rotate
+from gz_course.sim.gz.sim.sdf.description import Model, Plugin
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, system
+from gz_course.sim.gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
 _ZERO = (0.0, 0.0, 0.0)
 _MOST = 10_000
@@ -85,8 +85,8 @@ class ApplyLinkWrench(System):
 
     def connect(self, node: Node) -> None:
         """Subscribe to the three topics."""
-        from gz.msgs.entity_pb2 import Entity
-        from gz.msgs.entity_wrench_pb2 import EntityWrench
+        from gz_course.sim.gz.msgs.entity_pb2 import Entity
+        from gz_course.sim.gz.msgs.entity_wrench_pb2 import EntityWrench
 
         node.subscribe(EntityWrench, self.topic, self._on_wrench)
         node.subscribe(EntityWrench, self.persistent_topic, self._on_persistent)

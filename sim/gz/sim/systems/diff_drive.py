@@ -12,21 +12,21 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gz.sim.errors import nearest
-from gz.sim.physics.servos import MAX_WHEEL_SPEED, WHEEL, JointServo
-from gz.sim.pose import Vector, rotate
-from gz.sim.sdf.description import Model, Plugin
-from gz.sim.sdf.element import Element
-from gz.sim.systems.model_scope import ModelScope
-from gz.sim.systems.odometry_reports import OdometryReports
-from gz.sim.systems.registry import System, UpdateInfo, system
-from gz.sim.systems.speed_limiter import SpeedLimiter
-from gz.sim.systems.topics import valid_topic
-from gz.sim.systems.wheel_odometry import WheelOdometry
+from gz_course.sim.gz.sim.errors import nearest
+from gz_course.sim.gz.sim.physics.servos import MAX_WHEEL_SPEED, WHEEL, JointServo
+from gz_course.sim.gz.sim.pose import Vector, rotate
+from gz_course.sim.gz.sim.sdf.description import Model, Plugin
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.systems.model_scope import ModelScope
+from gz_course.sim.gz.sim.systems.odometry_reports import OdometryReports
+from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, system
+from gz_course.sim.gz.sim.systems.speed_limiter import SpeedLimiter
+from gz_course.sim.gz.sim.systems.topics import valid_topic
+from gz_course.sim.gz.sim.systems.wheel_odometry import WheelOdometry
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
 _LIMITS = [
     f"{bound}_{axis}{quantity}"
@@ -123,8 +123,8 @@ class DiffDrive(System):
 
     def connect(self, node: Node) -> None:
         """Subscribe to commands, advertise odometry."""
-        from gz.msgs.boolean_pb2 import Boolean
-        from gz.msgs.twist_pb2 import Twist
+        from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
+        from gz_course.sim.gz.msgs.twist_pb2 import Twist
 
         node.subscribe(Twist, self.command_topic, self._on_command)
         node.subscribe(Boolean, self.enable_topic, self._on_enable)

@@ -14,16 +14,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gz.sim.errors import SimError, nearest
-from gz.sim.pose import Pose
-from gz.sim.sdf.description import Light, Model
-from gz.sim.sdf.element import Element
-from gz.sim.sdf.reader import read_model
-from gz.sim.sdf.resources import find_model, read_text
-from gz.sim.sdf.writer import pose_element
+from gz_course.sim.gz.sim.errors import SimError, nearest
+from gz_course.sim.gz.sim.pose import Pose
+from gz_course.sim.gz.sim.sdf.description import Light, Model
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sdf.reader import read_model
+from gz_course.sim.gz.sim.sdf.resources import find_model, read_text
+from gz_course.sim.gz.sim.sdf.writer import pose_element
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
+    from gz_course.sim.gz.sim.world import World
 
 Command = Callable[["World", Any], Callable[[], None]]
 """Looks at a message (in any thread) and returns what is to be done between two steps; both raise `SimError`."""
@@ -32,11 +32,11 @@ _LIGHT_KINDS = ("point", "spot", "directional")
 
 def commands() -> dict[str, tuple[type, Command]]:
     """Return the services of this file: name -> (type of request, command)."""
-    from gz.msgs.entity_factory_pb2 import EntityFactory
-    from gz.msgs.entity_factory_v_pb2 import EntityFactory_V
-    from gz.msgs.entity_pb2 import Entity
-    from gz.msgs.pose_pb2 import Pose as PoseMessage
-    from gz.msgs.pose_v_pb2 import Pose_V
+    from gz_course.sim.gz.msgs.entity_factory_pb2 import EntityFactory
+    from gz_course.sim.gz.msgs.entity_factory_v_pb2 import EntityFactory_V
+    from gz_course.sim.gz.msgs.entity_pb2 import Entity
+    from gz_course.sim.gz.msgs.pose_pb2 import Pose as PoseMessage
+    from gz_course.sim.gz.msgs.pose_v_pb2 import Pose_V
 
     return {
         "create": (EntityFactory, create),

@@ -9,16 +9,16 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from gz.sim.physics.servos import Drive, JointServo, find_drive
-from gz.sim.sdf.description import Joint, Model, Plugin
-from gz.sim.sdf.element import Element
-from gz.sim.systems.model_scope import ModelScope
-from gz.sim.systems.registry import System
-from gz.sim.systems.topics import valid_topic
+from gz_course.sim.gz.sim.physics.servos import Drive, JointServo, find_drive
+from gz_course.sim.gz.sim.sdf.description import Joint, Model, Plugin
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.systems.model_scope import ModelScope
+from gz_course.sim.gz.sim.systems.registry import System
+from gz_course.sim.gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
 _AXES = {"fixed": 0, "ball": 0, "gearbox": 0, "universal": 2, "revolute2": 2}
 
@@ -83,11 +83,11 @@ class JointCommand(System):
     def connect(self, node: Node) -> None:
         """Subscribe to the command."""
         if self.actuator_number >= 0:
-            from gz.msgs.actuators_pb2 import Actuators
+            from gz_course.sim.gz.msgs.actuators_pb2 import Actuators
 
             node.subscribe(Actuators, self.topic, self._on_actuators)
         else:
-            from gz.msgs.double_pb2 import Double
+            from gz_course.sim.gz.msgs.double_pb2 import Double
 
             node.subscribe(Double, self.topic, self._on_double)
 

@@ -8,15 +8,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from gz.sim.physics.servos import FORCE, VELOCITY
-from gz.sim.sdf.description import Model, Plugin
-from gz.sim.sdf.element import Element
-from gz.sim.systems import pid
-from gz.sim.systems.joint_command import JointCommand
-from gz.sim.systems.registry import UpdateInfo, system
+from gz_course.sim.gz.sim.physics.servos import FORCE, VELOCITY
+from gz_course.sim.gz.sim.sdf.description import Model, Plugin
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.systems import pid
+from gz_course.sim.gz.sim.systems.joint_command import JointCommand
+from gz_course.sim.gz.sim.systems.registry import UpdateInfo, system
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
+    from gz_course.sim.gz.sim.world import World
 
 
 @system("JointPositionController", "gz-sim-joint-position-controller-system")

@@ -9,17 +9,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from gz.sim.physics.joint_axis import JointAxis, find_axes
-from gz.sim.pose import Pose, rotate
-from gz.sim.sdf.description import UNLIMITED, Axis, Joint, Model, Plugin
-from gz.sim.systems.model_scope import ModelScope
-from gz.sim.systems.period import period_ns
-from gz.sim.systems.registry import System, UpdateInfo, system
-from gz.sim.systems.topics import valid_topic
+from gz_course.sim.gz.sim.physics.joint_axis import JointAxis, find_axes
+from gz_course.sim.gz.sim.pose import Pose, rotate
+from gz_course.sim.gz.sim.sdf.description import UNLIMITED, Axis, Joint, Model, Plugin
+from gz_course.sim.gz.sim.systems.model_scope import ModelScope
+from gz_course.sim.gz.sim.systems.period import period_ns
+from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, system
+from gz_course.sim.gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
 
 @system("JointStatePublisher", "gz-sim-joint-state-publisher-system")
@@ -56,7 +56,7 @@ class JointStatePublisher(System):
 
     def connect(self, node: Node) -> None:
         """Advertise the state."""
-        from gz.msgs.model_pb2 import Model as ModelMessage
+        from gz_course.sim.gz.msgs.model_pb2 import Model as ModelMessage
 
         self._type = ModelMessage
         self._publisher = node.advertise(self.topic, ModelMessage)

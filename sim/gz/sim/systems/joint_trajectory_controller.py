@@ -12,17 +12,17 @@ import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from gz.sim.physics.servos import FORCE, Drive, JointServo, find_drive
-from gz.sim.sdf.description import Joint, Model, Plugin
-from gz.sim.sdf.element import Element
-from gz.sim.systems.model_scope import ModelScope
-from gz.sim.systems.pid import PARAMETERS, PID
-from gz.sim.systems.registry import System, UpdateInfo, system
-from gz.sim.systems.topics import valid_topic
+from gz_course.sim.gz.sim.physics.servos import FORCE, Drive, JointServo, find_drive
+from gz_course.sim.gz.sim.sdf.description import Joint, Model, Plugin
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.systems.model_scope import ModelScope
+from gz_course.sim.gz.sim.systems.pid import PARAMETERS, PID
+from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, system
+from gz_course.sim.gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
 _ONE_AXIS = frozenset(("revolute", "continuous", "prismatic"))
 _DEFAULTS = (0.0, 0.0, 0.0, -1.0, 0.0, -1.0, 0.0, 0.0)
@@ -111,8 +111,8 @@ class JointTrajectoryController(System):
 
     def connect(self, node: Node) -> None:
         """Subscribe to trajectories, advertise the progress."""
-        from gz.msgs.float_pb2 import Float
-        from gz.msgs.joint_trajectory_pb2 import JointTrajectory
+        from gz_course.sim.gz.msgs.float_pb2 import Float
+        from gz_course.sim.gz.msgs.joint_trajectory_pb2 import JointTrajectory
 
         self._float = Float
         node.subscribe(JointTrajectory, self.topic, self.command)

@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING, Any
 import mujoco
 import numpy as np
 
-from gz.sim.sdf.description import Model, Plugin
-from gz.sim.systems.model_scope import ModelScope
-from gz.sim.systems.registry import System, UpdateInfo, system
-from gz.sim.systems.topics import valid_topic
+from gz_course.sim.gz.sim.sdf.description import Model, Plugin
+from gz_course.sim.gz.sim.systems.model_scope import ModelScope
+from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, system
+from gz_course.sim.gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
 
 @system("KineticEnergyMonitor", "gz-sim-kinetic-energy-monitor-system")
@@ -49,7 +49,7 @@ class KineticEnergyMonitor(System):
 
     def connect(self, node: Node) -> None:
         """Advertise the loss."""
-        from gz.msgs.double_pb2 import Double
+        from gz_course.sim.gz.msgs.double_pb2 import Double
 
         self._type = Double
         self._publisher = node.advertise(self.topic, Double)

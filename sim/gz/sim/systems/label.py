@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from gz.sim.sdf.description import Collision, Link, Model, Plugin, Visual
-from gz.sim.sdf.element import Element
-from gz.sim.systems.registry import System, system, system_name
+from gz_course.sim.gz.sim.sdf.description import Collision, Link, Model, Plugin, Visual
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.systems.registry import System, system, system_name
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
+    from gz_course.sim.gz.sim.world import World
 
 
 @system("Label", "gz-sim-label-system")

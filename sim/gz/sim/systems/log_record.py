@@ -13,16 +13,16 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gz.sim.errors import LOG, SimError
-from gz.sim.sdf.description import Model, Plugin
-from gz.sim.sdf.element import Element
-from gz.sim.sdf_generator import generate_world
-from gz.sim.systems.registry import System, UpdateInfo, system
-from gz.sim.tlog import FILE_NAME, Entry, LogWriter
+from gz_course.sim.gz.sim.errors import LOG, SimError
+from gz_course.sim.gz.sim.sdf.description import Model, Plugin
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sdf_generator import generate_world
+from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, system
+from gz_course.sim.gz.sim.tlog import FILE_NAME, Entry, LogWriter
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
 _LOOK_NS = 100_000_000
 """How often, in simulated time, it looks for topics that came."""
@@ -55,7 +55,7 @@ class LogRecord(System):
 
     def connect(self, node: Node) -> None:
         """Open the log and listen to what there is."""
-        from gz.msgs.stringmsg_pb2 import StringMsg
+        from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
 
         self._node, self._known, self._next_look_ns = node, set[str](), 0
         self.folder = _free_folder(self.folder, self._overwrite)
@@ -116,7 +116,7 @@ def _pattern(element: Element) -> re.Pattern[str]:
 
 def _own_topics(node: Node) -> list[str]:
     """Return the topics of this process, which are known at once."""
-    from gz.transport import Scope
+    from gz_course.sim.gz.transport import Scope
 
     options = node.options
     options.scope = Scope.PROCESS

@@ -7,13 +7,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from gz.sim.sdf.description import Model, Plugin
-from gz.sim.sensors.magnetometer import Magnetometer as MagnetometerSensor
-from gz.sim.systems.registry import system
-from gz.sim.systems.sensor_system import SensorSystem
+from gz_course.sim.gz.sim.sdf.description import Model, Plugin
+from gz_course.sim.gz.sim.sensors.magnetometer import Magnetometer as MagnetometerSensor
+from gz_course.sim.gz.sim.systems.registry import system
+from gz_course.sim.gz.sim.systems.sensor_system import SensorSystem
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
+    from gz_course.sim.gz.sim.world import World
 
 
 @system("Magnetometer", "gz-sim-magnetometer-system")

@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 
 import mujoco
 
-from gz.sim.errors import nearest
-from gz.sim.physics.builder import scoped
-from gz.sim.pose import IDENTITY, Pose
-from gz.sim.sdf.description import Joint, Link, Model, Plugin
-from gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.errors import nearest
+from gz_course.sim.gz.sim.physics.builder import scoped
+from gz_course.sim.gz.sim.pose import IDENTITY, Pose
+from gz_course.sim.gz.sim.sdf.description import Joint, Link, Model, Plugin
+from gz_course.sim.gz.sim.sdf.element import Element
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
+    from gz_course.sim.gz.sim.world import World
 
 
 class ModelScope:

@@ -16,17 +16,17 @@ from typing import TYPE_CHECKING, Any
 import mujoco
 import numpy as np
 
-from gz.sim.pose import Pose, Vector, multiply, rotate
-from gz.sim.sdf.description import Model, Plugin
-from gz.sim.systems.model_scope import ModelScope
-from gz.sim.systems.odometry_reports import fill_odometry_header
-from gz.sim.systems.period import period_ns
-from gz.sim.systems.registry import System, UpdateInfo, system
-from gz.sim.systems.topics import valid_topic
+from gz_course.sim.gz.sim.pose import Pose, Vector, multiply, rotate
+from gz_course.sim.gz.sim.sdf.description import Model, Plugin
+from gz_course.sim.gz.sim.systems.model_scope import ModelScope
+from gz_course.sim.gz.sim.systems.odometry_reports import fill_odometry_header
+from gz_course.sim.gz.sim.systems.period import period_ns
+from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, system
+from gz_course.sim.gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
 WINDOW = 10
 _INVERSE = np.array((1.0, -1.0, -1.0, -1.0))
@@ -100,9 +100,9 @@ class OdometryPublisher(System):
 
     def connect(self, node: Node) -> None:
         """Advertise the three topics."""
-        from gz.msgs.odometry_pb2 import Odometry
-        from gz.msgs.odometry_with_covariance_pb2 import OdometryWithCovariance
-        from gz.msgs.pose_v_pb2 import Pose_V
+        from gz_course.sim.gz.msgs.odometry_pb2 import Odometry
+        from gz_course.sim.gz.msgs.odometry_with_covariance_pb2 import OdometryWithCovariance
+        from gz_course.sim.gz.msgs.pose_v_pb2 import Pose_V
 
         self._types: tuple[Any, ...] = (Odometry, OdometryWithCovariance, Pose_V)
         topics = (self.odometry_topic, self.covariance_topic, self.tf_topic)

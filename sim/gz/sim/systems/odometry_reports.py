@@ -9,13 +9,13 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from gz.sim.sdf.element import Element
-from gz.sim.systems.model_scope import ModelScope
-from gz.sim.systems.period import period_ns
-from gz.sim.systems.topics import valid_topic
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.systems.model_scope import ModelScope
+from gz_course.sim.gz.sim.systems.period import period_ns
+from gz_course.sim.gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
-    from gz.transport import Node
+    from gz_course.sim.gz.transport import Node
 
 
 def fill_odometry_header(header: Any, now_ns: int, frame_id: str, child_frame_id: str) -> None:
@@ -55,8 +55,8 @@ class OdometryReports:
 
     def connect(self, node: Node) -> None:
         """Advertise both topics."""
-        from gz.msgs.odometry_pb2 import Odometry
-        from gz.msgs.pose_v_pb2 import Pose_V
+        from gz_course.sim.gz.msgs.odometry_pb2 import Odometry
+        from gz_course.sim.gz.msgs.pose_v_pb2 import Pose_V
 
         self._odometry_type, self._pose_v_type = Odometry, Pose_V
         self._publisher = node.advertise(self.odometry_topic, Odometry)

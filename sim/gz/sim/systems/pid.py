@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
-from gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sdf.element import Element
 
 PARAMETERS = ("p_gain", "i_gain", "d_gain", "i_max", "i_min", "cmd_max", "cmd_min", "cmd_offset")
 

@@ -11,17 +11,17 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from gz.sim.scene.fields import fill_pose, set_pose, set_stamp
-from gz.sim.scene.graph import SceneGraph, Vertex
-from gz.sim.sdf.description import Model, Plugin
-from gz.sim.sdf.element import Element
-from gz.sim.systems.period import period_ns
-from gz.sim.systems.registry import System, UpdateInfo, system
-from gz.sim.systems.topics import valid_topic
+from gz_course.sim.gz.sim.scene.fields import fill_pose, set_pose, set_stamp
+from gz_course.sim.gz.sim.scene.graph import SceneGraph, Vertex
+from gz_course.sim.gz.sim.sdf.description import Model, Plugin
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.systems.period import period_ns
+from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, system
+from gz_course.sim.gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
 
 class Stream:
@@ -127,8 +127,8 @@ class PosePublisher(System):
 
     def connect(self, node: Node) -> None:
         """Advertise the topics."""
-        from gz.msgs.pose_pb2 import Pose
-        from gz.msgs.pose_v_pb2 import Pose_V
+        from gz_course.sim.gz.msgs.pose_pb2 import Pose
+        from gz_course.sim.gz.msgs.pose_v_pb2 import Pose_V
 
         self._pose_v = Pose_V
         for stream in self._streams:

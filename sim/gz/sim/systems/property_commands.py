@@ -10,23 +10,23 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from gz.sim.errors import SimError, nearest
-from gz.sim.sdf.description import Collision, Visual
-from gz.sim.spherical_coordinates import SURFACES, SphericalCoordinates
-from gz.sim.systems.entity_commands import Command, light_changes, name_of, place_on_planet, pose_of
+from gz_course.sim.gz.sim.errors import SimError, nearest
+from gz_course.sim.gz.sim.sdf.description import Collision, Visual
+from gz_course.sim.gz.sim.spherical_coordinates import SURFACES, SphericalCoordinates
+from gz_course.sim.gz.sim.systems.entity_commands import Command, light_changes, name_of, place_on_planet, pose_of
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
+    from gz_course.sim.gz.sim.world import World
 
 
 def commands() -> dict[str, tuple[type, Command]]:
     """Return the services of this file: name -> (type of request, command)."""
-    from gz.msgs.entity_pb2 import Entity
-    from gz.msgs.light_pb2 import Light
-    from gz.msgs.physics_pb2 import Physics
-    from gz.msgs.spherical_coordinates_pb2 import SphericalCoordinates as SphericalMessage
-    from gz.msgs.visual_pb2 import Visual as VisualMessage
-    from gz.msgs.wheel_slip_parameters_cmd_pb2 import WheelSlipParametersCmd
+    from gz_course.sim.gz.msgs.entity_pb2 import Entity
+    from gz_course.sim.gz.msgs.light_pb2 import Light
+    from gz_course.sim.gz.msgs.physics_pb2 import Physics
+    from gz_course.sim.gz.msgs.spherical_coordinates_pb2 import SphericalCoordinates as SphericalMessage
+    from gz_course.sim.gz.msgs.visual_pb2 import Visual as VisualMessage
+    from gz_course.sim.gz.msgs.wheel_slip_parameters_cmd_pb2 import WheelSlipParametersCmd
 
     return {
         "light_config": (Light, light_config),

@@ -15,13 +15,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
-from gz.sim.errors import Diagnostics, nearest
-from gz.sim.physics.servos import JointServo
-from gz.sim.sdf.description import Model, Plugin
+from gz_course.sim.gz.sim.errors import Diagnostics, nearest
+from gz_course.sim.gz.sim.physics.servos import JointServo
+from gz_course.sim.gz.sim.sdf.description import Model, Plugin
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
 
 class UpdateInfo:
@@ -109,7 +109,7 @@ def systems() -> dict[str, type[System]]:
     global _scanned
     if not _scanned:
         for module in pkgutil.iter_modules([str(Path(__file__).parent)]):
-            importlib.import_module(f"gz.sim.systems.{module.name}")
+            importlib.import_module(f"gz_course.sim.gz.sim.systems.{module.name}")
         _scanned = True
     return dict(_SYSTEMS)
 

@@ -13,17 +13,17 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from gz.sim.errors import LOG, SimError
-from gz.sim.scene.fields import fill_pose, set_pose, set_stamp
-from gz.sim.scene.graph import KINDS, SceneGraph, Vertex
-from gz.sim.sdf.description import Model, Plugin
-from gz.sim.sdf.element import Element
-from gz.sim.systems.period import LONGEST_NS
-from gz.sim.systems.registry import System, UpdateInfo, system
+from gz_course.sim.gz.sim.errors import LOG, SimError
+from gz_course.sim.gz.sim.scene.fields import fill_pose, set_pose, set_stamp
+from gz_course.sim.gz.sim.scene.graph import KINDS, SceneGraph, Vertex
+from gz_course.sim.gz.sim.sdf.description import Model, Plugin
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.systems.period import LONGEST_NS
+from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, system
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
 POSE_HERTZ = 60.0
 T = TypeVar("T")
@@ -105,12 +105,12 @@ class SceneBroadcaster(System):
 
     def connect(self, node: Node) -> None:
         """Advertise the topics and offer the services."""
-        from gz.msgs.empty_pb2 import Empty
-        from gz.msgs.pose_v_pb2 import Pose_V
-        from gz.msgs.scene_pb2 import Scene
-        from gz.msgs.serialized_map_pb2 import SerializedStepMap
-        from gz.msgs.stringmsg_pb2 import StringMsg
-        from gz.msgs.uint32_v_pb2 import UInt32_V
+        from gz_course.sim.gz.msgs.empty_pb2 import Empty
+        from gz_course.sim.gz.msgs.pose_v_pb2 import Pose_V
+        from gz_course.sim.gz.msgs.scene_pb2 import Scene
+        from gz_course.sim.gz.msgs.serialized_map_pb2 import SerializedStepMap
+        from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+        from gz_course.sim.gz.msgs.uint32_v_pb2 import UInt32_V
 
         self._pose_v, self._step_map, self._numbers, self._empty = Pose_V, SerializedStepMap, UInt32_V, Empty
         self._node = node
@@ -179,7 +179,7 @@ class SceneBroadcaster(System):
         if not self._state_publisher.has_connections():
             self._state_known = False
             return
-        from gz.sim.scene.state import pose_state
+        from gz_course.sim.gz.sim.scene.state import pose_state
 
         if self._state_known:
             message = self._step(pose_state(self._world, self._current_graph()))
@@ -217,22 +217,22 @@ class SceneBroadcaster(System):
             self._deletion_publisher.publish(self._numbers(data=gone))
         new = [numbers[0] for key, numbers in outline.items() if self._sent.get(key) != numbers]
         if new and not removals_only and self._scene_publisher.has_connections():
-            from gz.sim.scene.message import scene_message
+            from gz_course.sim.gz.sim.scene.message import scene_message
 
             self._scene_publisher.publish(scene_message(self._world, self._current_graph(), new))
 
     def _scene(self) -> Any:
-        from gz.sim.scene.message import scene_message
+        from gz_course.sim.gz.sim.scene.message import scene_message
 
         return scene_message(self._world, self._current_graph())
 
     def _dot(self) -> Any:
-        from gz.msgs.stringmsg_pb2 import StringMsg
+        from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
 
         return StringMsg(data=self._current_graph().dot())
 
     def _full_step(self) -> Any:
-        from gz.sim.scene.state import full_state
+        from gz_course.sim.gz.sim.scene.state import full_state
 
         return self._step(full_state(self._world, self._current_graph()))
 

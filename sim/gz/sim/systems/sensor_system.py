@@ -10,14 +10,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from gz.sim.errors import SdfError
-from gz.sim.sdf.description import Model, Plugin, Sensor
-from gz.sim.sensors.registry import SensorBase, sensor_types
-from gz.sim.systems.registry import System, UpdateInfo
+from gz_course.sim.gz.sim.errors import SdfError
+from gz_course.sim.gz.sim.sdf.description import Model, Plugin, Sensor
+from gz_course.sim.gz.sim.sensors.registry import SensorBase, sensor_types
+from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
 _NEVER = 1 << 62
 

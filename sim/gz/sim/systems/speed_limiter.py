@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sdf.element import Element
 
 
 @dataclass

@@ -8,15 +8,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from gz.sim.physics.contacts import CollisionGeoms, CollisionPath, touching
-from gz.sim.requests import logged
-from gz.sim.sdf.description import Model, Plugin
-from gz.sim.systems.registry import System, UpdateInfo, system, system_name
-from gz.sim.systems.topics import valid_topic
+from gz_course.sim.gz.sim.physics.contacts import CollisionGeoms, CollisionPath, touching
+from gz_course.sim.gz.sim.requests import logged
+from gz_course.sim.gz.sim.sdf.description import Model, Plugin
+from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, system, system_name
+from gz_course.sim.gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
 
 @system("TouchPlugin", "gz-sim-touchplugin-system")
@@ -82,8 +82,8 @@ class TouchPlugin(System):
 
     def connect(self, node: Node) -> None:
         """Advertise the touch and offer the service that switches the plugin on and off."""
-        from gz.msgs.boolean_pb2 import Boolean
-        from gz.msgs.empty_pb2 import Empty
+        from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
+        from gz_course.sim.gz.msgs.empty_pb2 import Empty
 
         service = f"{self._namespace}/enable"
 

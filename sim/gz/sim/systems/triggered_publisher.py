@@ -14,17 +14,17 @@ from typing import TYPE_CHECKING, Any
 
 from google.protobuf.message import Message
 
-from gz.msgs import message_class
-from gz.msgs.registry import UnknownTypeError
-from gz.msgs.text import MessageTextError, from_text
-from gz.sim.sdf.description import Model, Plugin
-from gz.sim.sdf.element import Element
-from gz.sim.systems.registry import System, UpdateInfo, system
-from gz.sim.systems.topics import valid_topic
+from gz_course.sim.gz.msgs import message_class
+from gz_course.sim.gz.msgs.registry import UnknownTypeError
+from gz_course.sim.gz.msgs.text import MessageTextError, from_text
+from gz_course.sim.gz.sim.sdf.description import Model, Plugin
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, system
+from gz_course.sim.gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
 _MOST = 10_000
 """So many answers may wait for their time; the oldest go first."""

@@ -12,15 +12,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from gz.sim.errors import LOG, SimError
-from gz.sim.requests import logged
-from gz.sim.sdf.description import Model, Plugin
-from gz.sim.systems.registry import System, system
+from gz_course.sim.gz.sim.errors import LOG, SimError
+from gz_course.sim.gz.sim.requests import logged
+from gz_course.sim.gz.sim.sdf.description import Model, Plugin
+from gz_course.sim.gz.sim.systems.registry import System, system
 
 if TYPE_CHECKING:
-    from gz.sim.systems.entity_commands import Command
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.systems.entity_commands import Command
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
 
 @system("UserCommands", "gz-sim-user-commands-system")
@@ -37,10 +37,9 @@ class UserCommands(System):
 
     def connect(self, node: Node) -> None:
         """Offer every command twice, and listen to colours."""
-        from gz.msgs.boolean_pb2 import Boolean
-        from gz.msgs.material_color_pb2 import MaterialColor
-
-        from gz.sim.systems import entity_commands, property_commands
+        from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
+        from gz_course.sim.gz.msgs.material_color_pb2 import MaterialColor
+        from gz_course.sim.gz.sim.systems import entity_commands, property_commands
 
         self._answer = Boolean
         prefix = self._world.topic

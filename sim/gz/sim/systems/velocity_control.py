@@ -15,15 +15,15 @@ from typing import TYPE_CHECKING, Any
 import mujoco
 import numpy as np
 
-from gz.sim.pose import Vector, rotate
-from gz.sim.sdf.description import Link, Model, Plugin
-from gz.sim.systems.model_scope import ModelScope
-from gz.sim.systems.registry import System, UpdateInfo, system
-from gz.sim.systems.topics import valid_topic
+from gz_course.sim.gz.sim.pose import Vector, rotate
+from gz_course.sim.gz.sim.sdf.description import Link, Model, Plugin
+from gz_course.sim.gz.sim.systems.model_scope import ModelScope
+from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, system
+from gz_course.sim.gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
-    from gz.sim.world import World
-    from gz.transport import Node
+    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.transport import Node
 
 FASTEST = 1e4
 """Fastest motion asked for (m/s, rad/s)."""
@@ -82,7 +82,7 @@ class VelocityControl(System):
 
     def connect(self, node: Node) -> None:
         """Subscribe to the commands."""
-        from gz.msgs.twist_pb2 import Twist
+        from gz_course.sim.gz.msgs.twist_pb2 import Twist
 
         node.subscribe(Twist, self.topic, self._on_command)
         for link, topic in zip(self.links, self.link_topics, strict=True):

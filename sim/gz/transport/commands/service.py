@@ -9,10 +9,10 @@ from __future__ import annotations
 import argparse
 import sys
 
-from gz.command_line import Parser, nearest, whole_number
-from gz.msgs import canonical_name, message_class
-from gz.transport.node import Node
-from gz.transport.service import EMPTY_TYPE
+from gz_course.sim.gz.command_line import Parser, nearest, whole_number
+from gz_course.sim.gz.msgs import canonical_name, message_class
+from gz_course.sim.gz.transport.node import Node
+from gz_course.sim.gz.transport.service import EMPTY_TYPE
 
 _TIMEOUT_MS = 1000
 _FORTRESS = "ignition.msgs."
@@ -61,7 +61,7 @@ def _info(node: Node, service: str) -> int:
 
 
 def _call(node: Node, values: argparse.Namespace) -> int:
-    from gz.msgs.text import from_text, to_text
+    from gz_course.sim.gz.msgs.text import from_text, to_text
 
     request_type, response_type = values.reqtype or EMPTY_TYPE, values.reptype or EMPTY_TYPE
     request = from_text(values.req, message_class(request_type))

@@ -15,11 +15,11 @@ from collections.abc import Sequence
 
 from google.protobuf.message import DecodeError, Message
 
-from gz.command_line import Parser, nearest, positive_seconds, whole_number
-from gz.msgs import canonical_name, message_class
-from gz.transport.echo_queue import Arrival, EchoQueue
-from gz.transport.message_info import MessagePublisher
-from gz.transport.node import Node
+from gz_course.sim.gz.command_line import Parser, nearest, positive_seconds, whole_number
+from gz_course.sim.gz.msgs import canonical_name, message_class
+from gz_course.sim.gz.transport.echo_queue import Arrival, EchoQueue
+from gz_course.sim.gz.transport.message_info import MessagePublisher
+from gz_course.sim.gz.transport.node import Node
 
 _LOOK_FOR_TOPIC_AFTER_S = 1.5
 _SUBSCRIBERS_WITHIN_S = 1.5
@@ -84,7 +84,7 @@ def _echo(node: Node, values: argparse.Namespace) -> int:
     printed = 0
     try:
         with EchoQueue(node, values.topic) as arrivals:
-            from gz.msgs.text import to_json_line, to_text  # loaded while the publisher hears of us
+            from gz_course.sim.gz.msgs.text import to_json_line, to_text  # loaded while the publisher hears of us
 
             look_at = time.monotonic() + _LOOK_FOR_TOPIC_AFTER_S
             while not values.num or printed < values.num:
@@ -145,7 +145,7 @@ def _print_frequency(times_ns: Sequence[int]) -> None:
 
 
 def _publish(node: Node, values: argparse.Namespace) -> int:
-    from gz.msgs.text import from_text
+    from gz_course.sim.gz.msgs.text import from_text
 
     message = from_text(values.pub, message_class(values.msgtype))
     spelled = values.msgtype.removeprefix(".")

@@ -1,6 +1,6 @@
 """What happens to processes, and what is asked of them."""
 
-from launch.events.process.running_process_event import (
+from gz_course.sim.launch.events.process.running_process_event import (
     ProcessExited,
     ProcessIO,
     ProcessStarted,
@@ -9,7 +9,7 @@ from launch.events.process.running_process_event import (
     ProcessStdout,
     RunningProcessEvent,
 )
-from launch.events.process.signal_process import (
+from gz_course.sim.launch.events.process.signal_process import (
     ProcessTargetedEvent,
     ShutdownProcess,
     SignalProcess,

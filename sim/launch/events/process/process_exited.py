@@ -1,3 +1,3 @@
 """ProcessExited, in the module where launch of ROS 2 has it."""
 
-from launch.events.process.running_process_event import ProcessExited as ProcessExited
+from gz_course.sim.launch.events.process.running_process_event import ProcessExited as ProcessExited

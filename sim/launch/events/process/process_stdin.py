@@ -1,3 +1,3 @@
 """ProcessStdin, in the module where launch of ROS 2 has it."""
 
-from launch.events.process.running_process_event import ProcessStdin as ProcessStdin
+from gz_course.sim.launch.events.process.running_process_event import ProcessStdin as ProcessStdin

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from launch.event import Event
+from gz_course.sim.launch.event import Event
 
 if TYPE_CHECKING:
-    from launch.action import Action
+    from gz_course.sim.launch.action import Action
 
 
 class RunningProcessEvent(Event):

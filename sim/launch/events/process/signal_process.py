@@ -6,8 +6,8 @@ import signal
 from collections.abc import Callable
 from typing import Any
 
-from launch.errors import nearest
-from launch.event import Event
+from gz_course.sim.launch.errors import nearest
+from gz_course.sim.launch.event import Event
 
 ProcessMatcher = Callable[[Any], bool]
 

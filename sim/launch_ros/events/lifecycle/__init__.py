@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from launch.event import Event
+from gz_course.sim.launch.event import Event
 
 
 class ChangeState(Event):

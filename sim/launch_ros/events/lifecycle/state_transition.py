@@ -1,3 +1,3 @@
 """StateTransition, in the module where launch_ros of ROS 2 has it."""
 
-from launch_ros.events.lifecycle import StateTransition as StateTransition
+from gz_course.sim.launch_ros.events.lifecycle import StateTransition as StateTransition

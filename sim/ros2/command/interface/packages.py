@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from ros2.interface import KINDS, add_kind_options, interface_packages, package_interfaces
+from gz_course.sim.ros2.interface import KINDS, add_kind_options, interface_packages, package_interfaces
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import argparse
 
-from ros2.interface import prototype
-from ros2.message_text import TextFormat, to_yaml
+from gz_course.sim.ros2.interface import prototype
+from gz_course.sim.ros2.message_text import TextFormat, to_yaml
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -7,7 +7,7 @@ import re
 import sys
 from collections.abc import Iterator
 
-from ros2.interface import interface_file
+from gz_course.sim.ros2.interface import interface_file
 
 _FIELD = re.compile(r"\s*(?:@\w+.*\s)?(?P<type>[A-Za-z][\w/]*)(?:<=\d+)?(?:\[[<=\d]*\])?\s+\w+")
 _PRIMITIVE = {

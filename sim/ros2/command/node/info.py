@@ -9,8 +9,8 @@ from rclpy.action.graph import (
     get_action_server_names_and_types_by_node,
 )
 
-from ros2.graph import Graph, NamesAndTypes, add_graph_options, is_hidden
-from ros2.node import find_node, split_name
+from gz_course.sim.ros2.graph import Graph, NamesAndTypes, add_graph_options, is_hidden
+from gz_course.sim.ros2.node import find_node, split_name
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

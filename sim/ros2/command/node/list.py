@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import argparse
 
-from ros2.graph import Graph, add_graph_options
-from ros2.topic import warn
+from gz_course.sim.ros2.graph import Graph, add_graph_options
+from gz_course.sim.ros2.topic import warn
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

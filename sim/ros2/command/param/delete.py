@@ -6,10 +6,10 @@ import argparse
 
 from rcl_interfaces.msg import ParameterValue
 
-from ros2.errors import CommandError
-from ros2.graph import Graph, add_graph_options
-from ros2.node import find_node
-from ros2.parameter import NodeParameters, python_value
+from gz_course.sim.ros2.errors import CommandError
+from gz_course.sim.ros2.graph import Graph, add_graph_options
+from gz_course.sim.ros2.node import find_node
+from gz_course.sim.ros2.parameter import NodeParameters, python_value
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

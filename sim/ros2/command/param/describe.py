@@ -6,9 +6,9 @@ import argparse
 from collections.abc import Iterator
 from typing import Any
 
-from ros2.graph import Graph, add_graph_options
-from ros2.node import find_node
-from ros2.parameter import NodeParameters, type_word
+from gz_course.sim.ros2.graph import Graph, add_graph_options
+from gz_course.sim.ros2.node import find_node
+from gz_course.sim.ros2.parameter import NodeParameters, type_word
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import argparse
 
-from ros2.graph import Graph, add_graph_options
-from ros2.node import find_node
-from ros2.parameter import NodeParameters, kind_word, python_value
+from gz_course.sim.ros2.graph import Graph, add_graph_options
+from gz_course.sim.ros2.node import find_node
+from gz_course.sim.ros2.parameter import NodeParameters, kind_word, python_value
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

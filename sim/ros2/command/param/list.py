@@ -6,11 +6,11 @@ import argparse
 import re
 from collections.abc import Callable
 
-from ros2.errors import CommandError
-from ros2.graph import Graph, add_graph_options
-from ros2.node import find_node
-from ros2.parameter import NodeParameters, type_word
-from ros2.topic import warn
+from gz_course.sim.ros2.errors import CommandError
+from gz_course.sim.ros2.graph import Graph, add_graph_options
+from gz_course.sim.ros2.node import find_node
+from gz_course.sim.ros2.parameter import NodeParameters, type_word
+from gz_course.sim.ros2.topic import warn
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

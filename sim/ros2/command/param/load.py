@@ -8,12 +8,12 @@ from typing import Any
 
 import yaml
 
-from ros2.errors import CommandError, did_you_mean
-from ros2.graph import Graph, add_graph_options
-from ros2.message_value import parse_yaml
-from ros2.node import find_node
-from ros2.parameter import NodeParameters, flat, parameter_value
-from ros2.topic import warn
+from gz_course.sim.ros2.errors import CommandError, did_you_mean
+from gz_course.sim.ros2.graph import Graph, add_graph_options
+from gz_course.sim.ros2.message_value import parse_yaml
+from gz_course.sim.ros2.node import find_node
+from gz_course.sim.ros2.parameter import NodeParameters, flat, parameter_value
+from gz_course.sim.ros2.topic import warn
 
 _EVERY_NODE = "/**"
 _KEY = "ros__parameters"

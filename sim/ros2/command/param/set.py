@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import argparse
 
-from ros2.graph import Graph, add_graph_options
-from ros2.node import find_node
-from ros2.parameter import NodeParameters, value_from_yaml
-from ros2.topic import warn
+from gz_course.sim.ros2.graph import Graph, add_graph_options
+from gz_course.sim.ros2.node import find_node
+from gz_course.sim.ros2.parameter import NodeParameters, value_from_yaml
+from gz_course.sim.ros2.topic import warn
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from ros2.packages import executables, package_names
+from gz_course.sim.ros2.packages import executables, package_names
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from ros2.packages import package_prefix, package_share
+from gz_course.sim.ros2.packages import package_prefix, package_share
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from xml.etree import ElementTree
 
-from ros2.errors import CommandError, did_you_mean
-from ros2.packages import package_share
+from gz_course.sim.ros2.errors import CommandError, did_you_mean
+from gz_course.sim.ros2.packages import package_share
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

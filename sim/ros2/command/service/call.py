@@ -7,12 +7,12 @@ import sys
 import time
 from typing import Any
 
-from ros2.errors import CommandError
-from ros2.graph import Graph, add_graph_options
-from ros2.interface import service_class, service_type_name
-from ros2.message_value import fill
-from ros2.option_values import rate, seconds
-from ros2.service import call, nearest_service, service_name
+from gz_course.sim.ros2.errors import CommandError
+from gz_course.sim.ros2.graph import Graph, add_graph_options
+from gz_course.sim.ros2.interface import service_class, service_type_name
+from gz_course.sim.ros2.message_value import fill
+from gz_course.sim.ros2.option_values import rate, seconds
+from gz_course.sim.ros2.service import call, nearest_service, service_name
 
 _AVAILABLE = 10.0  # s to wait for a service that is not there
 _ANSWER = 60.0  # s to wait for its answer

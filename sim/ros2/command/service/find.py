@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import argparse
 
-from ros2.graph import Graph, add_graph_options
-from ros2.interface import service_class, service_type_name
+from gz_course.sim.ros2.graph import Graph, add_graph_options
+from gz_course.sim.ros2.interface import service_class, service_type_name
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import argparse
 
-from ros2.errors import CommandError
-from ros2.graph import Graph, add_graph_options
-from ros2.service import nearest_service, service_name, service_types
+from gz_course.sim.ros2.errors import CommandError
+from gz_course.sim.ros2.graph import Graph, add_graph_options
+from gz_course.sim.ros2.service import nearest_service, service_name, service_types
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

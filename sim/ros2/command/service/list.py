@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from ros2.graph import Graph, add_graph_options
+from gz_course.sim.ros2.graph import Graph, add_graph_options
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -7,8 +7,8 @@ import time
 from collections import deque
 from collections.abc import Callable
 
-from ros2.graph import Graph, add_graph_options
-from ros2.measurement import add_window, awaited_topic, measure
+from gz_course.sim.ros2.graph import Graph, add_graph_options
+from gz_course.sim.ros2.measurement import add_window, awaited_topic, measure
 
 WINDOW = 100
 _UNITS = ((1e3, 1.0, "{:.0f} B"), (1e6, 1e3, "{:.2f} KB"), (float("inf"), 1e6, "{:.2f} MB"))

@@ -9,9 +9,9 @@ from typing import Any
 
 from rclpy.time import Time
 
-from ros2.errors import CommandError
-from ros2.graph import Graph, add_graph_options
-from ros2.measurement import add_window, awaited_topic, measure, spread
+from gz_course.sim.ros2.errors import CommandError
+from gz_course.sim.ros2.graph import Graph, add_graph_options
+from gz_course.sim.ros2.measurement import add_window, awaited_topic, measure, spread
 
 WINDOW = 10000
 _NANOSECONDS = 1e-9

@@ -9,13 +9,21 @@ from typing import Any
 
 import yaml
 
-from ros2.errors import CommandError, did_you_mean
-from ros2.graph import Graph, add_graph_options
-from ros2.interface import message_class, message_type_name
-from ros2.message_text import TextFormat, is_message, to_csv, to_yaml
-from ros2.option_values import seconds, whole_number
-from ros2.qos import add_qos_options, chosen_qos
-from ros2.topic import following_qos, full_name, message_filter, nearest_topic, not_published, only_type, warn
+from gz_course.sim.ros2.errors import CommandError, did_you_mean
+from gz_course.sim.ros2.graph import Graph, add_graph_options
+from gz_course.sim.ros2.interface import message_class, message_type_name
+from gz_course.sim.ros2.message_text import TextFormat, is_message, to_csv, to_yaml
+from gz_course.sim.ros2.option_values import seconds, whole_number
+from gz_course.sim.ros2.qos import add_qos_options, chosen_qos
+from gz_course.sim.ros2.topic import (
+    following_qos,
+    full_name,
+    message_filter,
+    nearest_topic,
+    not_published,
+    only_type,
+    warn,
+)
 
 _FIRST_PUBLISHER = 1.0  # s to wait for somebody to follow the QoS of, when the type is given
 

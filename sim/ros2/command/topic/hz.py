@@ -8,9 +8,9 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any
 
-from ros2.graph import Graph, add_graph_options
-from ros2.measurement import add_window, awaited_topic, measure, spread
-from ros2.topic import message_filter
+from gz_course.sim.ros2.graph import Graph, add_graph_options
+from gz_course.sim.ros2.measurement import add_window, awaited_topic, measure, spread
+from gz_course.sim.ros2.topic import message_filter
 
 WINDOW = 10000
 _NANOSECONDS = 1e-9

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import argparse
 
-from ros2.errors import CommandError
-from ros2.graph import Graph, add_graph_options
-from ros2.topic import nearest_topic
+from gz_course.sim.ros2.errors import CommandError
+from gz_course.sim.ros2.graph import Graph, add_graph_options
+from gz_course.sim.ros2.topic import nearest_topic
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

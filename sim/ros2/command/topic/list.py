@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable
 
-from ros2.graph import Graph, add_graph_options
+from gz_course.sim.ros2.graph import Graph, add_graph_options
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

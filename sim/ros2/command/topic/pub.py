@@ -12,13 +12,13 @@ from rclpy.exceptions import InvalidNodeNameException
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.validate_node_name import validate_node_name
 
-from ros2.errors import CommandError, did_you_mean
-from ros2.graph import Graph, add_graph_options
-from ros2.interface import message_class, message_type_name
-from ros2.message_value import fill
-from ros2.option_values import positive_number, rate, seconds, whole_number
-from ros2.qos import add_qos_options, chosen_qos
-from ros2.topic import full_name, warn
+from gz_course.sim.ros2.errors import CommandError, did_you_mean
+from gz_course.sim.ros2.graph import Graph, add_graph_options
+from gz_course.sim.ros2.interface import message_class, message_type_name
+from gz_course.sim.ros2.message_value import fill
+from gz_course.sim.ros2.option_values import positive_number, rate, seconds, whole_number
+from gz_course.sim.ros2.qos import add_qos_options, chosen_qos
+from gz_course.sim.ros2.topic import full_name, warn
 
 _SAY_AGAIN = 1.0  # s between two lines while nobody listens
 _HINT_AFTER = 2  # such lines until the nearest topic is named

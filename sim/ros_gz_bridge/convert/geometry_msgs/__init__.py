@@ -5,4 +5,4 @@ every number is copied. Quaternions are x, y, z, w on both sides and copied as t
 filled in stays 0, 0, 0, 0, and its sign is kept.
 """
 
-from ros_gz_bridge.convert.geometry_msgs import poses, twists  # noqa: F401
+from gz_course.sim.ros_gz_bridge.convert.geometry_msgs import poses, twists  # noqa: F401

@@ -17,15 +17,15 @@ from geometry_msgs.msg import (
     TransformStamped,
     Vector3,
 )
-from gz.msgs.pose_pb2 import Pose as GzPose
-from gz.msgs.pose_with_covariance_pb2 import PoseWithCovariance as GzPoseWithCovariance
-from gz.msgs.quaternion_pb2 import Quaternion as GzQuaternion
-from gz.msgs.vector3d_pb2 import Vector3d
 
-from ros_gz_bridge.blank import blank
-from ros_gz_bridge.fields import HEADER, Each, Fields, Part, add_fields
-from ros_gz_bridge.header import CHILD_FRAME_ID, fill_header, header_to_gz, header_value, set_header_value
-from ros_gz_bridge.type_pairs import type_pair
+from gz_course.sim.gz.msgs.pose_pb2 import Pose as GzPose
+from gz_course.sim.gz.msgs.pose_with_covariance_pb2 import PoseWithCovariance as GzPoseWithCovariance
+from gz_course.sim.gz.msgs.quaternion_pb2 import Quaternion as GzQuaternion
+from gz_course.sim.gz.msgs.vector3d_pb2 import Vector3d
+from gz_course.sim.ros_gz_bridge.blank import blank
+from gz_course.sim.ros_gz_bridge.fields import HEADER, Each, Fields, Part, add_fields
+from gz_course.sim.ros_gz_bridge.header import CHILD_FRAME_ID, fill_header, header_to_gz, header_value, set_header_value
+from gz_course.sim.ros_gz_bridge.type_pairs import type_pair
 
 
 def fill_xyz(gz: Any, ros: Vector3 | Point) -> None:

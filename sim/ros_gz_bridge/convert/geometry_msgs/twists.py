@@ -15,15 +15,15 @@ from geometry_msgs.msg import (
     Wrench,
     WrenchStamped,
 )
-from gz.msgs.twist_pb2 import Twist as GzTwist
-from gz.msgs.twist_with_covariance_pb2 import TwistWithCovariance as GzTwistWithCovariance
-from gz.msgs.wrench_pb2 import Wrench as GzWrench
 
-from ros_gz_bridge.blank import blank
-from ros_gz_bridge.convert.geometry_msgs.poses import VECTOR3, copy_xyz, covariance_to_ros, fill_xyz
-from ros_gz_bridge.fields import Fields, Part, add_fields
-from ros_gz_bridge.header import fill_header, header_to_gz, header_to_ros
-from ros_gz_bridge.type_pairs import type_pair
+from gz_course.sim.gz.msgs.twist_pb2 import Twist as GzTwist
+from gz_course.sim.gz.msgs.twist_with_covariance_pb2 import TwistWithCovariance as GzTwistWithCovariance
+from gz_course.sim.gz.msgs.wrench_pb2 import Wrench as GzWrench
+from gz_course.sim.ros_gz_bridge.blank import blank
+from gz_course.sim.ros_gz_bridge.convert.geometry_msgs.poses import VECTOR3, copy_xyz, covariance_to_ros, fill_xyz
+from gz_course.sim.ros_gz_bridge.fields import Fields, Part, add_fields
+from gz_course.sim.ros_gz_bridge.header import fill_header, header_to_gz, header_to_ros
+from gz_course.sim.ros_gz_bridge.type_pairs import type_pair
 
 
 def fill_twist(gz: Any, ros: Twist) -> None:

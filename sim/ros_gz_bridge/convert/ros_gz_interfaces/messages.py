@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from gz.msgs.dataframe_pb2 import Dataframe as GzDataframe
 from ros_gz_interfaces.msg import (
     Altimeter,
     Contact,
@@ -26,9 +25,10 @@ from ros_gz_interfaces.msg import (
 )
 from std_msgs.msg import String, UInt32
 
-from ros_gz_bridge.convert.geometry_msgs.poses import POSE, VECTOR3
-from ros_gz_bridge.convert.geometry_msgs.twists import WRENCH, not_finite
-from ros_gz_bridge.fields import (
+from gz_course.sim.gz.msgs.dataframe_pb2 import Dataframe as GzDataframe
+from gz_course.sim.ros_gz_bridge.convert.geometry_msgs.poses import POSE, VECTOR3
+from gz_course.sim.ros_gz_bridge.convert.geometry_msgs.twists import WRENCH, not_finite
+from gz_course.sim.ros_gz_bridge.fields import (
     COLOR,
     DOUBLES,
     ENUM,
@@ -42,8 +42,8 @@ from ros_gz_bridge.fields import (
     Plain,
     add_fields,
 )
-from ros_gz_bridge.header import header_to_gz, header_to_ros, header_value, set_header_value
-from ros_gz_bridge.type_pairs import type_pair
+from gz_course.sim.ros_gz_bridge.header import header_to_gz, header_to_ros, header_value, set_header_value
+from gz_course.sim.ros_gz_bridge.type_pairs import type_pair
 
 
 def _plain(*names: str) -> dict[str, Kind]:

@@ -6,14 +6,14 @@ import re
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from gz.msgs.param_pb2 import Param
-from gz.msgs.param_v_pb2 import Param_V
 from rcl_interfaces.msg import Parameter, ParameterValue
 from ros_gz_interfaces.msg import ParamVec
 
-from ros_gz_bridge.convert.rcl_interfaces import copy_value, value_to_ros
-from ros_gz_bridge.header import header_to_gz, header_to_ros
-from ros_gz_bridge.type_pairs import ConversionError, type_pair
+from gz_course.sim.gz.msgs.param_pb2 import Param
+from gz_course.sim.gz.msgs.param_v_pb2 import Param_V
+from gz_course.sim.ros_gz_bridge.convert.rcl_interfaces import copy_value, value_to_ros
+from gz_course.sim.ros_gz_bridge.header import header_to_gz, header_to_ros
+from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError, type_pair
 
 _DEEPEST = 50  # protobuf itself refuses to read more than 100 messages in one another
 

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from typing import Any
 
-from gz.msgs.entity_factory_pb2 import EntityFactory
-from gz.msgs.entity_pb2 import Entity
-from gz.msgs.pose_pb2 import Pose
-from gz.msgs.world_control_pb2 import WorldControl
 from ros_gz_interfaces.srv import ControlWorld, DeleteEntity, SetEntityPose, SpawnEntity
 
-from ros_gz_bridge.convert.geometry_msgs.poses import copy_pose
-from ros_gz_bridge.convert.geometry_msgs.twists import not_finite
-from ros_gz_bridge.convert.ros_gz_interfaces.messages import ENTITY
-from ros_gz_bridge.header import stamp_to_gz
-from ros_gz_bridge.type_pairs import ConversionError, service_types
+from gz_course.sim.gz.msgs.entity_factory_pb2 import EntityFactory
+from gz_course.sim.gz.msgs.entity_pb2 import Entity
+from gz_course.sim.gz.msgs.pose_pb2 import Pose
+from gz_course.sim.gz.msgs.world_control_pb2 import WorldControl
+from gz_course.sim.ros_gz_bridge.convert.geometry_msgs.poses import copy_pose
+from gz_course.sim.ros_gz_bridge.convert.geometry_msgs.twists import not_finite
+from gz_course.sim.ros_gz_bridge.convert.ros_gz_interfaces.messages import ENTITY
+from gz_course.sim.ros_gz_bridge.header import stamp_to_gz
+from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError, service_types
 
 _SOURCES = ("sdf", "sdf_filename", "clone_name")
 

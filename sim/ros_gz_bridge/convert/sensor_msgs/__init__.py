@@ -3,4 +3,4 @@
 SI units and radians on both sides, except latitude and longitude, which are degrees.
 """
 
-from ros_gz_bridge.convert.sensor_msgs import cameras, lidars, readings  # noqa: F401
+from gz_course.sim.ros_gz_bridge.convert.sensor_msgs import cameras, lidars, readings  # noqa: F401

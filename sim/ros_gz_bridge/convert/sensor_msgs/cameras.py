@@ -6,13 +6,13 @@ from array import array
 from typing import Any
 
 import numpy as np
-from gz.msgs.camera_info_pb2 import CameraInfo as GzCameraInfo
-from gz.msgs.image_pb2 import Image as GzImage
-from gz.msgs.image_pb2 import PixelFormatType
 from sensor_msgs.msg import CameraInfo, Image
 
-from ros_gz_bridge.header import fill_header, header_to_gz
-from ros_gz_bridge.type_pairs import ConversionError, type_pair
+from gz_course.sim.gz.msgs.camera_info_pb2 import CameraInfo as GzCameraInfo
+from gz_course.sim.gz.msgs.image_pb2 import Image as GzImage
+from gz_course.sim.gz.msgs.image_pb2 import PixelFormatType
+from gz_course.sim.ros_gz_bridge.header import fill_header, header_to_gz
+from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError, type_pair
 
 # ROS encoding -> (Gazebo pixel format, bytes of one pixel).
 ENCODINGS = {

@@ -6,13 +6,13 @@ import math
 from typing import Any
 
 import numpy as np
-from gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
-from gz.msgs.pointcloud_packed_pb2 import PointCloudPacked
 from sensor_msgs.msg import LaserScan, PointCloud2, PointField, Range
 
-from ros_gz_bridge.blank import blank
-from ros_gz_bridge.header import fill_header, fill_stamp, frame_to_ros, header_to_gz
-from ros_gz_bridge.type_pairs import ConversionError, type_pair
+from gz_course.sim.gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
+from gz_course.sim.gz.msgs.pointcloud_packed_pb2 import PointCloudPacked
+from gz_course.sim.ros_gz_bridge.blank import blank
+from gz_course.sim.ros_gz_bridge.header import fill_header, fill_stamp, frame_to_ros, header_to_gz
+from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError, type_pair
 
 
 @type_pair("sensor_msgs/msg/LaserScan", "gz.msgs.LaserScan")

@@ -7,10 +7,6 @@ from array import array
 from typing import Any
 
 import numpy as np
-from gz.msgs.battery_state_pb2 import BatteryState as GzBatteryState
-from gz.msgs.imu_pb2 import IMU
-from gz.msgs.model_pb2 import Model
-from gz.msgs.navsat_pb2 import NavSat
 from sensor_msgs.msg import (
     BatteryState,
     FluidPressure,
@@ -22,11 +18,15 @@ from sensor_msgs.msg import (
     NavSatStatus,
 )
 
-from ros_gz_bridge.blank import blank
-from ros_gz_bridge.convert.geometry_msgs.poses import VECTOR3, copy_xyz, copy_xyzw, fill_xyz, fill_xyzw
-from ros_gz_bridge.fields import FLOATS, HEADER, INT32S, PLAIN, Fields, add_fields
-from ros_gz_bridge.header import fill_header, frame_to_ros, header_to_gz, header_to_ros
-from ros_gz_bridge.type_pairs import ConversionError, type_pair
+from gz_course.sim.gz.msgs.battery_state_pb2 import BatteryState as GzBatteryState
+from gz_course.sim.gz.msgs.imu_pb2 import IMU
+from gz_course.sim.gz.msgs.model_pb2 import Model
+from gz_course.sim.gz.msgs.navsat_pb2 import NavSat
+from gz_course.sim.ros_gz_bridge.blank import blank
+from gz_course.sim.ros_gz_bridge.convert.geometry_msgs.poses import VECTOR3, copy_xyz, copy_xyzw, fill_xyz, fill_xyzw
+from gz_course.sim.ros_gz_bridge.fields import FLOATS, HEADER, INT32S, PLAIN, Fields, add_fields
+from gz_course.sim.ros_gz_bridge.header import fill_header, frame_to_ros, header_to_gz, header_to_ros
+from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError, type_pair
 
 
 @type_pair("sensor_msgs/msg/Imu", "gz.msgs.IMU")

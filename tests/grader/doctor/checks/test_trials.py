@@ -2,7 +2,7 @@
 
 import pytest
 
-from grader.doctor.checks import dds, gz_transport, physics, recordings, renderer, sandbox
+from gz_course.grader.doctor.checks import dds, gz_transport, physics, recordings, renderer, sandbox
 
 
 def test_no_middleware(probes_with, monkeypatch):

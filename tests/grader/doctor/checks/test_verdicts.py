@@ -11,8 +11,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grader.doctor.checks import disk, installations, leftovers, ros_libraries, ros_log, ros_variables, sandbox, wheels
-from grader.temporary_folder import OWNER, TemporaryFolder, sweep
+from gz_course.grader.doctor.checks import (
+    disk,
+    installations,
+    leftovers,
+    ros_libraries,
+    ros_log,
+    ros_variables,
+    sandbox,
+    wheels,
+)
+from gz_course.grader.temporary_folder import OWNER, TemporaryFolder, sweep
 
 GB = 1 << 30
 
@@ -186,8 +195,8 @@ def test_the_folder_of_a_killed_run_is_told_and_left_for_the_next_one(tmp_path, 
 KILLED_NODE = """
 import subprocess, sys
 from pathlib import Path
-from grader.doctor.checks import leftovers
-from grader.run.inside import kernel
+from gz_course.grader.doctor.checks import leftovers
+from gz_course.grader.run.inside import kernel
 kernel.unshare(kernel.CLONE_NEWNS)
 kernel.mount("", "/", flags=kernel.MS_REC | kernel.MS_PRIVATE)
 kernel.mount("shm", "/dev/shm", "tmpfs")

@@ -8,10 +8,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from grader.record.reading import Recording
-from grader.record.recorder import Recorder
-from grader.report.html.from_above import Map
-from tests.grader.report.handmade import write_run
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.record.recorder import Recorder
+from gz_course.grader.report.html.from_above import Map
+from gz_course.tests.grader.report.handmade import write_run
 
 
 @pytest.fixture

@@ -11,9 +11,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from grader.report.html import page
-from grader.report.html.page import as_html
-from tests.grader.report.handmade import NASTY, nasty, result, score_of, write_run
+from gz_course.grader.report.html import page
+from gz_course.grader.report.html.page import as_html
+from gz_course.tests.grader.report.handmade import NASTY, nasty, result, score_of, write_run
 
 VOID = {"meta", "br", "img", "link", "hr", "input"}
 SHAPES = {"rect", "line", "text", "path", "polygon", "polyline", "circle"}
@@ -156,7 +156,7 @@ def test_camera_frames_are_shown_if_they_were_recorded(make_report):
 
 
 def test_what_is_no_picture_is_left_out(make_report, monkeypatch):
-    monkeypatch.setattr("tests.grader.report.handmade.JPEG", b"<svg onload=alert(1)>")
+    monkeypatch.setattr("gz_course.tests.grader.report.handmade.JPEG", b"<svg onload=alert(1)>")
     assert read(as_html(make_report())).all("img") == []
 
 

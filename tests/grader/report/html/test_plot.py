@@ -9,7 +9,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from grader.report.html.plot import (
+from gz_course.grader.report.html.plot import (
     BOTTOM,
     HEIGHT,
     LEFT,

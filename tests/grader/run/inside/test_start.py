@@ -5,7 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from grader.run.inside import seccomp
+from gz_course.grader.run.inside import seccomp
 
 ROOT = Path(__file__).parents[4]
 # Modules that take longer to import than all of ours; everybody who is graded would wait for them.
@@ -13,12 +13,14 @@ SLOW = {"typing", "json", "re", "pathlib", "socket", "signal", "contextlib", "pl
 
 
 def test_it_imports_nothing_of_ours_but_itself_and_nothing_slow():
-    code = f"import sys; sys.path.insert(0, {str(ROOT)!r}); before = set(sys.modules); import grader.run.inside.init"
+    code = f"import sys; sys.path.insert(0, {str(ROOT)!r}); before = set(sys.modules); import gz_course.grader.run.inside.init"
     code += "; print(*sorted(set(sys.modules) - before))"
     done = subprocess.run([sys.executable, "-I", "-S", "-c", code], capture_output=True, text=True, check=True)
     loaded = set(done.stdout.split())
     ours = {name for name in loaded if name.startswith(("grader", "gz", "ros"))}
-    assert all(name in ("grader", "grader.run") or name.startswith("grader.run.inside") for name in ours), ours
+    assert all(
+        name in ("grader", "gz_course.grader.run") or name.startswith("gz_course.grader.run.inside") for name in ours
+    ), ours
     assert loaded & SLOW == set()
 
 
@@ -27,7 +29,7 @@ def filtered(code):
     program = f"""
 import ctypes, json, os, socket, sys
 sys.path.insert(0, {str(ROOT)!r})
-from grader.run.inside import kernel, seccomp
+from gz_course.grader.run.inside import kernel, seccomp
 kernel.prctl(kernel.PR_SET_NO_NEW_PRIVS, 1)
 seccomp.install()
 libc = ctypes.CDLL(None, use_errno=True)

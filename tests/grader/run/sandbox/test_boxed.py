@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from grader.errors import InfrastructureError
-from grader.run.sandbox import LEVELS, Sandbox
-from grader.run.sandbox import sandbox as module
-from grader.run.sandbox.probe import try_level
-from tests.descriptors import own_descriptors
+from gz_course.grader.errors import InfrastructureError
+from gz_course.grader.run.sandbox import LEVELS, Sandbox
+from gz_course.grader.run.sandbox import sandbox as module
+from gz_course.grader.run.sandbox.probe import try_level
+from gz_course.tests.descriptors import own_descriptors
 
 DEADLINE = 20.0
 PYTHON = [sys.executable, "-I", "-S"]

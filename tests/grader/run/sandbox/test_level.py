@@ -4,10 +4,10 @@ import json
 
 import pytest
 
-from grader.errors import InfrastructureError, UsageError
-from grader.run.sandbox import choose, level, probe
-from grader.run.sandbox import sandbox as module
-from grader.run.sandbox.network import NetworkError
+from gz_course.grader.errors import InfrastructureError, UsageError
+from gz_course.grader.run.sandbox import choose, level, probe
+from gz_course.grader.run.sandbox import sandbox as module
+from gz_course.grader.run.sandbox.network import NetworkError
 
 
 @pytest.fixture
@@ -98,7 +98,7 @@ def test_what_is_demanded(machine):
 
 
 def test_a_demand_that_cannot_be_met_is_our_fault_and_no_grade(course, tmp_path, monkeypatch):
-    prelude = "from grader.run.sandbox import probe; probe.try_level = lambda level: 'not today'"
+    prelude = "from gz_course.grader.run.sandbox import probe; probe.try_level = lambda level: 'not today'"
     outcome = course("grade", "03_teleop", "--demand", "B", prelude=prelude, XDG_CACHE_HOME=str(tmp_path / "cache"))
     assert outcome.code == 3 and "level B or better is demanded" in outcome.words and "not today" in outcome.words
     assert not list(tmp_path.rglob("*.rrd"))
@@ -136,7 +136,7 @@ def test_a_level_that_lacks_something_says_what(monkeypatch):
 
 @pytest.mark.parametrize("letter", ["B", "C"])
 def test_a_kernel_without_landlock_is_told(monkeypatch, letter):
-    monkeypatch.setattr("grader.run.inside.landlock.abi", lambda: 0)
+    monkeypatch.setattr("gz_course.grader.run.inside.landlock.abi", lambda: 0)
     assert level.level_module(letter).missing() == "this kernel has no Landlock"
-    monkeypatch.setattr("grader.run.inside.landlock.abi", lambda: 1)
+    monkeypatch.setattr("gz_course.grader.run.inside.landlock.abi", lambda: 1)
     assert level.level_module(letter).missing() == ""

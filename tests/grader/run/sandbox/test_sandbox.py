@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from grader.run.sandbox import LIMITS, Sandbox
-from grader.run.sandbox.sandbox import limit
+from gz_course.grader.run.sandbox import LIMITS, Sandbox
+from gz_course.grader.run.sandbox.sandbox import limit
 
 
 @pytest.fixture

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from grader.run.sandbox import view as module
-from grader.run.sandbox.view import DOOR, SUBMISSION, Place, view
+from gz_course.grader.run.sandbox import view as module
+from gz_course.grader.run.sandbox.view import DOOR, SUBMISSION, Place, view
 
 ROOT = Path(__file__).parents[4]
 

@@ -2,8 +2,8 @@
 
 import pytest
 
-from grader.exercise import CheckSpec
-from grader.score.check import perform
+from gz_course.grader.exercise import CheckSpec
+from gz_course.grader.score.check import perform
 
 
 @pytest.fixture

@@ -2,11 +2,11 @@
 
 import pytest
 
-from grader.errors import ManifestError
-from grader.score.checks.bridge_lint import bridge_lint
-from grader.score.checks.bridge_qos import bridge_qos
-from grader.score.checks.bridged import bridged
-from grader.table import Table
+from gz_course.grader.errors import ManifestError
+from gz_course.grader.score.checks.bridge_lint import bridge_lint
+from gz_course.grader.score.checks.bridge_qos import bridge_qos
+from gz_course.grader.score.checks.bridged import bridged
+from gz_course.grader.table import Table
 
 RELIABLE = {"reliability": "RELIABLE", "durability": "VOLATILE", "depth": 10}
 SCAN = {

@@ -2,8 +2,8 @@
 
 import pytest
 
-from grader.score.checks.change import change as kind
-from grader.table import Table
+from gz_course.grader.score.checks.change import change as kind
+from gz_course.grader.table import Table
 
 
 def change(recording, parameters):

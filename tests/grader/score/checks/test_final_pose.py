@@ -6,7 +6,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from grader.errors import ManifestError
+from gz_course.grader.errors import ManifestError
 
 
 @pytest.fixture

@@ -2,7 +2,7 @@
 
 import pytest
 
-from grader.errors import ManifestError
+from gz_course.grader.errors import ManifestError
 
 X = "truth/robot/x"
 EVENTS = [{"topic": "go"}, {"signal": X, "low": 1.0, "name": "the gate"}, {"log": "arrived", "name": "the word"}]
@@ -66,8 +66,8 @@ def test_a_line_at_the_wrong_time_is_told(record, found):
 
 
 def test_the_text_of_a_message(tmp_path, found):
-    from grader.record.reading import Recording
-    from grader.record.recorder import Recorder
+    from gz_course.grader.record.reading import Recording
+    from gz_course.grader.record.recorder import Recorder
 
     with Recorder(tmp_path / "run.rrd", "robot") as recorder:
         for at, said in ((1.0, "working"), (2.0, "done: 3"), (3.0, "done: 3")):

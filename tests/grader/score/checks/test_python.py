@@ -2,11 +2,11 @@
 
 import pytest
 
-from grader.errors import ManifestError
+from gz_course.grader.errors import ManifestError
 
 GOOD = """
 import math
-from grader.score.check import Finding
+from gz_course.grader.score.check import Finding
 
 def circles(recording, parameters):
     yaw = recording.signal("truth/robot/yaw").values

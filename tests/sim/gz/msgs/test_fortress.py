@@ -1,12 +1,12 @@
 import pytest
 from google.protobuf.message import DecodeError
-from gz.msgs.imu_pb2 import IMU
-from gz.msgs.twist_pb2 import Twist
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz.msgs import canonical_name, message_class, type_names
-from gz.msgs.fortress import converted, same_type
+from gz_course.sim.gz.msgs import canonical_name, message_class, type_names
+from gz_course.sim.gz.msgs.fortress import converted, same_type
+from gz_course.sim.gz.msgs.imu_pb2 import IMU
+from gz_course.sim.gz.msgs.twist_pb2 import Twist
 
 NUMBERS = st.floats(allow_nan=False)
 

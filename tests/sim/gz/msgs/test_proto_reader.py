@@ -3,7 +3,7 @@ from google.protobuf.descriptor_pb2 import FieldDescriptorProto
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz.msgs.proto_reader import ProtoSyntaxError, read_proto
+from gz_course.sim.gz.msgs.proto_reader import ProtoSyntaxError, read_proto
 
 EXAMPLE = """
 // A comment; with { signs } in it

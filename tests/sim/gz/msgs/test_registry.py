@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-import gz.msgs
-from gz.msgs import UnknownTypeError, message_class, registry, type_names
+import gz_course.sim.gz.msgs as gz_msgs
+from gz_course.sim.gz.msgs import UnknownTypeError, message_class, registry, type_names
 
 
 def test_every_file_can_be_imported_and_holds_its_types():
@@ -37,16 +37,16 @@ def test_every_type_survives_a_round_trip(name):
 
 @pytest.mark.parametrize("name", ["gz.msgs.Twist", "gz_msgs.Twist", ".gz.msgs.Twist", "ignition.msgs.Twist", "Twist"])
 def test_all_spellings_are_one_class(name):
-    from gz.msgs.twist_pb2 import Twist
+    from gz_course.sim.gz.msgs.twist_pb2 import Twist
 
     assert message_class(name) is Twist
 
 
 def test_nested_types_enums_maps_and_oneofs():
-    from gz.msgs.entity_factory_pb2 import EntityFactory
-    from gz.msgs.header_pb2 import Header
-    from gz.msgs.image_pb2 import RGB_INT8, PixelFormatType
-    from gz.msgs.param_pb2 import Param
+    from gz_course.sim.gz.msgs.entity_factory_pb2 import EntityFactory
+    from gz_course.sim.gz.msgs.header_pb2 import Header
+    from gz_course.sim.gz.msgs.image_pb2 import RGB_INT8, PixelFormatType
+    from gz_course.sim.gz.msgs.param_pb2 import Param
 
     assert message_class("gz.msgs.Header.Map") is Header.Map
     assert PixelFormatType.Name(RGB_INT8) == "RGB_INT8"
@@ -61,8 +61,8 @@ def test_nested_types_enums_maps_and_oneofs():
 
 
 def test_the_bytes_are_those_of_gazebo():
-    from gz.msgs.laserscan_pb2 import LaserScan
-    from gz.msgs.twist_pb2 import Twist
+    from gz_course.sim.gz.msgs.laserscan_pb2 import LaserScan
+    from gz_course.sim.gz.msgs.twist_pb2 import Twist
 
     twist = Twist()
     twist.linear.x = 1.5
@@ -73,7 +73,7 @@ def test_the_bytes_are_those_of_gazebo():
 
 
 def test_fields_that_are_not_described_are_kept():
-    from gz.msgs.model_pb2 import Model
+    from gz_course.sim.gz.msgs.model_pb2 import Model
 
     data = bytes.fromhex("1203626f78") + bytes.fromhex("a206020801")  # name "box", and field 100
     assert Model.FromString(data).SerializeToString() == data
@@ -100,7 +100,7 @@ def test_any_text_is_a_type_or_an_unknown_type(name):
 
 def test_a_module_that_does_not_exist_is_an_import_error():
     with pytest.raises(ModuleNotFoundError):
-        importlib.import_module("gz.msgs.twits_pb2")
+        importlib.import_module("gz_course.sim.gz.msgs.twits_pb2")
 
 
 def test_only_what_is_asked_for_is_built():
@@ -112,7 +112,7 @@ def test_only_what_is_asked_for_is_built():
 
 
 def test_the_definitions_are_inside_the_package():
-    assert registry.PROTO_FOLDER.is_relative_to(gz.msgs.__path__[0])
+    assert registry.PROTO_FOLDER.is_relative_to(gz_msgs.__path__[0])
 
 
 # What Harmonic has beyond Fortress cannot be compared with Debian's Fortress: some of it, number by number.

@@ -3,20 +3,20 @@ import math
 
 import pytest
 from google.protobuf import json_format
-from gz.msgs.any_pb2 import Any
-from gz.msgs.bytes_pb2 import Bytes
-from gz.msgs.color_pb2 import Color
-from gz.msgs.double_pb2 import Double
-from gz.msgs.image_pb2 import Image
-from gz.msgs.int64_pb2 import Int64
-from gz.msgs.param_pb2 import Param
-from gz.msgs.stringmsg_pb2 import StringMsg
-from gz.msgs.twist_pb2 import Twist
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz.msgs import message_class
-from gz.msgs.text import MessageTextError, from_text, to_json_line, to_text
+from gz_course.sim.gz.msgs import message_class
+from gz_course.sim.gz.msgs.any_pb2 import Any
+from gz_course.sim.gz.msgs.bytes_pb2 import Bytes
+from gz_course.sim.gz.msgs.color_pb2 import Color
+from gz_course.sim.gz.msgs.double_pb2 import Double
+from gz_course.sim.gz.msgs.image_pb2 import Image
+from gz_course.sim.gz.msgs.int64_pb2 import Int64
+from gz_course.sim.gz.msgs.param_pb2 import Param
+from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+from gz_course.sim.gz.msgs.text import MessageTextError, from_text, to_json_line, to_text
+from gz_course.sim.gz.msgs.twist_pb2 import Twist
 
 # A negative zero is written as -0, which JSON readers take for a whole number, without sign.
 DOUBLES = st.floats().map(lambda value: value + 0.0)

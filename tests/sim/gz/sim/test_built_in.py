@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-import gz.sim.world
-from gz.sim.sensors.registry import sensor_types
-from gz.sim.systems.registry import systems
-from gz.sim.world import World
-from gz.transport import Node
+import gz_course.sim.gz.sim.world as gz_sim_world
+from gz_course.sim.gz.sim.sensors.registry import sensor_types
+from gz_course.sim.gz.sim.systems.registry import systems
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node
 
-ROOM = Path(gz.sim.world.__file__).parent
+ROOM = Path(gz_sim_world.__file__).parent
 WORLDS = sorted(path.name for path in (ROOM / "worlds").glob("*.sdf"))
 MODELS = sorted(path.name for path in (ROOM / "models").iterdir())
 README = (ROOM / "README.md").read_text(encoding="utf-8")

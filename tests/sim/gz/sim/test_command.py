@@ -14,13 +14,13 @@ from typing import Any
 
 import psutil
 import pytest
-from gz.msgs.clock_pb2 import Clock
-from gz.msgs.laserscan_pb2 import LaserScan
-from gz.msgs.odometry_pb2 import Odometry
-from gz.msgs.twist_pb2 import Twist
-from gz.msgs.world_stats_pb2 import WorldStatistics
 
-from gz.transport import Node
+from gz_course.sim.gz.msgs.clock_pb2 import Clock
+from gz_course.sim.gz.msgs.laserscan_pb2 import LaserScan
+from gz_course.sim.gz.msgs.odometry_pb2 import Odometry
+from gz_course.sim.gz.msgs.twist_pb2 import Twist
+from gz_course.sim.gz.msgs.world_stats_pb2 import WorldStatistics
+from gz_course.sim.gz.transport import Node
 
 GZ = [sys.executable, "-c", "import sys; from gz.command import main; sys.exit(main())", "sim"]
 DEADLINE = 30
@@ -153,7 +153,7 @@ def test_errors_are_one_sentence(start: Callable[..., subprocess.Popen[str]], tm
 def test_arguments_that_make_no_sense_exit_with_two(
     arguments: list[str], sentence: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from gz.sim import command
+    from gz_course.sim.gz.sim import command
 
     monkeypatch.setattr(command.signal, "signal", lambda *_: None)
     try:
@@ -177,7 +177,7 @@ def test_warnings_have_a_place_and_verbosity_hides_them(
 def test_time_starts_where_it_is_told_and_recordings_are_readable(
     start: Callable[..., subprocess.Popen[str]], tmp_path: Path
 ) -> None:
-    from gz.sim.tlog import Log
+    from gz_course.sim.gz.sim.tlog import Log
 
     folder = tmp_path / "log"
     arguments = ["--initial-sim-time", "100", "--iterations", "300", "-z", "100000", "--record-path", str(folder)]
@@ -197,14 +197,14 @@ def test_strict_refuses_what_would_be_warned_about(start: Callable[..., subproce
 
 def test_a_paused_world_serves_another_process(start: Callable[..., subprocess.Popen[str]]) -> None:
     """As `ros_gz_sim create` and `gz service` do it: create, look, let go, stop the server."""
-    from gz.msgs.boolean_pb2 import Boolean
-    from gz.msgs.empty_pb2 import Empty
-    from gz.msgs.entity_factory_pb2 import EntityFactory
-    from gz.msgs.entity_pb2 import Entity
-    from gz.msgs.sdf_generator_config_pb2 import SdfGeneratorConfig
-    from gz.msgs.server_control_pb2 import ServerControl
-    from gz.msgs.stringmsg_pb2 import StringMsg
-    from gz.msgs.stringmsg_v_pb2 import StringMsg_V
+    from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
+    from gz_course.sim.gz.msgs.empty_pb2 import Empty
+    from gz_course.sim.gz.msgs.entity_factory_pb2 import EntityFactory
+    from gz_course.sim.gz.msgs.entity_pb2 import Entity
+    from gz_course.sim.gz.msgs.sdf_generator_config_pb2 import SdfGeneratorConfig
+    from gz_course.sim.gz.msgs.server_control_pb2 import ServerControl
+    from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+    from gz_course.sim.gz.msgs.stringmsg_v_pb2 import StringMsg_V
 
     process = start("empty.sdf", "-s", "-v", "0")
     wait = DEADLINE * 1000
@@ -241,8 +241,8 @@ def test_a_second_simulator_that_tells_another_time_says_so(start: Callable[...,
 def test_a_fault_of_ours_is_one_sentence_and_code_three(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from gz.sim import command
-    from gz.sim.world import World
+    from gz_course.sim.gz.sim import command
+    from gz_course.sim.gz.sim.world import World
 
     monkeypatch.setattr(command.signal, "signal", lambda *_: None)
     monkeypatch.setattr(World, "step", lambda *_: [][1])

@@ -12,11 +12,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gz.sim.errors import SdfError, SimError
-from gz.sim.pose import Pose
-from gz.sim.sdf.resources import BUILT_IN_MODELS
-from gz.sim.world import World
-from gz.transport import Node
+from gz_course.sim.gz.sim.errors import SdfError, SimError
+from gz_course.sim.gz.sim.pose import Pose
+from gz_course.sim.gz.sim.sdf.resources import BUILT_IN_MODELS
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node
 
 Load = Callable[..., World]
 GEOMETRY = "<geometry><box><size>0.2 0.2 0.2</size></box></geometry>"
@@ -84,8 +84,8 @@ def test_a_model_in_the_middle_of_the_file_goes_and_the_later_ones_keep_their_st
 
 
 def test_spawned_robots_drive_and_their_topics_go_with_them(node: Node) -> None:
-    from gz.msgs.odometry_pb2 import Odometry
-    from gz.msgs.twist_pb2 import Twist
+    from gz_course.sim.gz.msgs.odometry_pb2 import Odometry
+    from gz_course.sim.gz.msgs.twist_pb2 import Twist
 
     world = World.load("lidar_room.sdf", node=node)
     world.step(200)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from gz.sim.entities import Entities
-from gz.sim.world import World
+from gz_course.sim.gz.sim.entities import Entities
+from gz_course.sim.gz.sim.world import World
 
 INSIDE = """
 <light name="lamp" type="point"/>

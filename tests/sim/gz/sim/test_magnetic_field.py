@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz.sim.magnetic_field import earth_field
+from gz_course.sim.gz.sim.magnetic_field import earth_field
 
 
 @pytest.mark.parametrize(

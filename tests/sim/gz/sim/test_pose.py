@@ -9,7 +9,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz.sim.pose import Pose, matrix, multiply, quaternion_between, quaternion_from_rpy, rotate
+from gz_course.sim.gz.sim.pose import Pose, matrix, multiply, quaternion_between, quaternion_from_rpy, rotate
 
 angles = st.floats(-math.pi, math.pi)
 lengths = st.floats(-100.0, 100.0)

@@ -7,8 +7,8 @@ import threading
 
 import pytest
 
-from gz.sim.errors import SimError
-from gz.sim.requests import Request, Requests, logged
+from gz_course.sim.gz.sim.errors import SimError
+from gz_course.sim.gz.sim.requests import Request, Requests, logged
 
 
 def elsewhere(requests: Requests, work: object, patience: float = 20.0) -> tuple[threading.Thread, list[object]]:
@@ -100,7 +100,7 @@ def test_errors_that_nobody_waits_for_are_one_sentence(caplog: pytest.LogCapture
 
 
 def test_a_world_goes_on_however_much_is_asked_for() -> None:
-    from gz.sim.world import World
+    from gz_course.sim.gz.sim.world import World
 
     world = World.from_string("<sdf version='1.10'><world name='w'/></sdf>")
     asked: list[int] = []

@@ -9,17 +9,17 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gz.msgs.double_pb2 import Double
-from gz.msgs.twist_pb2 import Twist
 
-from gz.sim.errors import SimError
-from gz.sim.pose import Pose
-from gz.sim.sdf.resources import BUILT_IN_MODELS
-from gz.sim.sensors.registry import sensor_types
-from gz.sim.server import Server
-from gz.sim.systems.registry import systems
-from gz.sim.world import World
-from gz.transport import Node
+from gz_course.sim.gz.msgs.double_pb2 import Double
+from gz_course.sim.gz.msgs.twist_pb2 import Twist
+from gz_course.sim.gz.sim.errors import SimError
+from gz_course.sim.gz.sim.pose import Pose
+from gz_course.sim.gz.sim.sdf.resources import BUILT_IN_MODELS
+from gz_course.sim.gz.sim.sensors.registry import sensor_types
+from gz_course.sim.gz.sim.server import Server
+from gz_course.sim.gz.sim.systems.registry import systems
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node
 
 Load = Callable[..., World]
 
@@ -250,9 +250,9 @@ def test_a_reset_mends_a_broken_world(load_text: Load) -> None:
 
 
 def test_the_statistics_of_a_server_begin_anew(node: Node) -> None:
-    from gz.msgs.boolean_pb2 import Boolean
-    from gz.msgs.world_control_pb2 import WorldControl
-    from gz.msgs.world_stats_pb2 import WorldStatistics
+    from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
+    from gz_course.sim.gz.msgs.world_control_pb2 import WorldControl
+    from gz_course.sim.gz.msgs.world_stats_pb2 import WorldStatistics
 
     world = World.load("lidar_room.sdf")
     server = Server(world, node)

@@ -8,11 +8,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz.sim.pose import Pose
-from gz.sim.sdf.element import Element, parse
-from gz.sim.sdf.writer import pose_element, to_xml
-from gz.sim.sdf_generator import generate_world
-from gz.sim.world import World
+from gz_course.sim.gz.sim.pose import Pose
+from gz_course.sim.gz.sim.sdf.element import Element, parse
+from gz_course.sim.gz.sim.sdf.writer import pose_element, to_xml
+from gz_course.sim.gz.sim.sdf_generator import generate_world
+from gz_course.sim.gz.sim.world import World
 
 Load = Callable[..., World]
 

@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
-from gz.msgs.clock_pb2 import Clock
-from gz.msgs.world_stats_pb2 import WorldStatistics
 
-from gz.sim.server import Server
-from gz.sim.world import World
-from gz.transport import Node
+from gz_course.sim.gz.msgs.clock_pb2 import Clock
+from gz_course.sim.gz.msgs.world_stats_pb2 import WorldStatistics
+from gz_course.sim.gz.sim.server import Server
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node
 
 
 @pytest.fixture
@@ -86,7 +86,7 @@ def test_run_ends_after_its_iterations(server: Server) -> None:
 def test_run_keeps_pace_with_the_wall_clock(server: Server, monkeypatch: pytest.MonkeyPatch) -> None:
     """With a clock that only moves when the server waits, simulated time and waited time are the same."""
     now = [0]
-    monkeypatch.setattr("gz.sim.server.time.monotonic_ns", lambda: now[0])
+    monkeypatch.setattr("gz_course.sim.gz.sim.server.time.monotonic_ns", lambda: now[0])
 
     class Waits(threading.Event):
         def wait(self, timeout: float | None = None) -> bool:
@@ -101,7 +101,7 @@ def test_run_keeps_pace_with_the_wall_clock(server: Server, monkeypatch: pytest.
 def test_run_does_not_catch_up_in_a_burst(server: Server, monkeypatch: pytest.MonkeyPatch) -> None:
     now = [0]
     waited = [0.0]
-    monkeypatch.setattr("gz.sim.server.time.monotonic_ns", lambda: now[0])
+    monkeypatch.setattr("gz_course.sim.gz.sim.server.time.monotonic_ns", lambda: now[0])
     original = server.step
 
     def slow_step(n: int = 1) -> None:
@@ -142,8 +142,8 @@ def test_a_paused_server_does_not_step_but_keeps_telling(
 def test_the_command_of_a_thread_reaches_a_running_server(
     server: Server, node: Node, running: Callable[..., threading.Event]
 ) -> None:
-    from gz.msgs.odometry_pb2 import Odometry
-    from gz.msgs.twist_pb2 import Twist
+    from gz_course.sim.gz.msgs.odometry_pb2 import Odometry
+    from gz_course.sim.gz.msgs.twist_pb2 import Twist
 
     moving = threading.Event()
     node.subscribe(Odometry, "/model/robot/odometry", lambda m: moving.set() if m.twist.linear.x > 0.2 else None)

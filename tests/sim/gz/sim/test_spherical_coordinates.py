@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz.sim.errors import Diagnostics, SdfError
-from gz.sim.sdf.element import parse
-from gz.sim.spherical_coordinates import SphericalCoordinates
+from gz_course.sim.gz.sim.errors import Diagnostics, SdfError
+from gz_course.sim.gz.sim.sdf.element import parse
+from gz_course.sim.gz.sim.spherical_coordinates import SphericalCoordinates
 
 A, B = 6378137.0, 6356752.314245
 E2 = 1 - (B / A) ** 2

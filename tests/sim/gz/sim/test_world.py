@@ -7,11 +7,11 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from gz.msgs.twist_pb2 import Twist
 
-from gz.sim.errors import SimError
-from gz.sim.world import World
-from gz.transport import Node, NodeOptions, Scope
+from gz_course.sim.gz.msgs.twist_pb2 import Twist
+from gz_course.sim.gz.sim.errors import SimError
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node, NodeOptions, Scope
 
 Load = Callable[..., World]
 

@@ -9,19 +9,19 @@ from typing import Any
 
 import pytest
 from google.protobuf import text_format
-from gz.msgs.boolean_pb2 import Boolean
-from gz.msgs.empty_pb2 import Empty
-from gz.msgs.sdf_generator_config_pb2 import SdfGeneratorConfig
-from gz.msgs.server_control_pb2 import ServerControl
-from gz.msgs.stringmsg_pb2 import StringMsg
-from gz.msgs.stringmsg_v_pb2 import StringMsg_V
-from gz.msgs.world_control_pb2 import WorldControl
-from gz.msgs.world_control_state_pb2 import WorldControlState
-from gz.msgs.world_stats_pb2 import WorldStatistics
 
-from gz.sim.server import Server
-from gz.sim.world import World
-from gz.transport import Node
+from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
+from gz_course.sim.gz.msgs.empty_pb2 import Empty
+from gz_course.sim.gz.msgs.sdf_generator_config_pb2 import SdfGeneratorConfig
+from gz_course.sim.gz.msgs.server_control_pb2 import ServerControl
+from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+from gz_course.sim.gz.msgs.stringmsg_v_pb2 import StringMsg_V
+from gz_course.sim.gz.msgs.world_control_pb2 import WorldControl
+from gz_course.sim.gz.msgs.world_control_state_pb2 import WorldControlState
+from gz_course.sim.gz.msgs.world_stats_pb2 import WorldStatistics
+from gz_course.sim.gz.sim.server import Server
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node
 
 DEADLINE = 20
 
@@ -144,7 +144,7 @@ def test_control_state(running: Running, node: Node, caplog: pytest.LogCaptureFi
 
 
 def test_a_paused_world_takes_in_models_at_once(running: Running, node: Node) -> None:
-    from gz.msgs.entity_factory_pb2 import EntityFactory
+    from gz_course.sim.gz.msgs.entity_factory_pb2 import EntityFactory
 
     request = EntityFactory(sdf="<sdf version='1.10'><model name='box'><link name='l'/></model></sdf>")
     service = "/world/lidar_room/create/blocking"
@@ -168,7 +168,7 @@ def test_unstable_physics_pauses_a_running_server_which_goes_on_serving(
 
 
 def test_unstable_physics_ends_a_run_of_so_many_steps(node: Node) -> None:
-    from gz.sim.errors import SimError
+    from gz_course.sim.gz.sim.errors import SimError
 
     world = World.load("lidar_room.sdf")
     server = Server(world, node)

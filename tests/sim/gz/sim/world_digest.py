@@ -8,12 +8,11 @@ import json
 import sys
 from pathlib import Path
 
-from gz.msgs.twist_pb2 import Twist
-
-from gz.sim.pose import Pose
-from gz.sim.sdf.resources import BUILT_IN_MODELS
-from gz.sim.world import World
-from gz.transport import Node, NodeOptions, Scope
+from gz_course.sim.gz.msgs.twist_pb2 import Twist
+from gz_course.sim.gz.sim.pose import Pose
+from gz_course.sim.gz.sim.sdf.resources import BUILT_IN_MODELS
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node, NodeOptions, Scope
 
 
 def digests(seed: int) -> dict[str, str]:

@@ -12,9 +12,9 @@ import uuid
 from pathlib import Path
 
 import pytest
-from gz.msgs.discovery_pb2 import Discovery
 
-from gz.transport import datagram
+from gz_course.sim.gz.msgs.discovery_pb2 import Discovery
+from gz_course.sim.gz.transport import datagram
 
 DEADLINE_S = 20.0
 

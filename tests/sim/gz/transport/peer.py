@@ -7,10 +7,9 @@ import sys
 import threading
 import warnings
 
-from gz.msgs.empty_pb2 import Empty
-from gz.msgs.stringmsg_pb2 import StringMsg
-
-from gz.transport import Node, NodeOptions
+from gz_course.sim.gz.msgs.empty_pb2 import Empty
+from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+from gz_course.sim.gz.transport import Node, NodeOptions
 
 node = Node()
 nodes = {"": node}

@@ -4,11 +4,11 @@ import threading
 
 import pytest
 import zmq
-from gz.msgs.discovery_pb2 import Discovery
-from gz.msgs.stringmsg_pb2 import StringMsg
 
-from gz.transport import Node, NodeOptions, inlet
-from gz.transport.naming import fully_qualified
+from gz_course.sim.gz.msgs.discovery_pb2 import Discovery
+from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+from gz_course.sim.gz.transport import Node, NodeOptions, inlet
+from gz_course.sim.gz.transport.naming import fully_qualified
 
 
 @pytest.fixture
@@ -77,13 +77,13 @@ def test_a_subscriber_that_unsubscribes_is_no_connection_any_more(node, start_pe
     peer.ask("subscribe", topic="/chat")
     assert publisher.wait_for_subscribers(timeout=20)
     assert peer.ask("unsubscribe", topic="/chat")
-    from gz.transport.switchboard import SWITCHBOARD
+    from gz_course.sim.gz.transport.switchboard import SWITCHBOARD
 
     assert SWITCHBOARD.wait_for(lambda: not publisher.has_connections(), 20)
 
 
 def test_a_killed_subscriber_is_no_connection_any_more(node, start_peer):
-    from gz.transport.switchboard import SWITCHBOARD
+    from gz_course.sim.gz.transport.switchboard import SWITCHBOARD
 
     publisher = node.advertise("/chat", StringMsg)
     peer = start_peer()

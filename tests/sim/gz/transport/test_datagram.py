@@ -1,9 +1,9 @@
 import pytest
-from gz.msgs.discovery_pb2 import Discovery
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz.transport import datagram
+from gz_course.sim.gz.msgs.discovery_pb2 import Discovery
+from gz_course.sim.gz.transport import datagram
 
 texts = st.text(max_size=40)
 

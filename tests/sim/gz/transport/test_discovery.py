@@ -3,13 +3,13 @@
 import contextlib
 
 import pytest
-from gz.msgs.discovery_pb2 import Discovery
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from gz.transport import discovery
-from gz.transport.environment import NetworkSettings
-from gz.transport.topic_discovery import TopicDiscovery
+from gz_course.sim.gz.msgs.discovery_pb2 import Discovery
+from gz_course.sim.gz.transport import discovery
+from gz_course.sim.gz.transport.environment import NetworkSettings
+from gz_course.sim.gz.transport.topic_discovery import TopicDiscovery
 
 OTHER = "11111111-1111-4111-8111-111111111111"
 OWN = "22222222-2222-4222-8222-222222222222"
@@ -103,7 +103,7 @@ def test_bye_forgets_the_whole_process(channel, told):
 
 def hear(channel, monkeypatch, message):
     """Lets the channel read one datagram from its socket."""
-    from gz.transport import datagram
+    from gz_course.sim.gz.transport import datagram
 
     waiting = [datagram.encode(message)]
 

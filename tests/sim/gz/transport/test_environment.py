@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz.transport import environment
-from gz.transport.environment import NetworkSettings, default_partition
+from gz_course.sim.gz.transport import environment
+from gz_course.sim.gz.transport.environment import NetworkSettings, default_partition
 
 
 def test_the_partition_is_gz_partition_even_when_empty():

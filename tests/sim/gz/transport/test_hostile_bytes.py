@@ -8,13 +8,13 @@ import uuid
 import psutil
 import pytest
 import zmq
-from gz.msgs.discovery_pb2 import Discovery
-from gz.msgs.stringmsg_pb2 import StringMsg
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from gz.transport import Node, datagram
-from gz.transport.naming import fully_qualified
+from gz_course.sim.gz.msgs.discovery_pb2 import Discovery
+from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+from gz_course.sim.gz.transport import Node, datagram
+from gz_course.sim.gz.transport.naming import fully_qualified
 
 BATCH = 100
 MOST_GROWTH_BYTES = 40_000_000

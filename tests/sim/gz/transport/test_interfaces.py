@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from gz.transport.address import is_of_this_machine, is_usable, within_reach
+from gz_course.sim.gz.transport.address import is_of_this_machine, is_usable, within_reach
 
 ADVERTISE = """
 import sys

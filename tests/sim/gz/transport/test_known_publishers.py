@@ -2,9 +2,8 @@
 
 import uuid
 
-from gz.msgs.stringmsg_pb2 import StringMsg
-
-from gz.transport import Node, NodeOptions, Scope
+from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+from gz_course.sim.gz.transport import Node, NodeOptions, Scope
 
 
 def test_publishers_of_this_process_are_known_until_they_close():

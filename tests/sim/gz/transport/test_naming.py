@@ -2,7 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz.transport import naming
+from gz_course.sim.gz.transport import naming
 
 names = st.text(max_size=30)
 valid = st.from_regex(r"[A-Za-z0-9_.]+(/[A-Za-z0-9_.]+){0,3}/?", fullmatch=True)

@@ -3,11 +3,11 @@
 import copy
 
 import pytest
-from gz.msgs.imu_pb2 import IMU
-from gz.msgs.twist_pb2 import Twist
 
-from gz.msgs import message_class
-from gz.transport import (
+from gz_course.sim.gz.msgs import message_class
+from gz_course.sim.gz.msgs.imu_pb2 import IMU
+from gz_course.sim.gz.msgs.twist_pb2 import Twist
+from gz_course.sim.gz.transport import (
     UNTHROTTLED,
     AdvertiseMessageOptions,
     AdvertiseOptions,

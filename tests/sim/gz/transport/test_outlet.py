@@ -5,7 +5,7 @@ import time
 import pytest
 import zmq
 
-from gz.transport.outlet import Outlet
+from gz_course.sim.gz.transport.outlet import Outlet
 
 TOPIC = b"@/p@/chat"
 

@@ -3,9 +3,8 @@
 import subprocess
 import sys
 
-from gz.msgs.stringmsg_pb2 import StringMsg
-
-from gz.transport import AdvertiseMessageOptions, Node, NodeOptions, Scope
+from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+from gz_course.sim.gz.transport import AdvertiseMessageOptions, Node, NodeOptions, Scope
 
 SCRIPT = """
 import os, sys, threading
@@ -82,7 +81,7 @@ def test_nobody_outside_hears_it(start_peer):
 
 
 def test_nobody_outside_learns_of_it(start_peer, eavesdropper, partition):
-    from gz.transport.naming import fully_qualified
+    from gz_course.sim.gz.transport.naming import fully_qualified
 
     with Node() as public, Node(NodeOptions(scope=Scope.PROCESS)) as hidden:
         hidden.advertise("/secret", StringMsg)

@@ -3,11 +3,11 @@
 import threading
 
 import pytest
-from gz.msgs.empty_pb2 import Empty
-from gz.msgs.int32_pb2 import Int32
-from gz.msgs.stringmsg_pb2 import StringMsg
 
-from gz.transport import AdvertiseServiceOptions, Node, NodeOptions, Scope
+from gz_course.sim.gz.msgs.empty_pb2 import Empty
+from gz_course.sim.gz.msgs.int32_pb2 import Int32
+from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+from gz_course.sim.gz.transport import AdvertiseServiceOptions, Node, NodeOptions, Scope
 
 
 @pytest.fixture

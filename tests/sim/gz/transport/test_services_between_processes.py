@@ -4,11 +4,11 @@ import threading
 import time
 
 import pytest
-from gz.msgs.empty_pb2 import Empty
-from gz.msgs.int32_pb2 import Int32
-from gz.msgs.stringmsg_pb2 import StringMsg
 
-from gz.transport import Node, NodeOptions, Scope
+from gz_course.sim.gz.msgs.empty_pb2 import Empty
+from gz_course.sim.gz.msgs.int32_pb2 import Int32
+from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+from gz_course.sim.gz.transport import Node, NodeOptions, Scope
 
 PATIENCE_MS = 20_000
 

@@ -3,12 +3,12 @@
 import threading
 
 import pytest
-from gz.msgs.stringmsg_pb2 import StringMsg
-from gz.msgs.twist_pb2 import Twist
 
-from gz.transport import AdvertiseMessageOptions, Node, NodeOptions, Scope, SubscribeOptions
-from gz.transport import throttle as throttle_module
-from gz.transport.options import UNTHROTTLED
+from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+from gz_course.sim.gz.msgs.twist_pb2 import Twist
+from gz_course.sim.gz.transport import AdvertiseMessageOptions, Node, NodeOptions, Scope, SubscribeOptions
+from gz_course.sim.gz.transport import throttle as throttle_module
+from gz_course.sim.gz.transport.options import UNTHROTTLED
 
 
 @pytest.fixture(params=[Scope.PROCESS, Scope.ALL], ids=["process", "all"])

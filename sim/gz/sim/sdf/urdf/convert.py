@@ -7,10 +7,10 @@ link `wheel` is `wheel_collision`, lumped into `base` it is `base_fixed_joint_lu
 
 from __future__ import annotations
 
-from gz.sim.errors import Diagnostics, SdfError
-from gz.sim.pose import Pose
-from gz.sim.sdf.element import Element
-from gz.sim.sdf.urdf.gazebo_tags import (
+from gz_course.sim.gz.sim.errors import Diagnostics, SdfError
+from gz_course.sim.gz.sim.pose import Pose
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sdf.urdf.gazebo_tags import (
     LUMP,
     GazeboTags,
     read_gazebo_tags,
@@ -20,9 +20,9 @@ from gz.sim.sdf.urdf.gazebo_tags import (
     tell_model,
     tell_visual,
 )
-from gz.sim.sdf.urdf.lumping import Body, lump
-from gz.sim.sdf.urdf.making import make, place, set_value, write
-from gz.sim.sdf.urdf.robot import WORLD, Robot, UrdfJoint, UrdfShape, numbers, origin_of, read_robot
+from gz_course.sim.gz.sim.sdf.urdf.lumping import Body, lump
+from gz_course.sim.gz.sim.sdf.urdf.making import make, place, set_value, write
+from gz_course.sim.gz.sim.sdf.urdf.robot import WORLD, Robot, UrdfJoint, UrdfShape, numbers, origin_of, read_robot
 
 SDF_VERSION = "1.11"
 _BALL = 0.01  # [m]

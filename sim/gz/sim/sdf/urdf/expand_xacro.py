@@ -18,7 +18,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from gz.sim.sdf.urdf.xacro_file import FILES, PLACE
+from gz_course.sim.gz.sim.sdf.urdf.xacro_file import FILES, PLACE
 
 _CPU_SECONDS = 10
 _MEMORY = 2 * 1024**3

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from gz.sim.errors import Diagnostics, nearest
-from gz.sim.pose import Pose
-from gz.sim.sdf.element import Element
-from gz.sim.sdf.urdf.making import make, place, set_value
-from gz.sim.sdf.urdf.robot import Robot
+from gz_course.sim.gz.sim.errors import Diagnostics, nearest
+from gz_course.sim.gz.sim.pose import Pose
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sdf.urdf.making import make, place, set_value
+from gz_course.sim.gz.sim.sdf.urdf.robot import Robot
 
 LUMP = "_fixed_joint_lump__"
 """What stands in the name of a lumped shape, between the body's name and its own."""

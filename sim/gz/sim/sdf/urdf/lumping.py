@@ -13,8 +13,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from gz.sim.pose import Pose, matrix
-from gz.sim.sdf.urdf.robot import WORLD, Robot, UrdfInertial, UrdfJoint, UrdfLink
+from gz_course.sim.gz.sim.pose import Pose, matrix
+from gz_course.sim.gz.sim.sdf.urdf.robot import WORLD, Robot, UrdfInertial, UrdfJoint, UrdfLink
 
 Matrix = NDArray[np.float64]
 

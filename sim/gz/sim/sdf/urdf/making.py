@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from gz.sim.pose import Pose
-from gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.pose import Pose
+from gz_course.sim.gz.sim.sdf.element import Element
 
 
 def make(

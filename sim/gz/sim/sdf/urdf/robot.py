@@ -10,9 +10,9 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from gz.sim.errors import Diagnostics, nearest
-from gz.sim.pose import Pose
-from gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.errors import Diagnostics, nearest
+from gz_course.sim.gz.sim.pose import Pose
+from gz_course.sim.gz.sim.sdf.element import Element
 
 JOINT_KINDS = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
 WORLD = "world"

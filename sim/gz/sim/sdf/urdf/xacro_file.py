@@ -15,10 +15,10 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gz.sim.errors import LOG, SdfError
+from gz_course.sim.gz.sim.errors import LOG, SdfError
 
 if TYPE_CHECKING:  # the child process imports this module too, and needs no numpy
-    from gz.sim.sdf.element import Element
+    from gz_course.sim.gz.sim.sdf.element import Element
 
 PLACE = "_place_"
 """Attribute of every element of an expanded text: number of the file, colon, line."""
@@ -33,7 +33,7 @@ _COLOURS = re.compile("\x1b\\[[0-9;]*m")
 def expand(path: Path, arguments: dict[str, str] | None = None) -> str:
     """Return what xacro makes of a file, for `arguments` (xacro's `name:=value`); raise `SdfError` in one sentence."""
     pairs = [f"{name}:={value}" for name, value in (arguments or {}).items()]
-    command = [sys.executable, "-m", "gz.sim.sdf.urdf.expand_xacro", str(path), *pairs]
+    command = [sys.executable, "-m", "gz_course.sim.gz.sim.sdf.urdf.expand_xacro", str(path), *pairs]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path)), "PYTHONIOENCODING": "utf-8"}
     try:
         done = subprocess.run(

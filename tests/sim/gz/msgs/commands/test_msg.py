@@ -1,7 +1,7 @@
 import pytest
 
-from gz.command import main
-from gz.msgs import type_names
+from gz_course.sim.gz.command import main
+from gz_course.sim.gz.msgs import type_names
 
 
 def test_list_names_every_type(capsys):

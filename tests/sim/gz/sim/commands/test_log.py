@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from gz.msgs.double_pb2 import Double
 
-from gz.command import main
-from gz.sim.tlog import Entry, LogWriter
+from gz_course.sim.gz.command import main
+from gz_course.sim.gz.msgs.double_pb2 import Double
+from gz_course.sim.gz.sim.tlog import Entry, LogWriter
 
 
 @pytest.fixture

@@ -8,10 +8,10 @@ from collections.abc import Iterator
 
 import pytest
 
-from gz.command import main
-from gz.sim.server import Server
-from gz.sim.world import World
-from gz.transport import Node
+from gz_course.sim.gz.command import main
+from gz_course.sim.gz.sim.server import Server
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node
 
 
 @pytest.fixture(autouse=True)
@@ -54,7 +54,7 @@ def test_list_and_look(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_no_world(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
-    from gz.sim.commands import model
+    from gz_course.sim.gz.sim.commands import model
 
     monkeypatch.setattr(model, "_TIMEOUT_MS", 100)
     assert main(["model", "--list"]) == 1

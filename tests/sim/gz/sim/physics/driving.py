@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gz.sim.world import World
-from tests.sim.gz.sim.physics.wheeled_robots import WheeledRobot, drive_of
+from gz_course.sim.gz.sim.world import World
+from gz_course.tests.sim.gz.sim.physics.wheeled_robots import WheeledRobot, drive_of
 
 SPEED, TURN = 0.5, 0.1
 

@@ -11,10 +11,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz.sim.errors import SdfError
-from gz.sim.physics import recipe
-from gz.sim.pose import Pose
-from gz.sim.world import World
+from gz_course.sim.gz.sim.errors import SdfError
+from gz_course.sim.gz.sim.physics import recipe
+from gz_course.sim.gz.sim.pose import Pose
+from gz_course.sim.gz.sim.world import World
 
 Load = Callable[..., World]
 
@@ -114,7 +114,7 @@ moments = st.tuples(*[st.floats(0.1, 1.0)] * 3).map(lambda v: (v[0] + v[1], v[0]
 def test_full_inertia_matrices_keep_their_meaning(
     principal: tuple[float, float, float], rpy: tuple[float, ...]
 ) -> None:
-    from gz.sim.pose import matrix
+    from gz_course.sim.gz.sim.pose import matrix
 
     turn = matrix(Pose.from_rpy((0, 0, 0), rpy).quaternion)
     full = turn @ np.diag(principal) @ turn.T
@@ -179,7 +179,7 @@ def test_what_mujoco_refuses_is_one_sentence(load_text: Load) -> None:
 
 
 def test_more_moving_links_than_physics_can_take_are_refused(load_text: Load, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gz.sim.physics.builder.MOST_MOVING", 3)
+    monkeypatch.setattr("gz_course.sim.gz.sim.physics.builder.MOST_MOVING", 3)
     models = "".join(box(f"m{n}", f"{n} 0 0 0 0 0", 1, n > 2) for n in range(9))
     assert len(load_text(models).model_names()) == 3
     with pytest.raises(SdfError, match="the world has 4 links that move, more than 3"):

@@ -6,8 +6,8 @@ import math
 
 import pytest
 
-from tests.sim.gz.sim.physics.driving import endure, measure, steps
-from tests.sim.gz.sim.physics.wheeled_robots import ROBOTS, WheeledRobot, drive_of
+from gz_course.tests.sim.gz.sim.physics.driving import endure, measure, steps
+from gz_course.tests.sim.gz.sim.physics.wheeled_robots import ROBOTS, WheeledRobot, drive_of
 
 each_robot = pytest.mark.parametrize("robot", ROBOTS, ids=lambda robot: robot.name.replace(" ", ""))
 

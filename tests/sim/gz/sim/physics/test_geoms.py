@@ -9,9 +9,9 @@ import mujoco
 import numpy as np
 import pytest
 
-from gz.sim.physics.geoms import geom_names
-from gz.sim.world import World
-from tests.sim.gz.sim.sdf.shapes_on_disk import write_heightmap, write_obj, write_stl
+from gz_course.sim.gz.sim.physics.geoms import geom_names
+from gz_course.sim.gz.sim.world import World
+from gz_course.tests.sim.gz.sim.sdf.shapes_on_disk import write_heightmap, write_obj, write_stl
 
 Load = Callable[..., World]
 FLOOR = (

@@ -8,8 +8,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from gz.sim.pose import matrix
-from gz.sim.world import World
+from gz_course.sim.gz.sim.pose import matrix
+from gz_course.sim.gz.sim.world import World
 
 Load = Callable[..., World]
 SMALL = "<inertial><mass>1</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>"

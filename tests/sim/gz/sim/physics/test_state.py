@@ -7,7 +7,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gz.sim.physics.state import copy_state
+from gz_course.sim.gz.sim.physics.state import copy_state
 
 BODIES = {
     "free": '<freejoint name="free"/>',

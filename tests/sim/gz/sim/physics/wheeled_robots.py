@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from gz.sim.systems.diff_drive import DiffDrive
-from gz.sim.world import World
+from gz_course.sim.gz.sim.systems.diff_drive import DiffDrive
+from gz_course.sim.gz.sim.world import World
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-from gz.sim.world import World
+from gz_course.sim.gz.sim.world import World
 
 INSIDE = """
 <light name="sun" type="directional"><pose>0 0 10 0 0 0</pose><diffuse>0.8 0.7 0.6 1</diffuse>

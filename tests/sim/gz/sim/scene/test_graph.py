@@ -10,10 +10,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz.sim.pose import Pose, quaternion_from_rpy
-from gz.sim.scene import graph as graph_module
-from gz.sim.scene.graph import SceneGraph, Vertex
-from gz.sim.world import World
+from gz_course.sim.gz.sim.pose import Pose, quaternion_from_rpy
+from gz_course.sim.gz.sim.scene import graph as graph_module
+from gz_course.sim.gz.sim.scene.graph import SceneGraph, Vertex
+from gz_course.sim.gz.sim.world import World
 
 
 def names(vertex: Vertex) -> dict[str, object]:

@@ -8,14 +8,14 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from gz.msgs.geometry_pb2 import Geometry
-from gz.msgs.joint_pb2 import Joint
-from gz.msgs.light_pb2 import Light
-from gz.msgs.material_pb2 import Material
-from gz.msgs.sensor_noise_pb2 import SensorNoise
 
-from gz.sim.scene.message import scene_message
-from gz.sim.world import World
+from gz_course.sim.gz.msgs.geometry_pb2 import Geometry
+from gz_course.sim.gz.msgs.joint_pb2 import Joint
+from gz_course.sim.gz.msgs.light_pb2 import Light
+from gz_course.sim.gz.msgs.material_pb2 import Material
+from gz_course.sim.gz.msgs.sensor_noise_pb2 import SensorNoise
+from gz_course.sim.gz.sim.scene.message import scene_message
+from gz_course.sim.gz.sim.world import World
 
 
 def named(parts: Any, name: str) -> Any:
@@ -287,7 +287,7 @@ def test_nonsense_in_a_material_costs_one_sentence_and_not_the_scene(load_text: 
 
 
 def test_every_world_that_is_built_in_has_a_scene() -> None:
-    from gz.sim.sdf.resources import BUILT_IN_WORLDS
+    from gz_course.sim.gz.sim.sdf.resources import BUILT_IN_WORLDS
 
     for path in sorted(BUILT_IN_WORLDS.glob("*.sdf")):
         world = World.load(path)

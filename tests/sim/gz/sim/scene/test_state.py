@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from gz.msgs.geometry_pb2 import Geometry
-from gz.msgs.inertial_pb2 import Inertial
-from gz.msgs.light_pb2 import Light
 
-from gz.sim.scene.graph import SceneGraph
-from gz.sim.scene.state import component_type, full_state, pose_state
-from gz.sim.world import World
+from gz_course.sim.gz.msgs.geometry_pb2 import Geometry
+from gz_course.sim.gz.msgs.inertial_pb2 import Inertial
+from gz_course.sim.gz.msgs.light_pb2 import Light
+from gz_course.sim.gz.sim.scene.graph import SceneGraph
+from gz_course.sim.gz.sim.scene.state import component_type, full_state, pose_state
+from gz_course.sim.gz.sim.world import World
 
 
 def components(state: Any, entity: int) -> dict[int, bytes]:
@@ -24,7 +24,7 @@ def component(state: Any, entity: int, name: str) -> bytes:
 
 def test_types_are_fnv_1a_hashes_of_the_registered_names() -> None:
     # The reference values of the hash: of the empty text, and of "a", from the authors of FNV.
-    from gz.sim.scene import state
+    from gz_course.sim.gz.sim.scene import state
 
     assert state.fnv_1a("") == 0xCBF29CE484222325
     assert state.fnv_1a("a") == 0xAF63DC4C8601EC8C

@@ -10,11 +10,11 @@ from pathlib import Path
 
 import pytest
 
-from gz.sim.errors import Diagnostics, SdfError
-from gz.sim.sdf.element import DEEPEST, MOST_ELEMENTS, parse
-from gz.sim.sdf.reader import read_world
-from gz.sim.world import World
-from tests.fuzz.load_worlds import run
+from gz_course.sim.gz.sim.errors import Diagnostics, SdfError
+from gz_course.sim.gz.sim.sdf.element import DEEPEST, MOST_ELEMENTS, parse
+from gz_course.sim.gz.sim.sdf.reader import read_world
+from gz_course.sim.gz.sim.world import World
+from gz_course.tests.fuzz.load_worlds import run
 
 MANY = 2000
 

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz.sim.errors import SdfError
-from gz.sim.sdf.element import Element, parse
+from gz_course.sim.gz.sim.errors import SdfError
+from gz_course.sim.gz.sim.sdf.element import Element, parse
 
 
 def test_what_strict_parsers_refuse_is_read_with_its_lines() -> None:

@@ -10,10 +10,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz.sim.errors import Diagnostics, SdfError
-from gz.sim.pose import Pose
-from gz.sim.sdf.description import Model
-from gz.sim.sdf.reader import read_world
+from gz_course.sim.gz.sim.errors import Diagnostics, SdfError
+from gz_course.sim.gz.sim.pose import Pose
+from gz_course.sim.gz.sim.sdf.description import Model
+from gz_course.sim.gz.sim.sdf.reader import read_world
 
 
 def model(inside: str, attributes: str = "", version: str = "1.10") -> Model:

@@ -10,14 +10,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz.sim.errors import Diagnostics, SdfError
-from gz.sim.sdf.convex import convex_pieces
-from gz.sim.sdf.description import Collision, Geometry, Visual
-from gz.sim.sdf.element import parse
-from gz.sim.sdf.inertia import solid
-from gz.sim.sdf.polyline import read_polyline
-from gz.sim.sdf.reader import read_world
-from tests.sim.gz.sim.sdf.shapes_on_disk import write_heightmap, write_obj, write_stl
+from gz_course.sim.gz.sim.errors import Diagnostics, SdfError
+from gz_course.sim.gz.sim.sdf.convex import convex_pieces
+from gz_course.sim.gz.sim.sdf.description import Collision, Geometry, Visual
+from gz_course.sim.gz.sim.sdf.element import parse
+from gz_course.sim.gz.sim.sdf.inertia import solid
+from gz_course.sim.gz.sim.sdf.polyline import read_polyline
+from gz_course.sim.gz.sim.sdf.reader import read_world
+from gz_course.tests.sim.gz.sim.sdf.shapes_on_disk import write_heightmap, write_obj, write_stl
 
 CUBE = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
 _SIDES = "013 032 467 475 045 051 237 276 026 064 157 173"

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from gz.sim.errors import Diagnostics, SdfError
-from gz.sim.pose import Pose
-from gz.sim.sdf.description import WorldDescription
-from gz.sim.sdf.reader import read_world, read_world_file
+from gz_course.sim.gz.sim.errors import Diagnostics, SdfError
+from gz_course.sim.gz.sim.pose import Pose
+from gz_course.sim.gz.sim.sdf.description import WorldDescription
+from gz_course.sim.gz.sim.sdf.reader import read_world, read_world_file
 
 ARM = """<sdf version='1.9'><model name='arm'><pose>0 0 5 0 0 0</pose>
 <link name='upper'><pose>1 0 0 0 0 0</pose></link>

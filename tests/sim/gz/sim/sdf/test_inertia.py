@@ -9,12 +9,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz.sim.errors import Diagnostics, SdfError
-from gz.sim.pose import matrix
-from gz.sim.sdf.description import Geometry, Inertial, TriangleMesh
-from gz.sim.sdf.geometry import _cone
-from gz.sim.sdf.inertia import solid
-from gz.sim.sdf.reader import read_world
+from gz_course.sim.gz.sim.errors import Diagnostics, SdfError
+from gz_course.sim.gz.sim.pose import matrix
+from gz_course.sim.gz.sim.sdf.description import Geometry, Inertial, TriangleMesh
+from gz_course.sim.gz.sim.sdf.geometry import _cone
+from gz_course.sim.gz.sim.sdf.inertia import solid
+from gz_course.sim.gz.sim.sdf.reader import read_world
 
 
 def inertial(link: str) -> tuple[Inertial, list[str]]:

@@ -14,8 +14,8 @@ import pytest
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
-from gz.sim.errors import ResourceError
-from gz.sim.sdf.meshes import Mesh, read_mesh
+from gz_course.sim.gz.sim.errors import ResourceError
+from gz_course.sim.gz.sim.sdf.meshes import Mesh, read_mesh
 
 CORNERS = np.array([(0, 0, 0), (2, 0, 0), (0, 1, 0), (0, 0, 3)], float)
 TETRAHEDRON = np.array([(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])
@@ -220,8 +220,8 @@ DAE = """<?xml version="1.0"?>
 def test_collada_without_its_reader_says_what_to_install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "a.dae").write_text(DAE)
     monkeypatch.setitem(sys.modules, "collada", None)
-    monkeypatch.delitem(sys.modules, "gz.sim.sdf.collada_mesh", raising=False)
-    monkeypatch.delattr("gz.sim.sdf.collada_mesh", raising=False)
+    monkeypatch.delitem(sys.modules, "gz_course.sim.gz.sim.sdf.collada_mesh", raising=False)
+    monkeypatch.delattr("gz_course.sim.gz.sim.sdf.collada_mesh", raising=False)
     with pytest.raises(ResourceError, match=r"pip install 'gz-ros2-course\[collada\]'"):
         read_mesh(tmp_path / "a.dae")
 

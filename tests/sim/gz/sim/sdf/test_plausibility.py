@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz.sim.errors import Diagnostics, SdfError
-from gz.sim.sdf.reader import read_world
-from gz.sim.world import World
-from tests.sim.gz.sim.sdf.shapes_on_disk import write_obj
+from gz_course.sim.gz.sim.errors import Diagnostics, SdfError
+from gz_course.sim.gz.sim.sdf.reader import read_world
+from gz_course.sim.gz.sim.world import World
+from gz_course.tests.sim.gz.sim.sdf.shapes_on_disk import write_obj
 
 SOLID = "<collision name='c'><geometry><box><size>1 1 1</size></box></geometry></collision>"
 SEEN = "<visual name='v'><geometry><box><size>1 1 1</size></box></geometry></visual>"

@@ -11,10 +11,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from gz.sim.errors import Diagnostics, ResourceError, SdfError
-from gz.sim.sdf.reader import read_world
-from gz.sim.sdf.resources import BUILT_IN_WORLDS
-from gz.sim.world import World
+from gz_course.sim.gz.sim.errors import Diagnostics, ResourceError, SdfError
+from gz_course.sim.gz.sim.sdf.reader import read_world
+from gz_course.sim.gz.sim.sdf.resources import BUILT_IN_WORLDS
+from gz_course.sim.gz.sim.world import World
 
 ROOM = (BUILT_IN_WORLDS / "lidar_room.sdf").read_text()
 

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gz.sim.errors import ResourceError, SdfError
-from gz.sim.sdf.resources import (
+from gz_course.sim.gz.sim.errors import ResourceError, SdfError
+from gz_course.sim.gz.sim.sdf.resources import (
     BUILT_IN_MODELS,
     find_file,
     find_model,

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from gz.sim.errors import Diagnostics, SdfError
-from gz.sim.pose import Pose
-from gz.sim.sdf.description import Sensor
-from gz.sim.sdf.reader import read_world
+from gz_course.sim.gz.sim.errors import Diagnostics, SdfError
+from gz_course.sim.gz.sim.pose import Pose
+from gz_course.sim.gz.sim.sdf.description import Sensor
+from gz_course.sim.gz.sim.sdf.reader import read_world
 
 MODEL = (
     "<model name='m'>{}<link name='a'/><link name='b'><pose>1 0 0 0 0 0</pose></link><frame name='f'><pose>0 5 0 0 0 0"

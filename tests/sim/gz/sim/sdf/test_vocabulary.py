@@ -6,9 +6,9 @@ import random
 
 import pytest
 
-from gz.sim.errors import Diagnostics
-from gz.sim.sdf.element import parse
-from gz.sim.sdf.vocabulary import ATTRIBUTES, CHILDREN, check
+from gz_course.sim.gz.sim.errors import Diagnostics
+from gz_course.sim.gz.sim.sdf.element import parse
+from gz_course.sim.gz.sim.sdf.vocabulary import ATTRIBUTES, CHILDREN, check
 
 
 def warnings(text: str) -> list[str]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from gz.sim.sensors.camera_sensor import CameraSensor
-from gz.sim.world import World
-from gz.transport import Node
+from gz_course.sim.gz.sim.sensors.camera_sensor import CameraSensor
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node
 
 Load = Callable[..., World]
 

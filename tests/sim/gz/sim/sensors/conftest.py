@@ -8,12 +8,12 @@ from typing import Any
 
 import pytest
 
-from gz.msgs import message_class
-from gz.sim.sensors.registry import SensorBase
-from gz.sim.systems.registry import systems
-from gz.sim.systems.sensor_system import SensorSystem
-from gz.sim.world import World
-from gz.transport import Node, NodeOptions, Scope
+from gz_course.sim.gz.msgs import message_class
+from gz_course.sim.gz.sim.sensors.registry import SensorBase
+from gz_course.sim.gz.sim.systems.registry import systems
+from gz_course.sim.gz.sim.systems.sensor_system import SensorSystem
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node, NodeOptions, Scope
 
 INERTIAL = (
     "<inertial><mass>{mass}</mass><inertia><ixx>{i}</ixx><iyy>{i}</iyy><izz>{i}</izz>"

@@ -10,10 +10,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gz.sim.errors import SdfError
-from gz.sim.pose import matrix, quaternion_from_rpy
-from gz.sim.sensors.air_pressure import standard_pressure
-from gz.sim.sensors.magnetometer import Magnetometer
+from gz_course.sim.gz.sim.errors import SdfError
+from gz_course.sim.gz.sim.pose import matrix, quaternion_from_rpy
+from gz_course.sim.gz.sim.sensors.air_pressure import standard_pressure
+from gz_course.sim.gz.sim.sensors.magnetometer import Magnetometer
 
 from .conftest import inertial, sensor_world, sensors_of
 
@@ -135,7 +135,7 @@ def test_the_field_is_seen_from_the_sensor(rpy: tuple[float, float, float]) -> N
 
 
 def _message() -> Any:
-    from gz.msgs.magnetometer_pb2 import Magnetometer as Message
+    from gz_course.sim.gz.msgs.magnetometer_pb2 import Magnetometer as Message
 
     return Message()
 

@@ -6,14 +6,14 @@ import math
 
 import numpy as np
 import pytest
-from gz.msgs.camera_info_pb2 import CameraInfo
-from gz.msgs.image_pb2 import Image
-from gz.msgs.pointcloud_packed_pb2 import PointCloudPacked
 
-from gz.sim.errors import SdfError
-from gz.sim.sensors.camera import encode
-from gz.transport import Node
-from tests.sim.gz.sim.sensors.camera_rig import SCENE, WALL, Load, eye, listen, sensor_of, thing
+from gz_course.sim.gz.msgs.camera_info_pb2 import CameraInfo
+from gz_course.sim.gz.msgs.image_pb2 import Image
+from gz_course.sim.gz.msgs.pointcloud_packed_pb2 import PointCloudPacked
+from gz_course.sim.gz.sim.errors import SdfError
+from gz_course.sim.gz.sim.sensors.camera import encode
+from gz_course.sim.gz.transport import Node
+from gz_course.tests.sim.gz.sim.sensors.camera_rig import SCENE, WALL, Load, eye, listen, sensor_of, thing
 
 
 def test_depth_is_measured_along_the_axis_and_points_lie_on_the_wall(load_text: Load, node: Node) -> None:

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gz.sim.errors import SdfError
-from gz.sim.pose import matrix, quaternion_from_rpy
+from gz_course.sim.gz.sim.errors import SdfError
+from gz_course.sim.gz.sim.pose import matrix, quaternion_from_rpy
 
 from .conftest import inertial, sensor_world, sensors_of
 

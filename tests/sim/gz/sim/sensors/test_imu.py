@@ -11,10 +11,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gz.sim.pose import matrix, quaternion_from_rpy
-from gz.sim.sensors.imu import Imu
-from gz.sim.world import World
-from gz.transport import Node, NodeOptions, Scope
+from gz_course.sim.gz.sim.pose import matrix, quaternion_from_rpy
+from gz_course.sim.gz.sim.sensors.imu import Imu
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node, NodeOptions, Scope
 
 from .conftest import inertial, sensor_world, sensors_of
 
@@ -298,7 +298,7 @@ WANDERING = axis_noise(
 
 def test_numbers_do_not_depend_on_who_listened_before() -> None:
     def values(seed: int, listen_from: int, *, rebuilt: bool = False) -> list[float]:
-        from gz.msgs.imu_pb2 import IMU
+        from gz_course.sim.gz.msgs.imu_pb2 import IMU
 
         heard: list[float] = []
         with Node(NodeOptions(scope=Scope.PROCESS)) as own:

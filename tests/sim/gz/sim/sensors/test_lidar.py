@@ -12,16 +12,16 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gz.msgs.laserscan_pb2 import LaserScan
-from gz.msgs.twist_pb2 import Twist
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gz.sim.errors import SdfError
-from gz.sim.sensors.lidar import Lidar
-from gz.sim.systems.sensors import Sensors
-from gz.sim.world import World
-from gz.transport import Node
+from gz_course.sim.gz.msgs.laserscan_pb2 import LaserScan
+from gz_course.sim.gz.msgs.twist_pb2 import Twist
+from gz_course.sim.gz.sim.errors import SdfError
+from gz_course.sim.gz.sim.sensors.lidar import Lidar
+from gz_course.sim.gz.sim.systems.sensors import Sensors
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node
 
 Load = Callable[..., World]
 _numbers = itertools.count()
@@ -231,7 +231,7 @@ def test_noise_is_seeded_per_scan_and_only_on_what_was_measured(load_text: Load,
     world_text = rig(samples=91, noise=NOISY) + wall("visual", 3.1)
 
     def scans(seed: int, listen_from: int) -> list[list[float]]:
-        from gz.transport import NodeOptions, Scope
+        from gz_course.sim.gz.transport import NodeOptions, Scope
 
         heard: list[list[float]] = []
         with Node(NodeOptions(scope=Scope.PROCESS)) as own:
@@ -278,7 +278,7 @@ def test_rates_and_message(load_text: Load, node: Node) -> None:
 
 
 def test_nobody_listening_costs_no_rays_and_changes_no_truth(monkeypatch: pytest.MonkeyPatch) -> None:
-    from gz.transport import NodeOptions, Scope
+    from gz_course.sim.gz.transport import NodeOptions, Scope
 
     casts = []
     original = Lidar.ranges
@@ -342,7 +342,7 @@ def test_sensor_types_nothing_here_can_do_are_named(load_text: Load) -> None:
 
 
 def test_points_stand_where_the_ranges_end(load_text: Load, node: Node) -> None:
-    from gz.msgs.pointcloud_packed_pb2 import PointCloudPacked
+    from gz_course.sim.gz.msgs.pointcloud_packed_pb2 import PointCloudPacked
 
     vertical = "<vertical><samples>2</samples><min_angle>-0.1</min_angle><max_angle>0.15</max_angle></vertical>"
     shiny = wall("visual", 3.1).replace("</visual>", "<laser_retro>7.5</laser_retro></visual>")

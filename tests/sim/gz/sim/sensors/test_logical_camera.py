@@ -10,7 +10,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from gz.sim.sensors.logical_camera import LogicalCamera
+from gz_course.sim.gz.sim.sensors.logical_camera import LogicalCamera
 
 from .conftest import inertial, sensor_world, sensors_of
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gz.sim.spherical_coordinates import SphericalCoordinates
+from gz_course.sim.gz.sim.spherical_coordinates import SphericalCoordinates
 
 from .conftest import inertial, sensor_world
 

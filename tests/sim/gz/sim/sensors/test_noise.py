@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz.sim.errors import SdfError
-from gz.sim.sdf.element import parse
-from gz.sim.sensors.noise import Channels, Noise
+from gz_course.sim.gz.sim.errors import SdfError
+from gz_course.sim.gz.sim.sdf.element import parse
+from gz_course.sim.gz.sim.sensors.noise import Channels, Noise
 
 
 def generator(key: int = 1) -> np.random.Generator:

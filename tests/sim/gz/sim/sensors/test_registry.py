@@ -8,15 +8,15 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gz.msgs.double_pb2 import Double
-from gz.msgs.empty_pb2 import Empty
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gz.sim.sensors.registry import sensor_types
-from gz.sim.systems.registry import systems
-from gz.sim.world import World
-from gz.transport import Node, NodeOptions, Scope
+from gz_course.sim.gz.msgs.double_pb2 import Double
+from gz_course.sim.gz.msgs.empty_pb2 import Empty
+from gz_course.sim.gz.sim.sensors.registry import sensor_types
+from gz_course.sim.gz.sim.systems.registry import systems
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node, NodeOptions, Scope
 
 from .conftest import inertial, sensor_world, sensors_of
 
@@ -70,7 +70,7 @@ def test_schedule(listen: Listen, rate: float, step: float, expected: list[int])
 @settings(max_examples=25, deadline=None)
 @given(st.floats(1, 1000), st.sampled_from((1, 2, 4)), st.integers(0, 60))
 def test_updates_stand_on_a_grid_from_zero_on_whoever_listens(rate: float, step: int, listen_from: int) -> None:
-    from gz.msgs.altimeter_pb2 import Altimeter
+    from gz_course.sim.gz.msgs.altimeter_pb2 import Altimeter
 
     period = int(1000 / rate)
     heard: list[Any] = []

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gz.sim.errors import SimError
-from gz.sim.sensors import renderer
-from gz.sim.sensors.renderer import GlRenderer, check_engine, gl_backend
-from gz.sim.world import World
+from gz_course.sim.gz.sim.errors import SimError
+from gz_course.sim.gz.sim.sensors import renderer
+from gz_course.sim.gz.sim.sensors.renderer import GlRenderer, check_engine, gl_backend
+from gz_course.sim.gz.sim.world import World
 
 Load = Callable[..., World]
 

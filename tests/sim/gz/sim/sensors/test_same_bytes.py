@@ -7,8 +7,8 @@ import os
 import subprocess
 import sys
 
-from gz.sim.world import World
-from gz.transport import Node, NodeOptions, Scope
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node, NodeOptions, Scope
 
 from .conftest import inertial, sensor_world
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from gz.sim.systems.registry import systems
-from gz.sim.world import World
+from gz_course.sim.gz.sim.systems.registry import systems
+from gz_course.sim.gz.sim.world import World
 
 
 def plugin(name: str, inside: str = "") -> str:

@@ -7,16 +7,16 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gz.msgs.actuators_pb2 import Actuators
-from gz.msgs.double_pb2 import Double
-from gz.msgs.odometry_pb2 import Odometry
-from gz.msgs.twist_pb2 import Twist
 
-from gz.sim.errors import SdfError
-from gz.sim.systems.ackermann_steering import AckermannSteering
-from gz.sim.world import World
-from gz.transport import Node
-from tests.sim.gz.sim.systems.motion_world import plugin, world
+from gz_course.sim.gz.msgs.actuators_pb2 import Actuators
+from gz_course.sim.gz.msgs.double_pb2 import Double
+from gz_course.sim.gz.msgs.odometry_pb2 import Odometry
+from gz_course.sim.gz.msgs.twist_pb2 import Twist
+from gz_course.sim.gz.sim.errors import SdfError
+from gz_course.sim.gz.sim.systems.ackermann_steering import AckermannSteering
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node
+from gz_course.tests.sim.gz.sim.systems.motion_world import plugin, world
 
 BASE, TRACK, RADIUS = 0.8, 0.6, 0.15
 

@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gz.msgs.double_pb2 import Double
-from gz.msgs.entity_pb2 import Entity
-from gz.msgs.entity_wrench_pb2 import EntityWrench
 
-from gz.sim.errors import SdfError
-from gz.sim.world import World
-from gz.transport import Node
-from tests.sim.gz.sim.systems.motion_world import link, plugin, world
+from gz_course.sim.gz.msgs.double_pb2 import Double
+from gz_course.sim.gz.msgs.entity_pb2 import Entity
+from gz_course.sim.gz.msgs.entity_wrench_pb2 import EntityWrench
+from gz_course.sim.gz.sim.errors import SdfError
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node
+from gz_course.tests.sim.gz.sim.systems.motion_world import link, plugin, world
 
 BOX = f"<model name='box'><pose>0 0 5 0 0 0</pose>{link('l', '0 0 0 0 0 0', mass=2.0)}{{}}</model>"
 

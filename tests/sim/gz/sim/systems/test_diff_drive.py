@@ -8,17 +8,17 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gz.msgs.boolean_pb2 import Boolean
-from gz.msgs.odometry_pb2 import Odometry
-from gz.msgs.pose_v_pb2 import Pose_V
-from gz.msgs.twist_pb2 import Twist
 
-from gz.sim.errors import SdfError
-from gz.sim.physics.servos import MAX_WHEEL_SPEED
-from gz.sim.sdf.resources import BUILT_IN_MODELS, BUILT_IN_WORLDS
-from gz.sim.systems.diff_drive import DiffDrive
-from gz.sim.world import World
-from gz.transport import Node
+from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
+from gz_course.sim.gz.msgs.odometry_pb2 import Odometry
+from gz_course.sim.gz.msgs.pose_v_pb2 import Pose_V
+from gz_course.sim.gz.msgs.twist_pb2 import Twist
+from gz_course.sim.gz.sim.errors import SdfError
+from gz_course.sim.gz.sim.physics.servos import MAX_WHEEL_SPEED
+from gz_course.sim.gz.sim.sdf.resources import BUILT_IN_MODELS, BUILT_IN_WORLDS
+from gz_course.sim.gz.sim.systems.diff_drive import DiffDrive
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node
 
 ROBOT = (BUILT_IN_MODELS / "two_wheel_robot" / "model.sdf").read_text()
 
@@ -69,7 +69,7 @@ def test_steady_speed_is_what_was_commanded(linear: float, angular: float) -> No
 
 @pytest.mark.parametrize("integrator", [True, False])
 def test_both_integrators_of_the_recipe_drive_alike(integrator: bool, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gz.sim.physics.recipe.DISCRETE", integrator)
+    monkeypatch.setattr("gz_course.sim.gz.sim.physics.recipe.DISCRETE", integrator)
     world = robot_world()
     drive_of(world).command(0.5, 0.1)
     world.step(4000)

@@ -7,16 +7,16 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gz.msgs.actuators_pb2 import Actuators
-from gz.msgs.double_pb2 import Double
-from gz.msgs.float_pb2 import Float
-from gz.msgs.joint_trajectory_pb2 import JointTrajectory
 
-from gz.sim.errors import SdfError
-from gz.sim.systems.joint_command import JointCommand
-from gz.sim.world import World
-from gz.transport import Node
-from tests.sim.gz.sim.systems.motion_world import arm, joint, link, plugin, world
+from gz_course.sim.gz.msgs.actuators_pb2 import Actuators
+from gz_course.sim.gz.msgs.double_pb2 import Double
+from gz_course.sim.gz.msgs.float_pb2 import Float
+from gz_course.sim.gz.msgs.joint_trajectory_pb2 import JointTrajectory
+from gz_course.sim.gz.sim.errors import SdfError
+from gz_course.sim.gz.sim.systems.joint_command import JointCommand
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node
+from gz_course.tests.sim.gz.sim.systems.motion_world import arm, joint, link, plugin, world
 
 STRONG = "<p_gain>2000</p_gain><i_gain>500</i_gain><d_gain>100</d_gain><i_max>100</i_max><i_min>-100</i_min>"
 LIMITS = "<limit><lower>-1</lower><upper>1</upper>{}</limit>"

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gz.msgs.model_pb2 import Model
 
-from gz.sim.world import World
-from gz.transport import Node
-from tests.sim.gz.sim.systems.motion_world import arm, joint, link, plugin, world
+from gz_course.sim.gz.msgs.model_pb2 import Model
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node
+from gz_course.tests.sim.gz.sim.systems.motion_world import arm, joint, link, plugin, world
 
 DRIVEN = plugin("JointController", "<joint_name>elbow</joint_name><initial_velocity>0.3</initial_velocity>")
 

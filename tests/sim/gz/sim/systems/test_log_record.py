@@ -6,14 +6,14 @@ import sqlite3
 from pathlib import Path
 
 import pytest
-from gz.msgs.laserscan_pb2 import LaserScan
-from gz.msgs.stringmsg_pb2 import StringMsg
 
-from gz.sim.errors import SdfError, SimError
-from gz.sim.sdf.resources import BUILT_IN_WORLDS
-from gz.sim.tlog import Entry, Log, LogWriter
-from gz.sim.world import World
-from gz.transport import Node
+from gz_course.sim.gz.msgs.laserscan_pb2 import LaserScan
+from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+from gz_course.sim.gz.sim.errors import SdfError, SimError
+from gz_course.sim.gz.sim.sdf.resources import BUILT_IN_WORLDS
+from gz_course.sim.gz.sim.tlog import Entry, Log, LogWriter
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node
 
 
 def load(node: Node, parameters: str) -> World:
@@ -42,8 +42,8 @@ def test_what_was_published_is_what_is_read(node: Node, tmp_path: Path) -> None:
 
 
 def test_a_model_that_comes_is_recorded_too(node: Node, tmp_path: Path) -> None:
-    from gz.sim.pose import Pose
-    from gz.sim.sdf.resources import BUILT_IN_MODELS
+    from gz_course.sim.gz.sim.pose import Pose
+    from gz_course.sim.gz.sim.sdf.resources import BUILT_IN_MODELS
 
     world = load(node, f"<record_path>{tmp_path / 'log'}</record_path><record_topic>/model/.*/odometry</record_topic>")
     world.step(200)

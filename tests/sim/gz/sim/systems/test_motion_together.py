@@ -7,18 +7,18 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from gz.msgs.double_pb2 import Double
-from gz.msgs.model_pb2 import Model
-from gz.msgs.odometry_pb2 import Odometry
-from gz.msgs.odometry_with_covariance_pb2 import OdometryWithCovariance
-from gz.msgs.pose_v_pb2 import Pose_V
-from gz.msgs.twist_pb2 import Twist
 
-from gz.sim.systems.diff_drive import DiffDrive
-from gz.sim.world import World
-from gz.transport import Node, NodeOptions, Scope
-from tests.sim.gz.sim.physics.wheeled_robots import ROBOTS
-from tests.sim.gz.sim.systems.motion_world import arm, link, plugin, world
+from gz_course.sim.gz.msgs.double_pb2 import Double
+from gz_course.sim.gz.msgs.model_pb2 import Model
+from gz_course.sim.gz.msgs.odometry_pb2 import Odometry
+from gz_course.sim.gz.msgs.odometry_with_covariance_pb2 import OdometryWithCovariance
+from gz_course.sim.gz.msgs.pose_v_pb2 import Pose_V
+from gz_course.sim.gz.msgs.twist_pb2 import Twist
+from gz_course.sim.gz.sim.systems.diff_drive import DiffDrive
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node, NodeOptions, Scope
+from gz_course.tests.sim.gz.sim.physics.wheeled_robots import ROBOTS
+from gz_course.tests.sim.gz.sim.systems.motion_world import arm, link, plugin, world
 
 GAINS = "<position_p_gain>300</position_p_gain><position_d_gain>10</position_d_gain>"
 EVERYTHING = (

@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gz.msgs.odometry_pb2 import Odometry
-from gz.msgs.odometry_with_covariance_pb2 import OdometryWithCovariance
-from gz.msgs.pose_v_pb2 import Pose_V
 
-from gz.sim.errors import SdfError
-from gz.sim.world import World
-from gz.transport import Node, NodeOptions, Scope
-from tests.sim.gz.sim.systems.motion_world import arm, joint, link, plugin, world
+from gz_course.sim.gz.msgs.odometry_pb2 import Odometry
+from gz_course.sim.gz.msgs.odometry_with_covariance_pb2 import OdometryWithCovariance
+from gz_course.sim.gz.msgs.pose_v_pb2 import Pose_V
+from gz_course.sim.gz.sim.errors import SdfError
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node, NodeOptions, Scope
+from gz_course.tests.sim.gz.sim.systems.motion_world import arm, joint, link, plugin, world
 
 
 def box(inside: str = "", velocity: str = "", pose: str = "3 -1 2 0 0 0.5") -> str:

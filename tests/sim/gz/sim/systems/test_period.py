@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz.sim.systems.period import LONGEST_NS, period_ns
-from gz.sim.world import World
+from gz_course.sim.gz.sim.systems.period import LONGEST_NS, period_ns
+from gz_course.sim.gz.sim.world import World
 
 
 def test_a_frequency_has_a_period_and_none_means_each_step() -> None:

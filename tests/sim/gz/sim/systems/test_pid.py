@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz.sim.errors import SdfError
-from gz.sim.sdf.element import parse
-from gz.sim.systems.pid import PID
+from gz_course.sim.gz.sim.errors import SdfError
+from gz_course.sim.gz.sim.sdf.element import parse
+from gz_course.sim.gz.sim.systems.pid import PID
 
 errors = st.lists(st.floats(-100, 100), min_size=1, max_size=50)
 

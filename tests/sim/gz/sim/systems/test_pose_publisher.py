@@ -6,12 +6,12 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from gz.msgs.pose_pb2 import Pose
-from gz.msgs.pose_v_pb2 import Pose_V
 
-from gz.sim.errors import SdfError
-from gz.sim.world import World
-from gz.transport import Node
+from gz_course.sim.gz.msgs.pose_pb2 import Pose
+from gz_course.sim.gz.msgs.pose_v_pb2 import Pose_V
+from gz_course.sim.gz.sim.errors import SdfError
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node
 
 PUBLISHER = "<plugin filename='gz-sim-pose-publisher-system' name='gz::sim::systems::PosePublisher'>{}</plugin>"
 ROBOT = """

@@ -8,18 +8,18 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
-from gz.msgs.empty_pb2 import Empty
-from gz.msgs.pose_v_pb2 import Pose_V
-from gz.msgs.scene_pb2 import Scene
-from gz.msgs.serialized_map_pb2 import SerializedStepMap
-from gz.msgs.stringmsg_pb2 import StringMsg
-from gz.msgs.uint32_v_pb2 import UInt32_V
 
-from gz.sim.errors import SdfError
-from gz.sim.scene.state import component_type
-from gz.sim.server import Server
-from gz.sim.world import World
-from gz.transport import Node
+from gz_course.sim.gz.msgs.empty_pb2 import Empty
+from gz_course.sim.gz.msgs.pose_v_pb2 import Pose_V
+from gz_course.sim.gz.msgs.scene_pb2 import Scene
+from gz_course.sim.gz.msgs.serialized_map_pb2 import SerializedStepMap
+from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+from gz_course.sim.gz.msgs.uint32_v_pb2 import UInt32_V
+from gz_course.sim.gz.sim.errors import SdfError
+from gz_course.sim.gz.sim.scene.state import component_type
+from gz_course.sim.gz.sim.server import Server
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node
 
 BROADCASTER = "<plugin filename='gz-sim-scene-broadcaster-system' name='gz::sim::systems::SceneBroadcaster'>{}</plugin>"
 INSIDE = """
@@ -118,7 +118,9 @@ def test_dynamic_poses_are_those_of_what_can_move(ear: Callable[..., Ear]) -> No
 
 def test_nothing_is_made_when_nobody_listens(ear: Callable[..., Ear], monkeypatch: pytest.MonkeyPatch) -> None:
     made = ear(topics={})
-    monkeypatch.setattr("gz.sim.scene.graph.SceneGraph.poses", lambda self: pytest.fail("poses were computed"))
+    monkeypatch.setattr(
+        "gz_course.sim.gz.sim.scene.graph.SceneGraph.poses", lambda self: pytest.fail("poses were computed")
+    )
     made.world.step(100)
 
 
@@ -263,7 +265,7 @@ def test_other_threads_are_answered_between_steps(ear: Callable[..., Ear]) -> No
 def test_a_world_that_nobody_steps_fails_the_call(
     ear: Callable[..., Ear], monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    monkeypatch.setattr("gz.sim.requests.Requests.call.__defaults__", (0.05,))
+    monkeypatch.setattr("gz_course.sim.gz.sim.requests.Requests.call.__defaults__", (0.05,))
     made = ear(topics={})
     made.world.step(1)
     answers: list[bool] = []

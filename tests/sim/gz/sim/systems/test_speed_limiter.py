@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz.sim.errors import SdfError
-from gz.sim.sdf.element import parse
-from gz.sim.systems.speed_limiter import SpeedLimiter
+from gz_course.sim.gz.sim.errors import SdfError
+from gz_course.sim.gz.sim.sdf.element import parse
+from gz_course.sim.gz.sim.systems.speed_limiter import SpeedLimiter
 
 
 @given(st.lists(st.floats(-10, 10), min_size=1, max_size=60))

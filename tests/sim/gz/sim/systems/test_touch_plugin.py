@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import pytest
-from gz.msgs.boolean_pb2 import Boolean
-from gz.msgs.empty_pb2 import Empty
 
-from gz.sim.errors import SdfError
-from gz.sim.world import World
-from gz.transport import Node, NodeOptions, Scope
+from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
+from gz_course.sim.gz.msgs.empty_pb2 import Empty
+from gz_course.sim.gz.sim.errors import SdfError
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node, NodeOptions, Scope
 
 Run = Callable[..., tuple[World, list[float]]]
 BODY = (

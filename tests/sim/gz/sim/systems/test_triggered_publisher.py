@@ -5,15 +5,15 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from gz.msgs.boolean_pb2 import Boolean
-from gz.msgs.pose_v_pb2 import Pose_V
-from gz.msgs.stringmsg_pb2 import StringMsg
-from gz.msgs.twist_pb2 import Twist
 
-from gz.sim.errors import SdfError
-from gz.sim.world import World
-from gz.transport import Node
-from tests.sim.gz.sim.systems.motion_world import plugin, world
+from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
+from gz_course.sim.gz.msgs.pose_v_pb2 import Pose_V
+from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+from gz_course.sim.gz.msgs.twist_pb2 import Twist
+from gz_course.sim.gz.sim.errors import SdfError
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node
+from gz_course.tests.sim.gz.sim.systems.motion_world import plugin, world
 
 OUTPUT = "<output type='gz.msgs.Boolean' topic='/out'>data: true</output>"
 

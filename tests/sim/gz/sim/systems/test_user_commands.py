@@ -10,21 +10,21 @@ from typing import Any
 
 import pytest
 from google.protobuf import text_format
-from gz.msgs.boolean_pb2 import Boolean
-from gz.msgs.entity_factory_pb2 import EntityFactory
-from gz.msgs.entity_factory_v_pb2 import EntityFactory_V
-from gz.msgs.entity_pb2 import Entity
-from gz.msgs.light_pb2 import Light
-from gz.msgs.material_color_pb2 import MaterialColor
-from gz.msgs.physics_pb2 import Physics
-from gz.msgs.pose_pb2 import Pose as PoseMessage
-from gz.msgs.pose_v_pb2 import Pose_V
-from gz.msgs.spherical_coordinates_pb2 import SphericalCoordinates
-from gz.msgs.visual_pb2 import Visual
-from gz.msgs.wheel_slip_parameters_cmd_pb2 import WheelSlipParametersCmd
 
-from gz.sim.world import World
-from gz.transport import Node
+from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
+from gz_course.sim.gz.msgs.entity_factory_pb2 import EntityFactory
+from gz_course.sim.gz.msgs.entity_factory_v_pb2 import EntityFactory_V
+from gz_course.sim.gz.msgs.entity_pb2 import Entity
+from gz_course.sim.gz.msgs.light_pb2 import Light
+from gz_course.sim.gz.msgs.material_color_pb2 import MaterialColor
+from gz_course.sim.gz.msgs.physics_pb2 import Physics
+from gz_course.sim.gz.msgs.pose_pb2 import Pose as PoseMessage
+from gz_course.sim.gz.msgs.pose_v_pb2 import Pose_V
+from gz_course.sim.gz.msgs.spherical_coordinates_pb2 import SphericalCoordinates
+from gz_course.sim.gz.msgs.visual_pb2 import Visual
+from gz_course.sim.gz.msgs.wheel_slip_parameters_cmd_pb2 import WheelSlipParametersCmd
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node
 
 GEOMETRY = "<geometry><box><size>0.2 0.2 0.2</size></box></geometry>"
 BOX = (
@@ -205,7 +205,7 @@ def test_a_request_of_another_thread_waits_for_the_end_of_a_step(world: World, a
 def test_a_blocking_request_that_nobody_serves_is_given_up_and_never_done(
     world: World, ask: Ask, said: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("gz.sim.requests.Requests.call.__defaults__", (0.05,))
+    monkeypatch.setattr("gz_course.sim.gz.sim.requests.Requests.call.__defaults__", (0.05,))
     answers: list[bool] = []
     thread = threading.Thread(target=lambda: answers.append(ask("create/blocking", EntityFactory(sdf=BOX))))
     thread.start()
@@ -234,7 +234,7 @@ def test_ten_megabytes_of_sdf(world: World, ask: Ask) -> None:
 
 
 def test_quaternions_of_any_length_say_a_direction() -> None:
-    from gz.sim.systems.entity_commands import pose_of
+    from gz_course.sim.gz.sim.systems.entity_commands import pose_of
 
     for length in (1e-8, 1.0, 1e300):
         turned = pose_of(PoseMessage(orientation={"z": length, "w": length}), "box")

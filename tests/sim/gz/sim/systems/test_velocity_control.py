@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gz.msgs.twist_pb2 import Twist
 
-from gz.sim.systems.velocity_control import VelocityControl
-from gz.sim.world import World
-from gz.transport import Node
-from tests.sim.gz.sim.systems.motion_world import arm, joint, link, plugin, world
+from gz_course.sim.gz.msgs.twist_pb2 import Twist
+from gz_course.sim.gz.sim.systems.velocity_control import VelocityControl
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node
+from gz_course.tests.sim.gz.sim.systems.motion_world import arm, joint, link, plugin, world
 
 
 def box(inside: str = "", more: str = "", pose: str = "0 0 5 0 0 0.5") -> str:

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz.sim.systems.wheel_odometry import WheelOdometry
+from gz_course.sim.gz.sim.systems.wheel_odometry import WheelOdometry
 
 
 @given(st.floats(-2, 2), st.floats(-3, 3), st.integers(1, 200))

@@ -1,9 +1,9 @@
 import pytest
-from gz.msgs.boolean_pb2 import Boolean
-from gz.msgs.empty_pb2 import Empty
-from gz.msgs.stringmsg_pb2 import StringMsg
 
-from gz.transport import Node
+from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
+from gz_course.sim.gz.msgs.empty_pb2 import Empty
+from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+from gz_course.sim.gz.transport import Node
 
 CALL = ("--reqtype", "gz.msgs.StringMsg", "--reptype", "gz.msgs.StringMsg")
 
@@ -104,7 +104,7 @@ def test_a_provider_that_is_too_slow(gz, node):
     ],
 )
 def test_wrong_usage_is_one_line_and_a_code(capsys, arguments, code, words):
-    from gz.command import main
+    from gz_course.sim.gz.command import main
 
     try:
         result = main(["service", *arguments])

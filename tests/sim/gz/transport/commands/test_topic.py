@@ -5,12 +5,12 @@ import sys
 from pathlib import Path
 
 import pytest
-from gz.msgs.odometry_pb2 import Odometry
-from gz.msgs.stringmsg_pb2 import StringMsg
-from gz.msgs.twist_pb2 import Twist
 
-from gz.transport import Node
-from gz.transport.commands import topic as command
+from gz_course.sim.gz.msgs.odometry_pb2 import Odometry
+from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+from gz_course.sim.gz.msgs.twist_pb2 import Twist
+from gz_course.sim.gz.transport import Node
+from gz_course.sim.gz.transport.commands import topic as command
 
 TWIST = ("-m", "gz.msgs.Twist", "-p", "linear: {x: 0.5}, angular: {z: -1e-3}")
 
@@ -239,7 +239,7 @@ def test_publishing_another_type_than_wanted_says_so(gz, node):
     ],
 )
 def test_wrong_usage_is_one_line_and_a_code(capsys, arguments, code, words):
-    from gz.command import main
+    from gz_course.sim.gz.command import main
 
     try:
         result = main(["topic", *arguments])
@@ -253,7 +253,7 @@ def test_wrong_usage_is_one_line_and_a_code(capsys, arguments, code, words):
 
 @pytest.mark.parametrize("arguments", [[], ["-h"], ["-t", "/a"]])
 def test_without_a_command_there_is_help(capsys, arguments):
-    from gz.command import main
+    from gz_course.sim.gz.command import main
 
     with pytest.raises(SystemExit) as end:
         main(["topic", *arguments])

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from gz.sim.errors import Diagnostics, SdfError
-from gz.sim.sdf.description import UNLIMITED, Model
-from gz.sim.sdf.reader import read_model
+from gz_course.sim.gz.sim.errors import Diagnostics, SdfError
+from gz_course.sim.gz.sim.sdf.description import UNLIMITED, Model
+from gz_course.sim.gz.sim.sdf.reader import read_model
 
 MASS = "<inertial><mass value='{}'/><inertia ixx='.1' iyy='.1' izz='.1' ixy='0' ixz='0' iyz='0'/></inertial>"
 BOX = "<geometry><box size='1 2 3'/></geometry>"

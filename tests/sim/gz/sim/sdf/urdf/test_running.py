@@ -8,12 +8,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from gz.msgs.laserscan_pb2 import LaserScan
-from gz.msgs.odometry_pb2 import Odometry
-from gz.msgs.twist_pb2 import Twist
 
-from gz.sim.world import World
-from gz.transport import Node
+from gz_course.sim.gz.msgs.laserscan_pb2 import LaserScan
+from gz_course.sim.gz.msgs.odometry_pb2 import Odometry
+from gz_course.sim.gz.msgs.twist_pb2 import Twist
+from gz_course.sim.gz.sim.world import World
+from gz_course.sim.gz.transport import Node
 
 INERTIA = "<mass value='{}'/><inertia ixx='{}' iyy='{}' izz='{}' ixy='0' ixz='0' iyz='0'/>"
 

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from gz.sim.errors import Diagnostics, SdfError
-from gz.sim.sdf.description import Model
-from gz.sim.sdf.element import parse
-from gz.sim.sdf.reader import read_model, read_world_file
-from gz.sim.sdf.resources import read_text
-from gz.sim.sdf.urdf.xacro_file import expand, restore_places
+from gz_course.sim.gz.sim.errors import Diagnostics, SdfError
+from gz_course.sim.gz.sim.sdf.description import Model
+from gz_course.sim.gz.sim.sdf.element import parse
+from gz_course.sim.gz.sim.sdf.reader import read_model, read_world_file
+from gz_course.sim.gz.sim.sdf.resources import read_text
+from gz_course.sim.gz.sim.sdf.urdf.xacro_file import expand, restore_places
 
 PARTS = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
   <xacro:macro name="wheel" params="side r:=0.05">
@@ -134,7 +134,7 @@ def test_what_xacro_cannot_do_is_one_sentence(robot: Path, old: str, new: str, s
 
 
 def test_an_expression_without_end_is_stopped(robot: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gz.sim.sdf.urdf.xacro_file._SECONDS", 1.0)
+    monkeypatch.setattr("gz_course.sim.gz.sim.sdf.urdf.xacro_file._SECONDS", 1.0)
     robot.write_text(ROBOT.replace("${mass / 10}", "${9**9**9}"))
     with pytest.raises(SdfError, match=r"cart\.urdf\.xacro: xacro did not end within 1 s"):
         expand(robot)
