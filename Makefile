@@ -32,18 +32,19 @@ verify: .venv/with-tools
 	$(BIN)/pytest -q -m proof
 
 bench: .venv/with-tools
-	$(BIN)/python -m tests.bench
+	$(BIN)/python -m gz_course.tests.bench
 
 book: .venv/with-tools
-	$(BIN)/python -m grader.book build/book
+	$(BIN)/python -m gz_course.grader.book build/book
 
 fuzz: .venv/with-tools
-	$(BIN)/python -m tests.fuzz.load_worlds
+	$(BIN)/python -m gz_course.tests.fuzz.load_worlds
 	$(BIN)/pytest -q -m "not proof" --hypothesis-profile=new_examples
 
 lint: .venv/with-tools
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
+	@mkdir -p build/mypy && ln -sfn ../.. build/mypy/gz_course
 	$(BIN)/mypy
 
 clean:

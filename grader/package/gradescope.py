@@ -21,7 +21,7 @@ from gz_course.grader.trial import TRIALS, chosen_trials
 
 HERE = Path(__file__).parent
 CHECKOUT = Path(__file__).parents[2]
-CODE = ("sim", "grader")
+CODE = ("sim", "grader", "public")
 FILES = ("pyproject.toml", "constraints.txt", "LICENSE")
 TRACES = (".pyc", ".rrd", ".part", ".orig", ".bak", "~")
 PROGRAMS = ("setup.sh", "run_autograder")

@@ -18,7 +18,7 @@ from gz_course.grader.exercise import Exercise, exercise_names, find_exercise
 
 CHECKOUT = Path(__file__).parents[2]
 COURSE = ("exercises", "chapters")
-CODE = ("sim", "grader")
+CODE = ("sim", "grader", "public")
 FILES = ("pyproject.toml", "constraints.txt", "LICENSE", ".gitignore")
 # For authors. The scaffold of an exercise holds a solution of it.
 AUTHORS_ONLY = (

@@ -54,7 +54,7 @@ class Participant:
     def program(self) -> str:
         """What people call the program: the file or module a Python runs."""
         words = [word for word in self.command[1:] if word not in ("-m", "-P", "-c")]
-        return words[0].rpartition("/")[2] if words else ""
+        return words[0].rpartition("/")[2].removeprefix("gz_course.sim.") if words else ""
 
     @property
     def starting(self) -> bool:

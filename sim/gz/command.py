@@ -15,18 +15,16 @@ import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+from gz_course.sim import gz
+
 _DISTRIBUTION = "gz-ros2-course"
 _ENGINES = ("mujoco", "pyzmq", "protobuf")
 
 
 def find_commands(folders: Iterable[str | Path] | None = None) -> dict[str, Path]:
-    """Sub-command name -> its file, sorted by name; by default from all folders of the `gz` package."""
-    if folders is None:
-        from gz_course.sim import gz
-
-        folders = list(gz.__path__)
+    """Sub-command name -> its file, sorted by name; by default from the folders of the package `gz`."""
     found: dict[str, Path] = {}
-    for folder in folders:
+    for folder in folders or gz.__path__:
         for path in Path(folder).glob("*/command.py"):
             found.setdefault(path.parent.name, path)
         for path in Path(folder).glob("*/commands/*.py"):

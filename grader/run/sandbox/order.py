@@ -8,6 +8,7 @@ import sys
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
+import gz_course
 from gz_course.grader.run.sandbox.view import Place
 
 # One rclpy node needs about 600 MB of address space, 16 threads and 18 files.
@@ -57,6 +58,8 @@ class Order:
 
 def init_command(channel: int) -> list[str]:
     """Return the command that starts `init.py`, which takes its order from the socket `channel`."""
-    root = Path(__file__).parents[3]
-    start = f"import sys; sys.path.insert(0, {str(root)!r}); from gz_course.grader.run.inside.init import main; main()"
+    folder = Path(gz_course.__file__).parents[1]
+    start = (
+        f"import sys; sys.path.insert(0, {str(folder)!r}); from gz_course.grader.run.inside.init import main; main()"
+    )
     return [sys.executable, "-I", "-S", "-c", start, str(channel)]

@@ -1,8 +1,8 @@
 """What a submission sees of the machine: a list of places, the same for every way of building the box.
 
-The system's programs and libraries, Python with what is installed for it, `sim/`, and of the grader only what runs in
-the submission's own process; all of it read-only. Exercises, solutions, tests, homes and other submissions are not
-hidden: they are not there.
+The system's programs and libraries, Python with what is installed for it, `sim/`, `public/`, and of the grader only
+what runs in the submission's own process; all of it read-only. Exercises, solutions, tests, homes and other
+submissions are not hidden: they are not there.
 """
 
 from __future__ import annotations
@@ -12,6 +12,8 @@ import sys
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
+
+import gz_course
 
 SUBMISSION = Path("/submission")
 DOOR = Path("/grader")  # holds the sockets on which the grader can be reached
@@ -50,10 +52,10 @@ def view(submission: Path, door: Path, etc: Path) -> list[Place]:
     places += [_bind(f"/etc/{name}", f"/etc/{name}") for name in SETTINGS if Path("/etc", name).exists()]
     places += [_bind(f"/etc/{path.name}", path) for path in etc.iterdir()]
     places += [_bind(prefix, prefix) for prefix in _python()]
-    package, simulator = _package("grader"), _package("ros_gz_bridge").parent
+    package = _package("gz_course.grader")
     if _within(package, places):
         places.append(Place("mask", str(package)))
-    places += [_bind(simulator, simulator)]
+    places += [_bind(path, path) for path in (_package("gz_course.sim"), Path(gz_course.__file__).parents[1])]
     places += [_bind(path, path) for pattern in OF_THE_GRADER for path in package.glob(pattern)]
     places += [_bind(SUBMISSION, submission), _bind(DOOR, door), Place("proc", "/proc")]
     places += [Place("device", f"/dev/{name}", f"/dev/{name}") for name in DEVICES]

@@ -1,13 +1,11 @@
 """Makes `from gz.msgs.twist_pb2 import Twist` work without generated files.
 
-An import hook: the module `gz.msgs.<file>_pb2` is assembled from `proto/<file>.proto` when it is imported, and
-`gz.msgs10.<file>_pb2`, as it is called in Harmonic, is that same module. It holds what a module written by protoc
-holds: the message classes, top-level enums with their values, DESCRIPTOR.
+An import hook: the module `<file>_pb2` of this package is assembled from `proto/<file>.proto` when it is imported. It
+holds what a module written by protoc holds: the message classes, top-level enums with their values, DESCRIPTOR.
 """
 
 from __future__ import annotations
 
-import importlib
 import importlib.machinery
 import sys
 from collections.abc import Sequence
@@ -19,8 +17,7 @@ from google.protobuf.internal import enum_type_wrapper
 
 from gz_course.sim.gz.msgs import registry
 
-_PREFIX = "gz.msgs."
-_ALIAS_PREFIX = "gz.msgs10."
+_PREFIX = f"{__package__}."
 _SUFFIX = "_pb2"
 
 
@@ -31,9 +28,9 @@ class ProtoModules(MetaPathFinder, Loader):
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> importlib.machinery.ModuleSpec | None:
         """A module specification for the names this hook knows, None for all others."""
-        if not (fullname.startswith((_PREFIX, _ALIAS_PREFIX)) and fullname.endswith(_SUFFIX)):
+        if not (fullname.startswith(_PREFIX) and fullname.endswith(_SUFFIX)):
             return None
-        stem = fullname.removeprefix(_PREFIX).removeprefix(_ALIAS_PREFIX).removesuffix(_SUFFIX)
+        stem = fullname.removeprefix(_PREFIX).removesuffix(_SUFFIX)
         source = registry.PROTO_FOLDER / f"{stem}.proto"
         if not source.is_file():
             return None
@@ -44,11 +41,7 @@ class ProtoModules(MetaPathFinder, Loader):
         return None
 
     def exec_module(self, module: ModuleType) -> None:
-        """Fills the module with the classes and enums of its file; an alias is the very module it stands for."""
-        if module.__name__.startswith(_ALIAS_PREFIX):
-            original = _PREFIX + module.__name__.removeprefix(_ALIAS_PREFIX)
-            sys.modules[module.__name__] = importlib.import_module(original)
-            return
+        """Fills the module with the classes and enums of its file."""
         stem = module.__name__[len(_PREFIX) : -len(_SUFFIX)]
         file = registry.load_file(stem)
         module.__doc__ = f"The messages of gz/msgs/{stem}.proto."

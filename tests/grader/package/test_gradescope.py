@@ -44,7 +44,7 @@ def autograder(archive, tmp_path, root):
         environment = kept | {
             "AUTOGRADER_ROOT": str(tmp_path),
             "TMPDIR": str(tmp_path / "tmp"),
-            "PYTHONPATH": f"{course}:{course / 'sim'}",  # as if this had been installed, not the checkout
+            "PYTHONPATH": str(course / "public"),  # as if this had been installed, not the checkout
         }
         done = subprocess.run(
             [tmp_path / "run_autograder"], cwd=tmp_path, env=environment | variables, capture_output=True, timeout=120

@@ -1,7 +1,6 @@
 """`course release`: the students' copy works on its own and holds nothing that gives a solution away."""
 
 import json
-import os
 import re
 import shutil
 from pathlib import Path
@@ -94,9 +93,12 @@ def test_its_readme_is_true(student):
 
 
 def test_the_course_works_in_it(student, course, clean, tmp_path):
-    paths = os.pathsep.join([str(student / "sim"), str(student)])
-    where = {"COURSE_ROOT": str(student), "PYTHONPATH": paths}
-    own = course("list", prelude="import grader, gz.sim; print(grader.__file__, gz.sim.__file__)", **where)
+    where = {"COURSE_ROOT": str(student), "PYTHONPATH": str(student / "public")}
+    own = course(
+        "list",
+        prelude="import gz_course.grader as g, gz_course.sim.gz.sim as s; print(g.__file__, s.__file__)",
+        **where,
+    )
     assert own.stdout.count(str(student)) == 2, "it must be the copy's own programs that run"
     assert own.code == 0 and NAME in own.stdout and "04_lidar_listener" in own.stdout
     graded = course("grade", "03", "--out", tmp_path / "out", "--json", tmp_path / "report.json", **where)

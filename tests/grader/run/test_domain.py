@@ -9,7 +9,13 @@ from gz_course.grader.errors import InfrastructureError
 from gz_course.grader.run import domain as module
 from gz_course.grader.run.domain import DOMAINS, Domain
 
-HOLD = "import sys; from gz_course.grader.run.domain import Domain; d = Domain(); print(d.id, flush=True); sys.stdin.read()"
+HOLD = """
+import sys
+from gz_course.grader.run.domain import Domain
+d = Domain()
+print(d.id, flush=True)
+sys.stdin.read()
+"""
 
 
 @pytest.fixture

@@ -268,7 +268,9 @@ def test_it_dies_with_the_grader(start, tmp_path):
     file = tmp_path / "sleeper.py"
     file.write_text("import os, time\nprint(os.getpid(), flush=True)\ntime.sleep(600)")
     code = (
-        "from pathlib import Path; from gz_course.grader.run.sandbox import Sandbox; from gz_course.grader.run.student import *\n"
+        "from pathlib import Path\n"
+        "from gz_course.grader.run.sandbox import Sandbox\n"
+        "from gz_course.grader.run.student import *\n"
         f's = Student(node_command(Path({str(file)!r})), Sandbox(101, "D"), {{}})\n'
         "while not (lines := s.take_lines()): s.wait(0.1)\n"
         "print(lines[0], flush=True); input()"

@@ -17,8 +17,8 @@ def hello(tmp_path, monkeypatch):
         '"""Greets."""\nprint("imported")\n\ndef main(argv):\n    print("hello", *argv)\n    return len(argv)\n'
     )
     monkeypatch.setattr(gz, "__path__", [*gz.__path__, str(tmp_path / "gz")])
-    monkeypatch.delitem(sys.modules, "gz.hello", raising=False)
-    monkeypatch.delitem(sys.modules, "gz.hello.command", raising=False)
+    monkeypatch.delitem(sys.modules, "gz_course.sim.gz.hello", raising=False)
+    monkeypatch.delitem(sys.modules, "gz_course.sim.gz.hello.command", raising=False)
 
 
 def test_a_sub_command_is_found_and_called(hello, capsys):
@@ -48,7 +48,11 @@ def count(tmp_path, monkeypatch):
         "    return 3\n"
     )
     monkeypatch.setattr(gz, "__path__", [*gz.__path__, str(tmp_path / "gz")])
-    for name in ("gz.numbers", "gz.numbers.commands", "gz.numbers.commands.count"):
+    for name in (
+        "gz_course.sim.gz.numbers",
+        "gz_course.sim.gz.numbers.commands",
+        "gz_course.sim.gz.numbers.commands.count",
+    ):
         monkeypatch.delitem(sys.modules, name, raising=False)
 
 

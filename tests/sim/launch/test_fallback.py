@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[3]
-SIM = ROOT / "sim"
+SIM, PUBLIC = ROOT / "sim", ROOT / "public"
 HOOK = "gz_ros2_course_prefix.pth"
-FALLBACK = "gz_ros2_course_fallback"
+PUBLIC_NAMES = "gz_course_public_names"
 
 
 def python(*options, code, **environment):
@@ -40,11 +40,13 @@ def real(tmp_path):
 def installed(tmp_path):
     """A site-packages folder as the wheel makes it."""
     site = tmp_path / "site"
-    (site / FALLBACK).mkdir(parents=True)
+    (site / "gz_course").mkdir(parents=True)
+    (site / PUBLIC_NAMES).mkdir()
     (site / HOOK).write_text((SIM / "prefix" / HOOK).read_text())
-    (site / "prefix").symlink_to(SIM / "prefix")
+    (site / "gz_course/__init__.py").write_text((PUBLIC / "gz_course/__init__.py").read_text())
+    (site / "gz_course/sim").symlink_to(SIM)
     for name in ("launch", "launch_ros"):
-        (site / FALLBACK / name).symlink_to(SIM / name)
+        (site / PUBLIC_NAMES / name).symlink_to(PUBLIC / name)
     return site
 
 
@@ -54,17 +56,19 @@ def test_a_sourced_launch_wins(real):
 
 def test_a_launch_installed_beside_ours_wins(real, installed):
     code = f"import site; site.addsitedir({str(installed)!r}); import launch; print(launch.__file__)"
-    assert python("-S", code=code, PYTHONPATH="") == (str(installed / FALLBACK / "launch/__init__.py"), "")
+    assert python("-S", code=code, PYTHONPATH="") == (str(installed / "gz_course/sim/launch/__init__.py"), "")
     (real / "launch").rename(installed / "launch")
     assert python("-S", code=code, PYTHONPATH="") == (str(installed / "launch/__init__.py"), "")
 
 
 def test_the_wheel_puts_ours_where_it_is_found_last():
     wheel = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["hatch"]["build"]["targets"]["wheel"]
-    assert FALLBACK in (SIM / "prefix" / HOOK).read_text().splitlines()
-    for name in ("launch", "launch_ros"):
-        assert f"sim/{name}" in wheel["only-include"]
-        assert wheel["sources"][f"sim/{name}"] == f"{FALLBACK}/{name}"
+    assert PUBLIC_NAMES in (SIM / "prefix" / HOOK).read_text().splitlines()
+    assert set(wheel["only-include"]) == {"sim", "grader", "public"}
+    names = {path.name for path in PUBLIC.iterdir() if path.name != "__pycache__"}
+    assert names > {"gz", "launch", "launch_ros"}
+    for name in names - {"gz_course"}:
+        assert wheel["sources"][f"public/{name}"] == f"{PUBLIC_NAMES}/{name}"
 
 
 def test_our_launch_ros_does_not_build_on_a_launch_of_others(real):

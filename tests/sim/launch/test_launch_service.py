@@ -8,7 +8,7 @@ import threading
 import pytest
 
 import gz_course.sim.launch.events as launch_events
-from gz_course.sim.launch import LaunchDescription, LaunchService
+from gz_course.sim.launch import LaunchDescription, LaunchService, event_handlers
 from gz_course.sim.launch.actions import (
     AppendEnvironmentVariable,
     DeclareLaunchArgument,
@@ -146,9 +146,7 @@ def test_cancelling_its_task_ends_its_processes():
     async def cell():
         up = asyncio.Event()
         service = started(action)
-        service.context.register_event_handler(
-            launch.event_handlers.OnProcessStart(on_start=lambda event, context: up.set())
-        )
+        service.context.register_event_handler(event_handlers.OnProcessStart(on_start=lambda event, context: up.set()))
         task = asyncio.create_task(service.run_async())
         await asyncio.wait_for(up.wait(), 30)
         task.cancel()
@@ -182,9 +180,7 @@ def test_a_loop_that_ends_takes_the_processes_along():
     async def cell():
         up = asyncio.Event()
         service = started(action)
-        service.context.register_event_handler(
-            launch.event_handlers.OnProcessStart(on_start=lambda event, context: up.set())
-        )
+        service.context.register_event_handler(event_handlers.OnProcessStart(on_start=lambda event, context: up.set()))
         task = asyncio.create_task(service.run_async())
         await asyncio.wait_for(up.wait(), 30)
         return task

@@ -14,7 +14,7 @@ from gz_course.sim.gz.msgs import UnknownTypeError, message_class, registry, typ
 def test_every_file_can_be_imported_and_holds_its_types():
     found = set()
     for stem in registry.file_stems():
-        module = importlib.import_module(f"gz.msgs.{stem}_pb2")
+        module = importlib.import_module(f"gz_course.sim.gz.msgs.{stem}_pb2")
         assert module.DESCRIPTOR.name == f"gz/msgs/{stem}.proto"
         found |= {f"gz.msgs.{name}" for name in module.DESCRIPTOR.message_types_by_name}
         for name in module.DESCRIPTOR.message_types_by_name:

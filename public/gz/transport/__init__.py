@@ -1,0 +1,5 @@
+"""`gz.transport` without a version: the package of the course."""
+
+from gz_course.sim.public_name import stand_for
+
+stand_for(__name__, "gz_course.sim.gz.transport")
