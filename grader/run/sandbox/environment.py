@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from pathlib import Path
 
 KEPT_VARIABLES = ("PATH", "LANG", "LC_ALL", "TZ", "SSL_CERT_FILE")
@@ -38,6 +39,8 @@ def box_environment(domain: int, log_dir: Path, private_network: bool) -> dict[s
 def student_environment(domain: int, home: Path, private_network: bool) -> dict[str, str]:
     """Return the whole environment of a submission's process that lives in the folder `home`."""
     kept = {k: os.environ[k] for k in KEPT_VARIABLES if k in os.environ}
+    # The course's programs and Python come first, whatever else the caller has sourced.
+    kept["PATH"] = os.pathsep.join([os.path.dirname(sys.executable), kept.get("PATH", os.defpath)])  # noqa: PTH120
     if all(k in os.environ for k in WHEEL_VARIABLES):
         kept |= {k: os.environ[k] for k in WHEEL_VARIABLES}
     return (
