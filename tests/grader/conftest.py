@@ -83,7 +83,7 @@ def environment(folder, **more):
 
 def run_course(folder, *arguments, prelude="", timeout=150, **variables):
     """Run `course ARGUMENTS` in `folder`; `prelude` is Python that runs before the command."""
-    command = [sys.executable, "-c", f"{prelude}\nfrom grader.course import main; main()"] if prelude else COURSE
+    command = [*COURSE[:-1], f"{prelude}\n{COURSE[-1]}"]
     done = subprocess.run(
         [*command, *map(str, arguments)],
         cwd=folder,

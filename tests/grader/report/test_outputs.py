@@ -84,9 +84,10 @@ def test_two_reports_may_go_to_one_stream():
 def test_making_a_report_of_nothing_special_loads_nothing_special(course, tmp_path):
     """The HTML page's parts are imported only for those who want the page."""
     prelude = (
+        "import gz_course.grader.report.outputs, gz_course.grader.report.terminal\n"
         "import atexit, sys\n"
         "heavy = lambda: sorted({'jinja2', 'markupsafe'} & set(sys.modules))\n"
         "atexit.register(lambda: print('loaded:', heavy(), file=sys.stderr))"
     )
-    outcome = course("grade", "--help", prelude=prelude + "\nimport grader.report.outputs, grader.report.terminal")
+    outcome = course("grade", "--help", prelude=prelude)
     assert outcome.stderr.strip().endswith("loaded: []"), outcome.output

@@ -123,7 +123,7 @@ def test_programs_complain_as_they_always_do(launch):
     assert "there is no option or second file '--nonsense'" in run.log
     assert "gz.msgs.Clok" in run.log and "gz.msgs.Clock" in run.log
     codes = sorted((each["program"], each["code"]) for each in run.facts["ended_early"])
-    assert codes == [("gz", 1), ("gz", 2), *[("gz_course.sim.ros_gz_bridge.parameter_bridge", 2)] * 2]
+    assert codes == [("gz", 1), ("gz", 2), *[("ros_gz_bridge.parameter_bridge", 2)] * 2]
     assert run.facts["simulators"] == [] and run.facts["simulator_at_end"] == ""
     assert not run.facts["running"], "a launch with nothing left to do ends"
 
@@ -159,7 +159,7 @@ def test_create_puts_a_model_into_the_world_and_others_start_when_it_has(launch)
         """
     )
     assert run.facts["calls"] == ["create: done"]
-    assert run.facts["ended_early"] == [{"code": 0, "program": "gz_course.sim.ros_gz_sim.create"}]
+    assert run.facts["ended_early"] == [{"code": 0, "program": "ros_gz_sim.create"}]
     (bridge,) = run.recording.facts()["bridges"]
     assert bridge["to_ros"] == 50, "time had not begun before the bridge stood"
     assert "Entity creation successful" in run.log

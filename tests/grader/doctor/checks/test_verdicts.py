@@ -181,7 +181,8 @@ def test_the_folder_of_a_killed_run_is_told_and_left_for_the_next_one(tmp_path, 
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     monkeypatch.setattr(leftovers, "SHARED_MEMORY", tmp_path)
     monkeypatch.setattr(leftovers, "orphaned", lambda process: False)
-    code = "import os\nfrom grader.temporary_folder import *\nTemporaryFolder('course-')\nos.kill(os.getpid(), 9)"
+    code = "import os\nfrom gz_course.grader.temporary_folder import *\nTemporaryFolder('course-')\n"
+    code += "os.kill(os.getpid(), 9)"
     subprocess.run([sys.executable, "-c", code], env=os.environ | {"TMPDIR": str(tmp_path)}, timeout=60)
     verdict = leftovers.examine(None)
     assert verdict.seen == f"1 folder in {tmp_path} of runs that were killed", verdict

@@ -65,12 +65,13 @@ def test_parents_come_first_and_every_place_has_them(places):
 
 def test_a_grader_that_is_installed_beside_the_libraries_is_masked(places, tmp_path, monkeypatch):
     site = tmp_path / "venv/lib/site-packages"
-    for name in ("grader/run/inside", "grader/run/box", "grader/score", "ros_gz_bridge"):
-        (site / name).mkdir(parents=True)
+    package = site / "gz_course"
+    for name in ("grader/run/inside", "grader/run/box", "grader/score", "sim"):
+        (package / name).mkdir(parents=True)
     monkeypatch.setattr(module, "_python", lambda: [tmp_path / "venv"])
-    monkeypatch.setattr(module, "_package", lambda name: site / name)
+    monkeypatch.setattr(module, "_package", lambda name: site.joinpath(*name.split(".")))
     found = places()
-    assert found[str(site / "grader")] == Place("mask", str(site / "grader"))
-    assert found[str(site / "grader/run")].kind == "folder"
-    assert shown(found, site / "grader/run/inside") and shown(found, site / "ros_gz_bridge")
-    assert shown(found, site / "grader/score") is None
+    assert found[str(package / "grader")] == Place("mask", str(package / "grader"))
+    assert found[str(package / "grader/run")].kind == "folder"
+    assert shown(found, package / "grader/run/inside") and shown(found, package / "sim")
+    assert shown(found, package / "grader/score") is None
