@@ -6,7 +6,8 @@ from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 from gz_course.sim.launch.event import Event
-from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity, SomeEntitiesType, listed
+from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity, listed
+from gz_course.sim.launch.some_entities_type import SomeEntitiesType
 
 if TYPE_CHECKING:
     from gz_course.sim.launch.launch_context import LaunchContext

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any
 
 from gz_course.sim.launch.errors import LaunchError
 
@@ -38,9 +38,6 @@ class LaunchDescriptionEntity:
     def get_asyncio_future(self) -> Future[None] | None:
         """Return what is done when the entity is; None when it is done as soon as it was visited."""
         return None
-
-
-SomeEntitiesType = Union[LaunchDescriptionEntity, Iterable[LaunchDescriptionEntity]]  # noqa: UP007 - public
 
 
 def listed(entities: Any, what: str) -> list[LaunchDescriptionEntity]:

@@ -6,9 +6,9 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from gz_course.sim.launch.invalid_launch_file_error import InvalidLaunchFileError
-from gz_course.sim.launch.substitution import (
-    SomeSubstitutionsType,
-    Substitution,
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.substitution import Substitution
+from gz_course.sim.launch.utilities import (
     describe_substitutions,
     normalize_to_list_of_substitutions,
     perform_substitutions,

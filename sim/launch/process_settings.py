@@ -11,9 +11,10 @@ from typing import Any
 from gz_course.sim.launch.errors import LaunchError
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.process_output import sinks
-from gz_course.sim.launch.substitution import Substitution, normalize_to_list_of_substitutions, perform_substitutions
+from gz_course.sim.launch.substitution import Substitution
 from gz_course.sim.launch.substitutions import LaunchConfiguration
-from gz_course.sim.launch.substitutions.paths import nearest_program
+from gz_course.sim.launch.substitutions.find_executable import nearest_program
+from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 _DEFAULT_TIMEOUT = 5  # [s]
 

@@ -11,12 +11,9 @@ from typing import Any
 from gz_course.sim.launch.errors import LaunchError
 from gz_course.sim.launch.frontend import parse_substitution
 from gz_course.sim.launch.launch_context import LaunchContext
-from gz_course.sim.launch.substitution import (
-    SomeSubstitutionsType,
-    Substitution,
-    normalize_to_list_of_substitutions,
-    perform_substitutions,
-)
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.substitution import Substitution
+from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from gz_course.sim.launch_ros.parameter_values import Value, check_value, coerce, evaluate_value
 
 

@@ -19,7 +19,8 @@ from typing import Any, get_args, get_origin
 
 from gz_course.sim.launch.errors import LaunchError
 from gz_course.sim.launch.launch_context import LaunchContext
-from gz_course.sim.launch.substitution import Substitution, normalize_to_list_of_substitutions, perform_substitutions
+from gz_course.sim.launch.substitution import Substitution
+from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 SCALARS = (bool, int, float, str)
 Value = bool | int | float | str | list[bool] | list[int] | list[float] | list[str]

@@ -9,13 +9,10 @@ import gz_course.sim.launch.logging as launch_logging
 from gz_course.sim.launch.action import Action
 from gz_course.sim.launch.errors import InvalidArgumentError, MissingArgumentError, nearest
 from gz_course.sim.launch.launch_context import LaunchContext
-from gz_course.sim.launch.substitution import (
-    SomeSubstitutionsType,
-    Substitution,
-    normalize_to_list_of_substitutions,
-    perform_substitutions,
-)
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.substitution import Substitution
 from gz_course.sim.launch.substitutions import TextSubstitution
+from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 
 class DeclareLaunchArgument(Action):

@@ -33,7 +33,7 @@ from gz_course.sim.launch.events.process import (
     SignalProcess,
 )
 from gz_course.sim.launch.launch_context import LaunchContext
-from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity, SomeEntitiesType
+from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity
 from gz_course.sim.launch.process_output import ProcessOutput
 from gz_course.sim.launch.process_settings import (
     ProcessSettings,
@@ -43,10 +43,9 @@ from gz_course.sim.launch.process_settings import (
     timeout_substitutions,
     why_not_started,
 )
-from gz_course.sim.launch.substitution import (
-    SomeSubstitutionsType,
-    normalize_to_list_of_substitutions,
-)
+from gz_course.sim.launch.some_entities_type import SomeEntitiesType
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions
 
 _IO_EVENTS = {"stdout": ProcessStdout, "stderr": ProcessStderr}
 _GRACE = 1.0  # [s] for what a process has left in the background, after the process itself has ended

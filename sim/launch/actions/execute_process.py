@@ -7,7 +7,9 @@ from typing import Any
 
 from gz_course.sim.launch.actions.execute_local import ExecuteLocal
 from gz_course.sim.launch.descriptions.executable import Environment, Executable
-from gz_course.sim.launch.substitution import SomeSubstitutionsType, Substitution, describe_substitutions
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.substitution import Substitution
+from gz_course.sim.launch.utilities import describe_substitutions
 
 
 class ExecuteProcess(ExecuteLocal):

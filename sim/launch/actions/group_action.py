@@ -6,16 +6,16 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from gz_course.sim.launch.action import Action
-from gz_course.sim.launch.actions.set_environment_variable import PopEnvironment, PushEnvironment, ResetEnvironment
-from gz_course.sim.launch.actions.set_launch_configuration import (
-    PopLaunchConfigurations,
-    PushLaunchConfigurations,
-    ResetLaunchConfigurations,
-    SetLaunchConfiguration,
-)
+from gz_course.sim.launch.actions.pop_environment import PopEnvironment
+from gz_course.sim.launch.actions.pop_launch_configurations import PopLaunchConfigurations
+from gz_course.sim.launch.actions.push_environment import PushEnvironment
+from gz_course.sim.launch.actions.push_launch_configurations import PushLaunchConfigurations
+from gz_course.sim.launch.actions.reset_environment import ResetEnvironment
+from gz_course.sim.launch.actions.reset_launch_configurations import ResetLaunchConfigurations
+from gz_course.sim.launch.actions.set_launch_configuration import SetLaunchConfiguration
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity, listed
-from gz_course.sim.launch.substitution import SomeSubstitutionsType
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
 
 
 class GroupAction(Action):

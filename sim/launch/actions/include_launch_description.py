@@ -10,20 +10,19 @@ from typing import Any
 
 import gz_course.sim.launch.logging as launch_logging
 from gz_course.sim.launch.action import Action
-from gz_course.sim.launch.actions.opaque_function import OpaqueCoroutine, OpaqueFunction
+from gz_course.sim.launch.actions.opaque_coroutine import OpaqueCoroutine
+from gz_course.sim.launch.actions.opaque_function import OpaqueFunction
 from gz_course.sim.launch.actions.set_launch_configuration import SetLaunchConfiguration
 from gz_course.sim.launch.errors import LaunchError, MissingArgumentError, nearest
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.launch_description import LaunchDescription
 from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity
 from gz_course.sim.launch.launch_description_source import LaunchDescriptionSource, as_source
-from gz_course.sim.launch.substitution import (
-    SomeSubstitutionsType,
-    Substitution,
-    normalize_to_list_of_substitutions,
-    perform_substitutions,
-)
-from gz_course.sim.launch.substitutions.this_launch_file import CURRENT_FILE, CURRENT_FOLDER
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.substitution import Substitution
+from gz_course.sim.launch.substitutions.this_launch_file import CURRENT_FILE
+from gz_course.sim.launch.substitutions.this_launch_file_dir import CURRENT_FOLDER
+from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 _CHAIN = "launch_file_chain"
 _DEEPEST = 50

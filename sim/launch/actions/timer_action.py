@@ -14,11 +14,8 @@ from gz_course.sim.launch.event_handler import EventHandler
 from gz_course.sim.launch.events import Shutdown, TimerEvent
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity, listed
-from gz_course.sim.launch.substitution import (
-    SomeSubstitutionsType,
-    normalize_to_list_of_substitutions,
-    perform_substitutions,
-)
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 
 class TimerAction(Action):

@@ -9,15 +9,15 @@ import subprocess
 
 import gz_course.sim.launch.logging as launch_logging
 from gz_course.sim.launch.launch_context import LaunchContext
-from gz_course.sim.launch.substitution import (
-    SomeSubstitutionsType,
-    Substitution,
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.substitution import Substitution
+from gz_course.sim.launch.substitutions.find_executable import nearest_program
+from gz_course.sim.launch.substitutions.substitution_failure import SubstitutionFailure
+from gz_course.sim.launch.utilities import (
     describe_substitutions,
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from gz_course.sim.launch.substitutions.paths import nearest_program
-from gz_course.sim.launch.substitutions.substitution_failure import SubstitutionFailure
 
 _ON_STDERR = ("fail", "ignore", "warn", "capture")
 _TRACE = ("Traceback (most recent", "During handling of the above", "The above exception was")

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from gz_course.sim.launch.launch_context import LaunchContext
-from gz_course.sim.launch.substitution import (
-    SomeSubstitutionsType,
-    Substitution,
-    normalize_to_list_of_substitutions,
-    perform_substitutions,
-)
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.substitution import Substitution
 from gz_course.sim.launch.substitutions.substitution_failure import SubstitutionFailure
+from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 
 class EnvironmentVariable(Substitution):

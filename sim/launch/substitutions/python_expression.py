@@ -7,14 +7,14 @@ from collections.abc import Iterable
 from typing import Any
 
 from gz_course.sim.launch.launch_context import LaunchContext
-from gz_course.sim.launch.substitution import (
-    SomeSubstitutionsType,
-    Substitution,
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.substitution import Substitution
+from gz_course.sim.launch.substitutions.substitution_failure import SubstitutionFailure
+from gz_course.sim.launch.utilities import (
     describe_substitutions,
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from gz_course.sim.launch.substitutions.substitution_failure import SubstitutionFailure
 
 
 class PythonExpression(Substitution):

@@ -7,14 +7,14 @@ from pathlib import Path
 
 from gz_course.sim.launch.errors import nearest
 from gz_course.sim.launch.launch_context import LaunchContext
-from gz_course.sim.launch.substitution import (
-    SomeSubstitutionsType,
-    Substitution,
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.substitution import Substitution
+from gz_course.sim.launch.substitutions import SubstitutionFailure
+from gz_course.sim.launch.utilities import (
     describe_substitutions,
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from gz_course.sim.launch.substitutions import SubstitutionFailure
 from gz_course.sim.launch_ros.substitutions.find_package import FindPackagePrefix
 
 

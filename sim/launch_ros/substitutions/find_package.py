@@ -8,14 +8,14 @@ from ament_index_python.packages import PackageNotFoundError, get_package_prefix
 
 from gz_course.sim.launch.ament_prefix import nearest_package_of
 from gz_course.sim.launch.launch_context import LaunchContext
-from gz_course.sim.launch.substitution import (
-    SomeSubstitutionsType,
-    Substitution,
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.substitution import Substitution
+from gz_course.sim.launch.substitutions import PathJoinSubstitution, SubstitutionFailure
+from gz_course.sim.launch.utilities import (
     describe_substitutions,
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from gz_course.sim.launch.substitutions import PathJoinSubstitution, SubstitutionFailure
 
 
 class FindPackage(Substitution):
