@@ -1,4 +1,4 @@
-"""How a process is run, as ExecuteLocal was told: checked when it is told, performed when it is executed."""
+"""The settings of ExecuteLocal: checked when it is made, performed when it is executed."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _DEFAULT_TIMEOUT = 5  # [s]
 
 @dataclass(frozen=True)
 class ProcessSettings:
-    """What was performed when the action was executed; `timeouts` [s] are those after SIGINT and after SIGTERM."""
+    """The performed settings; `timeouts` [s] are those after SIGINT and after SIGTERM."""
 
     output: Any
     emulate_tty: bool

@@ -1,14 +1,16 @@
-"""Completes what is typed at a shell: `ros2 topic echo /sc<Tab>`.
+"""Completion at a shell's Tab with argcomplete, as ROS 2's own `ros2` does it: `ros2 topic echo /sc<Tab>`.
 
-`ros2 --print-completion bash` (or zsh) prints a script for the shell. At each Tab it runs `ros2 --complete` with the
-words before the cursor; that prints one candidate a line: commands, verbs and options from the same files
-`command_line` runs, and the names of live topics, nodes, services and parameters, of packages and of interfaces.
+`eval "$(register-python-argcomplete ros2)"` sets it up in bash and zsh. At each Tab the shell runs `ros2` with the
+variable `_ARGCOMPLETE`. Only the verb in question is imported; its arguments are completed by their names with live
+topics, nodes, services and parameters, packages, launch files and interfaces.
+
+Source: https://kislyuk.github.io/argcomplete
 """
 
 from __future__ import annotations
 
 import argparse
-import shlex
+import os
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from types import MappingProxyType
@@ -16,104 +18,51 @@ from typing import Any
 
 from gz_course.sim.ros2.errors import CommandError
 
-PRINT, COMPLETE = "--print-completion", "--complete"
-HELP = (
-    "Completion of commands, names and types at a Tab:",
-    f'  bash: eval "$(ros2 {PRINT} bash)", in ~/.bashrc to keep it; zsh: the same with zsh, behind compinit',
-)
-
-_BASH = f"""\
-_ros2() {{
-    local IFS=$'\\n'
-    COMPREPLY=( $(ros2 {COMPLETE} "${{COMP_WORDS[@]:1:COMP_CWORD}}" 2>/dev/null) )
-    [[ ${{COMPREPLY[0]-}} == *:= ]] && compopt -o nospace
-}}
-complete -o default -F _ros2 ros2
-"""
-_ZSH = f"""\
-_ros2() {{
-    local -a found
-    found=( "${{(@f)$(ros2 {COMPLETE} "${{(@)words[2,CURRENT]}}" 2>/dev/null)}}" )
-    compadd -Q -- ${{found:#}}
-}}
-compdef _ros2 ros2
-"""
-_SCRIPTS: Mapping[str, str] = MappingProxyType({"bash": _BASH, "zsh": _ZSH})
+Given = Mapping[str, Any]
+"""The arguments before the cursor by name."""
 
 
-def print_script(arguments: list[str]) -> int:
-    """Print the script for the shell that is named; CommandError for one there is none for."""
-    if len(arguments) != 1 or arguments[0] not in _SCRIPTS:
-        raise CommandError(f"{PRINT} takes the name of the shell: {' or '.join(_SCRIPTS)}")
-    print(_SCRIPTS[arguments[0]], end="")
-    return 0
+def complete(**options: Any) -> None:
+    """Write what the word at the cursor can become, and end the process; `options` are those of argcomplete."""
+    import argcomplete
+
+    from gz_course.sim.ros2.command_line import COMMANDS
+
+    words = argcomplete.split_line(os.environ["COMP_LINE"], int(os.environ["COMP_POINT"]))[3]
+    parser = argparse.ArgumentParser(prog="ros2")
+    _add_verbs(parser, COMMANDS, words[int(os.environ["_ARGCOMPLETE"]) :])
+    nothing = argcomplete.SuppressCompleter()
+    argcomplete.autocomplete(parser, always_complete_options=False, default_completer=nothing, **options)
 
 
-def print_candidates(words: list[str]) -> int:
-    """Print what the last of these words could become, one candidate a line; nothing where nothing is known."""
-    try:
-        for candidate in candidates(words or [""]):
-            print(candidate)
-    except (CommandError, SystemExit):
-        pass
-    return 0
+def _add_verbs(parser: argparse.ArgumentParser, folder: Path, words: list[str]) -> None:
+    """Add the commands or verbs of a folder, with arguments only for the one that `words` begin with."""
+    from gz_course.sim.ros2.command_line import found, load
+
+    verbs = parser.add_subparsers()
+    for name, path in found(folder).items():
+        verb = verbs.add_parser(name)
+        if words[:1] != [name]:
+            continue
+        if path.is_dir():
+            _add_verbs(verb, path, words[1:])
+            continue
+        load(path).add_arguments(verb)
+        for action in verb._actions:
+            if action.dest in _COMPLETERS:
+                action.completer = _completer(_COMPLETERS[action.dest])  # type: ignore[attr-defined]
 
 
-def candidates(words: list[str]) -> list[str]:
-    """What the last word can become, sorted; the words before it are the command, its verb and its arguments."""
-    from gz_course.sim.ros2.command_line import COMMANDS, found, load
+def _completer(names: Callable[[Given], Iterable[str]]) -> Callable[..., list[str]]:
+    """Return a completer for argcomplete; it knows nothing where the arguments before make no sense."""
 
-    *before, start = words
-    folder = COMMANDS
-    while True:
-        known = found(folder)
-        if not before:
-            extra = ["--help"] + ([PRINT] if folder == COMMANDS else [])
-            return _beginning([*known, *(extra if start.startswith("-") else [])], start)
-        word, *before = before
-        if word == PRINT:
-            return _beginning(_SCRIPTS, start)
-        if word not in known:
+    def completer(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+        try:
+            return sorted(names(vars(parsed_args)))
+        except CommandError:
             return []
-        if not known[word].is_dir():
-            _, parser = load(known[word], f"ros2 {word}")
-            return _beginning(_for_verb(parser, before, start), start)
-        folder = known[word]
 
-
-def _beginning(names: Iterable[str], start: str) -> list[str]:
-    return sorted({name for name in names if name.startswith(start)})
-
-
-def _for_verb(parser: argparse.ArgumentParser, before: list[str], start: str) -> Iterable[str]:
-    """Candidates of one verb: its options, the choices of an option, or the names its next argument stands for."""
-    options = parser._option_string_actions
-    given: dict[str, str] = {}
-    positional = [action for action in parser._actions if not action.option_strings]
-    awaited: argparse.Action | None = None
-    for word in before:
-        if awaited is not None:
-            awaited = None
-        elif word in options:
-            awaited = options[word] if options[word].nargs != 0 else None
-        elif positional:
-            given[positional[0].dest] = word
-            if positional[0].nargs not in ("+", "*", argparse.REMAINDER):
-                positional.pop(0)
-    if awaited is not None:
-        return map(str, awaited.choices or ())
-    if start.startswith("-"):
-        return options
-    if not positional:
-        return ()
-    if positional[0].choices:
-        return map(str, positional[0].choices)
-    complete = _COMPLETERS.get(positional[0].dest)
-    return complete(given) if complete else ()
-
-
-Given = Mapping[str, str]
-"""The arguments before: name -> word."""
+    return completer
 
 
 def _look(question: Callable[[Any], Iterable[str]]) -> list[str]:

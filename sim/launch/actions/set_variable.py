@@ -1,4 +1,4 @@
-"""What the actions that set a variable by name share: launch configurations and the environment."""
+"""The base of the actions that set a launch configuration or an environment variable."""
 
 from __future__ import annotations
 

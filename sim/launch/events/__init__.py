@@ -1,4 +1,4 @@
-"""What happens while a launch file runs. Events of processes are in `launch.events.process`."""
+"""Events of a launch. Events of processes are in `launch.events.process`."""
 
 from gz_course.sim.launch.events import process as process
 from gz_course.sim.launch.events.execution_complete import ExecutionComplete

@@ -1,4 +1,4 @@
-"""Launch files of any kind, told by their names."""
+"""The source for launch files of any kind."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Loads launch files of any kind, told by their names."""
+"""The loader of launch files of any kind, told by their names."""
 
 from __future__ import annotations
 

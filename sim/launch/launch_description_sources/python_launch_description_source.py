@@ -1,4 +1,4 @@
-"""Launch files written in Python."""
+"""The source for Python launch files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Loads Python launch files: a function `generate_launch_description()` that returns a LaunchDescription."""
+"""The loader of Python launch files: a function `generate_launch_description()` that returns a LaunchDescription."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def get_launch_description_from_python_launch_file(python_launch_file_path: str)
 
 
 def _described(value: object) -> str:
-    """A value in few words; a list of actions would fill the screen."""
+    """Return a value in few words: a list of actions would fill the screen."""
     text = repr(value)
     return f"{text} of type {type(value).__name__}" if len(text) <= 60 else f"a {type(value).__name__}"
 
@@ -86,7 +86,7 @@ def _not_readable(path: Path, error: OSError) -> str:
 
 
 def _a_package_has(path: Path) -> str:
-    """The end of a sentence that says how to write a bare file name that belongs to a ROS package."""
+    """Return the end of a sentence: how to write a bare file name that a ROS package has."""
     if path.parent != Path():
         return ""
     found = packages_with_launch_file(path.name)

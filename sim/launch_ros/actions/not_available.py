@@ -26,7 +26,6 @@ class NotAvailable(Action):
         return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in self.arguments.items())})"
 
     def execute(self, context: LaunchContext) -> None:
-        """Raise NotAvailableError."""
         raise NotAvailableError(
             f"{type(self).__name__} needs a full ROS 2 installation and cannot be executed here; {self._instead}, or "
             "switch it off with its condition"

@@ -1,4 +1,4 @@
-"""What happens to processes, and what is asked of them."""
+"""Events of processes, and their matchers."""
 
 from gz_course.sim.launch.events.process.process_exited import ProcessExited
 from gz_course.sim.launch.events.process.process_io import ProcessIO
