@@ -39,8 +39,11 @@ def _add_verbs(parser: argparse.ArgumentParser, folder: Path, words: list[str]) 
     """Add the commands or verbs of a folder, with arguments only for the one that `words` begin with."""
     from gz_course.sim.ros2.command_line import found, load
 
+    known = found(folder)
+    if words and words[0] not in known:
+        return
     verbs = parser.add_subparsers()
-    for name, path in found(folder).items():
+    for name, path in known.items():
         verb = verbs.add_parser(name)
         if words[:1] != [name]:
             continue
@@ -120,7 +123,7 @@ def _executables(given: Given) -> Iterable[str]:
 
 
 def _launch_files(given: Given) -> Iterable[str]:
-    """The launch files of a package; after a path, the arguments of that launch file."""
+    """Return the launch files of a package; after a path, the arguments of that launch file."""
     from gz_course.sim.ros2.command.launch import launch_files_of
     from gz_course.sim.ros2.packages import package_names
 
@@ -145,13 +148,13 @@ def _interfaces(given: Given) -> Iterable[str]:
 
 
 def _values(given: Given) -> Iterable[str]:
-    """A message with default values in one line, quoted for the shell, to be edited."""
+    """Return a message with default values in one line, to be edited."""
     from gz_course.sim.ros2.interface import message_class, service_class
     from gz_course.sim.ros2.message_text import to_line
 
     service = given.get("service_type")
     message = service_class(service).Request() if service else message_class(given["message_type"])()
-    return [shlex.quote(to_line(message))]
+    return [to_line(message)]
 
 
 _COMPLETERS: Mapping[str, Callable[[Given], Iterable[str]]] = MappingProxyType(

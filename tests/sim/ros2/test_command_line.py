@@ -1,5 +1,6 @@
 """The `ros2` command: help, unknown words, and stepping aside for a real ros2."""
 
+import argparse
 import sys
 
 import pytest
@@ -32,7 +33,9 @@ VERBS = [
 @pytest.mark.parametrize("words", VERBS, ids=" ".join)
 def test_every_verb_has_help_with_a_sentence_for_each_option(words, capsys):
     path = COMMANDS.joinpath(*words)
-    module, parser = load(path if path.is_dir() else path.with_suffix(".py"), f"ros2 {' '.join(words)}")
+    module = load(path if path.is_dir() else path.with_suffix(".py"))
+    parser = argparse.ArgumentParser(prog=f"ros2 {' '.join(words)}")
+    module.add_arguments(parser)
     with pytest.raises(SystemExit) as ended:
         parser.parse_args(["--help"])
     assert ended.value.code == 0
