@@ -3,6 +3,8 @@
 `ros2 topic echo /scan` calls `main` of `command/topic/echo.py`, `ros2 run …` that of `command/run.py`. Such a
 file has `main(arguments)` and, if it has arguments, `add_arguments(parser)`; the first line of its docstring is its
 help. Nothing is listed by hand and only the file in question is imported.
+
+Source of commands, options and printed words: ros2/ros2cli
 """
 
 from __future__ import annotations

@@ -57,7 +57,7 @@ def _add_verbs(parser: argparse.ArgumentParser, folder: Path, words: list[str]) 
 
 
 def _completer(names: Callable[[Given], Iterable[str]]) -> Callable[..., list[str]]:
-    """Return a completer for argcomplete; it knows nothing where the arguments before make no sense."""
+    """Return a completer for argcomplete; it offers nothing when the arguments before are wrong."""
 
     def completer(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
         try:
@@ -69,7 +69,6 @@ def _completer(names: Callable[[Given], Iterable[str]]) -> Callable[..., list[st
 
 
 def _look(question: Callable[[Any], Iterable[str]]) -> list[str]:
-    """Ask the live graph."""
     from gz_course.sim.ros2.graph import Graph
 
     with Graph(argparse.Namespace(spin_time=None, use_sim_time=False)) as graph:

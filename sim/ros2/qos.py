@@ -18,7 +18,7 @@ from gz_course.sim.ros2.option_values import seconds, whole_number
 
 
 def add_qos_options(parser: argparse.ArgumentParser, default: str) -> None:
-    """One option a policy; `default` says in words what holds without them."""
+    """Add an option for each policy; `default` describes what holds without them."""
     qos = parser.add_argument_group("quality of service", f"default: {default}")
     presets = [profile.name.lower() for profile in QoSPresetProfiles]
     qos.add_argument("--qos-profile", choices=presets, help="Preset to start from")
@@ -33,7 +33,7 @@ def add_qos_options(parser: argparse.ArgumentParser, default: str) -> None:
 
 
 def chosen_qos(arguments: argparse.Namespace, default: QoSProfile) -> QoSProfile:
-    """The preset of the options, or else `default`, with each policy that is named changed."""
+    """Return the preset of the options, or else `default`, with the chosen policies."""
     qos = QoSPresetProfiles.get_from_short_key(arguments.qos_profile) if arguments.qos_profile else default
     if arguments.qos_depth is not None:
         qos.depth = arguments.qos_depth
