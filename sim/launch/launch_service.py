@@ -37,7 +37,6 @@ class LaunchService:
 
     def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False, debug: bool = False) -> None:
         self.context = LaunchContext(argv=argv, noninteractive=noninteractive)
-        self.__debug = debug
         self.__return_code = 0
         self.__is_running = False
         self.__lock = threading.Lock()

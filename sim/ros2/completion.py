@@ -68,7 +68,7 @@ def _completer(names: Callable[[Given], Iterable[str]]) -> Callable[..., list[st
     return completer
 
 
-def _look(question: Callable[[Any], Iterable[str]]) -> list[str]:
+def _live(question: Callable[[Any], Iterable[str]]) -> list[str]:
     from gz_course.sim.ros2.graph import Graph
 
     with Graph(argparse.Namespace(spin_time=None, use_sim_time=False)) as graph:
@@ -76,37 +76,24 @@ def _look(question: Callable[[Any], Iterable[str]]) -> list[str]:
         return list(question(graph))
 
 
-def _topics(given: Given) -> Iterable[str]:
-    return _look(lambda graph: (name for name, _ in graph.topics()))
+def _types(name: str, names_and_types: str, kind: str) -> Callable[[Given], Iterable[str]]:
+    """Return a function for the types of the live topic or service `name`, or all interfaces of a kind."""
 
+    def types(given: Given) -> Iterable[str]:
+        from gz_course.sim.ros2.interface import interface_names
 
-def _message_types(given: Given) -> Iterable[str]:
-    from gz_course.sim.ros2.interface import interface_names
+        def question(graph: Any) -> Iterable[str]:
+            return dict(getattr(graph, names_and_types)(hidden=True)).get(given[name], [])
 
-    topic = given.get("topic_name", "")
-    return (topic and _look(lambda graph: dict(graph.topics(hidden=True)).get(topic, []))) or interface_names("msg")
+        return (given.get(name) and _live(question)) or interface_names(kind)
 
-
-def _services(given: Given) -> Iterable[str]:
-    return _look(lambda graph: (name for name, _ in graph.services()))
-
-
-def _service_types(given: Given) -> Iterable[str]:
-    from gz_course.sim.ros2.interface import interface_names
-
-    service = given.get("service_name", "")
-    live = service and _look(lambda graph: dict(graph.services(hidden=True)).get(service, []))
-    return live or interface_names("srv")
-
-
-def _nodes(given: Given) -> Iterable[str]:
-    return _look(lambda graph: graph.nodes())
+    return types
 
 
 def _parameters(given: Given) -> Iterable[str]:
     from gz_course.sim.ros2.parameter import NodeParameters
 
-    return _look(lambda graph: NodeParameters(graph, given["node_name"]).names())
+    return _live(lambda graph: NodeParameters(graph, given["node_name"]).names())
 
 
 def _packages(given: Given) -> Iterable[str]:
@@ -135,8 +122,7 @@ def _launch_files(given: Given) -> Iterable[str]:
 def _launch_arguments(given: Given) -> Iterable[str]:
     from gz_course.sim.ros2.command.launch import launch_file, load
 
-    named: dict[str, Any] = {"launch_file_name": None, **given, "launch_arguments": []}
-    path, _ = launch_file(argparse.Namespace(**named))
+    path, _ = launch_file(argparse.Namespace(**{"launch_file_name": None, **given, "launch_arguments": []}))
     return (f"{argument.name}:=" for argument in load(path).get_launch_arguments())
 
 
@@ -158,11 +144,11 @@ def _values(given: Given) -> Iterable[str]:
 
 _COMPLETERS: Mapping[str, Callable[[Given], Iterable[str]]] = MappingProxyType(
     {
-        "topic_name": _topics,
-        "message_type": _message_types,
-        "service_name": _services,
-        "service_type": _service_types,
-        "node_name": _nodes,
+        "topic_name": lambda given: _live(lambda graph: (name for name, _ in graph.topics())),
+        "message_type": _types("topic_name", "topics", "msg"),
+        "service_name": lambda given: _live(lambda graph: (name for name, _ in graph.services())),
+        "service_type": _types("service_name", "services", "srv"),
+        "node_name": lambda given: _live(lambda graph: graph.nodes()),
         "parameter_name": _parameters,
         "parameter_names": _parameters,
         "package_name": _packages,

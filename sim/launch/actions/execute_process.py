@@ -60,7 +60,10 @@ class ExecuteProcess(ExecuteLocal):
         return self.process_description.additional_env
 
     def describe(self) -> str:
-        words = ", ".join(describe_substitutions(word) for word in self.process_description.cmd)
+        words = ", ".join(self._described_words())
         cwd, env = self.process_description.cwd, self.process_description.env
         folder = None if cwd is None else describe_substitutions(cwd)
         return f"ExecuteProcess(cmd=[{words}], cwd={folder}, env={env}, shell={self.shell})"
+
+    def _described_words(self) -> list[str]:
+        return [describe_substitutions(word) for word in self.process_description.cmd]

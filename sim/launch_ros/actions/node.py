@@ -20,11 +20,7 @@ from gz_course.sim.launch.actions.execute_process import ExecuteProcess
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
 from gz_course.sim.launch.substitution import Substitution
-from gz_course.sim.launch.utilities import (
-    describe_substitutions,
-    normalize_to_list_of_substitutions,
-    perform_substitutions,
-)
+from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from gz_course.sim.launch_ros.actions.push_ros_namespace import NAMESPACE
 from gz_course.sim.launch_ros.actions.set_parameter import PARAMETERS
 from gz_course.sim.launch_ros.actions.set_remap import REMAPS
@@ -86,11 +82,8 @@ class Node(ExecuteProcess):
     def is_node_name_fully_specified(self) -> bool:
         return self.__expanded_name is not None and self.expanded_node_namespace is not None
 
-    def describe(self) -> str:
-        words = ", ".join(describe_substitutions(word) for word in self.process_description.cmd)
-        cwd = self.process_description.cwd
-        folder = None if cwd is None else describe_substitutions(cwd)
-        return f"ExecuteProcess(cmd=[{words}, '--ros-args'], cwd={folder}, env={self.env}, shell={self.shell})"
+    def _described_words(self) -> list[str]:
+        return [*super()._described_words(), "'--ros-args'"]
 
     def prepare(self, context: LaunchContext) -> None:
         """Put the command together. Raises LaunchError for names, packages and values that cannot be."""
