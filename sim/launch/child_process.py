@@ -19,7 +19,7 @@ from gz_course.sim.launch.orphan_watch import unwatch, watch
 
 _CHUNK = 65536
 _LARGEST_PIPE = 1 << 20
-# Ignored or blocked by the parent of this process, they would be so in the child.
+# A child would inherit those that the parent of this process has ignored or blocked.
 _DEFAULT_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.SIGCHLD)
 
 

@@ -91,7 +91,7 @@ class LaunchDescription(LaunchDescriptionEntity):
                     entity._conditionally_included |= conditional or entity.condition is not None
                     found.append((entity, chain))
                 if isinstance(entity, ResetLaunchConfigurations):
-                    return  # what comes now cannot see arguments from outside
+                    return  # what follows cannot see arguments from outside
                 deeper = chain
                 if isinstance(entity, IncludeLaunchDescription):
                     if only_search_local or entity.leads_back_into(chain):

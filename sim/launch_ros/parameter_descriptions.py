@@ -97,7 +97,7 @@ class ParameterFile:
             return path
         source = path.read_text(encoding="utf-8")
         try:
-            # Comments may hold what is no substitution; YAML knows them.
+            # Comments may hold what is no substitution; loading the YAML drops them.
             plain = yaml.safe_dump(yaml.safe_load(source), width=float("inf"))
             text = perform_substitutions(context, parse_substitution(plain))
             yaml.safe_load(text)

@@ -43,7 +43,7 @@ def run_child(command: Sequence[str]) -> int:
             elif not on_terminal:
                 os.killpg(child, received.si_signo)
             elif received.si_code <= 0:
-                # Sent by a process. One of the terminal has a positive code, and the child has had it already.
+                # Sent by a process. A signal of the terminal has a positive code, and has reached the child already.
                 os.kill(child, received.si_signo)
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)

@@ -1,8 +1,8 @@
 """The `ros2` command: finds the command and its verb, reads their options and runs them.
 
 `ros2 topic echo /scan` calls `main` of `command/topic/echo.py`, `ros2 run …` that of `command/run.py`. Such a
-file has `main(arguments)` and, if it has arguments, `add_arguments(parser)`; the first line of its docstring is its
-help. Nothing is listed by hand and only the file in question is imported.
+file has `add_arguments(parser)` and `main(arguments)`; the first line of its docstring is its help. Nothing is
+listed by hand and only the file in question is imported.
 
 Source of commands, options and printed words: ros2/ros2cli
 """
@@ -44,7 +44,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         completion.complete()
     code = _explained(arguments)
     if is_program and _GRAPH in sys.modules:
-        # The node has said goodbye; what is left of DDS can block at exit, and nobody needs it any more.
+        # The node is destroyed; the rest of DDS can block at exit.
         with contextlib.suppress(OSError, ValueError):
             sys.stdout.flush()
             sys.stderr.flush()
@@ -54,8 +54,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _explained(arguments: list[str]) -> int:
     """Run `ros2`; report every error as one sentence, and return the exit code."""
-    # A shell's '&' starts programs with SIGINT ignored; an ended node must say so to the others: both signals
-    # arrive as KeyboardInterrupt.
+    # A shell's '&' starts programs with SIGINT ignored, and a node must announce its end: both signals arrive as
+    # KeyboardInterrupt.
     interruption.listen()
     try:
         sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
@@ -66,7 +66,7 @@ def _explained(arguments: list[str]) -> int:
     except KeyboardInterrupt:
         return _INTERRUPTED
     except BrokenPipeError:
-        # `ros2 topic echo /scan | head`: the reader has seen enough.
+        # `ros2 topic echo /scan | head`: the reader has closed the pipe.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     except Exception as error:

@@ -32,7 +32,7 @@ _PREFIX, _HOST = 12, 4  # bytes of an endpoint's identifier that name its partic
 class Participants:
     """The participants of one domain on this machine, as seen by one node.
 
-    To be made before the node: its port is the one this process opens meanwhile. Then `attach`.
+    It is made before the node, whose port is the one this process opens meanwhile; then `attach` sets the node.
     """
 
     def __init__(self, domain: int) -> None:
@@ -112,7 +112,7 @@ def announcement(prefix: bytes, port: int) -> bytes:
         (0x32, locator),  # where to answer: metatraffic
         (0x31, locator),
         (0x02, struct.pack("<iI", 1, 0)),  # lease duration: 1 s
-        (0x58, struct.pack("<I", 0b11)),  # it has what announces and detects participants, and no endpoint
+        (0x58, struct.pack("<I", 0b11)),  # endpoints: announcer and detector of participants
     ]
     return _packet(prefix, number=1, flags=0x05, inline=b"", payload=_list(parameters))
 

@@ -1,4 +1,4 @@
-"""What a command says when it cannot do its work."""
+"""The errors of commands."""
 
 from __future__ import annotations
 

@@ -189,7 +189,7 @@ class Graph:
             # It is unknown, or a participant does not answer: a program that is no ROS node, or one that hangs.
             earliest = self._born + FIRST_CONTACT
         nodes, endpoints, _ = seen
-        # A node is known a moment before its endpoints, or they before it: both must have arrived.
+        # A node and its endpoints arrive separately, in any order: both must be known.
         whole = nodes == {node for _, node, _ in endpoints}
         return whole and now >= max(earliest, self._changed + quiet)
 

@@ -1,6 +1,6 @@
 """The hand-over to a real `ros2`, when a ROS 2 installation is set up in this shell.
 
-The first thing `command_line` calls. A sourced ROS 2 names itself in AMENT_PREFIX_PATH; its `ros2` then
+`command_line` calls it first. A sourced ROS 2 is in AMENT_PREFIX_PATH; its `ros2` then
 replaces this process. One that is installed into this very Python environment is called as a library.
 """
 

@@ -1,7 +1,7 @@
 """From the name of an interface (message, service, action) to its Python class and its definition file.
 
 `sensor_msgs/msg/LaserScan` (or `sensor_msgs/LaserScan`) is the class LaserScan of sensor_msgs.msg and the file
-msg/LaserScan.msg in the share folder of the package. What there is stands in the ament index. Errors name the nearest
+msg/LaserScan.msg in the share folder of the package. The ament index lists the interfaces. Errors name the nearest
 interface that is installed.
 """
 

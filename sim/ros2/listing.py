@@ -1,4 +1,4 @@
-"""What the verbs that list topics or services have in common."""
+"""The options and the output of the verbs that list topics or services."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Measuring a topic: what `ros2 topic hz`, `bw` and `delay` have in common.
+"""The measurement of a topic, for `ros2 topic hz`, `bw` and `delay`.
 
 Each passes a function for a message and one for the report, once a second; `measure` waits and listens.
 """

@@ -66,7 +66,7 @@ class _Dumper(yaml.SafeDumper):
 
 
 def _text(dumper: yaml.SafeDumper, text: str) -> yaml.ScalarNode:
-    # YAML takes these for line breaks, and folds them, unless they are escaped in double quotes.
+    # YAML folds these line breaks, unless they are escaped in double quotes.
     style = '"' if any(mark in text for mark in "\x85\u2028\u2029") else None
     return dumper.represent_scalar("tag:yaml.org,2002:str", text, style=style)
 

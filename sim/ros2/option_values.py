@@ -1,4 +1,4 @@
-"""Numbers as options take them; the ValueError of each becomes argparse's usage error with exit code 2."""
+"""Types of numbers for options; argparse turns their ValueError into a usage error with exit code 2."""
 
 from __future__ import annotations
 

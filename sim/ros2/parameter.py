@@ -93,7 +93,7 @@ class NodeParameters:
     def not_set(self, name: str, known: Iterable[str] | None = None) -> CommandError:
         """Return the error for a parameter that does not exist, with the nearest name."""
         names = set(self.names() if known is None else known)
-        # One that is declared, but without a value, has the right name.
+        # A declared parameter without a value has the right name.
         return CommandError("Parameter not set" + ("" if name in names else did_you_mean(name, names)))
 
 
@@ -188,7 +188,7 @@ def _typed_list(items: list[Any], shown: str) -> tuple[int, list[Any]]:
         return ParameterType.PARAMETER_INTEGER_ARRAY, [_int64(item, shown) for item in items]
     if kinds and kinds <= {int, float}:
         return ParameterType.PARAMETER_DOUBLE_ARRAY, [float(item) for item in items]
-    if kinds <= {str}:  # so is an empty list: the node says what it wants instead
+    if kinds <= {str}:  # an empty list, too: the node reports the type it wants
         return ParameterType.PARAMETER_STRING_ARRAY, items
     raise CommandError(f"{_short(shown)} cannot be a parameter: the items of a list must be of one kind")
 

@@ -1,4 +1,4 @@
-"""The quality-of-service options of `ros2 topic echo` and `ros2 topic pub`, and what follows from them."""
+"""The quality-of-service options of `ros2 topic echo` and `ros2 topic pub`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the verbs of `ros2 service` have in common: names, and waiting for an answer."""
+"""Names of services, and calls, for the verbs of `ros2 service` and `ros2 param`."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""What the verbs of `ros2 topic` that follow one topic have in common: finding it, its type, its QoS, a filter.
+"""A topic, its type, its QoS and a filter, for the verbs of `ros2 topic`.
 
-Names without a leading / are taken in the root namespace, as ROS does for the command's node.
+Names without a leading / are in the root namespace, that of the command's node.
 """
 
 from __future__ import annotations

@@ -286,7 +286,7 @@ class ExecuteLocal(Action):
             self._signal(number, settings, silent=silent and number == signal.SIGINT)
             patience = settings.timeouts[number]
             if await _happens(self.__ended, patience):
-                # Shells let what they start in the background ignore SIGINT: no use to wait long for that.
+                # Background processes of a shell ignore SIGINT: no long wait for them.
                 if await _happens(self.__gone, min(patience, _GRACE)):
                     return
             else:

@@ -94,7 +94,7 @@ class LaunchConfig:
         except (OSError, ValueError):
             self._screen_is_gone = True
             with contextlib.suppress(OSError, ValueError):
-                # Whatever is buffered would fail again, and loudly, when Python exits.
+                # What is buffered would fail again, with a traceback, when Python exits.
                 os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
     def write_to_log(self, text: str) -> None:

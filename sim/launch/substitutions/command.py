@@ -96,6 +96,6 @@ def _run(words: list[str], context: LaunchContext) -> tuple[int, str, str]:
             with context.uninterrupted():
                 if process.poll() is None:
                     os.killpg(process.pid, signal.SIGKILL)
-                with process:  # closes the pipes and takes notice of its end
+                with process:  # closes the pipes and reaps the process
                     pass
     return process.returncode, output.decode(errors="replace"), errors.decode(errors="replace")

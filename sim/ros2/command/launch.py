@@ -60,7 +60,7 @@ def main(arguments: argparse.Namespace) -> int:
         return _print_description(path)
     if arguments.show_all:
         os.environ["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] = "both"
-    # What a Python program prints is to be seen when it is printed, although it prints into a pipe.
+    # Python programs print into a pipe here, and would keep their output back.
     os.environ.setdefault("PYTHONUNBUFFERED", "1")
     return _run(path, pairs, arguments)
 

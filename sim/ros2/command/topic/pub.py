@@ -85,7 +85,7 @@ def main(arguments: argparse.Namespace) -> None:
     with Graph(arguments, arguments.node_name) as graph:
         name = full_name(graph, arguments.topic_name)
         publisher = graph.node.create_publisher(kind, name, chosen_qos(arguments, _reaches_everybody()))
-        graph.settle()  # the first message is for everybody who is already there
+        graph.settle()  # existing subscriptions receive the first message, too
         _wait_for_subscriptions(graph, publisher, wanted, arguments.max_wait_time_secs)
         print("publisher: beginning loop")
         for count in _ticks(graph, 1.0 / arguments.rate, times):
