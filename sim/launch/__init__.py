@@ -23,11 +23,13 @@ from gz_course.sim.launch.event_handler import EventHandler
 from gz_course.sim.launch.invalid_launch_file_error import InvalidLaunchFileError
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.launch_description import LaunchDescription
-from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity, SomeEntitiesType
+from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity
 from gz_course.sim.launch.launch_description_source import LaunchDescriptionSource
 from gz_course.sim.launch.launch_introspector import LaunchIntrospector
 from gz_course.sim.launch.launch_service import LaunchService
-from gz_course.sim.launch.substitution import SomeSubstitutionsType, SomeSubstitutionsType_types_tuple, Substitution
+from gz_course.sim.launch.some_entities_type import SomeEntitiesType
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType, SomeSubstitutionsType_types_tuple
+from gz_course.sim.launch.substitution import Substitution
 
 __all__ = [
     "Action",

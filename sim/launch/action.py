@@ -1,4 +1,4 @@
-"""What a launch file is made of: something to be done, if its condition holds. The actions are in `launch.actions`."""
+"""The base of actions, which a launch file consists of. The actions are in `launch.actions`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Action(LaunchDescriptionEntity):
-    """Base of all actions. A class of one's own overrides `execute`."""
+    """Something to be done, if `condition` holds. A class of one's own overrides `execute`."""
 
     def __init__(self, *, condition: Condition | None = None, **unknown: Any) -> None:
         if unknown:
@@ -31,29 +31,26 @@ class Action(LaunchDescriptionEntity):
 
     @property
     def condition(self) -> Condition | None:
-        """The condition, if there is one."""
         return self.__condition
 
     def describe(self) -> str:
-        """Return one line for `ros2 launch --print`."""
         return f"{type(self).__name__}({hex(id(self))})"
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """What it surely leads to: nothing when there is a condition."""
+        """Return what is visited in any case: nothing when there is a condition."""
         return self.get_sub_entities() if self.__condition is None else []
 
     def describe_conditional_sub_entities(
         self,
     ) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
-        """What it leads to when its condition holds."""
         return [("Conditionally included by " + self.describe(), self.get_sub_entities())] if self.__condition else []
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """Return the entities it leads to when it is executed, as far as they are known before."""
+        """Return the entities that are visited when it is executed, as far as they are known beforehand."""
         return []
 
     def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Execute the action if its condition holds; errors that come out know where the action was made."""
+        """Execute the action if its condition holds; errors get the place where the action was made."""
         try:
             if self.__condition is not None and not self.__condition.evaluate(context):
                 return None
@@ -65,7 +62,7 @@ class Action(LaunchDescriptionEntity):
         return following
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Do the work; return the entities to be visited next."""
+        """Return the entities to be visited next."""
         raise NotImplementedError(f"{type(self).__name__} does not say how it is executed")
 
     def _announce_completion(self, context: LaunchContext) -> None:
@@ -87,7 +84,7 @@ class Action(LaunchDescriptionEntity):
 
 
 def _arguments(kind: type) -> list[str]:
-    """The names of all arguments that a class and its bases take by name."""
+    """Return the names of all arguments that a class and its bases take by name."""
     return [
         parameter.name
         for each in kind.__mro__

@@ -1,4 +1,4 @@
-"""Looks into the ament prefixes for names that help a user on: packages, and launch files in them.
+"""Names of packages and of their launch files, for the hints in errors.
 
 Only for the sentences of errors. What a launch file needs from a package, `launch_ros.substitutions` finds.
 """
@@ -19,7 +19,6 @@ def prefixes() -> list[Path]:
 
 
 def package_names() -> set[str]:
-    """Return the names of all packages."""
     indexes = [prefix / _INDEX for prefix in prefixes()]
     return {path.name for index in indexes if index.is_dir() for path in index.iterdir()}
 
@@ -30,7 +29,7 @@ def packages_with_launch_file(name: str) -> list[str]:
 
 
 def nearest_package_of(sentence: str) -> str:
-    """Return `; did you mean 'x'?` for a sentence about a package that was not found; else nothing."""
+    """Return `; did you mean 'x'?` for a sentence about a package that was not found, else an empty text."""
     unknown = re.search(r"package '([^']+)' not found", sentence)
     if unknown is None or "did you mean" in sentence:
         return ""

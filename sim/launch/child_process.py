@@ -1,4 +1,4 @@
-"""One child: a process group of its own, its output as it comes, its end, and the end of all it has started.
+"""A child process in a process group of its own, with its output and its end.
 
 `ExecuteLocal` owns it. Everything happens in the event loop: output and the end of a process (a pidfd) are file
 descriptors the loop watches. What a child has written before its end is always read before its end is told.
@@ -19,7 +19,7 @@ from gz_course.sim.launch.orphan_watch import unwatch, watch
 
 _CHUNK = 65536
 _LARGEST_PIPE = 1 << 20
-# Ignored or blocked by the parent of this process, they would be so in the child.
+# A child would inherit those that the parent of this process has ignored or blocked.
 _DEFAULT_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.SIGCHLD)
 
 
@@ -77,7 +77,7 @@ class ChildProcess:
 
     @property
     def pid(self) -> int:
-        """Number of the process and of its group."""
+        """The id of the process and of its group."""
         return self._process.pid
 
     async def wait(self) -> int:
@@ -90,7 +90,7 @@ class ChildProcess:
         return code
 
     def has_left_something(self) -> bool:
-        """Whether processes of its group live on after its end."""
+        """Return whether processes of its group live on after its end."""
         try:
             os.killpg(self.pid, 0)
         except ProcessLookupError:
@@ -100,7 +100,7 @@ class ChildProcess:
         return True
 
     async def wait_for_group(self) -> None:
-        """Return when the last process of its group has ended."""
+        """Wait until the last process of its group has ended."""
         while self.has_left_something():
             member = _member_of_group(self.pid)
             if member is None:
@@ -108,26 +108,25 @@ class ChildProcess:
             await _end_of(member)
 
     def send_signal(self, number: int) -> None:
-        """Signal the whole group."""
         with contextlib.suppress(ProcessLookupError, PermissionError):
             if not self._reaped or self.has_left_something():
                 os.killpg(self.pid, number)
 
     def kill(self) -> None:
-        """End the whole group at once and take notice of it, where no event loop can wait for that any more."""
+        """Kill the whole group and reap the child, where no event loop can wait any more."""
         self.send_signal(signal.SIGKILL)
         with contextlib.suppress(subprocess.TimeoutExpired):
             self._process.wait(1.0)
             self._reaped = True
 
     def write(self, data: bytes) -> None:
-        """Write to its stdin, as soon as it takes it."""
+        """Write to its stdin, without blocking."""
         self._unsent += data
         if self._stdin >= 0:
             self._send()
 
     def close(self) -> None:
-        """Let go of its input and output, when its group has ended."""
+        """Close its input and output, when its group has ended."""
         unwatch(self.pid)
         for descriptor in list(self._readers):
             self._close_reader(descriptor)
@@ -180,7 +179,7 @@ def _set_default_signals() -> None:
 
 
 def _member_of_group(group: int) -> int | None:
-    """A living process of a process group; zombies do not count."""
+    """Return a living process of a process group, zombies left out."""
     for name in os.listdir("/proc"):  # noqa: PTH208
         if not name.isdigit():
             continue
@@ -193,7 +192,7 @@ def _member_of_group(group: int) -> int | None:
 
 
 async def _end_of(pid: int) -> None:
-    """Return when a process has ended. A child is not reaped by that."""
+    """Wait until a process has ended. A child is not reaped."""
     loop = asyncio.get_running_loop()
     ended = loop.create_future()
 

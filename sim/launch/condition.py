@@ -1,4 +1,4 @@
-"""Decides whether an action is executed; the usual ones are in `launch.conditions`."""
+"""The base of conditions, which decide whether an action is executed. The conditions are in `launch.conditions`."""
 
 from __future__ import annotations
 
@@ -10,11 +10,10 @@ if TYPE_CHECKING:
 
 
 class Condition:
-    """Calls `predicate(context)`; without a predicate it is always true."""
+    """A condition that holds if `predicate(context)` is true; without a predicate it always holds."""
 
     def __init__(self, *, predicate: Callable[[LaunchContext], bool] | None = None) -> None:
         self._predicate = predicate
 
     def evaluate(self, context: LaunchContext) -> bool:
-        """Return whether the action is to be executed."""
         return self._predicate is None or bool(self._predicate(context))

@@ -1,6 +1,6 @@
-"""What a launch file did wrong, said in one sentence with the file and the line.
+"""The errors of launch files: one sentence with the file and the line.
 
-Raised all over this package; `LaunchService` and `ros2 launch` turn whatever reaches them into a sentence with
+`LaunchService` and `ros2 launch` turn whatever reaches them into a sentence with
 `sentence`. An error gets its place from the user's own code in its traceback, else from where the action in
 question was made (`place_of_caller`, `locate`).
 """
@@ -26,7 +26,7 @@ Place = tuple[str, int]
 
 
 class LaunchError(Exception):
-    """Base of what this package raises on purpose; its text is one sentence fit for a student."""
+    """The base of errors of launch files; the text is one sentence for the user."""
 
 
 class MissingArgumentError(LaunchError, RuntimeError):
@@ -61,7 +61,7 @@ def nearest(name: str, known: Iterable[str], listing: str = "there are") -> str:
 
 
 def place_of_caller() -> Place | None:
-    """The file and line of the user's code that is being executed, None when there is none."""
+    """Return file and line of the user's code that is being executed, None when there is none."""
     frame = sys._getframe(1)
     while frame is not None:
         path = frame.f_code.co_filename
@@ -78,7 +78,7 @@ def locate(error: BaseException, place: Place | None) -> None:
 
 
 def sentence(error: BaseException) -> str:
-    """The error as `file:line: text`; the text starts with the error's type unless it is one of LaunchError."""
+    """Return the error as `file:line: text`; the text starts with the error's type unless it is a LaunchError."""
     if isinstance(error, SyntaxError) and error.filename:
         return f"{error.filename}:{error.lineno}: {type(error).__name__}: {error.msg}"
     # A KeyError puts its text in quotes; ament's PackageNotFoundError is one.

@@ -1,9 +1,9 @@
-"""Something that happened while a launch file runs; the classes are in `launch.events`."""
+"""The base of events. The events are in `launch.events`."""
 
 from __future__ import annotations
 
 
 class Event:
-    """Base of all events. `name` is what it is called in messages."""
+    """Something that happens while a launch file runs; messages call it `name`."""
 
     name = "launch.Event"

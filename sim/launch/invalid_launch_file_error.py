@@ -1,4 +1,4 @@
-"""What is raised for a launch file that cannot be loaded."""
+"""The error of a launch file that cannot be loaded."""
 
 from __future__ import annotations
 

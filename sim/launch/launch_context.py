@@ -1,7 +1,7 @@
 """The state of one run of a launch file: configurations, environment, event handlers, pending events.
 
-Made by `LaunchService`, handed to everything that is visited. What belongs to a scope (configurations, environment,
-locals) can be pushed and popped; `GroupAction` does that.
+`LaunchService` makes it and passes it to every entity it visits. Scopes (configurations, environment, locals) are
+pushed and popped; `GroupAction` does that.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from gz_course.sim.launch.substitution import Substitution
 
 
 class LaunchContext:
-    """Runtime state; `argv` are the command-line arguments, kept for launch files that read them."""
+    """The state of a run. `argv` are the command-line arguments, kept for launch files that read them."""
 
     def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False) -> None:
-        self.__argv = list(argv or ())
-        self.__noninteractive = noninteractive
+        self.argv = list(argv or ())
+        self.noninteractive = noninteractive
         self.__handlers: collections.deque[EventHandler] = collections.deque()
         self.__events: collections.deque[Event] = collections.deque()
         self.__futures: set[asyncio.Future[None]] = set()
@@ -44,16 +44,6 @@ class LaunchContext:
         self.process_numbers = itertools.count(1)
 
     @property
-    def argv(self) -> list[str]:
-        """The arguments given to LaunchService."""
-        return self.__argv
-
-    @property
-    def noninteractive(self) -> bool:
-        """Whether nobody sits at a terminal."""
-        return self.__noninteractive
-
-    @property
     def is_shutdown(self) -> bool:
         """Whether the run has begun to end; no process is started any more."""
         return self.__is_shutdown
@@ -62,14 +52,14 @@ class LaunchContext:
         self.__is_shutdown = state
 
     def _hold_signal(self, number: int) -> None:
-        """Note a signal that comes while something is visited. Raises KeyboardInterrupt: that may never end."""
+        """Note a signal that comes during a visit. Raises KeyboardInterrupt, because the visit may never end."""
         self._held_signal = number
         if not self.__is_uninterrupted:
             raise KeyboardInterrupt
 
     @contextlib.contextmanager
     def uninterrupted(self) -> Iterator[None]:
-        """Do something whole, such as starting a process: KeyboardInterrupt is raised behind it, not in it."""
+        """Raise the KeyboardInterrupt of a signal after the block, not in it: for the start of a process."""
         self.__is_uninterrupted = True
         try:
             yield
@@ -82,7 +72,7 @@ class LaunchContext:
 
     @property
     def launch_configurations(self) -> dict[str, Any]:
-        """Name -> value of the launch configurations in this scope."""
+        """The launch configurations of this scope by name."""
         return self.__configurations[-1]
 
     def _push_launch_configurations(self) -> None:
@@ -107,7 +97,6 @@ class LaunchContext:
         self._replace_environment(self.__environments.pop())
 
     def _reset_environment(self) -> None:
-        """Go back to how the environment was before the run."""
         self._replace_environment(self.__first_environment)
 
     def _replace_environment(self, environment: dict[str, str]) -> None:
@@ -119,19 +108,16 @@ class LaunchContext:
 
     @property
     def locals(self) -> SimpleNamespace:
-        """What belongs to the event being handled: `context.locals.event`, the current launch file's path."""
+        """The values of this scope: `event`, the path of the current launch file."""
         return SimpleNamespace(**self.get_locals_as_dict())
 
     def get_locals_as_dict(self) -> dict[str, Any]:
-        """Return globals and locals by name."""
         return {**self.__globals, **self.__locals[-1]}
 
     def extend_locals(self, extensions: dict[str, Any]) -> None:
-        """Add to the locals of this scope."""
         self.__locals[-1].update(extensions)
 
     def extend_globals(self, extensions: dict[str, Any]) -> None:
-        """Add to the globals."""
         self.__globals.update(extensions)
 
     def _push_locals(self) -> None:
@@ -143,12 +129,12 @@ class LaunchContext:
         self.__locals.pop()
 
     def _drop_scopes(self) -> None:
-        """Leave all scopes an error has jumped out of."""
+        """Leave all scopes that an error has left open."""
         del self.__locals[1:], self.__configurations[1:]
         self.__environments.clear()
 
     def perform_substitution(self, substitution: Substitution) -> str:
-        """Return the text of a substitution."""
+        """Return the text. Raises LaunchError for a `perform` that returns something else."""
         text = substitution.perform(self)
         if not isinstance(text, str):
             raise LaunchError(
@@ -170,29 +156,28 @@ class LaunchContext:
             self.__wake.set()
 
     def register_event_handler(self, event_handler: EventHandler, append: bool = False) -> None:
-        """Ask this handler first about the events to come; last with `append`."""
+        """Offer events to this handler first; last with `append`."""
         if append:
             self.__handlers.append(event_handler)
         else:
             self.__handlers.appendleft(event_handler)
 
     def unregister_event_handler(self, event_handler: EventHandler) -> None:
-        """Ask this handler no more. Raises ValueError if it is not registered."""
+        """Raise ValueError if the handler is not registered."""
         self.__handlers.remove(event_handler)
 
     def would_handle_event(self, event: Event) -> bool:
-        """Return whether any handler would answer; also when a matcher fails, which is told when it is asked again."""
+        """Return whether any handler would answer, or a matcher fails: handling the event reports that."""
         try:
             return any(handler.matches(event) for handler in self.__handlers)
         except Exception:
             return True
 
     def handlers_of(self, event: Event) -> list[EventHandler]:
-        """Return the handlers that answer this event, the newest first."""
+        """Return the handlers of this event, the newest first."""
         return [handler for handler in self.__handlers if handler.matches(event)]
 
     async def emit_event(self, event: Event) -> None:
-        """Queue an event."""
         self.emit_event_sync(event)
 
     def emit_event_sync(self, event: Event) -> None:
@@ -206,7 +191,7 @@ class LaunchContext:
     # What the run waits for
 
     def add_completion_future(self, future: asyncio.Future[None]) -> None:
-        """Keep the run going until this is done. An exception in it ends the run."""
+        """Keep the run going until the future is done. An exception in it ends the run."""
         if future in self.__futures or (future.done() and (future.cancelled() or future.exception() is None)):
             return
         self.__futures.add(future)

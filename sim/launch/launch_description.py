@@ -1,4 +1,4 @@
-"""A launch file's content: entities in the order in which they are visited."""
+"""The content of a launch file: entities in the order in which they are visited."""
 
 from __future__ import annotations
 
@@ -28,52 +28,36 @@ class LaunchDescription(LaunchDescriptionEntity):
                 "are missing"
             )
         try:
-            self.__entities = listed(initial_entities, "the list of LaunchDescription")
+            self.entities = listed(initial_entities, "the list of LaunchDescription")
         except Exception as error:
             locate(error, place_of_caller())
             raise
-        self.__deprecated_reason = deprecated_reason
-
-    @property
-    def entities(self) -> list[LaunchDescriptionEntity]:
-        """The entities."""
-        return self.__entities
+        self.deprecated_reason = deprecated_reason
 
     @property
     def deprecated(self) -> bool:
-        """Whether another launch file should be used."""
-        return self.__deprecated_reason is not None
-
-    @property
-    def deprecated_reason(self) -> str | None:
-        """Why another launch file should be used."""
-        return self.__deprecated_reason
+        return self.deprecated_reason is not None
 
     def add_entity(self, entity: LaunchDescriptionEntity) -> None:
-        """Add an entity to the end."""
-        self.__entities += listed([entity], "add_entity")
+        self.entities += listed([entity], "add_entity")
 
     def add_action(self, action: LaunchDescriptionEntity) -> None:
-        """Add an action to the end."""
-        self.__entities += listed([action], "add_action")
+        self.entities += listed([action], "add_action")
 
     def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Return the entities to be visited."""
-        if self.__deprecated_reason is not None:
+        if self.deprecated_reason is not None:
             import gz_course.sim.launch.logging as launch_logging
 
             launch_logging.get_logger("launch").warning(
-                f"this launch description is deprecated: {self.__deprecated_reason}"
+                f"this launch description is deprecated: {self.deprecated_reason}"
             )
-        return self.__entities
+        return self.entities
 
     def describe(self) -> str:
-        """Return one line for `ros2 launch --print`."""
         return f"LaunchDescription({hex(id(self))})"
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """Return the entities."""
-        return list(self.__entities)
+        return list(self.entities)
 
     def get_launch_arguments(self, conditional_inclusion: bool = False) -> list[DeclareLaunchArgument]:
         """Return the arguments that are declared here and in included files, each name once.
@@ -90,7 +74,7 @@ class LaunchDescription(LaunchDescriptionEntity):
     def get_launch_arguments_with_include_launch_description_actions(
         self, conditional_inclusion: bool = False, *, only_search_local: bool = False
     ) -> list[tuple[DeclareLaunchArgument, list[IncludeLaunchDescription]]]:
-        """Return the declared arguments, each with the chain of includes that leads to it, the innermost last."""
+        """Return the declared arguments, each with the chain of includes to it, the innermost last."""
         from gz_course.sim.launch.actions import (
             DeclareLaunchArgument,
             IncludeLaunchDescription,
@@ -107,7 +91,7 @@ class LaunchDescription(LaunchDescriptionEntity):
                     entity._conditionally_included |= conditional or entity.condition is not None
                     found.append((entity, chain))
                 if isinstance(entity, ResetLaunchConfigurations):
-                    return  # what comes now cannot see arguments from outside
+                    return  # what follows cannot see arguments from outside
                 deeper = chain
                 if isinstance(entity, IncludeLaunchDescription):
                     if only_search_local or entity.leads_back_into(chain):
@@ -117,5 +101,5 @@ class LaunchDescription(LaunchDescriptionEntity):
                 for _, group in entity.describe_conditional_sub_entities():
                     search(group, True, deeper)
 
-        search(self.__entities, conditional_inclusion, [])
+        search(self.entities, conditional_inclusion, [])
         return found

@@ -1,4 +1,4 @@
-"""What a launch description is made of: something that can be visited, and may lead to more of its kind.
+"""The base of what a launch description consists of: something that can be visited, and may lead to more entities.
 
 `visit` walks depth first through an entity and all it leads to; `LaunchService` calls it for each event.
 """
@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any
 
 from gz_course.sim.launch.errors import LaunchError
 
@@ -17,30 +17,26 @@ if TYPE_CHECKING:
 
 
 class LaunchDescriptionEntity:
-    """Base of actions and launch descriptions."""
+    """An action or a launch description."""
 
     def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Do the work; return the entities to be visited next."""
+        """Return the entities to be visited next."""
         return None
 
     def describe(self) -> str:
-        """Return one line for `ros2 launch --print`."""
         return repr(self)
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """Return the entities this one surely leads to, as far as that is known before it is visited."""
+        """Return the entities that follow in any case, as far as they are known before the visit."""
         return []
 
     def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
-        """Return the entities it may lead to, each group with the condition in words."""
+        """Return the entities that may follow, each group with its condition in words."""
         return []
 
     def get_asyncio_future(self) -> Future[None] | None:
-        """Return what is done when the entity is; None when it is done as soon as it was visited."""
+        """Return a future that is done when the entity is; None when a visit completes it."""
         return None
-
-
-SomeEntitiesType = Union[LaunchDescriptionEntity, Iterable[LaunchDescriptionEntity]]  # noqa: UP007 - public
 
 
 def listed(entities: Any, what: str) -> list[LaunchDescriptionEntity]:

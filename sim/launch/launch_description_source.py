@@ -1,4 +1,4 @@
-"""Where an included launch description comes from: made already, or a file that is loaded when it is needed."""
+"""The source of an included launch description: the description itself, or a file that is loaded when needed."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from gz_course.sim.launch.invalid_launch_file_error import InvalidLaunchFileError
-from gz_course.sim.launch.substitution import (
-    SomeSubstitutionsType,
-    Substitution,
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.substitution import Substitution
+from gz_course.sim.launch.utilities import (
     describe_substitutions,
     normalize_to_list_of_substitutions,
     perform_substitutions,
@@ -31,12 +31,7 @@ class LaunchDescriptionSource:
         self.__launch_description = launch_description
         self.__location = [] if location is None else normalize_to_list_of_substitutions(location)
         self.__expanded_location: str | None = None
-        self.__method = method
-
-    @property
-    def method(self) -> str:
-        """In words, how it is loaded."""
-        return self.__method
+        self.method = method
 
     @property
     def location(self) -> str:
@@ -61,7 +56,7 @@ class LaunchDescriptionSource:
         return self.__launch_description
 
     def get_launch_description(self, context: LaunchContext) -> LaunchDescription:
-        """Return the launch description; its file is loaded when it is asked for first."""
+        """Return the launch description, loaded at the first call."""
         if self.__launch_description is None:
             self._load(perform_substitutions(context, self.__location))
         assert self.__launch_description is not None
@@ -79,7 +74,7 @@ class LaunchDescriptionSource:
 
 
 def as_source(source: Any) -> LaunchDescriptionSource:
-    """Return a source for what IncludeLaunchDescription was given: a source, or the path of a launch file."""
+    """Return the source for an argument of IncludeLaunchDescription: a source, or the path of a launch file."""
     if isinstance(source, LaunchDescriptionSource):
         return source
     from gz_course.sim.launch.launch_description import LaunchDescription

@@ -1,4 +1,4 @@
-"""Shows a launch description as a tree, for `ros2 launch --print`."""
+"""A launch description as a tree, for `ros2 launch --print`."""
 
 from __future__ import annotations
 
@@ -10,10 +10,9 @@ from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEnti
 
 
 class LaunchIntrospector:
-    """Formats launch descriptions."""
+    """A formatter of launch descriptions."""
 
     def format_launch_description(self, launch_description: LaunchDescription) -> str:
-        """Return the object's name, and a line for each entity below it."""
         return "\n".join([repr(launch_description), *_tree(launch_description.entities, ())])
 
 

@@ -1,11 +1,13 @@
-"""Runs launch descriptions: visits them, hands events to event handlers, and ends everything it has started.
+"""The run of launch descriptions: visits them, passes events to event handlers, and ends every process it started.
 
     service = LaunchService()
     service.include_launch_description(description)
     exit_code = service.run()
 
-`ros2 launch` does this. One event after the other is offered to all handlers; what they answer is visited. The run
-ends when the launch was shut down and nothing is left; it shuts itself down when there is nothing more to wait for.
+`ros2 launch` does this. One event after the other is offered to all handlers; their answers are visited. The run
+ends after a shutdown, when every process, timer and coroutine has ended; it shuts down by itself when it is idle.
+
+Source: ros2/launch, launch/launch_service.py and launch/doc/source/architecture.rst
 """
 
 from __future__ import annotations
@@ -31,11 +33,10 @@ _LOG = launch_logging.get_logger("launch")
 
 
 class LaunchService:
-    """One run. `argv` is kept for launch files that read it; `noninteractive` tells that nobody is at a terminal."""
+    """One run. `argv` is kept for launch files that read it; `noninteractive` means that nobody is at a terminal."""
 
     def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False, debug: bool = False) -> None:
-        self.__context = LaunchContext(argv=argv, noninteractive=noninteractive)
-        self.__debug = debug
+        self.context = LaunchContext(argv=argv, noninteractive=noninteractive)
         self.__return_code = 0
         self.__is_running = False
         self.__lock = threading.Lock()
@@ -45,22 +46,16 @@ class LaunchService:
             launch_logging.launch_config.level = "DEBUG"
 
     @property
-    def context(self) -> LaunchContext:
-        """The state of the run."""
-        return self.__context
-
-    @property
     def event_loop(self) -> asyncio.AbstractEventLoop | None:
         """The event loop while it runs, else None."""
         return self.__loop
 
     def include_launch_description(self, launch_description: LaunchDescription) -> None:
-        """Have a launch description visited."""
         self.emit_event(IncludeLaunchDescription(launch_description))
 
     def emit_event(self, event: Event) -> None:
         """Queue an event; from any thread, before and during the run."""
-        self.__context.emit_event_sync(event)
+        self.context.emit_event_sync(event)
 
     def shutdown(self, force_sync: bool = False) -> Coroutine[None, None, None] | None:
         """End the run as if nothing was left to be done; from any thread.
@@ -111,11 +106,11 @@ class LaunchService:
                 raise LaunchError("this LaunchService is running already; make another one")
             self.__is_running = True
         self.__return_code = 0
-        self.__context._set_is_shutdown(False)
+        self.context._set_is_shutdown(False)
         self.__loop = asyncio.get_running_loop()
         launch_logging.launch_config.announce()
         restore_signals = self._take_signals()
-        self.__context._set_asyncio_loop(self.__loop)
+        self.context._set_asyncio_loop(self.__loop)
         try:
             await self._run(shutdown_when_idle)
         except asyncio.CancelledError:
@@ -124,14 +119,14 @@ class LaunchService:
             raise
         finally:
             restore_signals()
-            self.__context._set_asyncio_loop(None)
-            self.__context._reset_environment()
+            self.context._set_asyncio_loop(None)
+            self.context._reset_environment()
             self.__loop = None
             self.__is_running = False
         return self.__return_code
 
     async def _run(self, shutdown_when_idle: bool) -> None:
-        context = self.__context
+        context = self.context
         while True:
             event = context._next_event()
             if event is not None:
@@ -153,9 +148,9 @@ class LaunchService:
         """Offer an event to all handlers and visit what they answer."""
         _LOG.debug(f"processing event: '{event.name}'")
         if isinstance(event, Shutdown):
-            if self.__context.is_shutdown:
+            if self.context.is_shutdown:
                 return
-            self.__context._set_is_shutdown(True)
+            self.context._set_is_shutdown(True)
         try:
             try:
                 self.__visiting = True
@@ -163,16 +158,16 @@ class LaunchService:
             finally:
                 self.__visiting = False
         except KeyboardInterrupt:
-            self.__context._drop_scopes()
+            self.context._drop_scopes()
         except Exception as error:
-            self.__context._drop_scopes()
+            self.context._drop_scopes()
             self._fail(error)
-        number, self.__context._held_signal = self.__context._held_signal, None
+        number, self.context._held_signal = self.context._held_signal, None
         if number is not None:
             self._interrupt(number)
 
     def _visit_answers(self, event: Event) -> None:
-        context = self.__context
+        context = self.context
         if isinstance(event, IncludeLaunchDescription):
             visit(event.launch_description, context)
         for handler in context.handlers_of(event):
@@ -183,7 +178,7 @@ class LaunchService:
             context._pop_locals()
 
     def _fail(self, error: BaseException) -> None:
-        """Say what went wrong and end the run with exit code 1."""
+        """Log the error and end the run with exit code 1."""
         self.__return_code = 1
         _LOG.debug("".join(traceback.format_exception(error)).rstrip())
         _LOG.error(f"Caught exception in launch (see debug for traceback): {sentence(error)}")
@@ -212,7 +207,7 @@ class LaunchService:
 
     def _on_signal(self, number: int, frame: FrameType | None) -> None:
         if self.__visiting:
-            self.__context._hold_signal(number)
+            self.context._hold_signal(number)
         else:
             self._interrupt_soon(number)
 
@@ -222,9 +217,9 @@ class LaunchService:
             loop.call_soon_threadsafe(self._interrupt, number)
 
     def _interrupt(self, number: int) -> None:
-        """End the run for a signal: with exit code 0 for SIGINT, else 1."""
+        """End the run with exit code 0 for SIGINT, else 1."""
         if number == signal.SIGINT:
-            again = " again, ignoring..." if self.__context.is_shutdown else ""
+            again = " again, ignoring..." if self.context.is_shutdown else ""
             _LOG.warning(f"user interrupted with ctrl-c (SIGINT){again}")
             self.emit_event(Shutdown(reason="ctrl-c (SIGINT)", due_to_sigint=True))
             return
@@ -235,4 +230,4 @@ class LaunchService:
 
 
 async def _nothing() -> None:
-    """What shutdown() gives to be awaited."""
+    """Do nothing, for `await shutdown()`."""

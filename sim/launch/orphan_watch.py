@@ -1,7 +1,7 @@
-"""Ends what a launch has started when the launch itself is killed, and could not do it any more.
+"""The end of processes whose launch was killed.
 
-`ChildProcess` names each process group here from its start to its end. While there is any, a small shell outside of
-the launch's session reads the names from a pipe. The pipe ends with the launch, however that ends: groups that are
+`ChildProcess` registers each process group here from its start to its end. While there is any, a small shell outside
+of the launch's session reads them from a pipe. The pipe closes with the launch, however that ends: groups that are
 left then get SIGINT, later SIGTERM, later SIGKILL. After a proper end none is left, and the shell ends at once.
 """
 
@@ -12,8 +12,8 @@ import os
 import subprocess
 import threading
 
-PATIENCE = 50  # tenths of a second after each signal
-# Reads `+ GROUP` and `- GROUP`. Its only argument is the patience.
+PATIENCE = 50  # [0.1 s] after each signal
+# It reads lines `+ GROUP` and `- GROUP`; its only argument is PATIENCE.
 SCRIPT = """\
 trap '' HUP INT QUIT TERM
 groups=
@@ -96,7 +96,7 @@ _watch = _Watch()
 
 
 def _forget() -> None:
-    """A fork has no processes of its own yet, and must not keep the pipe of its parent open."""
+    """Close the parent's pipe in a fork, which has no processes of its own yet."""
     global _watch
     if _watch._pipe >= 0:
         os.close(_watch._pipe)
@@ -112,5 +112,5 @@ def watch(group: int) -> None:
 
 
 def unwatch(group: int) -> None:
-    """The process group has ended."""
+    """Forget a process group that has ended."""
     _watch.remove(group)

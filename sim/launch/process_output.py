@@ -1,6 +1,6 @@
-"""Where the lines that a process prints go: screen, launch.log, files of its own.
+"""The output of processes: to the screen, to launch.log and to files of their own.
 
-`ExecuteLocal` feeds it what it reads; whole lines come out. The choice is made with `output=` of an action:
+`output=` of an action chooses:
 
     screen   both streams on the screen
     log      both in launch.log, stderr on the screen as well (the default)
@@ -9,6 +9,8 @@
     full     all of it
 
 or with a dict: `{"stdout": "screen", "stderr": {"log", "own_log"}}`.
+
+Source: ros2/launch, launch/logging/__init__.py (get_output_loggers)
 """
 
 from __future__ import annotations
@@ -74,7 +76,7 @@ class ProcessOutput:
         self._files: dict[str, BinaryIO] = {}
 
     def feed(self, stream: str, data: bytes) -> None:
-        """Take what was read from a stream; write the lines that are complete."""
+        """Write the lines that `data`, read from a stream, completes."""
         if self._cache is not None:
             self._cache[stream] += data
         complete, newline, rest = (self._rest[stream] + data).rpartition(b"\n")
@@ -86,21 +88,19 @@ class ProcessOutput:
             self._write(stream, [rest])
 
     def flush(self) -> None:
-        """Write what came without a newline at its end."""
         for stream, rest in self._rest.items():
             if rest:
                 self._rest[stream] = b""
                 self._write(stream, [rest])
 
     def close(self) -> None:
-        """Close the files."""
         self.flush()
         for file in self._files.values():
             file.close()
         self._files.clear()
 
     def cached(self, stream: str) -> bytes:
-        """Return all that came on a stream. Raises LaunchError unless it was made with `cached`."""
+        """Return the output of a stream so far. Raises LaunchError unless made with `cached`."""
         if self._cache is None:
             raise LaunchError(f"the {stream} of {self._label} was not kept; give the action cached_output=True")
         return bytes(self._cache[stream])

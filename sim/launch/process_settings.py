@@ -1,4 +1,4 @@
-"""How a process is run, as ExecuteLocal was told: checked when it is told, performed when it is executed."""
+"""The settings of ExecuteLocal: checked when it is made, performed when it is executed."""
 
 from __future__ import annotations
 
@@ -11,16 +11,17 @@ from typing import Any
 from gz_course.sim.launch.errors import LaunchError
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.process_output import sinks
-from gz_course.sim.launch.substitution import Substitution, normalize_to_list_of_substitutions, perform_substitutions
+from gz_course.sim.launch.substitution import Substitution
 from gz_course.sim.launch.substitutions import LaunchConfiguration
-from gz_course.sim.launch.substitutions.paths import nearest_program
+from gz_course.sim.launch.substitutions.find_executable import nearest_program
+from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 _DEFAULT_TIMEOUT = 5  # [s]
 
 
 @dataclass(frozen=True)
 class ProcessSettings:
-    """What was performed when the action was executed; `timeouts` [s] are those after SIGINT and after SIGTERM."""
+    """The performed settings; `timeouts` [s] are those after SIGINT and after SIGTERM."""
 
     output: Any
     emulate_tty: bool

@@ -1,3 +1,10 @@
-"""SomeEntitiesType, in the module where launch of ROS 2 has it."""
+"""The type of one or several entities, as actions and handlers take them."""
 
-from gz_course.sim.launch.launch_description_entity import SomeEntitiesType as SomeEntitiesType
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Union
+
+from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity
+
+SomeEntitiesType = Union[LaunchDescriptionEntity, Iterable[LaunchDescriptionEntity]]  # noqa: UP007 - public

@@ -1,5 +1,11 @@
-"""SomeSubstitutionsType, in the module where launch of ROS 2 has it."""
+"""The type of text, a substitution or a list of both, as actions and substitutions take it."""
 
-from gz_course.sim.launch.substitution import SomeSubstitutionsType, SomeSubstitutionsType_types_tuple
+from __future__ import annotations
 
-__all__ = ["SomeSubstitutionsType", "SomeSubstitutionsType_types_tuple"]
+from collections.abc import Iterable
+from typing import Union
+
+from gz_course.sim.launch.substitution import Substitution
+
+SomeSubstitutionsType = Union[str, Substitution, Iterable[Union[str, Substitution]]]  # noqa: UP007 - of the public API
+SomeSubstitutionsType_types_tuple = (str, Substitution, Iterable)

@@ -1,4 +1,7 @@
-"""The rules for names of nodes and namespaces, as rclpy has them; without loading rclpy, which takes long."""
+"""The rules for names of nodes and namespaces, without loading rclpy, which takes long.
+
+Source: ros2/rmw, rmw/src/validate_node_name.c and rmw/src/validate_namespace.c
+"""
 
 from __future__ import annotations
 
@@ -12,7 +15,7 @@ _LONGEST_NAMESPACE = 245
 
 
 def check_node_name(name: str) -> None:
-    """Raise LaunchError when a node cannot be called so."""
+    """Raise LaunchError for a name that no node can have."""
     if not _TOKEN.fullmatch(name):
         raise LaunchError(
             f"the node name '{name}' is not valid: letters, digits and _ are allowed, and no digit at its beginning"

@@ -1,4 +1,4 @@
-"""Parameters with more to say about them: values of a certain type, single parameters, parameter files."""
+"""Parameters of nodes: values of a given type, single parameters, parameter files."""
 
 from __future__ import annotations
 
@@ -11,12 +11,9 @@ from typing import Any
 from gz_course.sim.launch.errors import LaunchError
 from gz_course.sim.launch.frontend import parse_substitution
 from gz_course.sim.launch.launch_context import LaunchContext
-from gz_course.sim.launch.substitution import (
-    SomeSubstitutionsType,
-    Substitution,
-    normalize_to_list_of_substitutions,
-    perform_substitutions,
-)
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.substitution import Substitution
+from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from gz_course.sim.launch_ros.parameter_values import Value, check_value, coerce, evaluate_value
 
 
@@ -29,30 +26,24 @@ class ParameterValue:
 
     def __init__(self, value: Any, *, value_type: Any = None) -> None:
         self.__value = value
-        self.__value_type = value_type
+        self.value_type = value_type
         if not (isinstance(value, list | tuple) and any(isinstance(item, Substitution) for item in value)):
             check_value("ParameterValue", value)
 
     @property
     def value(self) -> Any:
-        """The value as it was given."""
         return self.__value
-
-    @property
-    def value_type(self) -> Any:
-        """Its type; None when that does not matter."""
-        return self.__value_type
 
     def evaluate(self, context: LaunchContext, name: str = "") -> Value:
         """Return the value a node is to get. Raises ParameterTypeError (a TypeError)."""
-        if self.__value_type is None:
+        if self.value_type is None:
             return evaluate_value(context, name, self.__value)
         value = self.__value
         if isinstance(value, Substitution) or (
             isinstance(value, list | tuple) and any(isinstance(item, Substitution) for item in value)
         ):
             value = perform_substitutions(context, normalize_to_list_of_substitutions(value))
-        return coerce(name, value, self.__value_type)
+        return coerce(name, value, self.value_type)
 
 
 class Parameter:
@@ -69,16 +60,13 @@ class Parameter:
 
     @property
     def value(self) -> Any:
-        """The value as it was given."""
         return self.__value.value
 
     @property
     def value_type(self) -> Any:
-        """The type of the value."""
         return self.__value.value_type
 
     def evaluate(self, context: LaunchContext) -> tuple[str, Value]:
-        """Return name and value."""
         name = perform_substitutions(context, self.__name)
         return name, self.__value.evaluate(context, name)
 
@@ -92,21 +80,11 @@ class ParameterFile:
         *,
         allow_substs: bool | SomeSubstitutionsType = False,
     ) -> None:
-        self.__param_file = normalize_to_list_of_substitutions(param_file)
-        self.__allow_substs = normalize_to_list_of_substitutions(
+        self.param_file = normalize_to_list_of_substitutions(param_file)
+        self.allow_substs = normalize_to_list_of_substitutions(
             str(allow_substs) if isinstance(allow_substs, bool) else allow_substs
         )
         self.__made: Path | None = None
-
-    @property
-    def param_file(self) -> list[Substitution]:
-        """The path."""
-        return self.__param_file
-
-    @property
-    def allow_substs(self) -> list[Substitution]:
-        """Whether substitutions in the file are performed."""
-        return self.__allow_substs
 
     def evaluate(self, context: LaunchContext) -> Path:
         """Return the path of the file to be used, a new one when it holds substitutions."""
@@ -114,12 +92,12 @@ class ParameterFile:
 
         from gz_course.sim.launch.conditions import evaluate_condition_expression
 
-        path = Path(perform_substitutions(context, self.__param_file))
-        if not evaluate_condition_expression(context, self.__allow_substs) or not path.is_file():
+        path = Path(perform_substitutions(context, self.param_file))
+        if not evaluate_condition_expression(context, self.allow_substs) or not path.is_file():
             return path
         source = path.read_text(encoding="utf-8")
         try:
-            # Comments may hold what is no substitution; YAML knows them.
+            # Comments may hold what is no substitution; loading the YAML drops them.
             plain = yaml.safe_dump(yaml.safe_load(source), width=float("inf"))
             text = perform_substitutions(context, parse_substitution(plain))
             yaml.safe_load(text)
@@ -130,7 +108,6 @@ class ParameterFile:
         return self.__made
 
     def cleanup(self) -> None:
-        """Delete the file that was made, if one was."""
         if self.__made is not None:
             with contextlib.suppress(FileNotFoundError):
                 self.__made.unlink()

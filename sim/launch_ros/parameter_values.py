@@ -1,4 +1,4 @@
-"""The types of parameter values: what becomes of the values that a launch file gives.
+"""The types of parameter values that a launch file gives.
 
     'text'                           stays text, also '5'
     True, 3, 0.5                     stay what they are
@@ -8,7 +8,7 @@
     [['a'], [LaunchConfiguration('x')]]   a list; each of its parts put together and read as YAML
     ParameterValue(x, value_type=T)  of type T
 
-Used by Node, SetParameter and the classes in `launch_ros.parameter_descriptions`.
+Source: ros2/launch_ros, launch_ros/utilities/normalize_parameters.py and evaluate_parameters.py
 """
 
 from __future__ import annotations
@@ -19,7 +19,8 @@ from typing import Any, get_args, get_origin
 
 from gz_course.sim.launch.errors import LaunchError
 from gz_course.sim.launch.launch_context import LaunchContext
-from gz_course.sim.launch.substitution import Substitution, normalize_to_list_of_substitutions, perform_substitutions
+from gz_course.sim.launch.substitution import Substitution
+from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 SCALARS = (bool, int, float, str)
 Value = bool | int | float | str | list[bool] | list[int] | list[float] | list[str]
@@ -65,7 +66,7 @@ def evaluate_value(context: LaunchContext, name: str, value: Any) -> Value:
 
 
 def _is_one_text(value: Any) -> bool:
-    """Whether a list is text and substitutions to be put together."""
+    """Return whether a value is a list of text and substitutions that form one text."""
     return (
         isinstance(value, Sequence)
         and any(isinstance(item, Substitution) for item in value)
@@ -80,7 +81,7 @@ def _evaluate_item(context: LaunchContext, name: str, item: Any) -> Any:
 
 
 def from_yaml(name: str, text: str) -> Value:
-    """Return what a text means in YAML. Raises ParameterTypeError when that is nothing a parameter can be."""
+    """Return what a text means in YAML. Raises ParameterTypeError for what no parameter can be."""
     import yaml  # not needed by most launch files, and slow to load
 
     if text == "":

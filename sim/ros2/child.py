@@ -1,6 +1,6 @@
-"""Runs one program in the foreground and passes the signals it is sent on to it.
+"""The program that `ros2 run` starts in the foreground, and the signals passed on to it.
 
-`ros2 run` waits here. Without a terminal the child gets a process group of its own, and a signal sent to this
+Without a terminal the child gets a process group of its own, and a signal sent to this
 process reaches that whole group. On a terminal the child stays in this process's group, so that Ctrl-C, Ctrl-Z
 and reading keys work as if it had been started directly; only what the terminal has not delivered is passed on.
 """
@@ -22,7 +22,7 @@ class ChildError(Exception):
 
 
 def run_child(command: Sequence[str]) -> int:
-    """Run a command to its end; its exit code, or -n when signal n ended it.
+    """Run a command to its end; return its exit code, or -n when signal n ended it.
 
     Raises ChildError if it does not start.
     """
@@ -43,14 +43,14 @@ def run_child(command: Sequence[str]) -> int:
             elif not on_terminal:
                 os.killpg(child, received.si_signo)
             elif received.si_code <= 0:
-                # Sent by a process. One of the terminal has a positive code, and the child has had it already.
+                # Sent by a process. A signal of the terminal has a positive code, and has reached the child already.
                 os.kill(child, received.si_signo)
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _on_terminal() -> bool:
-    """Whether this process is what the user's keyboard talks to."""
+    """Return whether this process is in the foreground of a terminal."""
     try:
         return os.tcgetpgrp(sys.__stdin__.fileno()) == os.getpgrp() if sys.__stdin__ else False
     except (OSError, ValueError):
@@ -58,7 +58,7 @@ def _on_terminal() -> bool:
 
 
 def _start(command: Sequence[str], own_group: bool) -> int:
-    """The process id of the started command, whose signals are as a shell would set them."""
+    """Start the command with the signals a shell would set; return its process id."""
     program = shutil.which(command[0])
     if program is None:
         raise ChildError(f"there is no program {command[0]!r} to start it with")

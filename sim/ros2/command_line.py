@@ -3,6 +3,8 @@
 `ros2 topic echo /scan` calls `main` of `command/topic/echo.py`, `ros2 run …` that of `command/run.py`. Such a
 file has `add_arguments(parser)` and `main(arguments)`; the first line of its docstring is its help. Nothing is
 listed by hand and only the file in question is imported.
+
+Source of commands, options and printed words: ros2/ros2cli
 """
 
 from __future__ import annotations
@@ -10,7 +12,6 @@ from __future__ import annotations
 import argparse
 import ast
 import contextlib
-import difflib
 import importlib
 import os
 import sys
@@ -20,7 +21,7 @@ from typing import Any
 
 from gz_course.sim.prefix import local_setup
 from gz_course.sim.ros2 import completion, interruption
-from gz_course.sim.ros2.errors import CommandError
+from gz_course.sim.ros2.errors import CommandError, UsageError, did_you_mean
 from gz_course.sim.ros2.hand_over import hand_over
 
 COMMANDS = Path(__file__).parent / "command"
@@ -29,7 +30,7 @@ _GRAPH = "ros2.graph"  # loaded by verbs that have a node
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run `ros2` with these arguments (default: those of the process); the exit code.
+    """Run `ros2` with these arguments (default: those of the process); return the exit code.
 
     0 on success, 1 when the command could not do its work, 2 for wrong usage or after SIGINT or SIGTERM.
     """
@@ -39,9 +40,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     code = hand_over(arguments)
     if code is not None:
         return code
+    if "_ARGCOMPLETE" in os.environ:
+        completion.complete()
     code = _explained(arguments)
     if is_program and _GRAPH in sys.modules:
-        # The node has said goodbye; what is left of DDS can block at exit, and nobody needs it any more.
+        # The node is destroyed; the rest of DDS can block at exit.
         with contextlib.suppress(OSError, ValueError):
             sys.stdout.flush()
             sys.stderr.flush()
@@ -50,9 +53,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _explained(arguments: list[str]) -> int:
-    """Run `ros2`; every error is one sentence and an exit code."""
-    # A shell's '&' starts programs with SIGINT ignored; an ended node must say so to the others: both signals
-    # arrive as KeyboardInterrupt.
+    """Run `ros2`; report every error as one sentence, and return the exit code."""
+    # A shell's '&' starts programs with SIGINT ignored, and a node must announce its end: both signals arrive as
+    # KeyboardInterrupt.
     interruption.listen()
     try:
         sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
@@ -63,7 +66,7 @@ def _explained(arguments: list[str]) -> int:
     except KeyboardInterrupt:
         return _INTERRUPTED
     except BrokenPipeError:
-        # `ros2 topic echo /scan | head`: the reader has seen enough.
+        # `ros2 topic echo /scan | head`: the reader has closed the pipe.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     except Exception as error:
@@ -75,64 +78,66 @@ def _explained(arguments: list[str]) -> int:
 
 
 def found(folder: Path) -> dict[str, Path]:
-    """Name -> file or folder of the commands (or of a command's verbs), sorted by name."""
+    """Return the files or folders of the commands, or of the verbs of a command, sorted by name."""
     paths = {path.stem: path for path in folder.iterdir() if path.suffix == ".py" or path.is_dir()}
     return {name: paths[name] for name in sorted(paths) if not name.startswith("_")}
 
 
-def _run(folder: Path, program: str, arguments: list[str]) -> int:
+def _run(folder: Path, program: str, words: list[str]) -> int:
     """Run one of the commands in `folder`; `program` is what the user has typed so far."""
     known = found(folder)
-    parser = _menu(folder, program, known)
-    first = arguments[0] if arguments else "--help"
-    if folder == COMMANDS and first == completion.PRINT:
-        return completion.print_script(arguments[1:])
-    if folder == COMMANDS and first == completion.COMPLETE:
-        return completion.print_candidates(arguments[1:])
+    menu = _menu(folder, program, known)
+    first = words[0] if words else "--help"
     if first in ("-h", "--help"):
-        parser.print_help()
+        menu.print_help()
         return 0
     if first.startswith("-"):
-        parser.error(f"unrecognized arguments: {first}")
+        menu.error(_unrecognized(menu, [first]))
     if first not in known:
-        nearest = difflib.get_close_matches(first, known, n=1)
-        hint = f"; did you mean '{nearest[0]}'?" if nearest else ""
-        parser.error(f"invalid choice: {first!r} (choose from {', '.join(map(repr, known))}){hint}")
+        menu.error(f"invalid choice: {first!r} (choose from {', '.join(map(repr, known))}){did_you_mean(first, known)}")
     if known[first].is_dir():
-        return _run(known[first], f"{program} {first}", arguments[1:])
-    module, verb = load(known[first], f"{program} {first}")
-    return module.main(verb.parse_args(arguments[1:])) or 0
-
-
-def load(path: Path, program: str) -> tuple[Any, argparse.ArgumentParser]:
-    """The module of a command or verb, and the reader of its options; `program` is what the user has typed for it."""
-    module = importlib.import_module(_module_name(path))
-    parser = argparse.ArgumentParser(prog=program, description=_summary(path))
+        return _run(known[first], f"{program} {first}", words[1:])
+    module = load(known[first])
+    parser = argparse.ArgumentParser(prog=f"{program} {first}", description=_summary(known[first]))
     module.add_arguments(parser)
-    return module, parser
+    arguments, unknown = parser.parse_known_args(words[1:])
+    if unknown:
+        parser.error(_unrecognized(parser, unknown))
+    try:
+        return module.main(arguments) or 0
+    except UsageError as error:
+        parser.error(str(error))
+
+
+def _unrecognized(parser: argparse.ArgumentParser, words: list[str]) -> str:
+    options = [option for action in parser._actions for option in action.option_strings]
+    hint = did_you_mean(words[0].partition("=")[0], options) if words[0].startswith("-") else ""
+    return f"unrecognized arguments: {' '.join(words)}{hint}"
+
+
+def load(path: Path) -> Any:
+    """Return the module of a command or verb, with its `main` and `add_arguments`."""
+    return importlib.import_module(
+        ".".join([__package__ or "", *path.relative_to(COMMANDS.parent).with_suffix("").parts])
+    )
 
 
 def _menu(folder: Path, program: str, known: dict[str, Path]) -> argparse.ArgumentParser:
     width = max(len(name) for name in known)
     kind = "Commands" if folder == COMMANDS else "Verbs"
     word = kind.lower().rstrip("s")
-    more = ["", *completion.HELP] if folder == COMMANDS else []
     lines = [f"  {name:<{width}}  {_summary(path)}".rstrip() for name, path in known.items()]
     return argparse.ArgumentParser(
         prog=program,
         usage=f"{program} [-h] <{word}> ...",
         description=_summary(folder),
-        epilog="\n".join([f"{kind}:", *lines, "", f"  Call `{program} <{word}> -h` for more detailed usage.", *more]),
+        epilog="\n".join([f"{kind}:", *lines, "", f"  Call `{program} <{word}> -h` for more detailed usage."]),
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
 
 
-def _module_name(path: Path) -> str:
-    return ".".join([__package__ or "", *path.relative_to(COMMANDS.parent).with_suffix("").parts])
-
-
 def _summary(path: Path) -> str:
-    """The first line of the docstring of a file (of `__init__.py` for a folder), without importing it."""
+    """Return the first line of the docstring of a file (of `__init__.py` for a folder), without importing it."""
     source = path / "__init__.py" if path.is_dir() else path
     text = ast.get_docstring(ast.parse(source.read_text(encoding="utf-8")))
     return (text or "").partition("\n")[0]

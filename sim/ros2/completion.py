@@ -1,14 +1,16 @@
-"""Completes what is typed at a shell: `ros2 topic echo /sc<Tab>`.
+"""Completion at a shell's Tab with argcomplete, as ROS 2's own `ros2` does it: `ros2 topic echo /sc<Tab>`.
 
-`ros2 --print-completion bash` (or zsh) prints a script for the shell. At each Tab it runs `ros2 --complete` with the
-words before the cursor; that prints one candidate a line: commands, verbs and options from the same files
-`command_line` runs, and the names of live topics, nodes, services and parameters, of packages and of interfaces.
+`eval "$(register-python-argcomplete ros2)"` sets it up in bash and zsh. At each Tab the shell runs `ros2` with the
+variable `_ARGCOMPLETE`. Only the verb in question is imported; its arguments are completed by their names with live
+topics, nodes, services and parameters, packages, launch files and interfaces.
+
+Source: https://kislyuk.github.io/argcomplete
 """
 
 from __future__ import annotations
 
 import argparse
-import shlex
+import os
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from types import MappingProxyType
@@ -16,108 +18,57 @@ from typing import Any
 
 from gz_course.sim.ros2.errors import CommandError
 
-PRINT, COMPLETE = "--print-completion", "--complete"
-HELP = (
-    "Completion of commands, names and types at a Tab:",
-    f'  bash: eval "$(ros2 {PRINT} bash)", in ~/.bashrc to keep it; zsh: the same with zsh, behind compinit',
-)
-
-_BASH = f"""\
-_ros2() {{
-    local IFS=$'\\n'
-    COMPREPLY=( $(ros2 {COMPLETE} "${{COMP_WORDS[@]:1:COMP_CWORD}}" 2>/dev/null) )
-    [[ ${{COMPREPLY[0]-}} == *:= ]] && compopt -o nospace
-}}
-complete -o default -F _ros2 ros2
-"""
-_ZSH = f"""\
-_ros2() {{
-    local -a found
-    found=( "${{(@f)$(ros2 {COMPLETE} "${{(@)words[2,CURRENT]}}" 2>/dev/null)}}" )
-    compadd -Q -- ${{found:#}}
-}}
-compdef _ros2 ros2
-"""
-_SCRIPTS: Mapping[str, str] = MappingProxyType({"bash": _BASH, "zsh": _ZSH})
+Given = Mapping[str, Any]
+"""The arguments before the cursor by name."""
 
 
-def print_script(arguments: list[str]) -> int:
-    """Print the script for the shell that is named; CommandError for one there is none for."""
-    if len(arguments) != 1 or arguments[0] not in _SCRIPTS:
-        raise CommandError(f"{PRINT} takes the name of the shell: {' or '.join(_SCRIPTS)}")
-    print(_SCRIPTS[arguments[0]], end="")
-    return 0
+def complete(**options: Any) -> None:
+    """Write what the word at the cursor can become, and end the process; `options` are those of argcomplete."""
+    import argcomplete
+
+    from gz_course.sim.ros2.command_line import COMMANDS
+
+    words = argcomplete.split_line(os.environ["COMP_LINE"], int(os.environ["COMP_POINT"]))[3]
+    parser = argparse.ArgumentParser(prog="ros2")
+    _add_verbs(parser, COMMANDS, words[int(os.environ["_ARGCOMPLETE"]) :])
+    nothing = argcomplete.SuppressCompleter()
+    argcomplete.autocomplete(parser, always_complete_options=False, default_completer=nothing, **options)
 
 
-def print_candidates(words: list[str]) -> int:
-    """Print what the last of these words could become, one candidate a line; nothing where nothing is known."""
-    try:
-        for candidate in candidates(words or [""]):
-            print(candidate)
-    except (CommandError, SystemExit):
-        pass
-    return 0
+def _add_verbs(parser: argparse.ArgumentParser, folder: Path, words: list[str]) -> None:
+    """Add the commands or verbs of a folder, with arguments only for the one that `words` begin with."""
+    from gz_course.sim.ros2.command_line import found, load
+
+    known = found(folder)
+    if words and words[0] not in known:
+        return
+    verbs = parser.add_subparsers()
+    for name, path in known.items():
+        verb = verbs.add_parser(name)
+        if words[:1] != [name]:
+            continue
+        if path.is_dir():
+            _add_verbs(verb, path, words[1:])
+            continue
+        load(path).add_arguments(verb)
+        for action in verb._actions:
+            if action.dest in _COMPLETERS:
+                action.completer = _completer(_COMPLETERS[action.dest])  # type: ignore[attr-defined]
 
 
-def candidates(words: list[str]) -> list[str]:
-    """What the last word can become, sorted; the words before it are the command, its verb and its arguments."""
-    from gz_course.sim.ros2.command_line import COMMANDS, found, load
+def _completer(names: Callable[[Given], Iterable[str]]) -> Callable[..., list[str]]:
+    """Return a completer for argcomplete; it offers nothing when the arguments before are wrong."""
 
-    *before, start = words
-    folder = COMMANDS
-    while True:
-        known = found(folder)
-        if not before:
-            extra = ["--help"] + ([PRINT] if folder == COMMANDS else [])
-            return _beginning([*known, *(extra if start.startswith("-") else [])], start)
-        word, *before = before
-        if word == PRINT:
-            return _beginning(_SCRIPTS, start)
-        if word not in known:
+    def completer(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+        try:
+            return sorted(names(vars(parsed_args)))
+        except CommandError:
             return []
-        if not known[word].is_dir():
-            _, parser = load(known[word], f"ros2 {word}")
-            return _beginning(_for_verb(parser, before, start), start)
-        folder = known[word]
+
+    return completer
 
 
-def _beginning(names: Iterable[str], start: str) -> list[str]:
-    return sorted({name for name in names if name.startswith(start)})
-
-
-def _for_verb(parser: argparse.ArgumentParser, before: list[str], start: str) -> Iterable[str]:
-    """Candidates of one verb: its options, the choices of an option, or the names its next argument stands for."""
-    options = parser._option_string_actions
-    given: dict[str, str] = {}
-    positional = [action for action in parser._actions if not action.option_strings]
-    awaited: argparse.Action | None = None
-    for word in before:
-        if awaited is not None:
-            awaited = None
-        elif word in options:
-            awaited = options[word] if options[word].nargs != 0 else None
-        elif positional:
-            given[positional[0].dest] = word
-            if positional[0].nargs not in ("+", "*", argparse.REMAINDER):
-                positional.pop(0)
-    if awaited is not None:
-        return map(str, awaited.choices or ())
-    if start.startswith("-"):
-        return options
-    if not positional:
-        return ()
-    if positional[0].choices:
-        return map(str, positional[0].choices)
-    complete = _COMPLETERS.get(positional[0].dest)
-    return complete(given) if complete else ()
-
-
-Given = Mapping[str, str]
-"""The arguments before: name -> word."""
-
-
-def _look(question: Callable[[Any], Iterable[str]]) -> list[str]:
-    """Ask the live graph."""
+def _live(question: Callable[[Any], Iterable[str]]) -> list[str]:
     from gz_course.sim.ros2.graph import Graph
 
     with Graph(argparse.Namespace(spin_time=None, use_sim_time=False)) as graph:
@@ -125,37 +76,24 @@ def _look(question: Callable[[Any], Iterable[str]]) -> list[str]:
         return list(question(graph))
 
 
-def _topics(given: Given) -> Iterable[str]:
-    return _look(lambda graph: (name for name, _ in graph.topics()))
+def _types(name: str, names_and_types: str, kind: str) -> Callable[[Given], Iterable[str]]:
+    """Return a function for the types of the live topic or service `name`, or all interfaces of a kind."""
 
+    def types(given: Given) -> Iterable[str]:
+        from gz_course.sim.ros2.interface import interface_names
 
-def _message_types(given: Given) -> Iterable[str]:
-    from gz_course.sim.ros2.interface import interface_names
+        def question(graph: Any) -> Iterable[str]:
+            return dict(getattr(graph, names_and_types)(hidden=True)).get(given[name], [])
 
-    topic = given.get("topic_name", "")
-    return (topic and _look(lambda graph: dict(graph.topics(hidden=True)).get(topic, []))) or interface_names("msg")
+        return (given.get(name) and _live(question)) or interface_names(kind)
 
-
-def _services(given: Given) -> Iterable[str]:
-    return _look(lambda graph: (name for name, _ in graph.services()))
-
-
-def _service_types(given: Given) -> Iterable[str]:
-    from gz_course.sim.ros2.interface import interface_names
-
-    service = given.get("service_name", "")
-    live = service and _look(lambda graph: dict(graph.services(hidden=True)).get(service, []))
-    return live or interface_names("srv")
-
-
-def _nodes(given: Given) -> Iterable[str]:
-    return _look(lambda graph: graph.nodes())
+    return types
 
 
 def _parameters(given: Given) -> Iterable[str]:
     from gz_course.sim.ros2.parameter import NodeParameters
 
-    return _look(lambda graph: NodeParameters(graph, given["node_name"]).names())
+    return _live(lambda graph: NodeParameters(graph, given["node_name"]).names())
 
 
 def _packages(given: Given) -> Iterable[str]:
@@ -171,7 +109,7 @@ def _executables(given: Given) -> Iterable[str]:
 
 
 def _launch_files(given: Given) -> Iterable[str]:
-    """The launch files of a package; after a path, the arguments of that launch file."""
+    """Return the launch files of a package; after a path, the arguments of that launch file."""
     from gz_course.sim.ros2.command.launch import launch_files_of
     from gz_course.sim.ros2.packages import package_names
 
@@ -184,8 +122,7 @@ def _launch_files(given: Given) -> Iterable[str]:
 def _launch_arguments(given: Given) -> Iterable[str]:
     from gz_course.sim.ros2.command.launch import launch_file, load
 
-    named: dict[str, Any] = {"launch_file_name": None, **given, "launch_arguments": []}
-    path, _ = launch_file(argparse.Namespace(**named))
+    path, _ = launch_file(argparse.Namespace(**{"launch_file_name": None, **given, "launch_arguments": []}))
     return (f"{argument.name}:=" for argument in load(path).get_launch_arguments())
 
 
@@ -196,22 +133,22 @@ def _interfaces(given: Given) -> Iterable[str]:
 
 
 def _values(given: Given) -> Iterable[str]:
-    """A message with default values in one line, quoted for the shell, to be edited."""
+    """Return a message with default values in one line, to be edited."""
     from gz_course.sim.ros2.interface import message_class, service_class
     from gz_course.sim.ros2.message_text import to_line
 
     service = given.get("service_type")
     message = service_class(service).Request() if service else message_class(given["message_type"])()
-    return [shlex.quote(to_line(message))]
+    return [to_line(message)]
 
 
 _COMPLETERS: Mapping[str, Callable[[Given], Iterable[str]]] = MappingProxyType(
     {
-        "topic_name": _topics,
-        "message_type": _message_types,
-        "service_name": _services,
-        "service_type": _service_types,
-        "node_name": _nodes,
+        "topic_name": lambda given: _live(lambda graph: (name for name, _ in graph.topics())),
+        "message_type": _types("topic_name", "topics", "msg"),
+        "service_name": lambda given: _live(lambda graph: (name for name, _ in graph.services())),
+        "service_type": _types("service_name", "services", "srv"),
+        "node_name": lambda given: _live(lambda graph: graph.nodes()),
         "parameter_name": _parameters,
         "parameter_names": _parameters,
         "package_name": _packages,

@@ -1,13 +1,13 @@
-"""Meets every DDS participant of this machine quickly, and tells when all of them are known.
+"""The quick discovery of every DDS participant of this machine.
 
-`graph.Graph` asks here whether its picture can be complete. Two facts are used. Each participant of a domain holds
+`graph.Graph` asks here whether all participants are known. Two facts are used. Each participant of a domain holds
 a UDP port whose number follows from the domain, so the system's table of ports says how many there are. And a
 participant introduces itself to every newcomer: Fast DDS does so at once, but while the newcomer is not listening
 yet, and then not before its next announcement, 3 s later. So a scout is sent to each of those ports: the
-announcement of a participant that never exists and whose address is our own. All introduce themselves again, to us,
+announcement of a participant that does not exist, with our own address. All introduce themselves again, to us,
 and forget the scout at once, because its farewell follows in the next packet.
 
-Packets and port numbers: OMG DDSI-RTPS 2.2, sections 8.5.3, 9.4.5, 9.6.1 and 9.6.2.
+Source: OMG DDSI-RTPS 2.2, https://www.omg.org/spec/DDSI-RTPS/2.2, sections 8.5.3, 9.4.5, 9.6.1 and 9.6.2
 """
 
 from __future__ import annotations
@@ -21,18 +21,18 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-SCOUT_EVERY = 0.25  # s between scouts while somebody is missing
+SCOUT_EVERY = 0.25  # [s] between scouts while a participant is missing
 _PORT_TABLE = Path("/proc/net/udp")
 _OWN_FILES = Path("/proc/self/fd")
 _FIRST_PORT, _PORTS_PER_DOMAIN, _PORTS_PER_PARTICIPANT, _PARTICIPANTS = 7410, 250, 2, 120
-_EVERY_ROS_PARTICIPANT = "ros_discovery_info"  # the topic on which each tells its nodes
+_EVERY_ROS_PARTICIPANT = "ros_discovery_info"  # the topic on which each publishes its nodes
 _PREFIX, _HOST = 12, 4  # bytes of an endpoint's identifier that name its participant, and its vendor and host
 
 
 class Participants:
     """The participants of one domain on this machine, as seen by one node.
 
-    To be made before the node: its port is the one this process opens meanwhile. Then `attach`.
+    It is made before the node, whose port is the one this process opens meanwhile; then `attach` sets the node.
     """
 
     def __init__(self, domain: int) -> None:
@@ -44,11 +44,11 @@ class Participants:
         self._own_prefix = b""
 
     def attach(self, node: Any) -> None:
-        """The node has been made."""
+        """Set the node, made after this object."""
         self._node = node
 
     def all_known(self) -> bool | None:
-        """Whether the node has met everybody; sends a scout now and then if not. None: there is no way to tell."""
+        """Return whether the node knows all participants; send a scout now and then if not. None: unknown."""
         ports = self._ports()
         own = self._own_port(ports)
         if own is None:
@@ -61,7 +61,7 @@ class Participants:
         return False
 
     def _ports(self) -> dict[int, str]:
-        """Port -> socket (its inode) of the participants of the domain; empty where the system does not tell."""
+        """Return the sockets (inodes) of the domain's participants by port; empty where the system does not tell."""
         try:
             lines = _PORT_TABLE.read_text(encoding="ascii").splitlines()[1:]
         except OSError:
@@ -75,7 +75,7 @@ class Participants:
         return next((port for port, inode in ports.items() if inode in own), None)
 
     def _known(self) -> set[bytes]:
-        """The participants of this host, this one among them, that the node has heard of."""
+        """Return the participants of this host, this one among them, that the node knows."""
         ends = self._node.get_publishers_info_by_topic(_EVERY_ROS_PARTICIPANT, no_mangle=True)
         prefixes = {bytes(end.endpoint_gid)[:_PREFIX] for end in ends}
         if not self._own_prefix:
@@ -94,7 +94,7 @@ def _own_sockets() -> Iterator[str]:
 
 
 def _send_scout(reply_port: int, ports: list[int], host: bytes) -> None:
-    """Announce a participant that listens on `reply_port` of this machine to these ports, and take it back."""
+    """Announce a participant that listens on `reply_port` of this machine to these ports, and its farewell."""
     prefix = host.ljust(_HOST, b"\0") + secrets.token_bytes(_PREFIX - _HOST)
     with contextlib.suppress(OSError), socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
         for packet in (announcement(prefix, reply_port), farewell(prefix)):
@@ -103,7 +103,7 @@ def _send_scout(reply_port: int, ports: list[int], host: bytes) -> None:
 
 
 def announcement(prefix: bytes, port: int) -> bytes:
-    """The RTPS packet with which a participant (12 bytes `prefix`) on 127.0.0.1:`port` introduces itself."""
+    """Return the RTPS packet that announces a participant (12 bytes `prefix`) on 127.0.0.1:`port`."""
     locator = struct.pack("<iI12x4B", 1, port, 127, 0, 0, 1)
     parameters = [
         (0x15, bytes([2, 2, 0, 0])),  # protocol version
@@ -111,14 +111,14 @@ def announcement(prefix: bytes, port: int) -> bytes:
         (0x50, _guid(prefix)),
         (0x32, locator),  # where to answer: metatraffic
         (0x31, locator),
-        (0x02, struct.pack("<iI", 1, 0)),  # s; lease duration
-        (0x58, struct.pack("<I", 0b11)),  # it has what announces and detects participants, and no endpoint
+        (0x02, struct.pack("<iI", 1, 0)),  # lease duration: 1 s
+        (0x58, struct.pack("<I", 0b11)),  # endpoints: announcer and detector of participants
     ]
     return _packet(prefix, number=1, flags=0x05, inline=b"", payload=_list(parameters))
 
 
 def farewell(prefix: bytes) -> bytes:
-    """The RTPS packet with which that participant says that it has gone."""
+    """Return the RTPS packet that announces the end of that participant."""
     disposed_and_unregistered = bytes([0, 0, 0, 0b11])
     inline = _list([(0x70, _guid(prefix)), (0x71, disposed_and_unregistered)])
     return _packet(prefix, number=2, flags=0x0B, inline=inline, payload=_list([(0x50, _guid(prefix))]))
@@ -134,7 +134,7 @@ def _list(parameters: list[tuple[int, bytes]]) -> bytes:
 
 
 def _packet(prefix: bytes, number: int, flags: int, inline: bytes, payload: bytes) -> bytes:
-    """One DATA submessage, little endian, from the participant's announcer to every participant's detector."""
+    """Return a packet of one DATA submessage, little endian, from the participant's announcer to every detector."""
     header = b"RTPS" + bytes([2, 2, 0, 0]) + prefix
     ends = bytes([0, 1, 0, 0xC7, 0, 1, 0, 0xC2])
     data = struct.pack("<HH", 0, 16) + ends + struct.pack("<iI", 0, number) + inline + bytes([0, 3, 0, 0]) + payload

@@ -1,4 +1,4 @@
-"""What a command says when it cannot do its work."""
+"""The errors of commands."""
 
 from __future__ import annotations
 
@@ -10,7 +10,11 @@ class CommandError(Exception):
     """The sentence for the user; the command ends with exit code 1."""
 
 
+class UsageError(CommandError):
+    """A command line that cannot be understood; the command prints its usage and ends with exit code 2."""
+
+
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """`; did you mean 'x'?` for the known name nearest to `name`; empty when none is near."""
+    """Return `; did you mean 'x'?` for the known name nearest to `name`; empty when none is near."""
     nearest = difflib.get_close_matches(name, list(known), n=1, cutoff=0.6)
     return f"; did you mean '{nearest[0]}'?" if nearest else ""

@@ -1,9 +1,9 @@
-"""A node that looks at the live ROS graph: what every verb that needs the graph stands on.
+"""The live ROS graph, as a node of the command sees it.
 
 There is no daemon that would know the graph already. Verbs that list wait until every DDS participant of this machine
-has been met (`discovery`), has told all its nodes and endpoints, and nothing changes any more (`settle`, or
-`--spin-time` for those who know better); verbs with a target go on as soon as it is there (`wait_for`), or say that it
-is not once everybody has been met. Everything has a deadline.
+is known (`discovery`) with all its nodes and endpoints, and nothing changes any more (`settle`, or `--spin-time`);
+verbs with a target go on as soon as it is there (`wait_for`), or report that it is not once all participants are known.
+Everything has a deadline.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ from gz_course.sim.ros2.errors import CommandError
 from gz_course.sim.ros2.interruption import check
 from gz_course.sim.ros2.option_values import seconds
 
-FIRST_CONTACT = 3.3  # s within which every node there is has announced itself to a new one
-OTHER_MACHINES = 0.5  # s for answers that come over a network
-QUIET = 0.2  # s without a change after which a graph counts as complete
-SETTLE_DEADLINE = 6.0  # s for a graph that never stops changing
-TARGET_DEADLINE = 5.0  # s for what a user has named
-GIVE_UP = 2.0  # s after which it does not exist, if everybody has been met; its node may just be starting
-_POLL = 0.02  # s; the graph announces changes only to a spinning executor, and not all of them
+FIRST_CONTACT = 3.3  # [s] within which every node announces itself to a new one
+OTHER_MACHINES = 0.5  # [s] for answers over a network
+QUIET = 0.2  # [s] without a change after which a graph counts as complete
+SETTLE_DEADLINE = 6.0  # [s] for a graph that never stops changing
+TARGET_DEADLINE = 5.0  # [s] for what a user has named
+GIVE_UP = 2.0  # [s] after which it does not exist, if all participants are known; its node may just be starting
+_POLL = 0.02  # [s]; the graph announces changes only to a spinning executor, and not all of them
 UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"  # an endpoint whose node has not been announced yet
 
 Found = TypeVar("Found")
@@ -41,7 +41,7 @@ NamesAndTypes = list[tuple[str, list[str]]]
 
 
 def add_graph_options(parser: argparse.ArgumentParser) -> None:
-    """The options of every verb that looks at the graph."""
+    """Add the options of every verb that looks at the graph."""
     parser.add_argument(
         "--spin-time", type=seconds, metavar="SECONDS", help="Time to wait for discovery (default: as needed)"
     )
@@ -50,7 +50,7 @@ def add_graph_options(parser: argparse.ArgumentParser) -> None:
 
 
 def is_hidden(name: str) -> bool:
-    """Names with a part that begins with _ are shown on request only."""
+    """Return whether a part of the name begins with _."""
     return any(part.startswith("_") for part in name.split("/"))
 
 
@@ -100,12 +100,12 @@ class Graph:
         self._context.try_shutdown()
 
     def spin_once(self, timeout: float = 0.1) -> None:
-        """Run what has arrived, waiting up to `timeout` seconds for it."""
+        """Run what has arrived, waiting up to `timeout` [s] for it."""
         self._executor.spin_once(timeout_sec=timeout)
         check()
 
     def spin_until(self, condition: Callable[[], bool], timeout: float | None = None) -> bool:
-        """Run what arrives until the condition is true; False if it is not within `timeout` seconds (None: ever)."""
+        """Run what arrives until the condition is true; return False if it is not within `timeout` [s]."""
         end = None if timeout is None else time.monotonic() + timeout
         while not condition():
             left = 0.1 if end is None else min(0.1, end - time.monotonic())
@@ -115,54 +115,54 @@ class Graph:
         return True
 
     def spin_for(self, duration: float) -> None:
-        """Run what arrives for so many seconds."""
+        """Run what arrives for `duration` [s]."""
         self.spin_until(lambda: False, duration)
 
     def topics(self, hidden: bool = False) -> NamesAndTypes:
-        """Topics and their types, both sorted."""
+        """Return topics and their types, both sorted."""
         return _shown(self.node.get_topic_names_and_types(), hidden)
 
     def services(self, hidden: bool = False) -> NamesAndTypes:
-        """Services and their types, both sorted; those of this command itself are none."""
+        """Return services and their types, both sorted."""
         return _shown(self.node.get_service_names_and_types(), hidden)
 
     def nodes(self, hidden: bool = False) -> list[str]:
-        """Full names of the nodes, sorted; a name as often as there are nodes of that name."""
+        """Return the full names of the nodes, sorted; a name as often as there are nodes of that name."""
         names = (_join(namespace, name) for name, namespace in self.node.get_node_names_and_namespaces())
         own = self.node.get_fully_qualified_name()
         return sorted(name for name in names if name != own and (hidden or not is_hidden(name)))
 
     def settle(self, deadline: float = SETTLE_DEADLINE) -> None:
-        """Wait until the graph is complete as far as one can tell, at most `deadline` s, or exactly --spin-time."""
+        """Wait until the graph seems complete, at most `deadline` [s], or exactly --spin-time."""
         if self._spin_time is not None:
             end = self._born + self._spin_time
-            # Asked each time, because it calls those who are missing.
+            # Called each time, because it calls the missing participants.
             self._wait(lambda: (self._participants.all_known(), time.monotonic() >= end)[1], self._spin_time)
         else:
             self._wait(lambda: self._complete(QUIET), deadline)
 
     def wait_for(self, find: Callable[[], Found]) -> Found:
-        """What `find` returns as soon as that is true; at the latest after exactly --spin-time, if given."""
+        """Return what `find` returns as soon as that is true; with --spin-time exactly after that."""
         if self._spin_time is not None:
             self.settle()
         else:
             given_up = self._born + GIVE_UP
 
             def decided() -> bool:
-                complete = self._complete(QUIET)  # asked each time, because it calls those who are missing
+                complete = self._complete(QUIET)  # called each time, because it calls the missing participants
                 return bool(find()) or (complete and time.monotonic() >= given_up)
 
             self._wait(decided, TARGET_DEADLINE)
         return find()
 
     def wait_for_topic(self, name: str) -> list[str]:
-        """The types of a topic as soon as all that is known of it is known; empty if it does not come."""
+        """Return the types of a topic when its endpoints are known; empty if it does not come."""
         if self.wait_for(lambda: self._types(name)) and self._spin_time is None:
             self._wait(lambda: self._complete(QUIET / 2), 1.0)
         return self._types(name)
 
     def wait_for_publisher(self, name: str, timeout: float) -> bool:
-        """Whether somebody publishes on a topic within `timeout` seconds."""
+        """Return whether a publisher of the topic comes within `timeout` [s]."""
         return self._wait(lambda: self._participants.all_known() and self.node.count_publishers(name) > 0, timeout)
 
     def _types(self, name: str) -> list[str]:
@@ -179,22 +179,22 @@ class Graph:
         return True
 
     def _complete(self, quiet: float) -> bool:
-        """Whether everybody has been met, has told everything, and `quiet` seconds have passed without a change."""
+        """Return whether all participants and their endpoints are known, and nothing has changed for `quiet` [s]."""
         now, seen = time.monotonic(), self._snapshot()
         if seen != self._seen:
             self._seen, self._changed = seen, now
         all_known = self._participants.all_known()
         earliest = self._born + (OTHER_MACHINES if _listens_to_other_machines() else 0.0)
         if all_known is not True:
-            # Nobody can tell, or somebody does not answer: a program that is no ROS node, or one that hangs.
+            # It is unknown, or a participant does not answer: a program that is no ROS node, or one that hangs.
             earliest = self._born + FIRST_CONTACT
         nodes, endpoints, _ = seen
-        # A node is known a moment before its endpoints, or they before it: both must have arrived.
+        # A node and its endpoints arrive separately, in any order: both must be known.
         whole = nodes == {node for _, node, _ in endpoints}
         return whole and now >= max(earliest, self._changed + quiet)
 
     def _snapshot(self) -> tuple[set[str], set[tuple[str, str, str]], set[str]]:
-        """The other nodes, (topic, node, endpoint's identifier) of their endpoints, and all services."""
+        """Return the other nodes, (topic, node, endpoint's identifier) of their endpoints, and all services."""
         own = self.node.get_fully_qualified_name()
         endpoints = set()
         for topic, _ in self.node.get_topic_names_and_types():

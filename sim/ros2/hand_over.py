@@ -1,6 +1,6 @@
-"""Lets a real `ros2` of this machine do the work, when its ROS 2 is set up in this shell.
+"""The hand-over to a real `ros2`, when a ROS 2 installation is set up in this shell.
 
-The first thing `command_line` calls. A sourced ROS 2 names itself in AMENT_PREFIX_PATH; its `ros2` then
+`command_line` calls it first. A sourced ROS 2 is in AMENT_PREFIX_PATH; its `ros2` then
 replaces this process. One that is installed into this very Python environment is called as a library.
 """
 
@@ -13,13 +13,13 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-# They travel together: a guard without the libraries, or libraries of two installations, break rclpy.
+# Both or none: a guard without the libraries, or libraries of two installations, break rclpy.
 _WHEELS_GUARD = "_ROS_WHEELS_BOOTSTRAP_COMPLETE"
 _LIBRARY_PATH = "LD_LIBRARY_PATH"
 
 
 def hand_over(arguments: Sequence[str]) -> int | None:
-    """Run a real `ros2` with these arguments: its exit code; None if there is no real one.
+    """Run a real `ros2` with these arguments; return its exit code, None if there is no real one.
 
     Does not return when a sourced ROS 2 takes over.
     """
@@ -31,7 +31,7 @@ def hand_over(arguments: Sequence[str]) -> int | None:
 
 
 def sourced_ros2(environment: Mapping[str, str]) -> Path | None:
-    """The `ros2` of the first ament prefix that holds the package ros2cli, outside this environment."""
+    """Return the `ros2` of the first ament prefix outside this environment that has the package ros2cli."""
     own = Path(sys.prefix).resolve()
     for folder in environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep):
         prefix = Path(folder)
@@ -43,7 +43,7 @@ def sourced_ros2(environment: Mapping[str, str]) -> Path | None:
 
 
 def installed_ros2() -> Callable[[list[str]], int] | None:
-    """What runs the real `ros2` that is installed next to this one, if it is."""
+    """Return the entry point of a real `ros2` in this Python environment, None if there is none."""
     if importlib.util.find_spec("ros2cli") is None:
         return None
     main = importlib.import_module("ros2cli.cli").main
@@ -55,7 +55,7 @@ def installed_ros2() -> Callable[[list[str]], int] | None:
 
 
 def environment_without_wheels(environment: Mapping[str, str]) -> dict[str, str]:
-    """A copy from which the libraries of this environment's ROS wheels, and their guard, are gone."""
+    """Return a copy without the libraries of this environment's ROS wheels, and without their guard."""
     copy = dict(environment)
     copy.pop(_WHEELS_GUARD, None)
     own = Path(sys.prefix).resolve()

@@ -1,7 +1,7 @@
 """From the name of an interface (message, service, action) to its Python class and its definition file.
 
 `sensor_msgs/msg/LaserScan` (or `sensor_msgs/LaserScan`) is the class LaserScan of sensor_msgs.msg and the file
-msg/LaserScan.msg in the share folder of the package. What there is stands in the ament index. Errors name the nearest
+msg/LaserScan.msg in the share folder of the package. The ament index lists the interfaces. Errors name the nearest
 interface that is installed.
 """
 
@@ -24,7 +24,7 @@ _INDEX = "rosidl_interfaces"
 
 
 def add_kind_options(parser: argparse.ArgumentParser) -> None:
-    """Options for which kinds are shown; `kinds` is the list of them, empty for all."""
+    """Add the options for which kinds are shown; `kinds` is the list of them, empty for all."""
     for letter, word, kind in (("m", "msgs", "msg"), ("s", "srvs", "srv"), ("a", "actions", "action")):
         parser.add_argument(
             f"-{letter}",
@@ -37,23 +37,34 @@ def add_kind_options(parser: argparse.ArgumentParser) -> None:
         )
 
 
+def chosen_kinds(arguments: argparse.Namespace) -> list[str]:
+    """Return the kinds that the options of `add_kind_options` ask for."""
+    return [kind for kind in KINDS if kind in arguments.kinds or not arguments.kinds]
+
+
+def add_interface_type(parser: argparse.ArgumentParser, more: str = "") -> None:
+    """Add the argument `type`; `more` ends its help."""
+    text = f"Show an interface definition (e.g. 'std_msgs/msg/String'){more}"
+    parser.add_argument("type", metavar="interface_type", help=text)
+
+
 def message_class(type_name: str) -> Any:
-    """The class of a message type; CommandError if there is none of that name."""
+    """Return the class of a message type. Raises CommandError if there is none of that name."""
     return _class(type_name, "msg", "message")
 
 
 def service_class(type_name: str) -> Any:
-    """The class of a service type, with its Request and Response; CommandError if there is none of that name."""
+    """Return the class of a service type. Raises CommandError if there is none of that name."""
     return _class(type_name, "srv", "service")
 
 
 def message_type_name(message: Any) -> str:
-    """`package/msg/Name` of a message class."""
+    """Return `package/msg/Name` of a message class."""
     return f"{message.__module__.partition('.')[0]}/msg/{message.__name__}"
 
 
 def service_type_name(service: Any) -> str:
-    """`package/srv/Name` of a service class."""
+    """Return `package/srv/Name` of a service class."""
     return f"{service.__module__.partition('.')[0]}/srv/{service.__name__}"
 
 
@@ -69,12 +80,12 @@ def _class(type_name: str, kind: str, noun: str) -> Any:
 
 
 def interface_packages() -> list[str]:
-    """The packages that define interfaces, sorted."""
+    """Return the packages that define interfaces, sorted."""
     return sorted(get_resources(_INDEX))
 
 
 def package_interfaces(package: str, kind: str) -> list[str]:
-    """`package/kind/Name` of each interface of one kind in a package, sorted; CommandError for an unknown package."""
+    """Return `package/kind/Name` of a package's interfaces, sorted. Raises CommandError for an unknown package."""
     if package not in get_resources(_INDEX):
         raise CommandError(f"Unknown package '{package}'" + did_you_mean(package, interface_packages()))
     files, _ = get_resource(_INDEX, package)
@@ -84,7 +95,7 @@ def package_interfaces(package: str, kind: str) -> list[str]:
 
 
 def interface_names(*kinds: str) -> list[str]:
-    """`package/kind/Name` of every installed interface of these kinds (none given: all), sorted."""
+    """Return `package/kind/Name` of every installed interface of these kinds (none given: all), sorted."""
     return sorted(
         name
         for package in interface_packages()
@@ -94,7 +105,7 @@ def interface_names(*kinds: str) -> list[str]:
 
 
 def interface_parts(name: str) -> tuple[str, str, str]:
-    """(package, kind, Name) of a full interface name; CommandError for one that has not three parts or no such kind."""
+    """Return package, kind and name of a full interface name. Raises CommandError for another form."""
     parts = name.split("/")
     if len(parts) != 3 or not all(parts):
         hint = did_you_mean(name, interface_names())
@@ -105,7 +116,7 @@ def interface_parts(name: str) -> tuple[str, str, str]:
 
 
 def interface_file(name: str) -> Path:
-    """The .msg, .srv or .action file of an interface; CommandError if the package or the interface does not exist."""
+    """Return the .msg, .srv or .action file of an interface. Raises CommandError if there is no such interface."""
     package, kind, interface = interface_parts(name)
     known = package_interfaces(package, kind)
     path = package_share(package) / kind / f"{interface}.{kind}"
@@ -116,7 +127,7 @@ def interface_file(name: str) -> Path:
 
 
 def prototype(name: str) -> Any:
-    """A message with default values: the message itself, the request of a service, the goal of an action."""
+    """Return a default message, the request of a service or the goal of an action."""
     interface_file(name)
     package, kind, interface = interface_parts(name)
     found = getattr(importlib.import_module(f"{package}.{kind}"), interface)

@@ -1,4 +1,4 @@
-"""Ctrl-C that is not lost: SIGINT and SIGTERM arrive as KeyboardInterrupt, at the latest at the next `check`.
+"""SIGINT and SIGTERM as a KeyboardInterrupt that is not lost: at the latest the next `check` raises it.
 
 Python drops an exception that a signal raises in a callback from C or in a `__del__`, and rclpy has many of both.
 `command_line` listens; `graph.Graph` checks in every loop that waits.
@@ -29,7 +29,7 @@ def check() -> None:
 
 
 def _unraisable(dropped: sys.UnraisableHookArgs) -> None:
-    """Say nothing of an interruption that Python drops: `check` raises it again."""
+    """Keep quiet about an interruption that Python drops: `check` raises it again."""
     if not (_heard and isinstance(dropped.exc_value, KeyboardInterrupt)):
         sys.__unraisablehook__(dropped)
 

@@ -1,7 +1,6 @@
-"""Measuring a topic: what `ros2 topic hz`, `bw` and `delay` have in common.
+"""The measurement of a topic, for `ros2 topic hz`, `bw` and `delay`.
 
-Each hands over what to do with a message and what to say once a second; here the topic is waited for, listened to and
-the clock is kept.
+Each passes a function for a message and one for the report, once a second; `measure` waits and listens.
 """
 
 from __future__ import annotations
@@ -18,11 +17,11 @@ from gz_course.sim.ros2.graph import Graph
 from gz_course.sim.ros2.option_values import positive_number
 from gz_course.sim.ros2.topic import full_name, nearest_topic, not_published, only_type, warn
 
-REPORT_EVERY = 1.0  # s
+REPORT_EVERY = 1.0  # [s]
 
 
 def add_window(parser: argparse.ArgumentParser, default: int) -> None:
-    """The option for how many messages a report is about."""
+    """Add the option for the number of messages in a report."""
     parser.add_argument(
         "-w",
         "--window",
@@ -34,7 +33,7 @@ def add_window(parser: argparse.ArgumentParser, default: int) -> None:
 
 
 def awaited_topic(graph: Graph, topic: str) -> tuple[str, Any]:
-    """(full name, message class) of a topic, as soon as somebody has it; says so while it waits.
+    """Return full name and message class of a topic as soon as it exists; report the wait.
 
     Raises CommandError for an impossible name, an unknown type or several types.
     """
@@ -74,7 +73,7 @@ def measure(
 
 
 def spread(values: Collection[float]) -> str:
-    """The second line of a report on these times in seconds (at least one)."""
+    """Return the second line of a report on these times [s] (at least one)."""
     mean = sum(values) / len(values)
     deviation = math.sqrt(sum((value - mean) ** 2 for value in values) / len(values))
     return f"\tmin: {min(values):.3f}s max: {max(values):.3f}s std dev: {deviation:.5f}s window: {len(values)}"

@@ -1,6 +1,8 @@
 """A ROS message as text: block YAML as `ros2 topic echo` shows it, or one line of CSV.
 
 Fields come in the order of the message definition. What is longer than the limit is cut and ends in `...`.
+
+Source: ros2/rosidl_runtime_py, rosidl_runtime_py/convert.py
 """
 
 from __future__ import annotations
@@ -19,7 +21,7 @@ _SEQUENCES = (list, tuple, array.array, np.ndarray)
 
 @dataclass(frozen=True)
 class TextFormat:
-    """How much of a message is shown: `limit` items or characters (None: all), arrays and strings at all."""
+    """How a message is shown: `limit` items or characters (None: all), with or without arrays and strings."""
 
     limit: int | None = 128
     arrays: bool = True
@@ -28,12 +30,12 @@ class TextFormat:
 
 
 def is_message(value: Any) -> bool:
-    """Whether a value is a message and not one of its plain fields."""
+    """Return whether a value is a message and not one of its plain fields."""
     return hasattr(value, "get_fields_and_field_types")
 
 
 def to_yaml(message: Any, form: TextFormat) -> str:
-    """The message as YAML, ending in a line break."""
+    """Return the message as YAML, ending in a line break."""
     return yaml.dump(
         _plain(message, "", form),
         Dumper=_Dumper,
@@ -45,26 +47,26 @@ def to_yaml(message: Any, form: TextFormat) -> str:
 
 
 def to_line(message: Any) -> str:
-    """The whole message as YAML in one line."""
+    """Return the whole message as YAML in one line."""
     whole = _plain(message, "", TextFormat(limit=None))
     text = yaml.dump(whole, Dumper=_LineDumper, sort_keys=False, width=sys.maxsize, default_flow_style=True)
     return text.rstrip("\n")
 
 
 def to_csv(message: Any, form: TextFormat) -> str:
-    """All values of the message in one line, separated by commas."""
+    """Return all values of the message in one line, separated by commas."""
     return ",".join(_values(_plain(message, "", form)))
 
 
 class _Dumper(yaml.SafeDumper):
-    """Writes a value that occurs twice twice, and strings without regard to who shares them."""
+    """A dumper that writes a shared value each time it occurs."""
 
     def ignore_aliases(self, data: Any) -> bool:
         return True
 
 
 def _text(dumper: yaml.SafeDumper, text: str) -> yaml.ScalarNode:
-    # YAML takes these for line breaks, and folds them, unless they are escaped in double quotes.
+    # YAML folds these line breaks, unless they are escaped in double quotes.
     style = '"' if any(mark in text for mark in "\x85\u2028\u2029") else None
     return dumper.represent_scalar("tag:yaml.org,2002:str", text, style=style)
 
@@ -73,7 +75,7 @@ _Dumper.add_representer(str, _text)
 
 
 class _LineDumper(_Dumper):
-    """Writes no line break."""
+    """A dumper that writes no line break."""
 
 
 def _line(dumper: yaml.SafeDumper, text: str) -> yaml.ScalarNode:
@@ -85,7 +87,7 @@ _LineDumper.add_representer(str, _line)
 
 
 def _plain(value: Any, kind: str, form: TextFormat) -> Any:
-    """The value in Python's own types; `kind` is the type the message definition gives it."""
+    """Return the value in Python's own types; `kind` is the type the message definition gives it."""
     if is_message(value):
         fields = value.get_fields_and_field_types()
         return {name: _plain(getattr(value, name), field, form) for name, field in fields.items()}

@@ -1,4 +1,4 @@
-"""From YAML, as one types it behind `ros2 topic pub` and `ros2 service call`, to a ROS message.
+"""From YAML, as an argument of `ros2 topic pub` and `ros2 service call`, to a ROS message.
 
 The other direction of `message_text`: what `ros2 topic echo` prints can be published again. A value is read as what
 its field is, not as what YAML would guess: `data: yes` is a text for a string and true for a bool. Two words stand for
@@ -35,7 +35,7 @@ Stamp = Callable[[Any], None]
 
 
 def parse_yaml(text: str) -> yaml.Node | None:
-    """The one document of a text, None for an empty one; CommandError with the place if it is not YAML."""
+    """Return the document of a text, None for an empty one. Raises CommandError with the place if it is not YAML."""
     try:
         return yaml.compose(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
     except yaml.MarkedYAMLError as error:
@@ -49,7 +49,7 @@ def parse_yaml(text: str) -> yaml.Node | None:
 
 
 def fill(message: Any, text: str) -> list[Stamp]:
-    """Set the fields a YAML text names; returns what has to be called with the time of each sending.
+    """Set the fields a YAML text names; return what has to be called with the time of each sending.
 
     Raises CommandError for a text that is no YAML, no mapping, or does not fit the message.
     """
@@ -71,7 +71,7 @@ def fill(message: Any, text: str) -> list[Stamp]:
 
 @dataclass(frozen=True)
 class _Place:
-    """Where in a message we are: the type's name and the path of the field, for error messages."""
+    """A place in a message, for errors: the name of the type and the path of the field."""
 
     kind: str
     path: str = ""
@@ -90,7 +90,7 @@ class _Place:
 
 
 def _what(node: yaml.Node) -> str:
-    """A value as the user has written it, or what it is if it is long."""
+    """Return a value as the user has written it, or its kind if it is long."""
     if isinstance(node, yaml.MappingNode):
         return "a dictionary"
     if isinstance(node, yaml.SequenceNode):

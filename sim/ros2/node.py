@@ -1,4 +1,4 @@
-"""Finding the node a user has named: for `ros2 node info` and every verb of `ros2 param`."""
+"""The node a user has named, for `ros2 node info` and every verb of `ros2 param`."""
 
 from __future__ import annotations
 
@@ -8,9 +8,10 @@ from gz_course.sim.ros2.topic import warn
 
 
 def find_node(graph: Graph, name: str, unknown: str) -> str:
-    """The full name of a node, as soon as it is there; CommandError with the sentence `unknown` if it does not come.
+    """Return the full name of a node as soon as it is there.
 
-    A name without a leading / is in the root namespace. Says so if several nodes share the name.
+    A name without a leading / is in the root namespace. Warns if several nodes share the name. Raises CommandError
+    with the sentence `unknown` if the node does not come.
     """
     full = name if name.startswith("/") else f"/{name}"
     count = graph.wait_for(lambda: graph.nodes(hidden=True).count(full))
@@ -25,6 +26,6 @@ def find_node(graph: Graph, name: str, unknown: str) -> str:
 
 
 def split_name(full: str) -> tuple[str, str]:
-    """(name, namespace) of a full node name."""
+    """Return name and namespace of a full node name."""
     namespace, _, name = full.rpartition("/")
     return name, namespace or "/"

@@ -15,12 +15,11 @@ from gz_course.sim.ros2.errors import CommandError, did_you_mean
 
 
 def package_names() -> list[str]:
-    """All packages, sorted."""
     return sorted(get_packages_with_prefixes())
 
 
 def package_prefix(package: str, unknown: str = "Package not found") -> Path:
-    """The prefix a package is installed in; CommandError with the sentence `unknown` if it is not there."""
+    """Return the prefix of a package. Raises CommandError with the sentence `unknown` if it is not installed."""
     try:
         return Path(get_package_prefix(package))
     except (PackageNotFoundError, ValueError):
@@ -28,12 +27,12 @@ def package_prefix(package: str, unknown: str = "Package not found") -> Path:
 
 
 def package_share(package: str) -> Path:
-    """The folder with a package's shared files (package.xml, launch files)."""
+    """Return the folder with a package's shared files (package.xml, launch files)."""
     return package_prefix(package) / "share" / package
 
 
 def executables(package: str, unknown: str = "Package not found") -> list[Path]:
-    """The executable files of a package, sorted by path."""
+    """Return the executable files of a package, sorted by path."""
     folder = package_prefix(package, unknown) / "lib" / package
     found = []
     for root, folders, names in os.walk(folder):

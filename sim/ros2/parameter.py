@@ -1,14 +1,18 @@
-"""Parameters of a running node: what the verbs of `ros2 param` have in common.
+"""Parameters of a running node, for the verbs of `ros2 param`.
 
 A node serves its parameters under `<node>/list_parameters`, `get_parameters` and so on (package rcl_interfaces); values
 cross as `rcl_interfaces/ParameterValue`. On the command line a value is YAML: `5` is an integer, `5.0` a double,
 `'5'` a string, `[1, 2]` an integer array.
+
+Source: ros2/rcl_interfaces, rcl_interfaces/msg/ParameterValue.msg
 """
 
 from __future__ import annotations
 
+import argparse
+import contextlib
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 import yaml
@@ -17,8 +21,9 @@ from rcl_interfaces.msg import ParameterType, ParameterValue
 from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters, SetParameters
 
 from gz_course.sim.ros2.errors import CommandError, did_you_mean
-from gz_course.sim.ros2.graph import Graph
+from gz_course.sim.ros2.graph import Graph, add_graph_options
 from gz_course.sim.ros2.message_value import parse_yaml
+from gz_course.sim.ros2.node import find_node
 from gz_course.sim.ros2.service import ANSWER_DEADLINE, call
 
 _FIELDS = {
@@ -39,7 +44,7 @@ _INT64 = range(-(2**63), 2**63)
 
 
 class NodeParameters:
-    """The parameters of one node, asked for over its services."""
+    """The parameters of one node, through its services."""
 
     def __init__(self, graph: Graph, node: str) -> None:
         self.node = node
@@ -53,12 +58,12 @@ class NodeParameters:
         return call(self._graph, client, request, ANSWER_DEADLINE, hint)
 
     def names(self, prefixes: Sequence[str] = ()) -> list[str]:
-        """All parameters, or those below these prefixes, sorted."""
+        """Return all parameters, or those below these prefixes, sorted."""
         response = self._call(ListParameters, "list_parameters", ListParameters.Request(prefixes=list(prefixes)))
         return sorted(response.result.names)
 
     def values(self, names: Sequence[str]) -> list[ParameterValue]:
-        """The value of each; not set for one that does not exist."""
+        """Return the value of each; a value that is not set for one that does not exist."""
         found = list(self._call(GetParameters, "get_parameters", GetParameters.Request(names=list(names))).values)
         if len(found) == len(names):
             return found
@@ -66,7 +71,7 @@ class NodeParameters:
         return [ParameterValue()] if len(names) == 1 else [self.values([name])[0] for name in names]
 
     def descriptors(self, names: Sequence[str]) -> list[Any]:
-        """The rcl_interfaces/ParameterDescriptor of each; CommandError if one does not exist."""
+        """Return the rcl_interfaces/ParameterDescriptor of each. Raises CommandError if one does not exist."""
         request = DescribeParameters.Request(names=list(names))
         found = list(self._call(DescribeParameters, "describe_parameters", request).descriptors)
         known = self.names()
@@ -76,22 +81,38 @@ class NodeParameters:
         return found
 
     def set(self, name: str, value: ParameterValue) -> tuple[bool, str]:
-        """(whether the node has taken the value, its reason). PARAMETER_NOT_SET deletes."""
+        """Return whether the node has taken the value, and `: <reason>` if it gives one. PARAMETER_NOT_SET deletes."""
         if type_word(value.type).endswith(" array"):
             value = _as(self.values([name])[0].type, value)
         request = SetParameters.Request(parameters=[ParameterMessage(name=name, value=value)])
         results = self._call(SetParameters, "set_parameters", request).results
-        return (results[0].successful, results[0].reason) if results else (False, "the node gave no reason")
+        if not results:
+            return False, ": the node gave no reason"
+        return results[0].successful, f": {results[0].reason}" if results[0].reason else ""
 
     def not_set(self, name: str, known: Iterable[str] | None = None) -> CommandError:
-        """The error for a parameter that does not exist, with the nearest one that does."""
+        """Return the error for a parameter that does not exist, with the nearest name."""
         names = set(self.names() if known is None else known)
-        # One that is declared, but without a value, has the right name.
+        # A declared parameter without a value has the right name.
         return CommandError("Parameter not set" + ("" if name in names else did_you_mean(name, names)))
 
 
+def add_node_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of every verb for the parameters of one node."""
+    add_graph_options(parser)
+    parser.add_argument("node_name", help="Name of the ROS node")
+    parser.add_argument("--include-hidden-nodes", action="store_true", help="Accepted: a node is named anyway")
+
+
+@contextlib.contextmanager
+def node_parameters(arguments: argparse.Namespace) -> Iterator[NodeParameters]:
+    """Open the parameters of the node that the arguments name. Raises CommandError if there is no such node."""
+    with Graph(arguments) as graph:
+        yield NodeParameters(graph, find_node(graph, arguments.node_name, "Node not found"))
+
+
 def python_value(value: ParameterValue) -> Any:
-    """The value in Python's own types: bool, int, float, str, bytes, a list of these; None if not set."""
+    """Return the value as bool, int, float, str or a list of these; None if not set."""
     if value.type not in _FIELDS:
         return None
     found = getattr(value, _FIELDS[value.type][2])
@@ -101,7 +122,7 @@ def python_value(value: ParameterValue) -> Any:
 
 
 def _as(kind: int, value: ParameterValue) -> ParameterValue:
-    """The list as the kind the parameter has: an empty list says nothing of its kind, and bytes look like numbers."""
+    """Return the list as `kind`, that of the parameter: an empty list has none, and bytes look like numbers."""
     items = python_value(value)
     if not items and type_word(kind).endswith(" array"):
         return ParameterValue(type=kind)
@@ -111,18 +132,18 @@ def _as(kind: int, value: ParameterValue) -> ParameterValue:
 
 
 def kind_word(value: ParameterValue) -> str:
-    """`Integer value is:` or `Integer values are:`"""
+    """Return `Integer value is:`, `Integer values are:` and so on."""
     word = _FIELDS[value.type][0]
     return f"{word} values are:" if _FIELDS[value.type][1].endswith(" array") else f"{word} value is:"
 
 
 def type_word(kind: int) -> str:
-    """`integer`, `string array`, `not set` ..."""
+    """Return `integer`, `string array`, `not set` and so on."""
     return _FIELDS[kind][1] if kind in _FIELDS else "not set"
 
 
 def value_from_yaml(text: str) -> ParameterValue:
-    """The parameter value that a YAML text stands for; CommandError for what a parameter cannot be."""
+    """Return the parameter value of a YAML text. Raises CommandError for what no parameter can be."""
     parse_yaml(text)  # says what is wrong and where
     try:
         value = yaml.safe_load(text)
@@ -136,7 +157,7 @@ def value_from_yaml(text: str) -> ParameterValue:
 
 
 def parameter_value(value: Any, shown: str) -> ParameterValue:
-    """The parameter value of a Python value; `shown` is how the user has written it, for the error message."""
+    """Return the parameter value of a Python value; `shown` is the user's text for it, for the error."""
     kind, converted = _typed(value, shown)
     message = ParameterValue(type=kind)
     setattr(message, _FIELDS[kind][2], converted)
@@ -167,7 +188,7 @@ def _typed_list(items: list[Any], shown: str) -> tuple[int, list[Any]]:
         return ParameterType.PARAMETER_INTEGER_ARRAY, [_int64(item, shown) for item in items]
     if kinds and kinds <= {int, float}:
         return ParameterType.PARAMETER_DOUBLE_ARRAY, [float(item) for item in items]
-    if kinds <= {str}:  # so is an empty list: the node says what it wants instead
+    if kinds <= {str}:  # an empty list, too: the node reports the type it wants
         return ParameterType.PARAMETER_STRING_ARRAY, items
     raise CommandError(f"{_short(shown)} cannot be a parameter: the items of a list must be of one kind")
 
@@ -183,7 +204,7 @@ def _short(text: str) -> str:
 
 
 def nested(parameters: dict[str, Any]) -> dict[str, Any]:
-    """`a.b.c` -> a dictionary in a dictionary, as parameter files hold them."""
+    """Return parameters with names like `a.b.c` as nested dictionaries, as parameter files hold them."""
     tree: dict[str, Any] = {}
     for name, value in sorted(parameters.items()):
         *groups, last = name.split(".")
@@ -199,7 +220,7 @@ def nested(parameters: dict[str, Any]) -> dict[str, Any]:
 
 
 def flat(tree: dict[Any, Any], prefix: str = "") -> dict[str, Any]:
-    """The other direction of `nested`."""
+    """Return nested dictionaries as parameters with names like `a.b.c`."""
     found: dict[str, Any] = {}
     for name, value in tree.items():
         full = f"{prefix}{name}"

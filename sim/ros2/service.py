@@ -1,45 +1,36 @@
-"""What the verbs of `ros2 service` have in common: names, and waiting for an answer."""
+"""Names of services, and calls, for the verbs of `ros2 service` and `ros2 param`."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from rclpy.exceptions import InvalidServiceNameException
-from rclpy.expand_topic_name import expand_topic_name
-from rclpy.validate_full_topic_name import validate_full_topic_name
-
 from gz_course.sim.ros2.errors import CommandError, did_you_mean
 from gz_course.sim.ros2.graph import Graph
+from gz_course.sim.ros2.topic import full_name
 
-ANSWER_DEADLINE = 5.0  # s for services that answer from memory, those of parameters
+ANSWER_DEADLINE = 5.0  # [s] for services that answer from memory, those of parameters
 
 
 def service_name(graph: Graph, name: str) -> str:
-    """The name with its namespace; CommandError for one ROS does not allow."""
-    try:
-        expanded = expand_topic_name(name, graph.node.get_name(), graph.node.get_namespace())
-        validate_full_topic_name(expanded, is_service=True)
-    except (InvalidServiceNameException, ValueError) as error:
-        reason = str(error).partition(", at ")[0].splitlines()[0]
-        raise CommandError(f"'{name}' is not a service name: {reason}") from None
-    return expanded
+    """Return the name with its namespace. Raises CommandError for one that ROS does not allow."""
+    return full_name(graph, name, is_service=True)
 
 
 def service_types(graph: Graph, name: str) -> list[str]:
-    """The types of a service as soon as it is there; empty if it does not come."""
+    """Return the types of a service as soon as it is there; empty if it does not come."""
     return graph.wait_for(lambda: dict(graph.services(hidden=True)).get(name, []))
 
 
 def nearest_service(graph: Graph, name: str) -> str:
-    """`; did you mean '/x'?` for the nearest service of the graph, or nothing."""
+    """Return `; did you mean '/x'?` for the nearest service of the graph, or an empty text."""
     offered = (service for service, _ in graph.services(hidden=True) if graph.node.count_services(service))
     return did_you_mean(name, (service for service in offered if service != name))
 
 
 def call(graph: Graph, client: Any, request: Any, timeout: float | None, hint: str = "") -> Any:
-    """The response of a service that is there; CommandError if it goes away or is silent for `timeout` seconds.
+    """Return the response of a service that is there.
 
-    `timeout` None: only if it goes away. `hint` ends the sentence about a silent service.
+    Raises CommandError if the service goes away, or is silent for `timeout` [s]; `hint` ends the latter sentence.
     """
     future = client.call_async(request)
     gone = False

@@ -1,6 +1,6 @@
-"""What the verbs of `ros2 topic` that follow one topic have in common: finding it, its type, its QoS, a filter.
+"""A topic, its type, its QoS and a filter, for the verbs of `ros2 topic`.
 
-Names without a leading / are taken in the root namespace, as ROS does for the command's node.
+Names without a leading / are in the root namespace, that of the command's node.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
-from rclpy.exceptions import InvalidTopicNameException
+from rclpy.exceptions import NameValidationException
 from rclpy.expand_topic_name import expand_topic_name
 from rclpy.qos import DurabilityPolicy, QoSPresetProfiles, QoSProfile, ReliabilityPolicy
 from rclpy.validate_full_topic_name import validate_full_topic_name
@@ -19,36 +19,35 @@ from gz_course.sim.ros2.graph import Graph
 from gz_course.sim.ros2.interface import message_class
 
 
-def full_name(graph: Graph, name: str) -> str:
-    """The name with its namespace; CommandError for one ROS does not allow."""
+def full_name(graph: Graph, name: str, is_service: bool = False) -> str:
+    """Return the name with its namespace. Raises CommandError for one that ROS does not allow."""
     try:
         expanded = expand_topic_name(name, graph.node.get_name(), graph.node.get_namespace())
-        validate_full_topic_name(expanded)
-    except (InvalidTopicNameException, ValueError) as error:
+        validate_full_topic_name(expanded, is_service=is_service)
+    except (NameValidationException, ValueError) as error:
         reason = str(error).partition(", at ")[0].splitlines()[0]
-        raise CommandError(f"'{name}' is not a topic name: {reason}") from None
+        raise CommandError(f"'{name}' is not a {'service' if is_service else 'topic'} name: {reason}") from None
     return expanded
 
 
 def nearest_topic(graph: Graph, name: str) -> str:
-    """`; did you mean '/x'?` for the nearest topic of the graph, or nothing."""
+    """Return `; did you mean '/x'?` for the nearest topic of the graph, or an empty text."""
     return did_you_mean(name, (topic for topic, _ in graph.topics(hidden=True)))
 
 
 def not_published(name: str) -> None:
-    """Say that nothing is known about a topic."""
     print(f"WARNING: topic [{name}] does not appear to be published yet")
 
 
 def only_type(name: str, types: list[str], verb: str) -> Any:
-    """The message class of a topic whose types are known; CommandError when there are several."""
+    """Return the message class of a topic with these types. Raises CommandError for several."""
     if len(types) > 1:
         raise CommandError(f"Cannot {verb} topic '{name}', as it contains more than one type: [{', '.join(types)}]")
     return message_class(types[0])
 
 
 def following_qos(graph: Graph, name: str) -> QoSProfile:
-    """The strictest QoS that all present publishers of the topic offer; best effort and volatile without one."""
+    """Return the strictest QoS that all publishers of the topic offer; best effort and volatile without one."""
     qos = QoSPresetProfiles.get_from_short_key("sensor_data")
     offers = [end.qos_profile for end in graph.node.get_publishers_info_by_topic(name)]
     if offers and all(offer.reliability == ReliabilityPolicy.RELIABLE for offer in offers):
@@ -59,7 +58,7 @@ def following_qos(graph: Graph, name: str) -> QoSProfile:
 
 
 def message_filter(expression: str | None) -> Callable[[Any], bool] | None:
-    """A function of the message `m` from a Python expression such as `m.x > 1`."""
+    """Return a function of the message `m` from a Python expression such as `m.x > 1`."""
     if expression is None:
         return None
     try:
@@ -77,5 +76,5 @@ def message_filter(expression: str | None) -> Callable[[Any], bool] | None:
 
 
 def warn(sentence: str) -> None:
-    """A hint that must not get between the lines a program reads."""
+    """Print a hint to stderr, apart from the lines a program reads."""
     print(sentence, file=sys.stderr)

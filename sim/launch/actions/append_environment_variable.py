@@ -1,3 +1,40 @@
-"""AppendEnvironmentVariable, in the module where launch of ROS 2 has it."""
+"""The action that adds to an environment variable."""
 
-from gz_course.sim.launch.actions.set_environment_variable import AppendEnvironmentVariable as AppendEnvironmentVariable
+from __future__ import annotations
+
+import os
+from typing import Any
+
+from gz_course.sim.launch.actions.set_environment_variable import SetEnvironmentVariable
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+class AppendEnvironmentVariable(SetEnvironmentVariable):
+    """An action that adds a value behind that of a variable, or before it with `prepend`, with `separator` between."""
+
+    def __init__(
+        self,
+        name: SomeSubstitutionsType,
+        value: SomeSubstitutionsType,
+        prepend: bool | SomeSubstitutionsType = False,
+        separator: SomeSubstitutionsType = os.pathsep,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(name, value, **kwargs)
+        self.prepend = normalize_to_list_of_substitutions(str(prepend) if isinstance(prepend, bool) else prepend)
+        self.separator = normalize_to_list_of_substitutions(separator)
+
+    def execute(self, context: LaunchContext) -> None:
+        from gz_course.sim.launch.conditions import evaluate_condition_expression
+
+        name = perform_substitutions(context, self.name)
+        there = context.environment.get(name)
+        if there is None:
+            return super().execute(context)
+        parts = [there, perform_substitutions(context, self.value)]
+        if evaluate_condition_expression(context, self.prepend):
+            parts.reverse()
+        context.environment[name] = perform_substitutions(context, self.separator).join(parts)
+        return None

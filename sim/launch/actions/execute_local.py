@@ -1,7 +1,7 @@
-"""Starts a process of this machine, prints what it prints, tells its end, and ends it with the launch.
+"""The action that runs a process on this machine.
 
-The base of ExecuteProcess, which Node of launch_ros builds on. `execute` prepares the command; the process itself
-(`launch.child_process`) starts when the whole launch description has been visited.
+The base of ExecuteProcess, which Node of launch_ros builds on. `execute` prepares the command; the process
+(`launch.child_process`) starts when the whole launch description has been visited, and ends with the launch.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from gz_course.sim.launch.events.process import (
     SignalProcess,
 )
 from gz_course.sim.launch.launch_context import LaunchContext
-from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity, SomeEntitiesType
+from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity
 from gz_course.sim.launch.process_output import ProcessOutput
 from gz_course.sim.launch.process_settings import (
     ProcessSettings,
@@ -43,10 +43,9 @@ from gz_course.sim.launch.process_settings import (
     timeout_substitutions,
     why_not_started,
 )
-from gz_course.sim.launch.substitution import (
-    SomeSubstitutionsType,
-    normalize_to_list_of_substitutions,
-)
+from gz_course.sim.launch.some_entities_type import SomeEntitiesType
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions
 
 _IO_EVENTS = {"stdout": ProcessStdout, "stderr": ProcessStderr}
 _GRACE = 1.0  # [s] for what a process has left in the background, after the process itself has ended
@@ -54,7 +53,7 @@ OnExit = SomeEntitiesType | Callable[[ProcessExited, LaunchContext], SomeEntitie
 
 
 class ExecuteLocal(Action):
-    """Executes a `process_description` once.
+    """An action that runs a `process_description` once.
 
     `output` says where its output goes (`launch.process_output`); `emulate_tty` lets it believe it has a terminal;
     `cached_output` keeps its output for `get_stdout` and `get_stderr`; `log_cmd` prints its command. `on_exit`
@@ -82,14 +81,14 @@ class ExecuteLocal(Action):
         **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
-        self.__process_description = process_description
-        self.__shell = shell
+        self.process_description = process_description
+        self.shell = shell
         self.__timeouts = {
             signal.SIGINT: timeout_substitutions("sigterm_timeout", sigterm_timeout),
             signal.SIGTERM: timeout_substitutions("sigkill_timeout", sigkill_timeout),
         }
-        self.__emulate_tty = emulate_tty
-        self.__output = normalized_output(output)
+        self.emulate_tty = emulate_tty
+        self.output = normalized_output(output)
         self.__output_format = output_format
         self.__cached_output = cached_output
         self.__log_cmd = log_cmd
@@ -102,77 +101,42 @@ class ExecuteLocal(Action):
         self.__task: asyncio.Task[None] | None = None
         self.__child: ChildProcess | None = None
         self.__printed: ProcessOutput | None = None
-        self.__details: dict[str, Any] | None = None
-        self.__return_code: int | None = None
+        self.process_details: dict[str, Any] | None = None
+        self.return_code: int | None = None
         self.__stopping: asyncio.Task[None] | None = None
         self.__must_stop = asyncio.Event()
         self.__ended = asyncio.Event()
         self.__gone = asyncio.Event()
 
-    @property
-    def process_description(self) -> Executable:
-        """The command, its folder and its environment."""
-        return self.__process_description
-
-    @property
-    def shell(self) -> bool:
-        """Whether a shell runs the command."""
-        return self.__shell
-
-    @property
-    def emulate_tty(self) -> bool:
-        """Whether the process believes it has a terminal."""
-        return self.__emulate_tty
-
-    @property
-    def output(self) -> Any:
-        """Where its output goes, as it was given."""
-        return self.__output
-
-    @property
-    def process_details(self) -> dict[str, Any] | None:
-        """Its name (the label), pid, cmd, cwd and env; None before it was started."""
-        return self.__details
-
-    @property
-    def return_code(self) -> int | None:
-        """The exit code of the last run, -n for signal n; None before its end."""
-        return self.__return_code
-
     def get_stdout(self) -> str:
-        """Return what it has printed to stdout. Raises LaunchError unless made with `cached_output`."""
+        """Return the output so far. Raises LaunchError unless made with `cached_output`."""
         return self._cached("stdout")
 
     def get_stderr(self) -> str:
-        """Return what it has printed to stderr. Raises LaunchError unless made with `cached_output`."""
+        """Return the output so far. Raises LaunchError unless made with `cached_output`."""
         return self._cached("stderr")
 
     def _cached(self, stream: str) -> str:
         return "" if self.__printed is None else self.__printed.cached(stream).decode(errors="replace")
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """Return what answers its end."""
         return [] if self.__on_exit is None else known_entities(self.__on_exit, "on_exit")
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """Nothing for sure: what it leads to depends on its end."""
         return []
 
     def describe_conditional_sub_entities(self) -> list[tuple[str, Any]]:
-        """Return what answers its end."""
         entities = self.get_sub_entities()
         return [(f"When {self.describe()} has ended", entities)] if entities else []
 
     def get_asyncio_future(self) -> asyncio.Future[None] | None:
-        """Return what is done when the process has ended for good."""
         return self.__task
 
     def prepare(self, context: LaunchContext) -> None:
-        """Perform the substitutions of the command."""
-        self.__process_description.prepare(context, self)
+        self.process_description.prepare(context, self)
 
     def cleanup(self) -> None:
-        """Give back what `prepare` made; called when the process has ended for good."""
+        """Remove what `prepare` made, when the process has ended for good."""
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Prepare the command and have it started soon.
@@ -190,11 +154,11 @@ class ExecuteLocal(Action):
             launch_logging.get_logger("launch").info(f"not started, for the launch is shutting down: {self.describe()}")
             return None
         self.prepare(context)
-        label = self.__process_description.final_name
+        label = self.process_description.final_name
         assert label is not None
         settings = ProcessSettings(
-            output=performed_output(self.__output, context),
-            emulate_tty=self.__emulate_tty or as_bool(context.launch_configurations.get("emulate_tty", "")) is True,
+            output=performed_output(self.output, context),
+            emulate_tty=self.emulate_tty or as_bool(context.launch_configurations.get("emulate_tty", "")) is True,
             respawn=evaluate_condition_expression(context, self.__respawn),
             timeouts={number: seconds(context, parts) for number, parts in self.__timeouts.items()},
             logger=launch_logging.get_logger(label),
@@ -210,7 +174,7 @@ class ExecuteLocal(Action):
         return lambda line: text.format(this=self, line=line)
 
     async def _run(self, context: LaunchContext, settings: ProcessSettings) -> None:
-        """The life of the process, from its first start to its last end."""
+        """Run the process from its first start to its last end."""
         try:
             retries = 0
             while not (context.is_shutdown or self.__must_stop.is_set()):
@@ -227,22 +191,22 @@ class ExecuteLocal(Action):
             self.cleanup()
 
     async def _live_once(self, context: LaunchContext, settings: ProcessSettings) -> bool:
-        """One run of the process; whether it may be run again."""
+        """Run the process once; return whether it may be run again."""
         child = self._start(context, settings)
         self.__child = child
         self.__ended.clear()
         self.__gone.clear()
-        assert self.__details is not None and self.__printed is not None
+        assert self.process_details is not None and self.__printed is not None
         try:
             code = await child.wait()
             self.__printed.flush()
-            self.__return_code = code
+            self.return_code = code
             if code == 0:
                 settings.logger.info(f"process has finished cleanly [pid {child.pid}]")
             else:
-                words = " ".join(self.__details["cmd"])
+                words = " ".join(self.process_details["cmd"])
                 settings.logger.error(f"process has died [pid {child.pid}, exit code {code}, cmd '{words}'].")
-            context.emit_event_sync(ProcessExited(returncode=code, action=self, **self.__details))
+            context.emit_event_sync(ProcessExited(returncode=code, action=self, **self.process_details))
             self.__ended.set()
             if child.has_left_something():
                 await self._wait_for_what_is_left(child, context, settings)
@@ -261,7 +225,7 @@ class ExecuteLocal(Action):
     async def _wait_for_what_is_left(
         self, child: ChildProcess, context: LaunchContext, settings: ProcessSettings
     ) -> None:
-        """What the process has started in the background belongs to the launch, too."""
+        """Wait for processes that the process has left in the background: they belong to the launch, too."""
         if settings.respawn and not context.is_shutdown:
             child.send_signal(signal.SIGKILL)  # the next one starts afresh
         elif not context.is_shutdown:
@@ -271,14 +235,14 @@ class ExecuteLocal(Action):
         await child.wait_for_group()
 
     def _start(self, context: LaunchContext, settings: ProcessSettings) -> ChildProcess:
-        description = self.__process_description
+        description = self.process_description
         command = description.final_cmd or []
         printed = self.__printed
         assert printed is not None
 
         def take(stream: str, data: bytes) -> None:
             printed.feed(stream, data)
-            event = _IO_EVENTS[stream](text=data, action=self, **(self.__details or {}))
+            event = _IO_EVENTS[stream](text=data, action=self, **(self.process_details or {}))
             if context.would_handle_event(event):
                 context.emit_event_sync(event)
 
@@ -289,8 +253,8 @@ class ExecuteLocal(Action):
             )
         try:
             child = ChildProcess(
-                " ".join(command) if self.__shell else command,
-                shell=self.__shell,
+                " ".join(command) if self.shell else command,
+                shell=self.shell,
                 cwd=description.final_cwd,
                 env=description.final_env,
                 emulate_tty=settings.emulate_tty,
@@ -298,7 +262,7 @@ class ExecuteLocal(Action):
             )
         except (OSError, ValueError) as error:
             raise LaunchError(why_not_started(error, command, description.final_cwd, context)) from None
-        self.__details = {
+        self.process_details = {
             "name": description.final_name,
             "pid": child.pid,
             "cmd": command,
@@ -306,7 +270,7 @@ class ExecuteLocal(Action):
             "env": description.final_env,
         }
         settings.logger.info(f"process started with pid [{child.pid}]")
-        context.emit_event_sync(ProcessStarted(action=self, **self.__details))
+        context.emit_event_sync(ProcessStarted(action=self, **self.process_details))
         return child
 
     def _stop(self, settings: ProcessSettings, *, silent: bool) -> None:
@@ -317,12 +281,12 @@ class ExecuteLocal(Action):
             self.__stopping = asyncio.get_running_loop().create_task(self._escalate(settings, silent=silent))
 
     async def _escalate(self, settings: ProcessSettings, *, silent: bool) -> None:
-        label = self.__process_description.final_name
+        label = self.process_description.final_name
         for number, following in ((signal.SIGINT, signal.SIGTERM), (signal.SIGTERM, signal.SIGKILL)):
             self._signal(number, settings, silent=silent and number == signal.SIGINT)
             patience = settings.timeouts[number]
             if await _happens(self.__ended, patience):
-                # Shells let what they start in the background ignore SIGINT: no use to wait long for that.
+                # Background processes of a shell ignore SIGINT: no long wait for them.
                 if await _happens(self.__gone, min(patience, _GRACE)):
                     return
             else:
@@ -337,12 +301,11 @@ class ExecuteLocal(Action):
             settings.logger.warning(f"signal '{number.name}' is not sent: the process does not run")
             return
         if not silent:
-            label = self.__process_description.final_name
+            label = self.process_description.final_name
             settings.logger.info(f"sending signal '{number.name}' to process[{label}]")
         self.__child.send_signal(number)
 
     def _handle(self, event: Event, context: LaunchContext, settings: ProcessSettings) -> list[LaunchDescriptionEntity]:
-        """Answer an event that concerns this process."""
         if isinstance(event, ProcessExited):
             return answer(self.__on_exit, event, context, "on_exit")
         if isinstance(event, Shutdown):
@@ -366,7 +329,7 @@ class ExecuteLocal(Action):
 
 
 class _ProcessHandler(EventHandler):
-    """Hands events that concern a process over to its action."""
+    """A handler that passes the events of a process to its action."""
 
     def __init__(self, action: ExecuteLocal, settings: ProcessSettings) -> None:
         super().__init__(matcher=action._concerns)
@@ -374,12 +337,11 @@ class _ProcessHandler(EventHandler):
         self._settings = settings
 
     def handle(self, event: Event, context: LaunchContext) -> list[LaunchDescriptionEntity]:
-        """Return the answer to the event."""
         return self._action._handle(event, context, self._settings)
 
 
 async def _happens(event: asyncio.Event, within: float) -> bool:
-    """Wait for an event for so many seconds; whether it came."""
+    """Wait for an event for `within` [s]; return whether it came."""
     with contextlib.suppress(TimeoutError):
         await asyncio.wait_for(event.wait(), within)
     return event.is_set()

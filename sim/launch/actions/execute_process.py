@@ -1,4 +1,4 @@
-"""Starts a program."""
+"""The action that runs a command."""
 
 from __future__ import annotations
 
@@ -7,11 +7,13 @@ from typing import Any
 
 from gz_course.sim.launch.actions.execute_local import ExecuteLocal
 from gz_course.sim.launch.descriptions.executable import Environment, Executable
-from gz_course.sim.launch.substitution import SomeSubstitutionsType, Substitution, describe_substitutions
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.substitution import Substitution
+from gz_course.sim.launch.utilities import describe_substitutions
 
 
 class ExecuteProcess(ExecuteLocal):
-    """Starts `cmd`, a list of words; with `shell=True` they are joined by spaces and given to /bin/sh.
+    """An action that runs `cmd`, a list of words; with `shell=True` they are joined by spaces and given to /bin/sh.
 
     `cwd` is the folder it starts in, `env` replaces the environment, `additional_env` adds to it, `prefix` goes
     before the command, `name` stands in its label. The other arguments are those of ExecuteLocal. A plain text as
@@ -36,32 +38,32 @@ class ExecuteProcess(ExecuteLocal):
 
     @property
     def name(self) -> list[Substitution] | str | None:
-        """The label once it is known, before that the name that was given."""
+        """The label once it is known, before that the given name."""
         return self.process_description.final_name or self.process_description.name
 
     @property
     def cmd(self) -> list[Any]:
-        """The words once they are known, before that the substitutions they are made from."""
+        """The words once they are known, before that their substitutions."""
         return self.process_description.final_cmd or self.process_description.cmd
 
     @property
     def cwd(self) -> list[Substitution] | str | None:
-        """The folder it starts in."""
         return self.process_description.final_cwd or self.process_description.cwd
 
     @property
     def env(self) -> Any:
-        """The environment once it is known, before that the one that replaces the launch's."""
+        """The environment once it is known, before that the given one."""
         return self.process_description.final_env or self.process_description.env
 
     @property
     def additional_env(self) -> Any:
-        """The environment variables that are added."""
         return self.process_description.additional_env
 
     def describe(self) -> str:
-        """Return one line for `ros2 launch --print`."""
-        words = ", ".join(describe_substitutions(word) for word in self.process_description.cmd)
+        words = ", ".join(self._described_words())
         cwd, env = self.process_description.cwd, self.process_description.env
         folder = None if cwd is None else describe_substitutions(cwd)
         return f"ExecuteProcess(cmd=[{words}], cwd={folder}, env={env}, shell={self.shell})"
+
+    def _described_words(self) -> list[str]:
+        return [describe_substitutions(word) for word in self.process_description.cmd]

@@ -1,4 +1,4 @@
-"""Several actions that share a scope and a condition."""
+"""The action for several actions that share a scope and a condition."""
 
 from __future__ import annotations
 
@@ -6,22 +6,22 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from gz_course.sim.launch.action import Action
-from gz_course.sim.launch.actions.set_environment_variable import PopEnvironment, PushEnvironment, ResetEnvironment
-from gz_course.sim.launch.actions.set_launch_configuration import (
-    PopLaunchConfigurations,
-    PushLaunchConfigurations,
-    ResetLaunchConfigurations,
-    SetLaunchConfiguration,
-)
+from gz_course.sim.launch.actions.pop_environment import PopEnvironment
+from gz_course.sim.launch.actions.pop_launch_configurations import PopLaunchConfigurations
+from gz_course.sim.launch.actions.push_environment import PushEnvironment
+from gz_course.sim.launch.actions.push_launch_configurations import PushLaunchConfigurations
+from gz_course.sim.launch.actions.reset_environment import ResetEnvironment
+from gz_course.sim.launch.actions.reset_launch_configurations import ResetLaunchConfigurations
+from gz_course.sim.launch.actions.set_launch_configuration import SetLaunchConfiguration
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity, listed
-from gz_course.sim.launch.substitution import SomeSubstitutionsType
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
 
 
 class GroupAction(Action):
-    """Visits `actions`; with `scoped` (the default) their changes of configurations and environment end with them.
+    """An action that visits `actions`; with `scoped` their changes of configurations and environment end with them.
 
-    With `forwarding=False` nothing of the outside is seen, except for the `launch_configurations` given here.
+    With `forwarding=False` they see no configurations of the outside, only the `launch_configurations` given here.
     """
 
     def __init__(
@@ -41,7 +41,6 @@ class GroupAction(Action):
         self.__entities: list[LaunchDescriptionEntity] | None = None
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """Return the actions, between those that begin and end their scope."""
         if self.__entities is None:
             given = self.__launch_configurations
             setting = [SetLaunchConfiguration(name, value) for name, value in given.items()]
@@ -57,5 +56,4 @@ class GroupAction(Action):
         return self.__entities
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
-        """Return the actions."""
         return self.get_sub_entities()

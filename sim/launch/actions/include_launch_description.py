@@ -1,4 +1,4 @@
-"""Another launch file as a part of this one."""
+"""The action that includes another launch file."""
 
 from __future__ import annotations
 
@@ -10,20 +10,19 @@ from typing import Any
 
 import gz_course.sim.launch.logging as launch_logging
 from gz_course.sim.launch.action import Action
-from gz_course.sim.launch.actions.opaque_function import OpaqueCoroutine, OpaqueFunction
+from gz_course.sim.launch.actions.opaque_coroutine import OpaqueCoroutine
+from gz_course.sim.launch.actions.opaque_function import OpaqueFunction
 from gz_course.sim.launch.actions.set_launch_configuration import SetLaunchConfiguration
 from gz_course.sim.launch.errors import LaunchError, MissingArgumentError, nearest
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.launch_description import LaunchDescription
 from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity
 from gz_course.sim.launch.launch_description_source import LaunchDescriptionSource, as_source
-from gz_course.sim.launch.substitution import (
-    SomeSubstitutionsType,
-    Substitution,
-    normalize_to_list_of_substitutions,
-    perform_substitutions,
-)
-from gz_course.sim.launch.substitutions.this_launch_file import CURRENT_FILE, CURRENT_FOLDER
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.substitution import Substitution
+from gz_course.sim.launch.substitutions.this_launch_file import CURRENT_FILE
+from gz_course.sim.launch.substitutions.this_launch_file_dir import CURRENT_FOLDER
+from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 _CHAIN = "launch_file_chain"
 _DEEPEST = 50
@@ -31,7 +30,7 @@ Pairs = Iterable[tuple[SomeSubstitutionsType, SomeSubstitutionsType]]
 
 
 class IncludeLaunchDescription(Action):
-    """Visits the launch description of `launch_description_source`, given as a source or as a path.
+    """An action that visits the launch description of `launch_description_source`, a source or a path.
 
     `launch_arguments` are pairs or a dict. The included file shares the scope of this one: it sees all
     configurations, and what it sets stays; GroupAction keeps it apart.
@@ -45,36 +44,27 @@ class IncludeLaunchDescription(Action):
         **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
-        self.__source = as_source(launch_description_source)
+        self.launch_description_source = as_source(launch_description_source)
         pairs = launch_arguments.items() if isinstance(launch_arguments, Mapping) else (launch_arguments or ())
-        self.__launch_arguments = [_as_pair(pair) for pair in pairs]
-
-    @property
-    def launch_description_source(self) -> LaunchDescriptionSource:
-        """Where the launch description comes from."""
-        return self.__source
-
-    @property
-    def launch_arguments(self) -> list[tuple[list[Substitution], list[Substitution]]]:
-        """Names and values that are set for it."""
-        return self.__launch_arguments
+        self.launch_arguments = [_as_pair(pair) for pair in pairs]
 
     def describe(self) -> str:
-        """Return one line for `ros2 launch --print`."""
-        return f"IncludeLaunchDescription({self.__source.location})"
+        return f"IncludeLaunchDescription({self.launch_description_source.location})"
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """Return the launch description if it can be had now; one that cannot is told of when it is executed."""
+        """Return the launch description if it can be loaded now; execution reports one that cannot."""
         try:
-            description = self.__source.try_get_launch_description_without_context()
+            description = self.launch_description_source.try_get_launch_description_without_context()
         except Exception as error:
-            launch_logging.get_logger("launch").debug(f"{self.__source.location} cannot be looked into: {error}")
+            launch_logging.get_logger("launch").debug(
+                f"{self.launch_description_source.location} cannot be looked into: {error}"
+            )
             return []
         return [] if description is None else [description]
 
     def leads_back_into(self, chain: Iterable[IncludeLaunchDescription]) -> bool:
         """Return whether one of these includes the same file."""
-        own = self.__source.plain_location
+        own = self.launch_description_source.plain_location
         others = [each.launch_description_source.plain_location for each in chain]
         return own is not None and any(other is not None and _same(own, other) for other in others)
 
@@ -86,16 +76,16 @@ class IncludeLaunchDescription(Action):
         """
         outside = context.get_locals_as_dict()
         before = {name: outside.get(name) for name in (CURRENT_FILE, CURRENT_FOLDER, _CHAIN)}
-        description = self.__source.get_launch_description(context)
-        location = self.__source.location
+        description = self.launch_description_source.get_launch_description(context)
+        location = self.launch_description_source.location
         inside: dict[str, Any] = {_CHAIN: self._extended_chain(before[_CHAIN] or (), context)}
         if location != "''":
             inside |= {CURRENT_FILE: location, CURRENT_FOLDER: os.path.dirname(location)}  # noqa: PTH120
-        given = [perform_substitutions(context, name) for name, _ in self.__launch_arguments]
+        given = [perform_substitutions(context, name) for name, _ in self.launch_arguments]
         self._warn_of_unknown(description, given)
         self._check_required(description, given, context)
         context.extend_locals(inside)
-        setting = [SetLaunchConfiguration(name, value) for name, value in self.__launch_arguments]
+        setting = [SetLaunchConfiguration(name, value) for name, value in self.launch_arguments]
 
         def leave(context: LaunchContext) -> None:
             context.extend_locals(before)
@@ -103,9 +93,10 @@ class IncludeLaunchDescription(Action):
         return [*setting, description, OpaqueFunction(function=leave)]
 
     def _extended_chain(self, chain: tuple[tuple[str, str], ...], context: LaunchContext) -> tuple:
-        """The files being included, each with the configurations it met: the same pair again means no end."""
-        here = (self.__source.location, repr(sorted(context.launch_configurations.items(), key=lambda item: item[0])))
-        if self.__source.plain_location is None and here[0] == "''":
+        """Return the files being included, each with its configurations. Raises LaunchError for an endless chain."""
+        configurations = repr(sorted(context.launch_configurations.items(), key=lambda item: item[0]))
+        here = (self.launch_description_source.location, configurations)
+        if self.launch_description_source.plain_location is None and here[0] == "''":
             return chain
         if here in chain or len(chain) >= _DEEPEST:
             names = " -> ".join(path for path, _ in (*chain[-4:], here))
@@ -124,24 +115,25 @@ class IncludeLaunchDescription(Action):
                 )
 
     def _warn_of_unknown(self, description: LaunchDescription, given: list[str]) -> None:
-        """Say so when an argument cannot have an effect: most likely its name is misspelt."""
+        """Warn of an argument that cannot have an effect: most likely its name is misspelt."""
         if not given or _may_use_anything(description, [self]):
             return
         known = {argument.name for argument in description.get_launch_arguments()}
         unknown = [name for name in dict.fromkeys(given) if name not in known]
-        if not unknown or not Path(self.__source.location).is_file():
+        file = Path(self.launch_description_source.location)
+        if not unknown or not file.is_file():
             return
-        source = Path(self.__source.location).read_text(encoding="utf-8", errors="replace")
+        source = file.read_text(encoding="utf-8", errors="replace")
         for name in unknown:
             if not re.search(rf"""["']{re.escape(name)}["']""", source):
                 listing = nearest(name, known, "its arguments are") or "; it has no arguments"
                 launch_logging.get_logger("launch").warning(
-                    f"'{name}' is not an argument of {self.__source.location} and has no effect there{listing}"
+                    f"'{name}' is not an argument of {file} and has no effect there{listing}"
                 )
 
 
 def _may_use_anything(entity: LaunchDescriptionEntity, chain: list[IncludeLaunchDescription]) -> bool:
-    """Whether a part of a launch description cannot be looked into, and may use any launch configuration."""
+    """Return whether a part cannot be inspected, and may use any launch configuration."""
     if isinstance(entity, OpaqueFunction | OpaqueCoroutine):
         return True
     if isinstance(entity, IncludeLaunchDescription):

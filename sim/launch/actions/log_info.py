@@ -1,4 +1,4 @@
-"""Writes a line."""
+"""The action that logs a line."""
 
 from __future__ import annotations
 
@@ -7,9 +7,8 @@ from typing import Any
 import gz_course.sim.launch.logging as launch_logging
 from gz_course.sim.launch.action import Action
 from gz_course.sim.launch.launch_context import LaunchContext
-from gz_course.sim.launch.substitution import (
-    SomeSubstitutionsType,
-    Substitution,
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.utilities import (
     describe_substitutions,
     normalize_to_list_of_substitutions,
     perform_substitutions,
@@ -17,21 +16,14 @@ from gz_course.sim.launch.substitution import (
 
 
 class LogInfo(Action):
-    """Prints `[INFO] [launch.user]: msg`."""
+    """An action that prints `[INFO] [launch.user]: msg`."""
 
     def __init__(self, *, msg: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self.__msg = normalize_to_list_of_substitutions(msg)
-
-    @property
-    def msg(self) -> list[Substitution]:
-        """The message."""
-        return self.__msg
+        self.msg = normalize_to_list_of_substitutions(msg)
 
     def describe(self) -> str:
-        """Return one line for `ros2 launch --print`."""
-        return f"LogInfo({describe_substitutions(self.__msg)})"
+        return f"LogInfo({describe_substitutions(self.msg)})"
 
     def execute(self, context: LaunchContext) -> None:
-        """Print the message."""
-        launch_logging.get_logger("launch.user").info(perform_substitutions(context, self.__msg))
+        launch_logging.get_logger("launch.user").info(perform_substitutions(context, self.msg))

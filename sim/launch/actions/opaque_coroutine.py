@@ -1,3 +1,57 @@
-"""OpaqueCoroutine, in the module where launch of ROS 2 has it."""
+"""The action that runs a coroutine beside the launch."""
 
-from gz_course.sim.launch.actions.opaque_function import OpaqueCoroutine as OpaqueCoroutine
+from __future__ import annotations
+
+import asyncio
+import inspect
+from collections.abc import Awaitable, Callable, Iterable, Mapping
+from typing import Any
+
+from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.errors import LaunchError
+from gz_course.sim.launch.event import Event
+from gz_course.sim.launch.event_handlers import OnShutdown
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity
+
+
+class OpaqueCoroutine(Action):
+    """An action that runs `coroutine(context, *args, **kwargs)`. The launch waits for it; a shutdown cancels it."""
+
+    def __init__(
+        self,
+        *,
+        coroutine: Callable[..., Awaitable[None]],
+        args: Iterable[Any] | None = None,
+        kwargs: Mapping[str, Any] | None = None,
+        ignore_context: bool = False,
+        **left_over_kwargs: Any,
+    ) -> None:
+        super().__init__(**left_over_kwargs)
+        if not inspect.iscoroutinefunction(coroutine):
+            raise TypeError(f"coroutine={coroutine!r} of OpaqueCoroutine must be defined with `async def`")
+        self.__coroutine = coroutine
+        self.__args = list(args or ())
+        self.__kwargs = dict(kwargs or {})
+        self.__ignore_context = ignore_context
+        self.__future: asyncio.Task[None] | None = None
+
+    def get_asyncio_future(self) -> asyncio.Future[None] | None:
+        return self.__future
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        if context.asyncio_loop is None:
+            raise LaunchError("OpaqueCoroutine can only be executed by a LaunchService that runs")
+        arguments = self.__args if self.__ignore_context else [context, *self.__args]
+        task = context.asyncio_loop.create_task(_finish(self.__coroutine(*arguments, **self.__kwargs)))
+        self.__future = task
+
+        def cancel(event: Event, context: LaunchContext) -> None:
+            task.cancel()
+
+        context.register_event_handler(OnShutdown(on_shutdown=cancel))
+        return None
+
+
+async def _finish(work: Awaitable[None]) -> None:
+    await work

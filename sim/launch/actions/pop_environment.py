@@ -1,3 +1,13 @@
-"""PopEnvironment, in the module where launch of ROS 2 has it."""
+"""The action that ends a scope of the environment."""
 
-from gz_course.sim.launch.actions.set_environment_variable import PopEnvironment as PopEnvironment
+from __future__ import annotations
+
+from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.launch_context import LaunchContext
+
+
+class PopEnvironment(Action):
+    """An action that ends the scope that PushEnvironment began."""
+
+    def execute(self, context: LaunchContext) -> None:
+        context._pop_environment()

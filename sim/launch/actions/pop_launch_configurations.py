@@ -1,3 +1,13 @@
-"""PopLaunchConfigurations, in the module where launch of ROS 2 has it."""
+"""The action that ends a scope of launch configurations."""
 
-from gz_course.sim.launch.actions.set_launch_configuration import PopLaunchConfigurations as PopLaunchConfigurations
+from __future__ import annotations
+
+from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.launch_context import LaunchContext
+
+
+class PopLaunchConfigurations(Action):
+    """An action that ends the scope that PushLaunchConfigurations began."""
+
+    def execute(self, context: LaunchContext) -> None:
+        context._pop_launch_configurations()

@@ -1,3 +1,13 @@
-"""PushEnvironment, in the module where launch of ROS 2 has it."""
+"""The action that begins a scope of the environment."""
 
-from gz_course.sim.launch.actions.set_environment_variable import PushEnvironment as PushEnvironment
+from __future__ import annotations
+
+from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.launch_context import LaunchContext
+
+
+class PushEnvironment(Action):
+    """An action that begins a scope: PopEnvironment undoes what is set from now on."""
+
+    def execute(self, context: LaunchContext) -> None:
+        context._push_environment()

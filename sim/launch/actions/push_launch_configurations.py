@@ -1,3 +1,13 @@
-"""PushLaunchConfigurations, in the module where launch of ROS 2 has it."""
+"""The action that begins a scope of launch configurations."""
 
-from gz_course.sim.launch.actions.set_launch_configuration import PushLaunchConfigurations as PushLaunchConfigurations
+from __future__ import annotations
+
+from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.launch_context import LaunchContext
+
+
+class PushLaunchConfigurations(Action):
+    """An action that begins a scope: PopLaunchConfigurations undoes what is set from now on."""
+
+    def execute(self, context: LaunchContext) -> None:
+        context._push_launch_configurations()

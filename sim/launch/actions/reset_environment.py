@@ -1,3 +1,13 @@
-"""ResetEnvironment, in the module where launch of ROS 2 has it."""
+"""The action that resets the environment."""
 
-from gz_course.sim.launch.actions.set_environment_variable import ResetEnvironment as ResetEnvironment
+from __future__ import annotations
+
+from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.launch_context import LaunchContext
+
+
+class ResetEnvironment(Action):
+    """An action that makes the environment what it was before the launch."""
+
+    def execute(self, context: LaunchContext) -> None:
+        context._reset_environment()

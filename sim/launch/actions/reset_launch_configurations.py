@@ -1,3 +1,32 @@
-"""ResetLaunchConfigurations, in the module where launch of ROS 2 has it."""
+"""The action that removes launch configurations."""
 
-from gz_course.sim.launch.actions.set_launch_configuration import ResetLaunchConfigurations as ResetLaunchConfigurations
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+class ResetLaunchConfigurations(Action):
+    """An action that removes all launch configurations, and sets those given."""
+
+    def __init__(
+        self,
+        launch_configurations: Mapping[SomeSubstitutionsType, SomeSubstitutionsType] | None = None,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self.__kept = [
+            (normalize_to_list_of_substitutions(name), normalize_to_list_of_substitutions(value))
+            for name, value in (launch_configurations or {}).items()
+        ]
+
+    def execute(self, context: LaunchContext) -> None:
+        """Perform the values that are kept before all others are removed: they may refer to them."""
+        kept = {perform_substitutions(context, name): perform_substitutions(context, v) for name, v in self.__kept}
+        context.launch_configurations.clear()
+        context.launch_configurations.update(kept)

@@ -1,3 +1,27 @@
-"""Shutdown, in the module where launch of ROS 2 has it."""
+"""The action that ends the launch."""
 
-from gz_course.sim.launch.actions.emit_event import Shutdown as Shutdown
+from __future__ import annotations
+
+from typing import Any
+
+import gz_course.sim.launch.logging as launch_logging
+from gz_course.sim.launch.actions.emit_event import EmitEvent
+from gz_course.sim.launch.events import Shutdown as ShutdownEvent
+from gz_course.sim.launch.events.process import ProcessExited
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity
+
+
+class Shutdown(EmitEvent):
+    """An action that ends the launch. As `on_exit` of a process it says that this process was required."""
+
+    def __init__(self, *, reason: str = "reason not given", **kwargs: Any) -> None:
+        super().__init__(event=ShutdownEvent(reason=reason), **kwargs)
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        event = context.get_locals_as_dict().get("event")
+        if isinstance(event, ProcessExited):
+            launch_logging.get_logger("launch").info(
+                f"process[{event.process_name}] was required: shutting down launched system"
+            )
+        return super().execute(context)

@@ -1,4 +1,4 @@
-"""Does something after a while."""
+"""The action that visits others after some time."""
 
 from __future__ import annotations
 
@@ -14,15 +14,12 @@ from gz_course.sim.launch.event_handler import EventHandler
 from gz_course.sim.launch.events import Shutdown, TimerEvent
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity, listed
-from gz_course.sim.launch.substitution import (
-    SomeSubstitutionsType,
-    normalize_to_list_of_substitutions,
-    perform_substitutions,
-)
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 
 class TimerAction(Action):
-    """Visits `actions` once, `period` [s] after it was executed; the end of the launch cancels it."""
+    """An action that visits `actions` once, `period` [s] after it was executed; the end of the launch cancels it."""
 
     def __init__(
         self,
@@ -33,8 +30,8 @@ class TimerAction(Action):
         **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
-        self.__period = normalize_to_list_of_substitutions(str(period) if isinstance(period, int | float) else period)
-        self.__actions = listed(actions, "the list of TimerAction")
+        self.period = normalize_to_list_of_substitutions(str(period) if isinstance(period, int | float) else period)
+        self.actions = listed(actions, "the list of TimerAction")
         self.__cancel_on_shutdown = normalize_to_list_of_substitutions(
             str(cancel_on_shutdown) if isinstance(cancel_on_shutdown, bool) else cancel_on_shutdown
         )
@@ -42,30 +39,17 @@ class TimerAction(Action):
         self.__timer: asyncio.TimerHandle | None = None
         self.__canceled = False
 
-    @property
-    def period(self) -> list:
-        """The time [s] as substitutions."""
-        return self.__period
-
-    @property
-    def actions(self) -> list[LaunchDescriptionEntity]:
-        """What is done then."""
-        return self.__actions
-
     def describe(self) -> str:
-        """Return one line for `ros2 launch --print`."""
-        return f"TimerAction(period={' + '.join(part.describe() for part in self.__period)})"
+        return f"TimerAction(period={' + '.join(part.describe() for part in self.period)})"
 
     def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
-        """What the time leads to."""
-        return [(f"After {self.describe()}", self.__actions)]
+        return [(f"After {self.describe()}", self.actions)]
 
     def get_asyncio_future(self) -> asyncio.Future[None] | None:
-        """Return what is done when the time has come or the timer was cancelled."""
         return self.__future
 
     def cancel(self) -> None:
-        """Let nothing happen, now and later."""
+        """Cancel the timer, also one that is executed later."""
         self.__canceled = True
         self._settle()
 
@@ -73,7 +57,7 @@ class TimerAction(Action):
         """Start the timer. Raises LaunchError for a period that is no number of seconds."""
         from gz_course.sim.launch.conditions import evaluate_condition_expression
 
-        text = perform_substitutions(context, self.__period)
+        text = perform_substitutions(context, self.period)
         try:
             period = float(text)
         except ValueError:
@@ -102,7 +86,7 @@ class TimerAction(Action):
 
 
 class _TimerHandler(EventHandler):
-    """Answers the timer's event with its actions, and the end of the launch with cancelling it."""
+    """A handler that visits the actions at the timer's event, and cancels the timer at the end of the launch."""
 
     def __init__(self, timer: TimerAction, cancel_on_shutdown: bool) -> None:
         super().__init__(matcher=self._concerns_the_timer)
@@ -115,7 +99,6 @@ class _TimerHandler(EventHandler):
         return isinstance(event, TimerEvent) and event.timer_action is self._timer
 
     def handle(self, event: Event, context: LaunchContext) -> list[LaunchDescriptionEntity]:
-        """Return the actions when their time has come."""
         future = self._timer.get_asyncio_future()
         if future is None or future.done():
             return []

@@ -1,3 +1,24 @@
-"""UnregisterEventHandler, in the module where launch of ROS 2 has it."""
+"""The action that unregisters an event handler."""
 
-from gz_course.sim.launch.actions.emit_event import UnregisterEventHandler as UnregisterEventHandler
+from __future__ import annotations
+
+from typing import Any
+
+from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.errors import LaunchError
+from gz_course.sim.launch.event_handler import EventHandler
+from gz_course.sim.launch.launch_context import LaunchContext
+
+
+class UnregisterEventHandler(Action):
+    """An action that unregisters an event handler. Raises LaunchError if it is not registered."""
+
+    def __init__(self, event_handler: EventHandler, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.event_handler = event_handler
+
+    def execute(self, context: LaunchContext) -> None:
+        try:
+            context.unregister_event_handler(self.event_handler)
+        except ValueError:
+            raise LaunchError("the event handler that is to be unregistered is not registered") from None

@@ -4,11 +4,10 @@ from gz_course.sim.launch.conditions.evaluate_condition_expression_impl import (
     InvalidConditionExpressionError,
     evaluate_condition_expression,
 )
-from gz_course.sim.launch.conditions.if_condition import IfCondition, UnlessCondition
-from gz_course.sim.launch.conditions.launch_configuration_equals import (
-    LaunchConfigurationEquals,
-    LaunchConfigurationNotEquals,
-)
+from gz_course.sim.launch.conditions.if_condition import IfCondition
+from gz_course.sim.launch.conditions.launch_configuration_equals import LaunchConfigurationEquals
+from gz_course.sim.launch.conditions.launch_configuration_not_equals import LaunchConfigurationNotEquals
+from gz_course.sim.launch.conditions.unless_condition import UnlessCondition
 
 __all__ = [
     "IfCondition",

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from gz_course.sim.launch.errors import LaunchError
-from gz_course.sim.launch.substitution import Substitution, perform_substitutions
+from gz_course.sim.launch.substitution import Substitution
+from gz_course.sim.launch.utilities import perform_substitutions
 
 if TYPE_CHECKING:
     from gz_course.sim.launch.launch_context import LaunchContext

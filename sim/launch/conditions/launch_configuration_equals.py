@@ -1,18 +1,15 @@
-"""Conditions that compare a launch configuration with a value."""
+"""The condition that holds when a launch configuration has a value."""
 
 from __future__ import annotations
 
 from gz_course.sim.launch.condition import Condition
 from gz_course.sim.launch.launch_context import LaunchContext
-from gz_course.sim.launch.substitution import (
-    SomeSubstitutionsType,
-    normalize_to_list_of_substitutions,
-    perform_substitutions,
-)
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 
 class LaunchConfigurationEquals(Condition):
-    """Holds when the configuration has this value; with None: when it does not exist."""
+    """A condition that holds when the configuration has this value; with None: when it does not exist."""
 
     def __init__(self, launch_configuration_name: str, expected_value: SomeSubstitutionsType | None) -> None:
         self._name = launch_configuration_name
@@ -24,10 +21,3 @@ class LaunchConfigurationEquals(Condition):
         if self._expected is None or value is None:
             return self._expected is None and value is None
         return bool(value == perform_substitutions(context, self._expected))
-
-
-class LaunchConfigurationNotEquals(LaunchConfigurationEquals):
-    """Holds when LaunchConfigurationEquals does not."""
-
-    def _equals(self, context: LaunchContext) -> bool:
-        return not super()._equals(context)

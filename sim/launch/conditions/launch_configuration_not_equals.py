@@ -1,5 +1,13 @@
-"""LaunchConfigurationNotEquals, in the module where launch of ROS 2 has it."""
+"""The condition that holds when a launch configuration does not have a value."""
 
-from gz_course.sim.launch.conditions.launch_configuration_equals import (
-    LaunchConfigurationNotEquals as LaunchConfigurationNotEquals,
-)
+from __future__ import annotations
+
+from gz_course.sim.launch.conditions.launch_configuration_equals import LaunchConfigurationEquals
+from gz_course.sim.launch.launch_context import LaunchContext
+
+
+class LaunchConfigurationNotEquals(LaunchConfigurationEquals):
+    """A condition that holds when LaunchConfigurationEquals does not."""
+
+    def _equals(self, context: LaunchContext) -> bool:
+        return not super()._equals(context)

@@ -1,3 +1,13 @@
-"""UnlessCondition, in the module where launch of ROS 2 has it."""
+"""The condition that holds when a text is false."""
 
-from gz_course.sim.launch.conditions.if_condition import UnlessCondition as UnlessCondition
+from __future__ import annotations
+
+from gz_course.sim.launch.conditions.if_condition import IfCondition
+from gz_course.sim.launch.launch_context import LaunchContext
+
+
+class UnlessCondition(IfCondition):
+    """A condition that holds when the text is `false` or `0`."""
+
+    def _holds(self, context: LaunchContext) -> bool:
+        return not super()._holds(context)

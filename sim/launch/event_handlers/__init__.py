@@ -1,12 +1,10 @@
 """Event handlers for RegisterEventHandler."""
 
-from gz_course.sim.launch.event_handlers.on_action_event_base import (
-    OnActionEventBase,
-    OnExecutionComplete,
-    OnProcessExit,
-    OnProcessIO,
-    OnProcessStart,
-)
+from gz_course.sim.launch.event_handlers.on_action_event_base import OnActionEventBase
+from gz_course.sim.launch.event_handlers.on_execution_complete import OnExecutionComplete
+from gz_course.sim.launch.event_handlers.on_process_exit import OnProcessExit
+from gz_course.sim.launch.event_handlers.on_process_io import OnProcessIO
+from gz_course.sim.launch.event_handlers.on_process_start import OnProcessStart
 from gz_course.sim.launch.event_handlers.on_shutdown import OnShutdown
 
 __all__ = [

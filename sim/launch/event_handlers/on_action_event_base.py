@@ -1,4 +1,4 @@
-"""Event handlers that wait for what happens to an action: its process starts, prints or ends, or it is done."""
+"""The base of event handlers that wait for what happens to an action."""
 
 from __future__ import annotations
 
@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Any
 from gz_course.sim.launch.action import Action
 from gz_course.sim.launch.event import Event
 from gz_course.sim.launch.event_handler import EventHandler, answer, known_entities
-from gz_course.sim.launch.events import ExecutionComplete
-from gz_course.sim.launch.events.process import ProcessExited, ProcessIO, ProcessStarted
-from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity, SomeEntitiesType
+from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity
+from gz_course.sim.launch.some_entities_type import SomeEntitiesType
 
 if TYPE_CHECKING:
     from gz_course.sim.launch.launch_context import LaunchContext
@@ -20,7 +19,7 @@ Reaction = SomeEntitiesType | Callable[[Any, "LaunchContext"], SomeEntitiesType 
 
 
 class OnActionEventBase(EventHandler):
-    """Base: answers events of a class, of one action, of those a function accepts, or of all (None).
+    """A handler of events of a class, of one action, of those a function accepts, or of all (None).
 
     `on_event` is an action, a list of actions, or a function(event, context) that may return them.
     """
@@ -60,100 +59,14 @@ class OnActionEventBase(EventHandler):
         return bool(self._target(action))
 
     def handle(self, event: Event, context: LaunchContext) -> list[LaunchDescriptionEntity]:
-        """Return the answer to the event; the handler leaves when it answers only once."""
         super().handle(event, context)
         return answer(self._reaction, event, context, self._argument)
 
     @property
     def handler_description(self) -> str:
-        """What the handler does, for `--print`."""
         return repr(self._reaction) if callable(self._reaction) else f"<{len(self.entities)} actions>"
 
     @property
     def matcher_description(self) -> str:
-        """Which events it waits for, for `--print`."""
         target = "any action" if self._target is None else repr(self._target)
         return f"{self._event_class.__name__} of {target}"
-
-
-def _process_action() -> type[Action]:
-    from gz_course.sim.launch.actions import ExecuteLocal
-
-    return ExecuteLocal
-
-
-class OnProcessExit(OnActionEventBase):
-    """Answers the end of a process."""
-
-    def __init__(
-        self, *, target_action: TargetAction = None, on_exit: Reaction, handle_once: bool = False, **kwargs: Any
-    ) -> None:
-        super().__init__(
-            action_matcher=target_action,
-            on_event=on_exit,
-            target_event_cls=ProcessExited,
-            target_action_cls=_process_action(),
-            handle_once=handle_once,
-            argument="on_exit",
-            **kwargs,
-        )
-
-
-class OnProcessStart(OnActionEventBase):
-    """Answers the start of a process."""
-
-    def __init__(
-        self, *, target_action: TargetAction = None, on_start: Reaction, handle_once: bool = False, **kwargs: Any
-    ) -> None:
-        super().__init__(
-            action_matcher=target_action,
-            on_event=on_start,
-            target_event_cls=ProcessStarted,
-            target_action_cls=_process_action(),
-            handle_once=handle_once,
-            argument="on_start",
-            **kwargs,
-        )
-
-
-class OnProcessIO(OnActionEventBase):
-    """Answers what a process prints: `on_stdout(event)` and `on_stderr(event)`, with the bytes `event.text`."""
-
-    def __init__(
-        self,
-        *,
-        target_action: TargetAction = None,
-        on_stdin: Callable[[ProcessIO], SomeEntitiesType | None] | None = None,
-        on_stdout: Callable[[ProcessIO], SomeEntitiesType | None] | None = None,
-        on_stderr: Callable[[ProcessIO], SomeEntitiesType | None] | None = None,
-        **kwargs: Any,
-    ) -> None:
-        by_descriptor = dict(enumerate((on_stdin, on_stdout, on_stderr)))
-
-        def react(event: ProcessIO, context: LaunchContext) -> SomeEntitiesType | None:
-            reaction = by_descriptor[event.fd]
-            return None if reaction is None else reaction(event)
-
-        super().__init__(
-            action_matcher=target_action,
-            on_event=react,
-            target_event_cls=ProcessIO,
-            target_action_cls=_process_action(),
-            **kwargs,
-        )
-
-
-class OnExecutionComplete(OnActionEventBase):
-    """Answers that an action is done."""
-
-    def __init__(
-        self, *, target_action: TargetAction = None, on_completion: Reaction, handle_once: bool = False, **kwargs: Any
-    ) -> None:
-        super().__init__(
-            action_matcher=target_action,
-            on_event=on_completion,
-            target_event_cls=ExecutionComplete,
-            handle_once=handle_once,
-            argument="on_completion",
-            **kwargs,
-        )

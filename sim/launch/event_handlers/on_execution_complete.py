@@ -1,3 +1,21 @@
-"""OnExecutionComplete, in the module where launch of ROS 2 has it."""
+"""The event handler that waits for an action to be complete."""
 
-from gz_course.sim.launch.event_handlers.on_action_event_base import OnExecutionComplete as OnExecutionComplete
+from __future__ import annotations
+
+from typing import Any
+
+from gz_course.sim.launch.event_handlers.on_action_event_base import OnActionEventBase, Reaction, TargetAction
+from gz_course.sim.launch.events import ExecutionComplete
+
+
+class OnExecutionComplete(OnActionEventBase):
+    """A handler that answers the completion of an action with `on_completion`."""
+
+    def __init__(self, *, target_action: TargetAction = None, on_completion: Reaction, **kwargs: Any) -> None:
+        super().__init__(
+            action_matcher=target_action,
+            on_event=on_completion,
+            target_event_cls=ExecutionComplete,
+            argument="on_completion",
+            **kwargs,
+        )

@@ -13,24 +13,24 @@ from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEnti
 if TYPE_CHECKING:
     from gz_course.sim.launch.launch_context import LaunchContext
 
+_ARGUMENT = "on_shutdown of OnShutdown"
+
 
 class OnShutdown(EventHandler):
-    """Answers Shutdown, with actions or with a function(event, context). No process is started any more."""
+    """A handler of Shutdown, with actions or with a function(event, context). No process is started any more."""
 
     def __init__(self, *, on_shutdown: Reaction, **kwargs: Any) -> None:
         self._reaction = on_shutdown
         super().__init__(
             matcher=lambda event: isinstance(event, Shutdown),
-            entities=known_entities(on_shutdown, "on_shutdown of OnShutdown"),
+            entities=known_entities(on_shutdown, _ARGUMENT),
             **kwargs,
         )
 
     def handle(self, event: Event, context: LaunchContext) -> list[LaunchDescriptionEntity]:
-        """Return the answer to the event."""
         super().handle(event, context)
-        return answer(self._reaction, event, context, "on_shutdown of OnShutdown")
+        return answer(self._reaction, event, context, _ARGUMENT)
 
     @property
     def matcher_description(self) -> str:
-        """Which events it waits for, for `--print`."""
         return "Shutdown"

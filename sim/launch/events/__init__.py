@@ -1,12 +1,10 @@
-"""What happens while a launch file runs. Events of processes are in `launch.events.process`."""
+"""Events of a launch. Events of processes are in `launch.events.process`."""
 
 from gz_course.sim.launch.events import process as process
-from gz_course.sim.launch.events.execution_complete import (
-    ExecutionComplete,
-    IncludeLaunchDescription,
-    Shutdown,
-    TimerEvent,
-    matches_action,
-)
+from gz_course.sim.launch.events.execution_complete import ExecutionComplete
+from gz_course.sim.launch.events.include_launch_description import IncludeLaunchDescription
+from gz_course.sim.launch.events.matchers import matches_action
+from gz_course.sim.launch.events.shutdown import Shutdown
+from gz_course.sim.launch.events.timer_event import TimerEvent
 
 __all__ = ["ExecutionComplete", "IncludeLaunchDescription", "Shutdown", "TimerEvent", "matches_action"]

@@ -1,3 +1,19 @@
-"""IncludeLaunchDescription, in the module where launch of ROS 2 has it."""
+"""The event that brings in a launch description."""
 
-from gz_course.sim.launch.events.execution_complete import IncludeLaunchDescription as IncludeLaunchDescription
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from gz_course.sim.launch.event import Event
+
+if TYPE_CHECKING:
+    from gz_course.sim.launch.launch_description import LaunchDescription
+
+
+class IncludeLaunchDescription(Event):
+    """The event that asks LaunchService to visit a launch description."""
+
+    name = "launch.events.IncludeLaunchDescription"
+
+    def __init__(self, launch_description: LaunchDescription) -> None:
+        self.launch_description = launch_description

@@ -1,3 +1,15 @@
-"""Shutdown, in the module where launch of ROS 2 has it."""
+"""The event that ends the launch."""
 
-from gz_course.sim.launch.events.execution_complete import Shutdown as Shutdown
+from __future__ import annotations
+
+from gz_course.sim.launch.event import Event
+
+
+class Shutdown(Event):
+    """The event that ends the launch, with a `reason` in words; `due_to_sigint` tells Ctrl-C from other reasons."""
+
+    name = "launch.events.Shutdown"
+
+    def __init__(self, *, reason: str = "reason not given", due_to_sigint: bool = False) -> None:
+        self.reason = reason
+        self.due_to_sigint = due_to_sigint

@@ -1,6 +1,8 @@
-"""Reads `$(name argument ...)` in a text as substitutions.
+"""Substitutions written as `$(name argument ...)` in a text.
 
-The names are those of XML launch files; a package adds its own with `expose_substitution`, as launch_ros does.
+A package adds its own with `expose_substitution`, as launch_ros does.
+
+Source: ros2/launch, launch/frontend/grammar.lark; the names are those of XML launch files
 """
 
 from __future__ import annotations
@@ -53,7 +55,7 @@ def parse_substitution(text: str) -> list[Substitution]:
 
 
 def _parse_parts(text: str, start: int, *, nested: bool) -> tuple[list[Substitution], int]:
-    """Text and substitutions from `start` on: to the end, or to a blank or `)` when nested."""
+    """Return text and substitutions from `start` to the end, or to a blank or `)` when nested, and where that is."""
     parts: list[Substitution] = []
     plain: list[str] = []
     quote = ""
@@ -84,7 +86,7 @@ def _parse_parts(text: str, start: int, *, nested: bool) -> tuple[list[Substitut
 
 
 def _parse_call(text: str, start: int) -> tuple[Substitution, int]:
-    """One `$(name argument ...)` that begins at `start`, and where it ends."""
+    """Return the `$(name argument ...)` that begins at `start`, and where it ends."""
     position = start + 2
     words: list[list[Substitution]] = []
     while True:

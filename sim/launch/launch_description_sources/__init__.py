@@ -1,13 +1,15 @@
-"""Loads launch files: Python ones. XML and YAML launch files are refused with a sentence."""
+"""Sources of launch descriptions: Python launch files. XML and YAML launch files are refused with a sentence."""
 
 from gz_course.sim.launch.invalid_launch_file_error import InvalidLaunchFileError
-from gz_course.sim.launch.launch_description_sources.any_launch_description_source import (
-    AnyLaunchDescriptionSource,
+from gz_course.sim.launch.launch_description_sources.any_launch_description_source import AnyLaunchDescriptionSource
+from gz_course.sim.launch.launch_description_sources.any_launch_file_utilities import (
     get_launch_description_from_any_launch_file,
 )
 from gz_course.sim.launch.launch_description_sources.python_launch_description_source import (
-    InvalidPythonLaunchFileError,
     PythonLaunchDescriptionSource,
+)
+from gz_course.sim.launch.launch_description_sources.python_launch_file_utilities import (
+    InvalidPythonLaunchFileError,
     get_launch_description_from_python_launch_file,
     load_python_launch_file_as_module,
 )

@@ -1,19 +1,15 @@
-"""Launch files of any kind, told by their names."""
+"""The source for launch files of any kind."""
 
 from __future__ import annotations
 
 import os
-from pathlib import Path
 
-from gz_course.sim.launch.invalid_launch_file_error import InvalidLaunchFileError
 from gz_course.sim.launch.launch_description import LaunchDescription
 from gz_course.sim.launch.launch_description_source import LaunchDescriptionSource
-from gz_course.sim.launch.launch_description_sources.python_launch_description_source import (
-    get_launch_description_from_python_launch_file,
+from gz_course.sim.launch.launch_description_sources.any_launch_file_utilities import (
+    get_launch_description_from_any_launch_file,
 )
-from gz_course.sim.launch.substitution import SomeSubstitutionsType
-
-_OTHER_KINDS = {".xml": "an XML", ".yaml": "a YAML", ".yml": "a YAML"}
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
 
 
 class AnyLaunchDescriptionSource(LaunchDescriptionSource):
@@ -24,13 +20,3 @@ class AnyLaunchDescriptionSource(LaunchDescriptionSource):
 
     def _get_launch_description(self, location: str) -> LaunchDescription:
         return get_launch_description_from_any_launch_file(location)
-
-
-def get_launch_description_from_any_launch_file(launch_file_path: str) -> LaunchDescription:
-    """Return the launch description of a file. Raises InvalidLaunchFileError for anything but a Python file."""
-    kind = _OTHER_KINDS.get(Path(launch_file_path).suffix.lower())
-    if kind is not None and Path(launch_file_path).is_file():
-        raise InvalidLaunchFileError(
-            f"'{launch_file_path}' is {kind} launch file; only Python launch files (.launch.py) can be used here"
-        )
-    return get_launch_description_from_python_launch_file(launch_file_path)

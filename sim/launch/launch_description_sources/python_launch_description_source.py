@@ -1,23 +1,15 @@
-"""Launch files written in Python: a function `generate_launch_description()` that returns a LaunchDescription."""
+"""The source for Python launch files."""
 
 from __future__ import annotations
 
 import os
-from pathlib import Path
-from types import ModuleType
 
-from gz_course.sim.launch.ament_prefix import packages_with_launch_file
-from gz_course.sim.launch.errors import nearest
-from gz_course.sim.launch.invalid_launch_file_error import InvalidLaunchFileError
 from gz_course.sim.launch.launch_description import LaunchDescription
 from gz_course.sim.launch.launch_description_source import LaunchDescriptionSource
-from gz_course.sim.launch.substitution import SomeSubstitutionsType
-
-_FUNCTION = "generate_launch_description"
-
-
-class InvalidPythonLaunchFileError(InvalidLaunchFileError):
-    """A Python file is not there, or is no launch file."""
+from gz_course.sim.launch.launch_description_sources.python_launch_file_utilities import (
+    get_launch_description_from_python_launch_file,
+)
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
 
 
 class PythonLaunchDescriptionSource(LaunchDescriptionSource):
@@ -28,83 +20,3 @@ class PythonLaunchDescriptionSource(LaunchDescriptionSource):
 
     def _get_launch_description(self, location: str) -> LaunchDescription:
         return get_launch_description_from_python_launch_file(location)
-
-
-def load_python_launch_file_as_module(python_launch_file_path: str) -> ModuleType:
-    """Execute a Python launch file; return it as a module, which is not registered anywhere.
-
-    Raises InvalidPythonLaunchFileError when it cannot be read, SyntaxError, and whatever its code raises.
-    """
-    path = Path(python_launch_file_path)
-    try:
-        source = path.read_bytes()
-    except OSError as error:
-        raise InvalidPythonLaunchFileError(f"{_not_readable(path, error)}{_a_package_has(path)}") from None
-    module = ModuleType("python_launch_file")
-    module.__file__ = str(path)
-    try:
-        code = compile(source, str(path), "exec")
-    except (SyntaxError, ValueError) as error:
-        if isinstance(error, SyntaxError) and error.filename:
-            raise
-        # Null bytes, for example.
-        raise InvalidPythonLaunchFileError(f"{path}: this is no Python file: {error}") from None
-    exec(code, module.__dict__)
-    return module
-
-
-def get_launch_description_from_python_launch_file(python_launch_file_path: str) -> LaunchDescription:
-    """Return what generate_launch_description() of a file returns.
-
-    Raises InvalidPythonLaunchFileError when there is no such function or it returns something else, and whatever
-    load_python_launch_file_as_module or the function raises.
-    """
-    module = load_python_launch_file_as_module(python_launch_file_path)
-    function = getattr(module, _FUNCTION, None)
-    if not callable(function):
-        own = [name for name, value in vars(module).items() if getattr(value, "__module__", "") == module.__name__]
-        hint = nearest(_FUNCTION, own)
-        raise InvalidPythonLaunchFileError(
-            f"launch file at '{python_launch_file_path}' does not contain the required function "
-            f"'{_FUNCTION}()'{hint if 'did you mean' in hint else ''}"
-        )
-    description = function()
-    if not isinstance(description, LaunchDescription):
-        hint = "; its `return` is missing" if description is None else ""
-        if isinstance(description, list | tuple):
-            hint = "; write return LaunchDescription([...])"
-        raise InvalidPythonLaunchFileError(
-            f"{_FUNCTION}() in '{python_launch_file_path}' returned {_described(description)}, not a "
-            f"LaunchDescription{hint}"
-        )
-    return description
-
-
-def _described(value: object) -> str:
-    """A value in few words; a list of actions would fill the screen."""
-    text = repr(value)
-    return f"{text} of type {type(value).__name__}" if len(text) <= 60 else f"a {type(value).__name__}"
-
-
-def _not_readable(path: Path, error: OSError) -> str:
-    if not isinstance(error, FileNotFoundError):
-        return f"the launch file '{path}' cannot be read: {error.strerror}"
-    sentence = f"there is no launch file '{path}'"
-    if not path.is_absolute():
-        sentence += f" in the current folder {Path.cwd()}"
-    folder = path.parent if path.parent.is_dir() else None
-    hint = nearest(path.name, os.listdir(folder)) if folder else ""  # noqa: PTH208
-    return sentence + (hint if "did you mean" in hint else "")
-
-
-def _a_package_has(path: Path) -> str:
-    """The end of a sentence that says how to write a bare file name that belongs to a ROS package."""
-    if path.parent != Path():
-        return ""
-    found = packages_with_launch_file(path.name)
-    if not found:
-        return ""
-    return (
-        f"; the package {found[0]} has one of that name: write "
-        f'PathJoinSubstitution([FindPackageShare("{found[0]}"), "launch", "{path.name}"])'
-    )

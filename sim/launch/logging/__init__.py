@@ -1,10 +1,12 @@
-"""What a launch writes: lines on the screen, `launch.log`, and the output of its processes in either.
+"""The log of a launch: lines on the screen and in `launch.log`.
 
     launch.logging.get_logger("my_launch").info("up and running")
 
 prints `[INFO] [my_launch]: up and running` and writes the same with a time in front to `launch.log`. The log folder
 is `<date>-<time>-<host>-<pid>` below ROS_LOG_DIR, else ROS_HOME/log, else ~/.ros/log; it is made when the first line
 is logged.
+
+Source: ros2/launch, launch/logging/__init__.py
 """
 
 from __future__ import annotations
@@ -24,7 +26,7 @@ LOG_FORMAT = "{0.created:.7f} [{0.levelname}] [{0.name}]: {1}"
 
 
 class LaunchConfig:
-    """Level, log folder, screen and log file: one of them, `launch_config`, for the whole process."""
+    """Level, log folder, screen and log file of the whole process; the one instance is `launch_config`."""
 
     def __init__(self) -> None:
         self._log_file: TextIO | None = None
@@ -68,11 +70,10 @@ class LaunchConfig:
         self._open_log(Path(path))
 
     def get_log_file_path(self, file_name: str = "launch.log") -> str:
-        """Return the path of a file in the log folder."""
         return str(Path(self.log_dir) / file_name)
 
     def announce(self) -> None:
-        """Say once where the log files are and what is logged."""
+        """Log once where the log files are and what is logged."""
         if self._announced:
             return
         self._announced = True
@@ -93,7 +94,7 @@ class LaunchConfig:
         except (OSError, ValueError):
             self._screen_is_gone = True
             with contextlib.suppress(OSError, ValueError):
-                # Whatever is buffered would fail again, and loudly, when Python exits.
+                # What is buffered would fail again, with a traceback, when Python exits.
                 os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
     def write_to_log(self, text: str) -> None:
@@ -133,7 +134,7 @@ def _log_base() -> Path:
 
 
 def _point_latest_at(base: Path, folder: Path) -> None:
-    """Let the link `latest` lead to this run's folder; several launches may do so at once."""
+    """Point the link `latest` to this run's folder; several launches may do so at once."""
     link = base / f".latest-{os.getpid()}"
     link.unlink(missing_ok=True)
     link.symlink_to(folder.name)
@@ -144,7 +145,7 @@ def _point_latest_at(base: Path, folder: Path) -> None:
 
 
 class _Handler(logging.Handler):
-    """Writes a record to screen and log file."""
+    """A handler that writes to screen and log file."""
 
     def emit(self, record: logging.LogRecord) -> None:
         message = record.getMessage()
@@ -155,10 +156,9 @@ class _Handler(logging.Handler):
 
 
 class _Logger(logging.Logger):
-    """A logger that is not among those of `logging`, whose cache of levels would therefore not be kept up to date."""
+    """A logger that `logging` does not know, and whose cache of levels it would therefore not update."""
 
     def isEnabledFor(self, level: int) -> bool:
-        """Return whether a record of this level is logged."""
         return level >= self.level
 
 

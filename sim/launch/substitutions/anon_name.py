@@ -1,3 +1,46 @@
-"""AnonName, in the module where launch of ROS 2 has it."""
+"""The substitution for a name that nobody else uses."""
 
-from gz_course.sim.launch.substitutions.this_launch_file import AnonName as AnonName
+from __future__ import annotations
+
+import getpass
+import os
+import random
+import socket
+
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.substitution import Substitution
+from gz_course.sim.launch.utilities import (
+    describe_substitutions,
+    normalize_to_list_of_substitutions,
+    perform_substitutions,
+)
+
+_ANONYMOUS_NAMES = "anon_names"
+
+
+class AnonName(Substitution):
+    """A name that nobody else uses; the same one for the same `name` in one run."""
+
+    def __init__(self, name: SomeSubstitutionsType) -> None:
+        self.name = normalize_to_list_of_substitutions(name)
+
+    def describe(self) -> str:
+        return f"AnonName({describe_substitutions(self.name)})"
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return `<name>_<user>_<host>_<process>_<number>`, fit for a node's name."""
+        name = perform_substitutions(context, self.name)
+        known: dict[str, str] = context.get_locals_as_dict().get(_ANONYMOUS_NAMES, {})
+        if name not in known:
+            text = f"{name}_{_user()}_{socket.gethostname()}_{os.getpid()}_{random.randrange(2**31)}"
+            known[name] = "".join(letter if letter.isascii() and letter.isalnum() else "_" for letter in text)
+            context.extend_globals({_ANONYMOUS_NAMES: known})
+        return known[name]
+
+
+def _user() -> str:
+    try:
+        return getpass.getuser()
+    except (KeyError, OSError):
+        return str(os.getuid())

@@ -1,4 +1,4 @@
-"""What a command prints."""
+"""The substitution for the output of a command."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ import subprocess
 
 import gz_course.sim.launch.logging as launch_logging
 from gz_course.sim.launch.launch_context import LaunchContext
-from gz_course.sim.launch.substitution import (
-    SomeSubstitutionsType,
-    Substitution,
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.substitution import Substitution
+from gz_course.sim.launch.substitutions.find_executable import nearest_program
+from gz_course.sim.launch.substitutions.substitution_failure import SubstitutionFailure
+from gz_course.sim.launch.utilities import (
     describe_substitutions,
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from gz_course.sim.launch.substitutions.paths import nearest_program
-from gz_course.sim.launch.substitutions.substitution_failure import SubstitutionFailure
 
 _ON_STDERR = ("fail", "ignore", "warn", "capture")
 _TRACE = ("Traceback (most recent", "During handling of the above", "The above exception was")
@@ -31,27 +31,16 @@ class Command(Substitution):
     """
 
     def __init__(self, command: SomeSubstitutionsType, *, on_stderr: SomeSubstitutionsType = "fail") -> None:
-        self.__command = normalize_to_list_of_substitutions(command)
-        self.__on_stderr = normalize_to_list_of_substitutions(on_stderr)
-
-    @property
-    def command(self) -> list[Substitution]:
-        """The command."""
-        return self.__command
-
-    @property
-    def on_stderr(self) -> list[Substitution]:
-        """What happens when it writes to stderr."""
-        return self.__on_stderr
+        self.command = normalize_to_list_of_substitutions(command)
+        self.on_stderr = normalize_to_list_of_substitutions(on_stderr)
 
     def describe(self) -> str:
-        """`Command('...')`."""
-        return f"Command({describe_substitutions(self.__command)})"
+        return f"Command({describe_substitutions(self.command)})"
 
     def perform(self, context: LaunchContext) -> str:
         """Run the command to its end; return what it wrote to stdout, the last newline included."""
-        text = perform_substitutions(context, self.__command)
-        on_stderr = perform_substitutions(context, self.__on_stderr)
+        text = perform_substitutions(context, self.command)
+        on_stderr = perform_substitutions(context, self.on_stderr)
         if on_stderr not in _ON_STDERR:
             raise SubstitutionFailure(f"on_stderr of Command is {on_stderr!r}; it can be {', '.join(_ON_STDERR)}")
         try:
@@ -77,14 +66,14 @@ class Command(Substitution):
 
 
 def _without_traces(errors: str) -> str:
-    """The text without the places of Python's tracebacks: those are not in the launch file."""
+    """Return the text without the places of Python's tracebacks, which are not in the launch file."""
     if _TRACE[0] not in errors:
         return errors.strip()
     return "; ".join(line for line in errors.splitlines() if line and not line.startswith((" ", *_TRACE)))
 
 
 def _run(words: list[str], context: LaunchContext) -> tuple[int, str, str]:
-    """(exit code, stdout, stderr) of a command, which does not outlive an interruption of this function."""
+    """Return exit code, stdout and stderr of a command, which an interruption of this function kills."""
     process = None
     try:
         with context.uninterrupted():
@@ -107,6 +96,6 @@ def _run(words: list[str], context: LaunchContext) -> tuple[int, str, str]:
             with context.uninterrupted():
                 if process.poll() is None:
                     os.killpg(process.pid, signal.SIGKILL)
-                with process:  # closes the pipes and takes notice of its end
+                with process:  # closes the pipes and reaps the process
                     pass
     return process.returncode, output.decode(errors="replace"), errors.decode(errors="replace")

@@ -1,3 +1,46 @@
-"""FindExecutable, in the module where launch of ROS 2 has it."""
+"""The substitution that finds a program on PATH."""
 
-from gz_course.sim.launch.substitutions.paths import FindExecutable as FindExecutable
+from __future__ import annotations
+
+import os
+import shutil
+
+from gz_course.sim.launch.errors import nearest
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.substitution import Substitution
+from gz_course.sim.launch.substitutions.substitution_failure import SubstitutionFailure
+from gz_course.sim.launch.utilities import (
+    describe_substitutions,
+    normalize_to_list_of_substitutions,
+    perform_substitutions,
+)
+
+
+class FindExecutable(Substitution):
+    """The path of the program `name` on PATH."""
+
+    def __init__(self, *, name: SomeSubstitutionsType) -> None:
+        self.name = normalize_to_list_of_substitutions(name)
+
+    def describe(self) -> str:
+        return f"FindExec({describe_substitutions(self.name)})"
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return the path. Raises SubstitutionFailure with the nearest program."""
+        name = perform_substitutions(context, self.name)
+        path = shutil.which(name, path=context.environment.get("PATH", os.defpath))
+        if path is None:
+            close = nearest_program(name, context)
+            raise SubstitutionFailure(f"executable '{name}' not found on the PATH{close}")
+        return path
+
+
+def nearest_program(name: str, context: LaunchContext) -> str:
+    """Return the end of a sentence that names the program on PATH whose name is nearest, empty if none is near."""
+    known = []
+    for folder in context.environment.get("PATH", os.defpath).split(os.pathsep):
+        if folder and os.path.isdir(folder):  # noqa: PTH112
+            known += os.listdir(folder)  # noqa: PTH208
+    hint = nearest(name, known)
+    return hint if "did you mean" in hint else ""

@@ -1,3 +1,31 @@
-"""IfElseSubstitution, in the module where launch of ROS 2 has it."""
+"""The substitution that chooses between two texts."""
 
-from gz_course.sim.launch.substitutions.boolean_substitution import IfElseSubstitution as IfElseSubstitution
+from __future__ import annotations
+
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.substitution import Substitution
+from gz_course.sim.launch.substitutions.boolean_substitution import operand_substitutions, performed_bool
+from gz_course.sim.launch.utilities import describe_substitutions, perform_substitutions
+
+
+class IfElseSubstitution(Substitution):
+    """`if_value` when the condition is true, else `else_value`; both are empty unless given."""
+
+    def __init__(
+        self,
+        condition: SomeSubstitutionsType,
+        if_value: SomeSubstitutionsType = "",
+        else_value: SomeSubstitutionsType = "",
+    ) -> None:
+        self.condition = operand_substitutions(condition)
+        self.if_value = operand_substitutions(if_value)
+        self.else_value = operand_substitutions(else_value)
+
+    def describe(self) -> str:
+        return f"IfElse({', '.join(map(describe_substitutions, (self.condition, self.if_value, self.else_value)))})"
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return the text that is chosen. Raises SubstitutionFailure when the condition is no boolean."""
+        holds = performed_bool(context, self.condition, "IfElse")
+        return perform_substitutions(context, self.if_value if holds else self.else_value)

@@ -1,4 +1,4 @@
-"""The value of a launch argument or of anything else that was set with SetLaunchConfiguration."""
+"""The substitution for the value of a launch argument, or of what SetLaunchConfiguration has set."""
 
 from __future__ import annotations
 
@@ -7,13 +7,10 @@ from typing import Any
 
 from gz_course.sim.launch.errors import nearest
 from gz_course.sim.launch.launch_context import LaunchContext
-from gz_course.sim.launch.substitution import (
-    SomeSubstitutionsType,
-    Substitution,
-    normalize_to_list_of_substitutions,
-    perform_substitutions,
-)
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.substitution import Substitution
 from gz_course.sim.launch.substitutions.substitution_failure import SubstitutionFailure
+from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 
 class LaunchConfiguration(Substitution):
@@ -23,21 +20,15 @@ class LaunchConfiguration(Substitution):
     """
 
     def __init__(self, variable_name: SomeSubstitutionsType, *, default: Any | Iterable[Any] | None = None) -> None:
-        self.__variable_name = normalize_to_list_of_substitutions(variable_name)
+        self.variable_name = normalize_to_list_of_substitutions(variable_name)
         self.__default = None if default is None else _as_substitutions(default)
 
-    @property
-    def variable_name(self) -> list[Substitution]:
-        """The name."""
-        return self.__variable_name
-
     def describe(self) -> str:
-        """`LaunchConfig('name')`."""
-        return f"LaunchConfig({' + '.join(part.describe() for part in self.__variable_name)})"
+        return f"LaunchConfig({' + '.join(part.describe() for part in self.variable_name)})"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the value. Raises SubstitutionFailure with the nearest name."""
-        name = perform_substitutions(context, self.__variable_name)
+        name = perform_substitutions(context, self.variable_name)
         if name in context.launch_configurations:
             value = context.launch_configurations[name]
             return value if isinstance(value, str) else str(value)

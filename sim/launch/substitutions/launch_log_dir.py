@@ -1,3 +1,17 @@
-"""LaunchLogDir, in the module where launch of ROS 2 has it."""
+"""The substitution for the folder of the log files."""
 
-from gz_course.sim.launch.substitutions.paths import LaunchLogDir as LaunchLogDir
+from __future__ import annotations
+
+import gz_course.sim.launch.logging as launch_logging
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.substitution import Substitution
+
+
+class LaunchLogDir(Substitution):
+    """The folder in which this run keeps its log files."""
+
+    def describe(self) -> str:
+        return "LaunchLogDir()"
+
+    def perform(self, context: LaunchContext) -> str:
+        return launch_logging.launch_config.log_dir

@@ -1,3 +1,40 @@
-"""LocalSubstitution, in the module where launch of ROS 2 has it."""
+"""The substitution for a part of `context.locals`."""
 
-from gz_course.sim.launch.substitutions.this_launch_file import LocalSubstitution as LocalSubstitution
+from __future__ import annotations
+
+from typing import Any
+
+from gz_course.sim.launch.errors import nearest
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.substitution import Substitution
+from gz_course.sim.launch.substitutions.substitution_failure import SubstitutionFailure
+
+
+class LocalSubstitution(Substitution):
+    """A part of `context.locals`, for example `event.returncode` in the actions of an event handler."""
+
+    def __init__(self, expression: str, description: str | None = None) -> None:
+        self.expression = expression
+        self.__description = description
+
+    def describe(self) -> str:
+        return f"LocalVar('{self.__description or self.expression}')"
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return the value as text. Raises SubstitutionFailure when there is no such part."""
+        name, *attributes = self.expression.split(".")
+        value = local_value(context, name, f"there is no '{name}' in the launch file's locals")
+        for attribute in attributes:
+            if not hasattr(value, attribute):
+                known = nearest(attribute, [each for each in dir(value) if not each.startswith("_")])
+                raise SubstitutionFailure(f"{type(value).__name__} has no '{attribute}'{known}")
+            value = getattr(value, attribute)
+        return str(value)
+
+
+def local_value(context: LaunchContext, name: str, otherwise: str) -> Any:
+    """Return a value of `context.locals`. Raises SubstitutionFailure with the sentence `otherwise`."""
+    known = context.get_locals_as_dict()
+    if name not in known:
+        raise SubstitutionFailure(otherwise)
+    return known[name]

@@ -1,3 +1,13 @@
-"""NotEqualsSubstitution, in the module where launch of ROS 2 has it."""
+"""The substitution that tells whether two texts differ."""
 
-from gz_course.sim.launch.substitutions.boolean_substitution import NotEqualsSubstitution as NotEqualsSubstitution
+from __future__ import annotations
+
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.substitutions.equals_substitution import EqualsSubstitution
+
+
+class NotEqualsSubstitution(EqualsSubstitution):
+    """`true` when EqualsSubstitution is `false`."""
+
+    def _answer(self, context: LaunchContext) -> bool:
+        return not super()._answer(context)

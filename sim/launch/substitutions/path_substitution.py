@@ -1,3 +1,13 @@
-"""PathSubstitution, in the module where launch of ROS 2 has it."""
+"""The substitution for a path to which `/` adds components."""
 
-from gz_course.sim.launch.substitutions.paths import PathSubstitution as PathSubstitution
+from __future__ import annotations
+
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.substitutions.path_join_substitution import PathJoinSubstitution
+
+
+class PathSubstitution(PathJoinSubstitution):
+    """A path to which components are added with `/`."""
+
+    def __init__(self, path: SomeSubstitutionsType) -> None:
+        super().__init__([path])

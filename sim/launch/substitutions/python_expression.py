@@ -1,4 +1,4 @@
-"""The result of a Python expression that is put together from text and substitutions."""
+"""The substitution for the result of a Python expression."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from collections.abc import Iterable
 from typing import Any
 
 from gz_course.sim.launch.launch_context import LaunchContext
-from gz_course.sim.launch.substitution import (
-    SomeSubstitutionsType,
-    Substitution,
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.substitution import Substitution
+from gz_course.sim.launch.substitutions.substitution_failure import SubstitutionFailure
+from gz_course.sim.launch.utilities import (
     describe_substitutions,
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from gz_course.sim.launch.substitutions.substitution_failure import SubstitutionFailure
 
 
 class PythonExpression(Substitution):
@@ -27,29 +27,18 @@ class PythonExpression(Substitution):
     def __init__(
         self, expression: SomeSubstitutionsType, python_modules: Iterable[SomeSubstitutionsType] = ("math",)
     ) -> None:
-        self.__expression = normalize_to_list_of_substitutions(expression)
+        self.expression = normalize_to_list_of_substitutions(expression)
         modules = [python_modules] if isinstance(python_modules, str | Substitution) else python_modules
-        self.__modules = [normalize_to_list_of_substitutions(module) for module in modules]
-
-    @property
-    def expression(self) -> list[Substitution]:
-        """The expression."""
-        return self.__expression
-
-    @property
-    def python_modules(self) -> list[list[Substitution]]:
-        """The names of the modules."""
-        return self.__modules
+        self.python_modules = [normalize_to_list_of_substitutions(module) for module in modules]
 
     def describe(self) -> str:
-        """`PythonExpr('...')`."""
-        return f"PythonExpr({describe_substitutions(self.__expression)})"
+        return f"PythonExpr({describe_substitutions(self.expression)})"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the result as text. Raises SubstitutionFailure with the assembled expression."""
-        text = perform_substitutions(context, self.__expression)
+        text = perform_substitutions(context, self.expression)
         names: dict[str, Any] = {}
-        for parts in self.__modules:
+        for parts in self.python_modules:
             module_name = perform_substitutions(context, parts)
             try:
                 module = importlib.import_module(module_name)

@@ -1,4 +1,4 @@
-"""What a substitution raises when it has no text."""
+"""The error of a substitution that has no text."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Text that is known already."""
+"""The substitution for plain text."""
 
 from __future__ import annotations
 
@@ -8,22 +8,15 @@ from gz_course.sim.launch.substitution import Substitution
 
 
 class TextSubstitution(Substitution):
-    """Stands for `text` itself. Raises NotTextError (a TypeError) for anything but a str."""
+    """The text `text`. Raises NotTextError (a TypeError) for anything but a str."""
 
     def __init__(self, *, text: str) -> None:
         if not isinstance(text, str):
             raise NotTextError(f"TextSubstitution wants text, not {text!r} of type {type(text).__name__}")
-        self.__text = text
-
-    @property
-    def text(self) -> str:
-        """The text."""
-        return self.__text
+        self.text = text
 
     def describe(self) -> str:
-        """The text in quotes."""
-        return f"'{self.__text}'"
+        return f"'{self.text}'"
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the text."""
-        return self.__text
+        return self.text

@@ -1,3 +1,20 @@
-"""ThisLaunchFileDir, in the module where launch of ROS 2 has it."""
+"""The substitution for the folder of the launch file that is being executed."""
 
-from gz_course.sim.launch.substitutions.this_launch_file import ThisLaunchFileDir as ThisLaunchFileDir
+from __future__ import annotations
+
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.substitution import Substitution
+from gz_course.sim.launch.substitutions.local_substitution import local_value
+
+CURRENT_FOLDER = "current_launch_file_directory"
+
+
+class ThisLaunchFileDir(Substitution):
+    """The folder of the launch file; in an included file: that file's folder."""
+
+    def describe(self) -> str:
+        return "ThisLaunchFileDir()"
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return the path. Raises SubstitutionFailure outside of a launch file."""
+        return local_value(context, CURRENT_FOLDER, "ThisLaunchFileDir is used outside of a launch file")

@@ -1,5 +1,7 @@
-"""Turns what users write into substitutions, and those into text; under the names of ROS 2's launch."""
+"""Conversions between what users write, substitutions and text; under the names of ROS 2's launch."""
 
-from gz_course.sim.launch.substitution import normalize_to_list_of_substitutions, perform_substitutions
+from gz_course.sim.launch.utilities.describe_substitutions_impl import describe_substitutions
+from gz_course.sim.launch.utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+from gz_course.sim.launch.utilities.perform_substitutions_impl import perform_substitutions
 
-__all__ = ["normalize_to_list_of_substitutions", "perform_substitutions"]
+__all__ = ["describe_substitutions", "normalize_to_list_of_substitutions", "perform_substitutions"]

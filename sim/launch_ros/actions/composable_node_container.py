@@ -1,48 +1,7 @@
-"""Containers of composable nodes, and lifecycle nodes: can be written in a launch file, but not be executed here.
+"""The action that starts a container of composable nodes, which is not available here."""
 
-Many launch files import them for a case that is switched off by default. They need programs that only a full ROS 2
-has (rclcpp components, the lifecycle manager), and say so when they are executed.
-"""
-
-from __future__ import annotations
-
-from typing import Any
-
-from gz_course.sim.launch.action import Action
-from gz_course.sim.launch.errors import NotAvailableError
-from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch_ros.actions.not_available import NotAvailable
 
 
-class _OnlyDescribed(Action):
-    """Base: keeps its arguments as attributes and fails when it is executed."""
-
-    _instead = "start its nodes with Node(package=..., executable=...)"
-
-    def __init__(self, *, condition: Any = None, **arguments: Any) -> None:
-        super().__init__(condition=condition)
-        self.arguments = arguments
-
-    def describe(self) -> str:
-        """Return one line for `ros2 launch --print`."""
-        return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in self.arguments.items())})"
-
-    def execute(self, context: LaunchContext) -> None:
-        """Raise NotAvailableError."""
-        raise NotAvailableError(
-            f"{type(self).__name__} needs a full ROS 2 installation and cannot be executed here; {self._instead}, or "
-            "switch it off with its condition"
-        )
-
-
-class ComposableNodeContainer(_OnlyDescribed):
+class ComposableNodeContainer(NotAvailable):
     """A process into which composable nodes are loaded."""
-
-
-class LoadComposableNodes(_OnlyDescribed):
-    """Loads composable nodes into a container that runs."""
-
-
-class LifecycleNode(_OnlyDescribed):
-    """A node with states that are changed from outside."""
-
-    _instead = "use Node for a node that needs no state changes"

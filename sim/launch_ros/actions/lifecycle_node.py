@@ -1,3 +1,9 @@
-"""LifecycleNode, in the module where launch_ros of ROS 2 has it."""
+"""The action that starts a lifecycle node, which is not available here."""
 
-from gz_course.sim.launch_ros.actions.composable_node_container import LifecycleNode as LifecycleNode
+from gz_course.sim.launch_ros.actions.not_available import NotAvailable
+
+
+class LifecycleNode(NotAvailable):
+    """A node with states that are changed from outside."""
+
+    _instead = "use Node for a node that needs no state changes"

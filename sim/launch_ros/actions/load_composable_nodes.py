@@ -1,3 +1,7 @@
-"""LoadComposableNodes, in the module where launch_ros of ROS 2 has it."""
+"""The action that loads composable nodes, which is not available here."""
 
-from gz_course.sim.launch_ros.actions.composable_node_container import LoadComposableNodes as LoadComposableNodes
+from gz_course.sim.launch_ros.actions.not_available import NotAvailable
+
+
+class LoadComposableNodes(NotAvailable):
+    """An action that loads composable nodes into a container that runs."""

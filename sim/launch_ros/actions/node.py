@@ -1,9 +1,9 @@
-"""A ROS node: an executable of a package, with name, namespace, parameters and remappings.
-
-It is an ExecuteProcess whose command is, in this order:
+"""The action that starts a ROS node: an ExecuteProcess with this command:
 
     <executable> <arguments> [--ros-args <ros_arguments>] --ros-args [-r __node:=<name>] [-r __ns:=<namespace>]
         <parameters of the scope> <its own parameters> [-r <from>:=<to> ...]
+
+Source: ros2/launch_ros, launch_ros/actions/node.py; ROS 2 design, "ROS Command Line Arguments"
 """
 
 from __future__ import annotations
@@ -18,13 +18,9 @@ from typing import Any
 import gz_course.sim.launch.logging as launch_logging
 from gz_course.sim.launch.actions.execute_process import ExecuteProcess
 from gz_course.sim.launch.launch_context import LaunchContext
-from gz_course.sim.launch.substitution import (
-    SomeSubstitutionsType,
-    Substitution,
-    describe_substitutions,
-    normalize_to_list_of_substitutions,
-    perform_substitutions,
-)
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.substitution import Substitution
+from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from gz_course.sim.launch_ros.actions.push_ros_namespace import NAMESPACE
 from gz_course.sim.launch_ros.actions.set_parameter import PARAMETERS
 from gz_course.sim.launch_ros.actions.set_remap import REMAPS
@@ -38,7 +34,7 @@ _LOG = launch_logging.get_logger("launch_ros.actions.node")
 
 
 class Node(ExecuteProcess):
-    """Starts `executable` of `package`; without a package it is looked for on PATH.
+    """An action that starts `executable` of `package`; without a package it is searched on PATH.
 
     `parameters` is a list of dicts, parameter files (paths), Parameter and ParameterFile; later ones win.
     `remappings` are pairs of names. `exec_name` stands in its label. All else is as with ExecuteProcess.
@@ -63,8 +59,8 @@ class Node(ExecuteProcess):
                 raise TypeError(f"Node has no argument '{old}' any more; did you mean '{old.removeprefix('node_')}'?")
         program = executable if package is None else ExecutableInPackage(executable, package)
         super().__init__(cmd=[program, *_listed("arguments", arguments)], name=exec_name, **kwargs)
-        self.__package = None if package is None else normalize_to_list_of_substitutions(package)
-        self.__executable = normalize_to_list_of_substitutions(executable)
+        self.node_package = None if package is None else normalize_to_list_of_substitutions(package)
+        self.node_executable = normalize_to_list_of_substitutions(executable)
         self.__name = None if name is None else normalize_to_list_of_substitutions(name)
         self.__namespace = None if namespace is None else normalize_to_list_of_substitutions(namespace)
         self.__parameters = [_as_parameter(item) for item in _listed("parameters", parameters)]
@@ -74,45 +70,20 @@ class Node(ExecuteProcess):
         ]
         self.__made_files: list[Path] = []
         self.__expanded_name: str | None = None
-        self.__expanded_namespace: str | None = None
-        self.__expanded_remappings: list[tuple[str, str]] | None = None
-
-    @property
-    def node_package(self) -> list[Substitution] | None:
-        """The package."""
-        return self.__package
-
-    @property
-    def node_executable(self) -> list[Substitution]:
-        """The executable."""
-        return self.__executable
+        self.expanded_node_namespace: str | None = None
+        self.expanded_remapping_rules: list[tuple[str, str]] | None = None
 
     @property
     def node_name(self) -> str | None:
         """Namespace and name once they are known; a part that only the node's code knows is in angle brackets."""
-        namespace = self.__expanded_namespace or "<node_namespace_unspecified>"
+        namespace = self.expanded_node_namespace or "<node_namespace_unspecified>"
         return f"{namespace.rstrip('/')}/{self.__expanded_name or '<node_name_unspecified>'}"
 
-    @property
-    def expanded_node_namespace(self) -> str | None:
-        """The namespace once it is known; None when the node's code decides."""
-        return self.__expanded_namespace
-
-    @property
-    def expanded_remapping_rules(self) -> list[tuple[str, str]] | None:
-        """The remappings once they are known."""
-        return self.__expanded_remappings
-
     def is_node_name_fully_specified(self) -> bool:
-        """Return whether both namespace and name are known."""
-        return self.__expanded_name is not None and self.__expanded_namespace is not None
+        return self.__expanded_name is not None and self.expanded_node_namespace is not None
 
-    def describe(self) -> str:
-        """Return one line for `ros2 launch --print`."""
-        words = ", ".join(describe_substitutions(word) for word in self.process_description.cmd)
-        cwd = self.process_description.cwd
-        folder = None if cwd is None else describe_substitutions(cwd)
-        return f"ExecuteProcess(cmd=[{words}, '--ros-args'], cwd={folder}, env={self.env}, shell={self.shell})"
+    def _described_words(self) -> list[str]:
+        return [*super()._described_words(), "'--ros-args'"]
 
     def prepare(self, context: LaunchContext) -> None:
         """Put the command together. Raises LaunchError for names, packages and values that cannot be."""
@@ -124,8 +95,8 @@ class Node(ExecuteProcess):
         words.append("--ros-args")
         if self.__expanded_name is not None:
             words += ["-r", f"__node:={self.__expanded_name}"]
-        if self.__expanded_namespace is not None:
-            words += ["-r", f"__ns:={self.__expanded_namespace}"]
+        if self.expanded_node_namespace is not None:
+            words += ["-r", f"__ns:={self.expanded_node_namespace}"]
         for of_scope in configurations.get(PARAMETERS, ()):
             if isinstance(of_scope, tuple):
                 words += ["-p", f"{of_scope[0]}:={as_argument(of_scope[1])}"]
@@ -133,17 +104,16 @@ class Node(ExecuteProcess):
                 words += _file_words(of_scope)
         for parameter in self.__parameters:
             words += self._parameter_words(parameter, context)
-        self.__expanded_remappings = [
+        self.expanded_remapping_rules = [
             *configurations.get(REMAPS, ()),
             *[(perform_substitutions(context, a), perform_substitutions(context, b)) for a, b in self.__remappings],
         ]
-        for source, target in self.__expanded_remappings:
+        for source, target in self.expanded_remapping_rules:
             words += ["-r", f"{source}:={target}"]
         self.process_description.prepare(context, self, words)
         self._warn_of_equal_names(context)
 
     def cleanup(self) -> None:
-        """Delete the parameter files that were made for this node."""
         for path in self.__made_files:
             with contextlib.suppress(FileNotFoundError):
                 path.unlink()
@@ -158,9 +128,9 @@ class Node(ExecuteProcess):
                 check_node_name(name)
                 self.__expanded_name = name
         namespace = None if self.__namespace is None else perform_substitutions(context, self.__namespace)
-        self.__expanded_namespace = joined(context.launch_configurations.get(NAMESPACE), namespace)
-        if self.__expanded_namespace is not None:
-            check_namespace(self.__expanded_namespace)
+        self.expanded_node_namespace = joined(context.launch_configurations.get(NAMESPACE), namespace)
+        if self.expanded_node_namespace is not None:
+            check_namespace(self.expanded_node_namespace)
 
     def _parameter_words(self, parameter: Any, context: LaunchContext) -> list[str]:
         if isinstance(parameter, ParameterFile):
@@ -170,7 +140,7 @@ class Node(ExecuteProcess):
             return ["-p", f"{name}:={as_argument(value)}"]
         node = "/**"
         if self.is_node_name_fully_specified():
-            node = f"{(self.__expanded_namespace or '').rstrip('/')}/{self.__expanded_name}"
+            node = f"{(self.expanded_node_namespace or '').rstrip('/')}/{self.__expanded_name}"
         values = flattened(context, parameter)
         if not values:
             return []

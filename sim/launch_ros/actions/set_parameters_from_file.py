@@ -1,3 +1,24 @@
-"""SetParametersFromFile, in the module where launch_ros of ROS 2 has it."""
+"""The action that sets the parameters of a file for all nodes of a scope."""
 
-from gz_course.sim.launch_ros.actions.set_parameter import SetParametersFromFile as SetParametersFromFile
+from __future__ import annotations
+
+import os
+from typing import Any
+
+from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from gz_course.sim.launch_ros.actions.set_parameter import PARAMETERS
+
+
+class SetParametersFromFile(Action):
+    """An action that gives the nodes that follow a parameter file; a node's own `parameters` win."""
+
+    def __init__(self, filename: SomeSubstitutionsType | os.PathLike[str], **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.filename = normalize_to_list_of_substitutions(filename)
+
+    def execute(self, context: LaunchContext) -> None:
+        there = context.launch_configurations.get(PARAMETERS, ())
+        context.launch_configurations[PARAMETERS] = (*there, perform_substitutions(context, self.filename))

@@ -6,7 +6,7 @@ from typing import Any
 
 
 class ComposableNode:
-    """Describes a node by package, plugin and the arguments it has with Node."""
+    """The description of a node by package, plugin and the arguments it has with Node."""
 
     def __init__(
         self,
@@ -28,11 +28,3 @@ class ComposableNode:
         self.remappings = remappings
         self.extra_arguments = extra_arguments
         self.condition = condition
-
-
-class ComposableLifecycleNode(ComposableNode):
-    """Describes a lifecycle node; `autostart` asks to activate it when it was loaded."""
-
-    def __init__(self, *, autostart: bool = False, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.autostart = autostart

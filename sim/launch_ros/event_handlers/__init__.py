@@ -1,20 +1,5 @@
 """Event handlers for lifecycle nodes. They can be written in a launch file; lifecycle nodes are not executed here."""
 
-from __future__ import annotations
+from gz_course.sim.launch_ros.event_handlers.on_state_transition import OnStateTransition
 
-from typing import Any
-
-from gz_course.sim.launch.event_handler import EventHandler, known_entities
-from gz_course.sim.launch_ros.events.lifecycle import StateTransition
-
-
-class OnStateTransition(EventHandler):
-    """Answers that a lifecycle node has changed its state, which does not happen here."""
-
-    def __init__(self, *, entities: Any, target_lifecycle_node: Any = None, **arguments: Any) -> None:
-        super().__init__(
-            matcher=lambda event: isinstance(event, StateTransition),
-            entities=known_entities(entities, "entities of OnStateTransition"),
-        )
-        self.target_lifecycle_node = target_lifecycle_node
-        self.arguments = arguments
+__all__ = ["OnStateTransition"]

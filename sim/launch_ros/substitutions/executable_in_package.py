@@ -1,4 +1,4 @@
-"""The path of an executable of a ROS package."""
+"""The substitution for the path of an executable of a ROS package."""
 
 from __future__ import annotations
 
@@ -7,14 +7,13 @@ from pathlib import Path
 
 from gz_course.sim.launch.errors import nearest
 from gz_course.sim.launch.launch_context import LaunchContext
-from gz_course.sim.launch.substitution import (
-    SomeSubstitutionsType,
-    Substitution,
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.substitutions import SubstitutionFailure
+from gz_course.sim.launch.utilities import (
     describe_substitutions,
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from gz_course.sim.launch.substitutions import SubstitutionFailure
 from gz_course.sim.launch_ros.substitutions.find_package import FindPackagePrefix
 
 
@@ -23,21 +22,14 @@ class ExecutableInPackage(FindPackagePrefix):
 
     def __init__(self, executable: SomeSubstitutionsType, package: SomeSubstitutionsType) -> None:
         super().__init__(package)
-        self.__executable = normalize_to_list_of_substitutions(executable)
-
-    @property
-    def executable(self) -> list[Substitution]:
-        """The name of the executable."""
-        return self.__executable
+        self.executable = normalize_to_list_of_substitutions(executable)
 
     def describe(self) -> str:
-        """`ExecInPkg(pkg='package', exec='executable')`."""
-        package, executable = describe_substitutions(self.package), describe_substitutions(self.__executable)
+        package, executable = describe_substitutions(self.package), describe_substitutions(self.executable)
         return f"ExecInPkg(pkg={package}, exec={executable})"
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the path."""
-        executable = perform_substitutions(context, self.__executable)
+        executable = perform_substitutions(context, self.executable)
         package = perform_substitutions(context, self.package)
         prefix = Path(self.find(package))
         folder = prefix / "lib" / package

@@ -1,4 +1,4 @@
-"""The folders of a ROS package."""
+"""The substitutions for the folders of a ROS package."""
 
 from __future__ import annotations
 
@@ -8,41 +8,33 @@ from ament_index_python.packages import PackageNotFoundError, get_package_prefix
 
 from gz_course.sim.launch.ament_prefix import nearest_package_of
 from gz_course.sim.launch.launch_context import LaunchContext
-from gz_course.sim.launch.substitution import (
-    SomeSubstitutionsType,
-    Substitution,
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.substitution import Substitution
+from gz_course.sim.launch.substitutions import PathJoinSubstitution, SubstitutionFailure
+from gz_course.sim.launch.utilities import (
     describe_substitutions,
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from gz_course.sim.launch.substitutions import PathJoinSubstitution, SubstitutionFailure
 
 
 class FindPackage(Substitution):
-    """Base: finds a package. Raises SubstitutionFailure with the nearest name when there is none."""
+    """The base of substitutions for a folder of `package`."""
 
     def __init__(self, package: SomeSubstitutionsType) -> None:
-        self.__package = normalize_to_list_of_substitutions(package)
-
-    @property
-    def package(self) -> list[Substitution]:
-        """The name of the package."""
-        return self.__package
+        self.package = normalize_to_list_of_substitutions(package)
 
     def find(self, package_name: str) -> str:
-        """Return the folder in question."""
         return package_prefix(package_name)
 
     def __truediv__(self, component: SomeSubstitutionsType) -> PathJoinSubstitution:
         return PathJoinSubstitution([self, component])
 
     def describe(self) -> str:
-        """`FindPackageShare(pkg='name')`."""
-        return f"{type(self).__name__}(pkg={describe_substitutions(self.__package)})"
+        return f"{type(self).__name__}(pkg={describe_substitutions(self.package)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the folder."""
-        return self.find(perform_substitutions(context, self.__package))
+        return self.find(perform_substitutions(context, self.package))
 
 
 class FindPackagePrefix(FindPackage):
@@ -53,7 +45,6 @@ class FindPackageShare(FindPackage):
     """The folder of a package's shared files: launch files, worlds, configurations."""
 
     def find(self, package_name: str) -> str:
-        """Return `<prefix>/share/<package>`."""
         return str(Path(package_prefix(package_name)) / "share" / package_name)
 
 

@@ -8,12 +8,10 @@ from gz_course.sim.ros2.errors import CommandError
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Whatever a bag command is given."""
     parser.add_argument("argv", nargs=argparse.REMAINDER, help="Ignored")
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """One sentence about where recordings are."""
     raise CommandError(
         "There are no bags here: every graded run is recorded as an .rrd file next to its report; "
         "look at it with `course show RECORDING`"

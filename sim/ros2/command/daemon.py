@@ -8,7 +8,6 @@ from gz_course.sim.ros2.errors import CommandError
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """What to do with it."""
     parser.add_argument(
         "verb", nargs="?", choices=["start", "status", "stop"], default="status", help="Default: status"
     )
@@ -16,7 +15,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Say that it does not run, which is all that scripts want to know."""
+    """Report that no daemon runs, which is all that scripts want to know."""
     if arguments.verb == "start":
         raise CommandError("There is no daemon to start: every command looks at the graph itself")
     print("The daemon is not running")

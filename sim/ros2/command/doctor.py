@@ -11,18 +11,16 @@ from pathlib import Path
 from gz_course.sim.ros2.child import ChildError, run_child
 from gz_course.sim.ros2.errors import CommandError
 
-_DEADLINE = 30.0  # s for the course to say what it can do
+_DEADLINE = 30.0  # [s] for `course doctor --help`
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Those of `course doctor`, and those one is used to, which ask for what it tells anyway."""
     parser.add_argument("--json", action="store_true", help="For programs")
     for names in (("-r", "--report"), ("-rf", "--report-failed"), ("-iw", "--include-warnings")):
         parser.add_argument(*names, action="store_true", help="Accepted and ignored: everything is told anyway")
 
 
 def main(arguments: argparse.Namespace) -> int:
-    """Run `course doctor`; its exit code."""
     course = _course()
     try:
         known = subprocess.run(

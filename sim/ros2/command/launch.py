@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gz_course.sim.ros2.errors import CommandError, did_you_mean
+from gz_course.sim.ros2.errors import CommandError, UsageError, did_you_mean
 from gz_course.sim.ros2.packages import package_names
 
 if TYPE_CHECKING:
@@ -20,7 +20,6 @@ _LAUNCH_FILE = re.compile(r".*[._-]?launch\.(py|xml|yaml|yml)$|.*\.launch$")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The launch file, its arguments, and how it is run."""
     parser.add_argument("-n", "--noninteractive", action="store_true", help="Nobody is at a terminal")
     parser.add_argument("-d", "--debug", action="store_true", help="Log what happens in detail, with tracebacks")
     what = parser.add_mutually_exclusive_group()
@@ -42,28 +41,32 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("package_name", help="Name of the ROS package which contains the launch file, or its path")
     parser.add_argument("launch_file_name", nargs="?", help="Name of the launch file; omit after a path")
-    parser.add_argument("launch_arguments", nargs="*", help="Arguments to the launch file; '<name>:=<value>'")
+    parser.add_argument(
+        "launch_arguments", nargs="*", default=[], help="Arguments to the launch file; '<name>:=<value>'"
+    )
 
 
 def main(arguments: argparse.Namespace) -> int:
-    """Run the launch file: 0 at its end, whatever its processes return; 1 if the launch itself failed."""
+    """Return 0 at the end of the launch, whatever its processes return; 1 if the launch itself failed."""
     path, words = launch_file(arguments)
     pairs = _pairs(words)
     if arguments.launch_prefix_filter and not arguments.launch_prefix:
-        raise CommandError("--launch-prefix-filter says where --launch-prefix is used; give that, too")
+        raise UsageError(
+            "the following arguments are required: --launch-prefix, which --launch-prefix-filter restricts"
+        )
     if arguments.show_arguments:
         return _show_arguments(path)
     if arguments.print_description:
         return _print_description(path)
     if arguments.show_all:
         os.environ["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] = "both"
-    # What a Python program prints is to be seen when it is printed, although it prints into a pipe.
+    # Python programs print into a pipe here, and would keep their output back.
     os.environ.setdefault("PYTHONUNBUFFERED", "1")
     return _run(path, pairs, arguments)
 
 
 def launch_file(arguments: argparse.Namespace) -> tuple[str, list[str]]:
-    """The path of the launch file, and the words that are its arguments."""
+    """Return the path of the launch file, and the words that are its arguments."""
     package, name = arguments.package_name, arguments.launch_file_name
     words = list(arguments.launch_arguments)
     if Path(package).is_file():
@@ -72,8 +75,8 @@ def launch_file(arguments: argparse.Namespace) -> tuple[str, list[str]]:
         if "/" in package or package.endswith((".py", ".xml", ".yaml", ".yml")):
             raise CommandError(f"there is no launch file '{package}'{_nearest_file(Path(package))}")
         files = launch_files_of(package) if package in package_names() else {}
-        known = f"; it has {', '.join(sorted(files))}" if files else did_you_mean(package, package_names())
-        raise CommandError(f"which launch file of the package '{package}'?{known}")
+        known = f"; '{package}' has {', '.join(sorted(files))}" if files else did_you_mean(package, package_names())
+        raise UsageError(f"the following arguments are required: launch_file_name{known}")
     return _file_of_package(package, name), words
 
 
@@ -83,7 +86,9 @@ def _file_of_package(package: str, name: str) -> str:
     try:
         share = Path(get_package_prefix(package)) / "share" / package
     except (PackageNotFoundError, ValueError) as error:
-        raise CommandError(f"Package '{package}' not found: \"{error.args[0]}\"{_nearest_package(package)}") from None
+        raise CommandError(
+            f"Package '{package}' not found: \"{error.args[0]}\"{did_you_mean(package, package_names())}"
+        ) from None
     found = [path for path in sorted(share.rglob(name)) if path.is_file()] if _is_plain(name) else []
     if not found and (share / name).is_file():
         found = [share / name]
@@ -105,15 +110,11 @@ def _is_plain(name: str) -> bool:
 
 
 def launch_files_of(package: str) -> dict[str, Path]:
-    """Name -> path of the launch files of a package that exists."""
+    """Return the paths of the launch files of a package, which must exist, by file name."""
     from ament_index_python.packages import get_package_prefix
 
     share = Path(get_package_prefix(package)) / "share" / package
     return {path.name: path for path in share.rglob("*") if path.is_file() and _LAUNCH_FILE.fullmatch(path.name)}
-
-
-def _nearest_package(package: str) -> str:
-    return did_you_mean(package, package_names())
 
 
 def _nearest_file(path: Path) -> str:
@@ -121,7 +122,7 @@ def _nearest_file(path: Path) -> str:
 
 
 def _pairs(words: Sequence[str]) -> list[tuple[str, str]]:
-    """`name:=value` as pairs; of several for one name the last."""
+    """Return `name:=value` as pairs; of several for one name the last."""
     pairs: dict[str, str] = {}
     for word in words:
         name, mark, value = word.partition(":=")
@@ -133,7 +134,7 @@ def _pairs(words: Sequence[str]) -> list[tuple[str, str]]:
 
 
 def load(path: str) -> LaunchDescription:
-    """What a launch file holds; CommandError if it cannot be read."""
+    """Return the launch description of a file. Raises CommandError if it cannot be loaded."""
     from gz_course.sim.launch.launch_description_sources import get_launch_description_from_any_launch_file
 
     try:

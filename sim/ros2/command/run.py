@@ -12,17 +12,17 @@ from gz_course.sim.ros2.packages import executables
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The executable and everything that is its own."""
     parser.add_argument(
         "--prefix", help="Command (may hold arguments) to start the executable with, e.g. --prefix 'gdb --args'"
     )
     parser.add_argument("package_name", help="Name of the ROS package")
     parser.add_argument("executable_name", help="Name of the executable")
-    parser.add_argument("argv", nargs=argparse.REMAINDER, help="Pass arbitrary arguments to the executable")
+    rest = parser.add_argument("argv", nargs=argparse.REMAINDER, help="Pass arbitrary arguments to the executable")
+    rest.required = False
 
 
 def main(arguments: argparse.Namespace) -> int:
-    """Start it, pass signals on, return its exit code (a signal n: 256 - n)."""
+    """Return the exit code of the executable, 256 - n for signal n."""
     package, name = arguments.package_name, arguments.executable_name
     known = executables(package, unknown=f"Package '{package}' not found")
     paths = [path for path in known if path.name == name]

@@ -1,4 +1,4 @@
-"""Names are found in the modules in which ROS 2's launch and launch_ros have them."""
+"""Names stand in the modules in which ROS 2's launch and launch_ros have them."""
 
 import ast
 import importlib
@@ -12,91 +12,85 @@ import launch_ros.event_handlers
 import launch_ros.events
 import pytest
 
-# Modules that hold names of another spelling than their own.
-OF_ITS_OWN_NAME = {
-    "boolean_substitution": "NotSubstitution",
-    "shutdown_action": "Shutdown",
-    "matchers": "matches_action",
-    "process_matchers": "matches_pid",
-    "process_io": "ProcessIO",
-    "on_process_io": "OnProcessIO",
-    "python_launch_file_utilities": "get_launch_description_from_python_launch_file",
-    "any_launch_file_utilities": "get_launch_description_from_any_launch_file",
-    "evaluate_condition_expression_impl": "evaluate_condition_expression",
-    "push_ros_namespace": "PushRosNamespace",
+# Modules that hold public classes of another name than their own, as they do in ROS 2's launch and launch_ros.
+SEVERAL = {
+    "launch.actions.shutdown_action": {"Shutdown"},
+    "launch.conditions.evaluate_condition_expression_impl": {"InvalidConditionExpressionError"},
+    "launch.launch_description_sources.python_launch_file_utilities": {"InvalidPythonLaunchFileError"},
+    "launch.substitutions.boolean_substitution": {
+        "AllSubstitution",
+        "AndSubstitution",
+        "AnySubstitution",
+        "NotSubstitution",
+        "OrSubstitution",
+    },
+    "launch.logging": {"LaunchConfig"},
+    "launch_ros.parameter_descriptions": {"Parameter", "ParameterFile", "ParameterValue"},
+    "launch_ros.substitutions.find_package": {"FindPackagePrefix", "FindPackageShare"},
 }
-# What these packages have in modules of several classes only, or outside of ROS 2's layout.
-PACKAGES = [
-    "launch.actions",
-    "launch.substitutions",
-    "launch.conditions",
-    "launch.event_handlers",
-    "launch.events",
-    "launch.events.process",
-    "launch.launch_description_sources",
-    "launch_ros.actions",
-    "launch_ros.event_handlers",
-]
+# Modules that only these packages have.
+OWN = {
+    "launch.errors": {
+        "InvalidArgumentError",
+        "LaunchError",
+        "MissingArgumentError",
+        "NotAvailableError",
+        "NotTextError",
+        "UsedTwiceError",
+    },
+    "launch_ros.parameter_values": {"ParameterTypeError"},
+}
+# Modules of ROS 2's launch that hold a type, not a class.
+ALIASES = {"launch.some_entities_type": "SomeEntitiesType", "launch.some_substitutions_type": "SomeSubstitutionsType"}
 
 
 def snake(name):
     return re.sub(r"(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()
 
 
-def exported():
-    for package in PACKAGES:
-        module = importlib.import_module(package)
-        for name in getattr(module, "__all__", ["OnStateTransition"]):
-            if isinstance(getattr(module, name), type):
-                yield package, name
+def modules():
+    for package in (launch, launch_ros):
+        yield package.__name__, Path(package.__file__)
+        for found in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
+            yield found.name, Path(importlib.import_module(found.name).__file__)
 
 
-FILES = {snake(name): file for file, name in OF_ITS_OWN_NAME.items() if name[0].isupper()}
-TOGETHER = {
-    **dict.fromkeys(
-        ("AllSubstitution", "AndSubstitution", "AnySubstitution", "OrSubstitution"), "boolean_substitution"
-    ),
-    "ProcessIO": "process_io",
-    "OnProcessIO": "on_process_io",
-    "InvalidPythonLaunchFileError": "python_launch_file_utilities",
-    "InvalidConditionExpressionError": "evaluate_condition_expression_impl",
-    "PushROSNamespace": "push_ros_namespace",
-    "PushRosNamespace": "push_ros_namespace",
-}
+def defined(path, *kinds):
+    return {node.name for node in ast.parse(path.read_text()).body if isinstance(node, kinds)}
 
 
-@pytest.mark.parametrize(("package", "name"), list(exported()))
-def test_every_class_is_in_a_module_of_its_name(package, name):
-    if name == "InvalidLaunchFileError":
-        package, file = "launch", "invalid_launch_file_error"
-    elif (package, name) == ("launch.events", "Shutdown"):
-        file = "shutdown"
-    else:
-        file = TOGETHER.get(name) or FILES.get(snake(name)) or snake(name)
-    module = importlib.import_module(f"{package}.{file}")
-    assert getattr(module, name) is getattr(importlib.import_module(package), name)
+def test_every_public_class_is_in_the_module_of_its_name():
+    misplaced = {
+        f"{module}.{name}"
+        for module, path in modules()
+        for name in defined(path, ast.ClassDef)
+        if not name.startswith("_")
+        and snake(name) != module.rpartition(".")[2]
+        and name not in {**SEVERAL, **OWN}.get(module, ())
+    }
+    assert misplaced == set()
 
 
-@pytest.mark.parametrize("name", [name for name in launch.__all__ if name[0].isupper() and "_types" not in name])
-def test_the_names_of_launch_itself(name):
-    module = importlib.import_module(f"launch.{snake(name)}")
-    assert getattr(module, name) is getattr(launch, name)
+def test_every_name_that_a_package_exports_is_in_it():
+    assert not [
+        (module, name)
+        for module, _ in modules()
+        for name in getattr(importlib.import_module(module), "__all__", ())
+        if not hasattr(importlib.import_module(module), name)
+    ]
 
 
-def modules(package):
-    for found in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
-        yield found.name
-
-
-@pytest.mark.parametrize("name", [*modules(launch), *modules(launch_ros)])
-def test_a_module_of_another_name_only_passes_on(name):
-    module = importlib.import_module(name)
-    tree = ast.parse(Path(module.__file__).read_text())
-    kinds = {type(node) for node in tree.body}
-    if "in the module where" in (ast.get_docstring(tree) or ""):
-        assert kinds <= {ast.Expr, ast.ImportFrom, ast.Assign}
-    else:
-        assert kinds & {ast.ClassDef, ast.FunctionDef} or hasattr(module, "__path__"), "this module has no content"
+def test_no_module_only_forwards_to_another():
+    forwarding = {
+        module
+        for module, path in modules()
+        if path.name != "__init__.py"
+        and module not in ALIASES
+        and not defined(path, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
+    }
+    assert forwarding == set()
+    for module, name in ALIASES.items():
+        assert f"\n{name} = " in Path(importlib.import_module(module).__file__).read_text()
 
 
 @pytest.mark.parametrize(
@@ -109,7 +103,15 @@ def test_a_module_of_another_name_only_passes_on(name):
         "import launch_ros; launch_ros.actions.Node, launch_ros.substitutions.FindPackageShare",
         "import launch_ros; launch_ros.descriptions.ComposableNode, launch_ros.parameter_descriptions.ParameterValue",
         "from launch_ros.events.lifecycle import ChangeState; from launch_ros.event_handlers import OnStateTransition",
+        "from launch_ros.events.matchers import matches_node_name",
         "from launch import LaunchDescription, LaunchContext, Substitution, SomeSubstitutionsType",
+        "from launch.some_substitutions_type import SomeSubstitutionsType",
+        "from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions",
+        "from launch.actions.shutdown_action import Shutdown",
+        "from launch.actions.append_environment_variable import AppendEnvironmentVariable",
+        "from launch.events.process.process_matchers import matches_pid",
+        "from launch.launch_description_sources.any_launch_file_utilities import "
+        "get_launch_description_from_any_launch_file",
     ],
 )
 def test_styles_of_import(statement):

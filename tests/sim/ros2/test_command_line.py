@@ -1,5 +1,6 @@
 """The `ros2` command: help, unknown words, and stepping aside for a real ros2."""
 
+import argparse
 import sys
 
 import pytest
@@ -32,7 +33,9 @@ VERBS = [
 @pytest.mark.parametrize("words", VERBS, ids=" ".join)
 def test_every_verb_has_help_with_a_sentence_for_each_option(words, capsys):
     path = COMMANDS.joinpath(*words)
-    module, parser = load(path if path.is_dir() else path.with_suffix(".py"), f"ros2 {' '.join(words)}")
+    module = load(path if path.is_dir() else path.with_suffix(".py"))
+    parser = argparse.ArgumentParser(prog=f"ros2 {' '.join(words)}")
+    module.add_arguments(parser)
     with pytest.raises(SystemExit) as ended:
         parser.parse_args(["--help"])
     assert ended.value.code == 0
@@ -48,12 +51,31 @@ def test_every_verb_has_help_with_a_sentence_for_each_option(words, capsys):
         (["topic", "ecoh"], "ros2 topic: error: invalid choice: 'ecoh'"),
         (["pkg", "list", "extra"], "ros2 pkg list: error: unrecognized arguments: extra"),
         (["topic", "--nonsense"], "ros2 topic: error: unrecognized arguments: --nonsense"),
+        (["topic", "list", "--cuont-topics"], "unrecognized arguments: --cuont-topics; did you mean '--count-topics'?"),
+        (["run", "ros_gz_bridge"], "ros2 run: error: the following arguments are required: executable_name\n"),
+        (["launch"], "ros2 launch: error: the following arguments are required: package_name\n"),
     ],
 )
 def test_wrong_usage_is_exit_code_2(ros2, arguments, words):
     code, text, errors = ros2(*arguments)
     assert (code, text) == (2, "")
     assert words in errors
+
+
+@pytest.mark.parametrize("words", VERBS, ids=" ".join)
+def test_unknown_options_and_missing_arguments_are_wrong_usage_in_every_verb(words, capsys, monkeypatch):
+    monkeypatch.setattr("gz_course.sim.ros2.command_line.hand_over", lambda arguments: None)
+    monkeypatch.setattr("gz_course.sim.ros2.interruption.listen", lambda: None)
+    with pytest.raises(SystemExit) as ended:
+        main([*filter(None, words), "--nonsense"])
+    written = capsys.readouterr().err
+    command = " ".join(["ros2", *filter(None, words)])
+    assert ended.value.code == 2
+    assert written.startswith(f"usage: {command} [-h]")
+    last = written.splitlines()[-1]
+    assert last.startswith(
+        (f"{command}: error: unrecognized", f"{command}: error: the following arguments are required")
+    )
 
 
 def test_a_verb_is_found_by_its_file_alone(tmp_path):

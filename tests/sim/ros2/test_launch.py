@@ -95,12 +95,9 @@ def test_a_file_by_its_path_and_its_arguments(ros2, write):
         (["my_robot", "drve.launch.py"], "file 'drve.launch.py' was not found in the share directory of package "),
         (["my_robot", "drve.launch.py"], "; did you mean 'drive.launch.py'?"),
         (["my_robot", "twin.launch.py"], "was found more than once in the share directory of package 'my_robot': ['"),
-        (["my_robot"], "which launch file of the package 'my_robot'?; it has drive.launch.py, twin.launch.py"),
-        (["my_robt"], "which launch file of the package 'my_robt'?; did you mean 'my_robot'?"),
         (["{}/robt.launch.py"], "there is no launch file '{}/robt.launch.py'; did you mean 'robot.launch.py'?"),
         (["{}/robot.launch.py", "a=1"], "malformed launch argument 'a=1', expected format '<name>:=<value>'"),
         (["{}/robot.launch.py", ":=1"], "malformed launch argument ':=1', expected format '<name>:=<value>'"),
-        (["{}/robot.launch.py", "--launch-prefix-filter", "x"], "give that, too"),
         (["-s", "{}/broken.launch.py"], "{}/broken.launch.py:1: SyntaxError"),
     ],
 )
@@ -111,6 +108,24 @@ def test_what_cannot_be_launched_is_exit_code_1(ros2, package, write, tmp_path, 
     assert (code, text) == (1, "")
     assert sentence.format(tmp_path) in errors
     assert errors.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "missing"),
+    [
+        (["my_robot"], "launch_file_name; 'my_robot' has drive.launch.py, twin.launch.py\n"),
+        (["my_robt"], "launch_file_name; did you mean 'my_robot'?\n"),
+        (
+            ["{}/robot.launch.py", "--launch-prefix-filter", "x"],
+            "--launch-prefix, which --launch-prefix-filter restricts",
+        ),
+    ],
+)
+def test_a_missing_argument_is_wrong_usage(ros2, package, write, tmp_path, arguments, missing):
+    write("")
+    code, text, errors = ros2("launch", *[word.format(tmp_path) for word in arguments], environment=package)
+    assert (code, text) == (2, "")
+    assert f"\nros2 launch: error: the following arguments are required: {missing}" in errors
 
 
 @pytest.mark.parametrize(

@@ -1,3 +1,19 @@
-"""ProcessIO, in the module where launch of ROS 2 has it."""
+"""The base of events about the input and output of a process."""
 
-from gz_course.sim.launch.events.process.running_process_event import ProcessIO as ProcessIO
+from __future__ import annotations
+
+from typing import Any
+
+from gz_course.sim.launch.events.process.running_process_event import RunningProcessEvent
+
+
+class ProcessIO(RunningProcessEvent):
+    """The bytes `text` that a process has printed, or is to read; `fd` is 0 stdin, 1 stdout, 2 stderr."""
+
+    name = "launch.events.process.ProcessIO"
+
+    def __init__(self, *, text: bytes, fd: int, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.text = text
+        self.fd = fd
+        self.from_stdin, self.from_stdout, self.from_stderr = (fd == number for number in range(3))

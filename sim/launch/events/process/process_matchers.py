@@ -1,5 +1,32 @@
-"""The matchers of processes, in the module where launch of ROS 2 has them."""
+"""Matchers of processes, for SignalProcess and ShutdownProcess."""
 
-from gz_course.sim.launch.events.process.signal_process import matches_executable, matches_name, matches_pid
+from __future__ import annotations
 
-__all__ = ["matches_executable", "matches_name", "matches_pid"]
+from collections.abc import Callable
+from typing import Any
+
+ProcessMatcher = Callable[[Any], bool]
+
+
+def matches_pid(pid: int) -> ProcessMatcher:
+    """Return a matcher for the process of this number."""
+    return lambda action: _detail(action, "pid") == pid
+
+
+def matches_name(name: str) -> ProcessMatcher:
+    """Return a matcher for processes of this name, with or without the number behind it."""
+
+    def matches(action: Any) -> bool:
+        label = _detail(action, "name")
+        return label is not None and name in (label, label.rpartition("-")[0])
+
+    return matches
+
+
+def matches_executable(executable: str) -> ProcessMatcher:
+    """Return a matcher for processes whose command starts with this word."""
+    return lambda action: (_detail(action, "cmd") or [None])[0] == executable
+
+
+def _detail(action: Any, key: str) -> Any:
+    return (getattr(action, "process_details", None) or {}).get(key)

@@ -1,3 +1,11 @@
-"""ProcessStarted, in the module where launch of ROS 2 has it."""
+"""The event that a process was started."""
 
-from gz_course.sim.launch.events.process.running_process_event import ProcessStarted as ProcessStarted
+from __future__ import annotations
+
+from gz_course.sim.launch.events.process.running_process_event import RunningProcessEvent
+
+
+class ProcessStarted(RunningProcessEvent):
+    """The event that a process was started."""
+
+    name = "launch.events.process.ProcessStarted"

@@ -1,3 +1,16 @@
-"""ProcessStderr, in the module where launch of ROS 2 has it."""
+"""The event that a process has printed to stderr."""
 
-from gz_course.sim.launch.events.process.running_process_event import ProcessStderr as ProcessStderr
+from __future__ import annotations
+
+from typing import Any
+
+from gz_course.sim.launch.events.process.process_io import ProcessIO
+
+
+class ProcessStderr(ProcessIO):
+    """The event that a process has printed `text` to stderr."""
+
+    name = "launch.events.process.ProcessStderr"
+
+    def __init__(self, *, text: bytes, **kwargs: Any) -> None:
+        super().__init__(text=text, fd=2, **kwargs)

@@ -1,3 +1,16 @@
-"""ProcessStdin, in the module where launch of ROS 2 has it."""
+"""The event that writes to a process."""
 
-from gz_course.sim.launch.events.process.running_process_event import ProcessStdin as ProcessStdin
+from __future__ import annotations
+
+from typing import Any
+
+from gz_course.sim.launch.events.process.process_io import ProcessIO
+
+
+class ProcessStdin(ProcessIO):
+    """The event that asks to write `text` to the stdin of the process that `action` started."""
+
+    name = "launch.events.process.ProcessStdin"
+
+    def __init__(self, *, text: bytes, **kwargs: Any) -> None:
+        super().__init__(text=text, fd=0, **kwargs)

@@ -1,3 +1,16 @@
-"""ProcessStdout, in the module where launch of ROS 2 has it."""
+"""The event that a process has printed to stdout."""
 
-from gz_course.sim.launch.events.process.running_process_event import ProcessStdout as ProcessStdout
+from __future__ import annotations
+
+from typing import Any
+
+from gz_course.sim.launch.events.process.process_io import ProcessIO
+
+
+class ProcessStdout(ProcessIO):
+    """The event that a process has printed `text` to stdout."""
+
+    name = "launch.events.process.ProcessStdout"
+
+    def __init__(self, *, text: bytes, **kwargs: Any) -> None:
+        super().__init__(text=text, fd=1, **kwargs)

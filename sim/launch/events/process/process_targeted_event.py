@@ -1,3 +1,17 @@
-"""ProcessTargetedEvent, in the module where launch of ROS 2 has it."""
+"""The base of events that ask something of a process."""
 
-from gz_course.sim.launch.events.process.signal_process import ProcessTargetedEvent as ProcessTargetedEvent
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from gz_course.sim.launch.event import Event
+
+
+class ProcessTargetedEvent(Event):
+    """An event for those processes whose action `process_matcher(action)` accepts."""
+
+    name = "launch.events.process.ProcessTargetedEvent"
+
+    def __init__(self, *, process_matcher: Callable[[Any], bool]) -> None:
+        self.process_matcher = process_matcher

@@ -1,3 +1,11 @@
-"""ShutdownProcess, in the module where launch of ROS 2 has it."""
+"""The event that ends a process."""
 
-from gz_course.sim.launch.events.process.signal_process import ShutdownProcess as ShutdownProcess
+from __future__ import annotations
+
+from gz_course.sim.launch.events.process.process_targeted_event import ProcessTargetedEvent
+
+
+class ShutdownProcess(ProcessTargetedEvent):
+    """The event that ends a process: SIGINT, later SIGTERM, later SIGKILL."""
+
+    name = "launch.events.process.ShutdownProcess"

@@ -1,3 +1,18 @@
-"""ChangeState, in the module where launch_ros of ROS 2 has it."""
+"""The event that asks a lifecycle node for a transition."""
 
-from gz_course.sim.launch_ros.events.lifecycle import ChangeState as ChangeState
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from gz_course.sim.launch.event import Event
+
+
+class ChangeState(Event):
+    """The event that asks the lifecycle nodes that `lifecycle_node_matcher(action)` accepts for a transition."""
+
+    name = "launch_ros.events.lifecycle.ChangeState"
+
+    def __init__(self, *, lifecycle_node_matcher: Callable[[Any], bool], transition_id: int) -> None:
+        self.lifecycle_node_matcher = lifecycle_node_matcher
+        self.transition_id = transition_id

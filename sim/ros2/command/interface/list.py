@@ -4,18 +4,10 @@ from __future__ import annotations
 
 import argparse
 
-from gz_course.sim.ros2.interface import KINDS, add_kind_options, interface_names
-
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Which kinds."""
-    add_kind_options(parser)
+from gz_course.sim.ros2.interface import KINDS, chosen_kinds, interface_names
+from gz_course.sim.ros2.interface import add_kind_options as add_arguments  # noqa: F401
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """A heading for each kind, below it the names."""
-    for kind, heading in KINDS.items():
-        if kind in arguments.kinds or not arguments.kinds:
-            print(f"{heading}:")
-            for name in interface_names(kind):
-                print(f"    {name}")
+    for kind in chosen_kinds(arguments):
+        print("\n    ".join([f"{KINDS[kind]}:", *interface_names(kind)]))

@@ -4,19 +4,16 @@ from __future__ import annotations
 
 import argparse
 
-from gz_course.sim.ros2.interface import prototype
+from gz_course.sim.ros2.interface import add_interface_type, prototype
 from gz_course.sim.ros2.message_text import TextFormat, to_yaml
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The interface."""
-    parser.add_argument(
-        "type", metavar="interface_type", help="Show an interface definition (e.g. 'std_msgs/msg/String')"
-    )
+    add_interface_type(parser)
     parser.add_argument("--no-quotes", action="store_true", help="If true, output has no outer quotes")
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """The YAML of a message with default values, to be edited and sent with `ros2 topic pub`."""
+    """Print the YAML of a message with default values, to be edited and sent with `ros2 topic pub`."""
     text = to_yaml(prototype(arguments.type), TextFormat(limit=None))
     print(text if arguments.no_quotes else f'"{text}"\n', end="")

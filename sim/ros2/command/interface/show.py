@@ -7,7 +7,7 @@ import re
 import sys
 from collections.abc import Iterator
 
-from gz_course.sim.ros2.interface import interface_file
+from gz_course.sim.ros2.interface import add_interface_type, interface_file
 
 _FIELD = re.compile(r"\s*(?:@\w+.*\s)?(?P<type>[A-Za-z][\w/]*)(?:<=\d+)?(?:\[[<=\d]*\])?\s+\w+")
 _PRIMITIVE = {
@@ -17,17 +17,14 @@ _PRIMITIVE = {
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The interface, and which comments."""
-    parser.add_argument(
-        "type", metavar="interface_type", help="Show an interface definition (e.g. 'std_msgs/msg/String'); - reads it"
-    )
+    add_interface_type(parser, "; - reads it")
     comments = parser.add_mutually_exclusive_group()
     comments.add_argument("--all-comments", action="store_true", help="Show all comments, those of nested types too")
     comments.add_argument("--no-comments", action="store_true", help="Show no comments and no empty lines")
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """The text of the definition; what a field is made of stands indented below it."""
+    """Print the text of the definition, with that of each field's type indented below the field."""
     name = sys.stdin.readline().strip() if arguments.type == "-" else arguments.type
     for line in _lines(name, not arguments.no_comments, arguments.all_comments):
         print(line)
@@ -47,13 +44,13 @@ def _lines(name: str, comments: bool, nested_comments: bool) -> Iterator[str]:
 
 
 def _without_comment(line: str) -> str:
-    """The line up to its #, unless that stands in the quotes of a default text."""
+    """Return the line up to its #, unless that stands in the quotes of a default text."""
     code = re.match(r"""(?:[^#"']|"(?:[^"\\]|\\.)*"|'(?:[^'\\]|\\.)*'|["'])*""", line)
     return code.group().rstrip() if code else line.rstrip()
 
 
 def _nested_type(code: str, package: str) -> str | None:
-    """`package/msg/Name` of the message a field is made of; None for a plain field, a constant or anything else."""
+    """Return `package/msg/Name` of a field's message; None for a plain field, a constant or anything else."""
     field = _FIELD.match(code)
     if field is None or field["type"] in _PRIMITIVE:
         return None

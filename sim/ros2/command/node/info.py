@@ -14,7 +14,6 @@ from gz_course.sim.ros2.node import find_node, split_name
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The node."""
     add_graph_options(parser)
     parser.add_argument("node_name", help="Node name to request information")
     parser.add_argument(
@@ -23,7 +22,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """What the node publishes, listens to, offers and calls, with the types."""
     with Graph(arguments) as graph:
         full = find_node(graph, arguments.node_name, f"Unable to find node '{arguments.node_name}'")
         graph.settle()

@@ -6,23 +6,16 @@ import argparse
 from collections.abc import Iterator
 from typing import Any
 
-from gz_course.sim.ros2.graph import Graph, add_graph_options
-from gz_course.sim.ros2.node import find_node
-from gz_course.sim.ros2.parameter import NodeParameters, type_word
+from gz_course.sim.ros2.parameter import add_node_options, node_parameters, type_word
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The node and its parameters."""
-    add_graph_options(parser)
-    parser.add_argument("node_name", help="Name of the ROS node")
+    add_node_options(parser)
     parser.add_argument("parameter_names", nargs="+", help="Names of the parameters")
-    parser.add_argument("--include-hidden-nodes", action="store_true", help="Accepted: a node is named anyway")
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Type, description and limits of each."""
-    with Graph(arguments) as graph:
-        parameters = NodeParameters(graph, find_node(graph, arguments.node_name, "Node not found"))
+    with node_parameters(arguments) as parameters:
         for descriptor in parameters.descriptors(arguments.parameter_names):
             print("\n".join(_lines(descriptor)))
 

@@ -14,7 +14,6 @@ from gz_course.sim.ros2.topic import warn
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """One node or all, and which parameters."""
     add_graph_options(parser)
     parser.add_argument("node_name", nargs="?", help="Name of the ROS node (default: all nodes)")
     parser.add_argument("--include-hidden-nodes", action="store_true", help="Consider hidden nodes as well")
@@ -26,7 +25,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """The parameters of one node, or of each node below its name."""
     try:
         matches = re.compile(arguments.filter or "").search
     except re.error as error:

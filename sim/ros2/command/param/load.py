@@ -9,10 +9,8 @@ from typing import Any
 import yaml
 
 from gz_course.sim.ros2.errors import CommandError, did_you_mean
-from gz_course.sim.ros2.graph import Graph, add_graph_options
 from gz_course.sim.ros2.message_value import parse_yaml
-from gz_course.sim.ros2.node import find_node
-from gz_course.sim.ros2.parameter import NodeParameters, flat, parameter_value
+from gz_course.sim.ros2.parameter import add_node_options, flat, node_parameters, parameter_value
 from gz_course.sim.ros2.topic import warn
 
 _EVERY_NODE = "/**"
@@ -20,31 +18,25 @@ _KEY = "ros__parameters"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The node and the file."""
-    add_graph_options(parser)
-    parser.add_argument("node_name", help="Name of the ROS node")
+    add_node_options(parser)
     parser.add_argument("parameter_file", help="Parameter file in YAML format")
-    parser.add_argument("--include-hidden-nodes", action="store_true", help="Accepted: a node is named anyway")
     parser.add_argument("--no-use-wildcard", action="store_true", help="Do not load parameters in the '/**' namespace")
     parser.add_argument("--strict", action="store_true", help="Exit code 1 if the node refuses a value (default: 0)")
 
 
 def main(arguments: argparse.Namespace) -> int:
-    """Set what the file holds for this node, one by one; refusals are told on stderr."""
+    """Set what the file holds for this node, one by one; report refusals on stderr."""
     content = _read(Path(arguments.parameter_file))
-    with Graph(arguments) as graph:
-        node = find_node(graph, arguments.node_name, "Node not found")
-        found = _for_node(content, node, arguments)
+    with node_parameters(arguments) as parameters:
+        found = _for_node(content, parameters.node, arguments)
         values = {name: parameter_value(value, f"{name}: {value}") for name, value in found.items()}
-        parameters = NodeParameters(graph, node)
         refused = 0
         for name, value in values.items():
             taken, reason = parameters.set(name, value)
-            after = f": {reason}" if reason else ""
             if taken:
-                print(f"Set parameter {name} successful{after}")
+                print(f"Set parameter {name} successful{reason}")
             else:
-                warn(f"Set parameter {name} failed{after}")
+                warn(f"Set parameter {name} failed{reason}")
                 refused = 1
     return refused if arguments.strict else 0
 
@@ -66,7 +58,7 @@ def _read(path: Path) -> dict[str, Any]:
 
 
 def _for_node(content: dict[str, Any], node: str, arguments: argparse.Namespace) -> dict[str, Any]:
-    """Flat name -> value of what applies to a node; the node's own entry beats that for every node."""
+    """Return the parameters for a node by flat name; the node's own entry beats that for every node."""
     found: dict[str, Any] = {}
     applies = [node, node.lstrip("/"), arguments.node_name]
     keys = ([] if arguments.no_use_wildcard else [_EVERY_NODE]) + list(dict.fromkeys(applies))

@@ -8,13 +8,11 @@ from gz_course.sim.ros2.packages import executables, package_names
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """One package or all."""
     parser.add_argument("package_name", nargs="?", help="The package name (default: all packages)")
     parser.add_argument("--full-path", action="store_true", help="Show the full path of the executable")
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """`package executable` a line, or the path alone."""
     packages = [arguments.package_name] if arguments.package_name else package_names()
     for package in packages:
         for path in executables(package):

@@ -8,10 +8,8 @@ from gz_course.sim.ros2.packages import package_names
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """No options."""
+    pass
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """One name a line, sorted."""
-    for name in package_names():
-        print(name)
+    print("\n".join(package_names()))

@@ -8,12 +8,9 @@ from gz_course.sim.ros2.packages import package_prefix, package_share
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The package, and which of its folders."""
     parser.add_argument("package_name", help="The package name")
     parser.add_argument("--share", action="store_true", help="Show share directory for the package")
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """The folder, or an error for a package that does not exist."""
-    find = package_share if arguments.share else package_prefix
-    print(find(arguments.package_name))
+    print((package_share if arguments.share else package_prefix)(arguments.package_name))

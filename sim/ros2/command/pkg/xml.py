@@ -10,13 +10,11 @@ from gz_course.sim.ros2.packages import package_share
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The package and the tag."""
     parser.add_argument("package_name", help="The package name")
     parser.add_argument("-t", "--tag", help="The XML tag to output, e.g. version")
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """The text of package.xml, or the text of each element of that tag."""
     path = package_share(arguments.package_name) / "package.xml"
     try:
         text = path.read_text(encoding="utf-8")

@@ -14,12 +14,11 @@ from gz_course.sim.ros2.message_value import fill
 from gz_course.sim.ros2.option_values import rate, seconds
 from gz_course.sim.ros2.service import call, nearest_service, service_name
 
-_AVAILABLE = 10.0  # s to wait for a service that is not there
-_ANSWER = 60.0  # s to wait for its answer
+_AVAILABLE = 10.0  # [s] to wait for a service that is not there
+_ANSWER = 60.0  # [s] to wait for its answer
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The service, the request and how often."""
     add_graph_options(parser)
     parser.add_argument("service_name", help="Name of the ROS service to call to (e.g. '/add_two_ints')")
     parser.add_argument("service_type", help="Type of the ROS service (e.g. 'std_srvs/srv/Empty')")
@@ -41,7 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Call once and print the response; with --rate until interrupted."""
+    """Call once; with --rate until interrupted."""
     kind = service_class(arguments.service_type)
     request = kind.Request()
     stamps = fill(request, sys.stdin.read() if arguments.stdin else arguments.values)

@@ -10,13 +10,11 @@ from gz_course.sim.ros2.service import nearest_service, service_name, service_ty
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The service."""
     add_graph_options(parser)
     parser.add_argument("service_name", help="Name of the ROS service to get info (e.g. '/talker/get_parameters')")
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """The type, and how many call it and offer it."""
     with Graph(arguments) as graph:
         name = service_name(graph, arguments.service_name)
         types = service_types(graph, name)

@@ -10,13 +10,12 @@ from gz_course.sim.ros2.topic import warn
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The service."""
     add_graph_options(parser)
     parser.add_argument("service_name", help="Name of the ROS service to get type (e.g. '/spawn')")
 
 
 def main(arguments: argparse.Namespace) -> int:
-    """One type a line; nothing on the output and exit code 1 for an unknown service."""
+    """Return 1, and print nothing to stdout, for an unknown service."""
     with Graph(arguments) as graph:
         name = service_name(graph, arguments.service_name)
         types = service_types(graph, name)

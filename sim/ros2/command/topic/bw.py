@@ -16,14 +16,12 @@ _NANOSECONDS = 1e-9
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The topic and the window."""
     add_graph_options(parser)
     parser.add_argument("topic_name", help="Topic name to monitor for bandwidth utilization")
     add_window(parser, WINDOW)
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Report once a second, until interrupted."""
     with Graph(arguments) as graph:
         name, kind = awaited_topic(graph, arguments.topic_name)
         in_sim_time = arguments.use_sim_time
@@ -41,11 +39,11 @@ class Bandwidth:
         self._messages: deque[tuple[int, int]] = deque(maxlen=window)
 
     def arrived(self, message: bytes) -> None:
-        """A message of so many bytes has arrived."""
+        """Take note of a message of so many bytes."""
         self._messages.append((self._clock(), len(message)))
 
     def report(self) -> str:
-        """Bytes a second since the first message of the window, and the sizes; empty with fewer than two messages."""
+        """Return the rate over the window, and the sizes; empty with fewer than two messages."""
         if len(self._messages) < 2:
             return ""
         passed = (self._clock() - self._messages[0][0]) * _NANOSECONDS

@@ -18,14 +18,13 @@ _NANOSECONDS = 1e-9
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The topic and the window."""
     add_graph_options(parser)
     parser.add_argument("topic_name", help="Topic name to calculate the delay for")
     add_window(parser, WINDOW)
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Report once a second, until interrupted; stamps in simulated time need --use-sim-time."""
+    """Report once a second, until interrupted. Stamps in simulated time need --use-sim-time."""
     with Graph(arguments) as graph:
         name, kind = awaited_topic(graph, arguments.topic_name)
         if "header" not in kind.get_fields_and_field_types():
@@ -44,7 +43,7 @@ class Delay:
         self._last = 0
 
     def arrived(self, message: Any) -> None:
-        """A message with a header. A clock that jumps back begins a new measurement; at 0 it has not begun."""
+        """Take note of a message with a header. A clock that jumps back begins a new measurement, one at 0 none."""
         now = self._clock()
         if now < self._last:
             self._delays.clear()
@@ -54,7 +53,7 @@ class Delay:
             self._news = True
 
     def report(self) -> str:
-        """Mean, smallest, largest and spread of the delays; empty before the first message."""
+        """Return mean, smallest, largest and spread of the delays; empty before the first message."""
         if not self._delays:
             return ""
         if not self._news:

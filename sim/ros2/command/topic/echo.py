@@ -25,11 +25,10 @@ from gz_course.sim.ros2.topic import (
     warn,
 )
 
-_FIRST_PUBLISHER = 1.0  # s to wait for somebody to follow the QoS of, when the type is given
+_FIRST_PUBLISHER = 1.0  # [s] to wait for a publisher whose QoS is followed, when the type is given
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The topic, how long to listen, how to print and with which QoS."""
     add_graph_options(parser)
     parser.add_argument("topic_name", help="Name of the ROS topic to listen to (e.g. '/chatter')")
     parser.add_argument("message_type", nargs="?", help="Type of the ROS message (e.g. 'std_msgs/msg/String')")
@@ -84,7 +83,7 @@ def _message_class(graph: Graph, name: str, given: Any) -> Any:
 
 
 class _Printer:
-    """Prints each message the way the options say; `count` messages so far."""
+    """A printer of messages, as the options say; it has printed `count` so far."""
 
     def __init__(self, arguments: argparse.Namespace, kind: Any, passes: Callable[[Any], bool] | None) -> None:
         self.count = 0
@@ -119,7 +118,7 @@ class _Printer:
             print(value, end="\n---\n")
 
     def _select(self, message: Any) -> Any:
-        """The field the user has asked for; CommandError with the fields there are if it does not exist."""
+        """Return the field of `--field`. Raises CommandError with the existing fields if there is no such field."""
         value = message
         for name in self._fields:
             if not is_message(value) or name not in value.get_fields_and_field_types():

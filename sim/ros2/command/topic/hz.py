@@ -17,7 +17,6 @@ _NANOSECONDS = 1e-9
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The topic, the window and the clock."""
     add_graph_options(parser)
     parser.add_argument("topic_name", help="Name of the ROS topic to listen to (e.g. '/chatter')")
     add_window(parser, WINDOW)
@@ -26,7 +25,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Report once a second while messages arrive, until interrupted."""
     passes = message_filter(arguments.filter)
     with Graph(arguments) as graph:
         name, kind = awaited_topic(graph, arguments.topic_name)
@@ -50,7 +48,7 @@ class Rate:
         self._news = False
 
     def tick(self) -> None:
-        """A message has arrived. A clock that stands still or jumps back begins a new measurement."""
+        """Take note of a message. A clock that stands still or jumps back begins a new measurement."""
         now = self._clock()
         if self._last is not None and now == self._last:
             return
@@ -62,7 +60,7 @@ class Rate:
         self._last = now
 
     def report(self) -> str:
-        """The rate, smallest, largest and spread of the intervals; empty if nothing new has arrived."""
+        """Return the rate, smallest, largest and spread of the intervals; empty if nothing new has arrived."""
         if not self._news:
             return ""
         self._news = False

@@ -10,7 +10,6 @@ from gz_course.sim.ros2.topic import nearest_topic
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The topic, and how much of it."""
     add_graph_options(parser)
     parser.add_argument("topic_name", help="Name of the ROS topic to get info (e.g. '/chatter')")
     parser.add_argument(
@@ -22,7 +21,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """The type and how many publish and subscribe; with -v each of them."""
     name = arguments.topic_name
     with Graph(arguments) as graph:
         if graph.wait_for_topic(name):

@@ -20,12 +20,11 @@ from gz_course.sim.ros2.option_values import positive_number, rate, seconds, who
 from gz_course.sim.ros2.qos import add_qos_options, chosen_qos
 from gz_course.sim.ros2.topic import full_name, warn
 
-_SAY_AGAIN = 1.0  # s between two lines while nobody listens
+_SAY_AGAIN = 1.0  # [s] between two lines while nobody listens
 _HINT_AFTER = 2  # such lines until the nearest topic is named
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The topic, the message, how often it is sent and to whom."""
     add_graph_options(parser)
     parser.add_argument("topic_name", help="Name of the ROS topic to publish to (e.g. '/chatter')")
     parser.add_argument("message_type", help="Type of the ROS message (e.g. 'std_msgs/msg/String')")
@@ -74,7 +73,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Publish until interrupted, or so often; nothing is sent before the message and the subscriptions are right."""
+    """Publish until interrupted or as often as asked; the message and the subscriptions are checked first."""
     kind = message_class(arguments.message_type)
     message = kind()
     stamps = fill(message, sys.stdin.read() if arguments.stdin else arguments.values)
@@ -86,7 +85,7 @@ def main(arguments: argparse.Namespace) -> None:
     with Graph(arguments, arguments.node_name) as graph:
         name = full_name(graph, arguments.topic_name)
         publisher = graph.node.create_publisher(kind, name, chosen_qos(arguments, _reaches_everybody()))
-        graph.settle()  # the first message is for everybody who is already there
+        graph.settle()  # existing subscriptions receive the first message, too
         _wait_for_subscriptions(graph, publisher, wanted, arguments.max_wait_time_secs)
         print("publisher: beginning loop")
         for count in _ticks(graph, 1.0 / arguments.rate, times):
@@ -112,7 +111,7 @@ def _reaches_everybody() -> QoSProfile:
 
 
 def _ticks(graph: Graph, period: float, times: int | None) -> Iterator[int]:
-    """1, 2, 3 ... one a period, the first at once; `times` of them, or for ever."""
+    """Yield 1, 2, 3 ... one a `period` [s], the first at once; `times` of them, or for ever."""
     start = time.monotonic()
     count = 0
     while times is None or count < times:
@@ -122,7 +121,7 @@ def _ticks(graph: Graph, period: float, times: int | None) -> Iterator[int]:
 
 
 def _wait_for_subscriptions(graph: Graph, publisher: Any, wanted: int, timeout: float | None) -> None:
-    """Wait for so many that can receive, and say once a second that none is there, and at last why."""
+    """Wait for `wanted` matching subscriptions; report once a second that they are missing, and why."""
     started = time.monotonic()
     lines = 0
     while not graph.spin_until(lambda: publisher.get_subscription_count() >= wanted, _until_next(started, timeout)):
@@ -144,7 +143,7 @@ def _until_next(started: float, timeout: float | None) -> float:
 
 
 def _why_nobody_listens(graph: Graph, publisher: Any) -> str:
-    """The types or the QoS of those who do not match, or the nearest topic that somebody listens to."""
+    """Return the types or the QoS of subscriptions that do not match, or the nearest topic with a subscription."""
     name, own = publisher.topic_name, message_type_name(publisher.msg_type)
     ends = graph.node.get_subscriptions_info_by_topic(name)
     others = sorted({end.topic_type for end in ends} - {own})

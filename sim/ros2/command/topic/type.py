@@ -9,13 +9,12 @@ from gz_course.sim.ros2.topic import nearest_topic, warn
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The topic."""
     add_graph_options(parser)
     parser.add_argument("topic_name", help="Name of the ROS topic to get type (e.g. '/chatter')")
 
 
 def main(arguments: argparse.Namespace) -> int:
-    """One type a line; nothing on the output and exit code 1 for an unknown topic."""
+    """Return 1, and print nothing to stdout, for an unknown topic."""
     with Graph(arguments) as graph:
         types = graph.wait_for_topic(arguments.topic_name)
         for name in types:

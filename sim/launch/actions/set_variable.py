@@ -1,0 +1,34 @@
+"""The base of the actions that set a launch configuration or an environment variable."""
+
+from __future__ import annotations
+
+from collections.abc import MutableMapping
+from typing import Any
+
+from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
+from gz_course.sim.launch.utilities import (
+    describe_substitutions,
+    normalize_to_list_of_substitutions,
+    perform_substitutions,
+)
+
+
+class SetVariable(Action):
+    """The base of actions that give the variable `name` a value; `_variables` says among which."""
+
+    def __init__(self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.name = normalize_to_list_of_substitutions(name)
+        self.value = normalize_to_list_of_substitutions(value)
+
+    def describe(self) -> str:
+        return f"{type(self).__name__}({describe_substitutions(self.name)}, {describe_substitutions(self.value)})"
+
+    def execute(self, context: LaunchContext) -> None:
+        name = perform_substitutions(context, self.name)
+        self._variables(context)[name] = perform_substitutions(context, self.value)
+
+    def _variables(self, context: LaunchContext) -> MutableMapping[str, Any]:
+        raise NotImplementedError
