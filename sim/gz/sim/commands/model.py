@@ -1,7 +1,7 @@
 """List the models of a running world and look at one: `gz model --list`, `gz model -m robot -p`.
 
-Run by `gz.command`. Asks `/world/W/scene/info` for what there is and listens to `/world/W/pose/info` for where it is;
-both come from the SceneBroadcaster of the world.
+Called by `gz.command`. Asks `/world/W/scene/info` for what there is and listens to `/world/W/pose/info` for where it
+is; both come from the SceneBroadcaster of the world.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ _TIMEOUT_MS = 5000
 
 
 def add_arguments(parser: Parser) -> None:
-    """Adds the options of `gz model`."""
+    """Add the options of `gz model`."""
     parser.add_argument("--list", action="store_true", help="the names of all models")
     parser.add_argument("-m", "--model", metavar="NAME", help="the model to look at")
     parser.add_argument("-p", "--pose", action="store_true", help="its pose only: position (m), roll pitch yaw (rad)")
@@ -31,7 +31,7 @@ def add_arguments(parser: Parser) -> None:
 
 
 def run(values: argparse.Namespace) -> int:
-    """Runs `gz model`; the exit code. Raises ValueError, with one sentence, when there is nothing to look at."""
+    """Run `gz model`; return the exit code. Raises ValueError, with one sentence, when there is nothing to look at."""
     with Node() as node:
         world = _world(node)
         scene = _scene(node, world)

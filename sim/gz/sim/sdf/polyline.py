@@ -7,9 +7,9 @@ first joined to its outline by a bridge), and these are joined to convex prisms 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
+import mapbox_earcut
 import numpy as np
 
 from gz_course.sim.gz.sim.sdf.description import Geometry, TriangleMesh
@@ -45,7 +45,7 @@ def read_polyline(shapes: Sequence[Element]) -> Geometry | None:
         raise shapes[0].error(f"<polyline> has more than {_MOST_POINTS} points; use a mesh")
     polygons: list[list[Point]] = []
     for outline, holes in _nested(outlines):
-        cut = _triangulated(_bridged(outline, holes))
+        cut = _convex_parts([outline, *holes])
         whole = _area(outline) + sum(map(_area, holes))
         if abs(sum(map(_area, cut)) - whole) > 1e-6 * _area(outline):
             return None
@@ -85,62 +85,20 @@ def _nested(outlines: list[list[Point]]) -> list[tuple[list[Point], list[list[Po
     return found
 
 
-def _bridged(outline: list[Point], holes: list[list[Point]]) -> list[Point]:
-    """Join each hole to the outline by a cut that is passed twice, from the hole's rightmost point."""
-    joined = list(outline)
-    for hole in sorted(holes, key=lambda each: -max(each)[0]):
-        start = max(range(len(hole)), key=lambda index: hole[index])
-        turned = hole[start:] + hole[:start]
-        others = [*holes, joined]
-        candidates = sorted(range(len(joined)), key=lambda index: math.dist(joined[index], turned[0]))
-        at = next(
-            (index for index in candidates if not any(_crossed(joined[index], turned[0], each) for each in others)),
-            candidates[0],
-        )
-        joined = [*joined[: at + 1], *turned, turned[0], *joined[at:]]
-    return joined
-
-
 def _side(a: Point, b: Point, c: Point) -> float:
+    """Return twice the signed area of a triangle: positive when it turns left."""
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
-def _crossed(start: Point, end: Point, outline: Sequence[Point]) -> bool:
-    for a, b in zip(outline, [*outline[1:], outline[0]], strict=True):
-        if start in (a, b) or end in (a, b):
-            continue
-        apart = _side(start, end, a) * _side(start, end, b)
-        if apart <= 0.0 and _side(a, b, start) * _side(a, b, end) <= 0.0:
-            return True
-    return False
+def _convex_parts(rings: Sequence[Sequence[Point]]) -> list[list[Point]]:
+    """Cut an outline with holes (the other rings) into convex polygons, all turned left.
 
-
-def _triangulated(polygon: list[Point]) -> list[list[Point]]:
-    """Cut a polygon (turned left) into convex ones: ears are clipped, then put together while they stay convex."""
-    left = list(range(len(polygon)))
-    ears: list[list[int]] = []
-    tried = 0
-    while len(left) > 3 and tried <= len(left):
-        before, here, after = left[-1], left[0], left[1]
-        a, b, c = polygon[before], polygon[here], polygon[after]
-        turn = _side(a, b, c)
-        if turn > 0.0 and not any(_within(a, b, c, polygon[k]) for k in left[2:-1] if polygon[k] not in (a, b, c)):
-            ears.append([before, here, after])
-            left.pop(0)
-            tried = 0
-        elif turn == 0.0 and b in (a, c):
-            left.pop(0)
-            tried = 0
-        else:
-            left.append(left.pop(0))
-            tried += 1
-    if len(left) == 3 and _side(*(polygon[k] for k in left)) > 0.0:
-        ears.append(left)
-    return [[polygon[k] for k in part] for part in _joined(ears, polygon)]
-
-
-def _within(a: Point, b: Point, c: Point, point: Point) -> bool:
-    return _side(a, b, point) >= 0.0 and _side(b, c, point) >= 0.0 and _side(c, a, point) >= 0.0
+    Source: ear clipping of mapbox-earcut, https://github.com/mapbox/earcut
+    """
+    points = [point for ring in rings for point in ring]
+    ends = np.cumsum([len(ring) for ring in rings], dtype=np.uint32)
+    ears = mapbox_earcut.triangulate_float64(np.array(points, dtype=np.float64), ends).reshape(-1, 3).tolist()
+    return [[points[k] for k in part] for part in _joined(ears, points)]
 
 
 def _joined(parts: list[list[int]], polygon: list[Point]) -> list[list[int]]:

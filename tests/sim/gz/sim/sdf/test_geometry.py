@@ -163,6 +163,17 @@ def test_outlines_inside_outlines_are_holes_and_islands() -> None:
     assert solid(made)[0] == pytest.approx(2 * 68, rel=1e-5)  # type: ignore[index]
 
 
+@given(st.lists(st.lists(st.floats(0.3, 1.5), min_size=3, max_size=8), min_size=1, max_size=9))
+def test_any_holes_that_are_apart_are_cut_out(holes: list[list[float]]) -> None:
+    def star(radii: list[float], x: float, y: float) -> list[tuple[float, float]]:
+        angles = [2 * math.pi * k / len(radii) for k in range(len(radii))]
+        return [(x + r * math.cos(a), y + r * math.sin(a)) for r, a in zip(radii, angles, strict=True)]
+
+    rings = [star(radii, 4.0 * (k % 3), 4.0 * (k // 3)) for k, radii in enumerate(holes)]
+    made = polyline([(-3, -3), (11, -3), (11, 11), (-3, 11)], *rings)
+    assert made is not None and footprint(made) == pytest.approx(14**2 - sum(map(area, rings)), rel=1e-9)
+
+
 def test_convex_parts_of_a_mesh_touch_one_by_one() -> None:
     both = np.concatenate([CUBE, CUBE + np.array((3, 0, 0))])
     pieces, fuller = convex_pieces(both, np.concatenate([FACES, FACES + 8]), moving=True)
