@@ -1,6 +1,7 @@
 """`<link>` and what is fixed to it: inertia, collisions, visuals, sensors, lights.
 
-Part of the reader, called once per link with the scope that knows where the model's frames stand.
+Part of the reader, called once per link with the scope that knows where the model's frames are.
+Source: SDFormat, element `<link>`, http://sdformat.org/spec
 """
 
 from __future__ import annotations
@@ -19,9 +20,7 @@ from gz_course.sim.gz.sim.sdf.materials import read_bitmask, read_colour, read_f
 
 
 def read_link(element: Element, scope: Scope, model: Model, diagnostics: Diagnostics) -> Link:
-    """Return the link; its pose is in the frame of `model`, the poses of its parts in the link's own
-    frame.
-    """
+    """Return the link; its pose is in the frame of `model`, the poses of its parts are in the frame of the link."""
     link = Link(element.name, scope.pose_of(element.name, element), element, static=model.static)
     link.gravity = element.flag("gravity", True)
     link.self_collide = element.flag("self_collide", False) or model.self_collide
@@ -68,7 +67,7 @@ def _add_shape(part: Element, link: Link, model: Model, scope: Scope, diagnostic
 
 
 def _warn_of_what_is_missing(element: Element, model: Model, diagnostics: Diagnostics) -> None:
-    """Report what a link asks for and does not get."""
+    """Warn about each element of a link that is not simulated."""
     kinematic = element.find("kinematic")
     if kinematic is not None and element.flag("kinematic", False) and not model.static:
         diagnostics.warn(kinematic.where, f"link '{element.name}' is not held kinematic, forces move it; use <static>")
@@ -102,7 +101,7 @@ def _sensor(element: Element, link: Link, model: Model, scope: Scope, diagnostic
     child = element.find("pose")
     base = child.attributes.get("relative_to", "") if child is not None else ""
     if child is not None and base and base.split("::")[0] not in (*scope.frames, scope.own):
-        # gz-sensors falls back to the raw pose here; so the world still runs.
+        # As in gz-sensors: the pose counts without its frame, so that the world still runs.
         diagnostics.warn(child.where, f"sensor pose relative_to='{base}' names no frame; the link's frame is used")
         pose = child.pose()
     else:
