@@ -1,7 +1,9 @@
-"""Message definitions as text: what `gz msg --info TYPE` prints.
+"""Message definitions as text: the output of `gz msg --info TYPE`.
 
-Written from the descriptor of the linked class, in the layout of C++ protobuf's DebugString: nested types
-first, full type names with a leading dot, two spaces an indentation.
+Written from the descriptor of the linked class, in the layout of C++ protobuf: nested types first, full type names with
+a leading dot, an indentation of two spaces.
+Source: `Descriptor::DebugString`,
+https://github.com/protocolbuffers/protobuf/blob/main/src/google/protobuf/descriptor.cc
 """
 
 from __future__ import annotations
@@ -21,7 +23,7 @@ _KINDS = {
 
 
 def describe(message_class: type[Message]) -> str:
-    """Name, file and definition of a message type, ending with an empty line."""
+    """Return name, file and definition of a message type, ending with an empty line."""
     descriptor = message_class.DESCRIPTOR
     definition = "\n".join(_message(descriptor, 0))
     return f"Name: {descriptor.full_name}\nFile: {descriptor.file.name}\n\n{definition}\n\n"

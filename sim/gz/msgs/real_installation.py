@@ -1,7 +1,7 @@
-"""Gives way to a real installation of Gazebo's Python packages, where there is one.
+"""Preference of a real installation of Gazebo's Python packages, where there is one.
 
 `gz.transport13` and `gz.msgs10` exist here as other names of gz.transport and gz.msgs. `gz` is a namespace package, so
-the same names may also stand in another folder of the import path; then those are the ones that are wanted.
+another folder of the import path may hold packages of the same names; those are preferred.
 """
 
 from __future__ import annotations
@@ -10,14 +10,14 @@ import importlib.util
 import sys
 from pathlib import Path
 
-_tried: set[str] = set()  # packages of which another than ours is being executed
+_tried: set[str] = set()  # packages whose real installation is being executed
 
 
 def give_way(package: str, own_file: str) -> bool:
-    """Puts the package of this name that is not ours into sys.modules, if there is one; whether there was.
+    """Put the package of this name that is not ours into sys.modules; return whether there is one.
 
-    Called by the `__init__.py` of an alias, with its `__name__` and `__file__`. Raises ImportError if that is tried as
-    a real installation just now: it is another copy of ours on the import path, and the search goes on behind it.
+    Called by the `__init__.py` of an alias, with its `__name__` and `__file__`. Raises ImportError if that file is
+    being tried as a real installation: it is another copy of ours on the import path, and the search continues.
     """
     if package in _tried:
         raise ImportError(f"{own_file} is another copy of this package, no installation of Gazebo's", name=package)
@@ -31,7 +31,7 @@ def give_way(package: str, own_file: str) -> bool:
 
 
 def _executed(package: str, file: Path) -> bool:
-    """Execute the package in `file` in the place of ours; whether it could be imported."""
+    """Execute the package in `file` in the place of ours; return whether it could be imported."""
     spec = importlib.util.spec_from_file_location(package, file, submodule_search_locations=[str(file.parent)])
     if spec is None or spec.loader is None:
         return False

@@ -1,7 +1,8 @@
 """Look at message types: `gz msg --list`, `gz msg --info gz.msgs.Twist`.
 
-Called by `gz.command`; the names come from gz.msgs' registry, the definitions from its descriptors. Exit codes: 0,
-1 for a type that there is not.
+Called by `gz.command`; the names come from the registry of gz.msgs, the definitions from its descriptors. The exit code
+is 1 for an unknown type.
+Source: gz-msgs 10, https://github.com/gazebosim/gz-msgs/blob/gz-msgs10/core/cmd/cmdmsgs.rb.in
 """
 
 from __future__ import annotations

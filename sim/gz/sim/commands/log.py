@@ -1,6 +1,6 @@
 """Look into a recording of `gz sim --record`: `gz log -i FILE`, `gz log -e -t /topic FILE`.
 
-Called by `gz.command`. FILE is a `state.tlog` or the folder it lies in; times are simulated seconds.
+Called by `gz.command`. FILE is a `state.tlog` or its folder; times are simulated [s].
 """
 
 from __future__ import annotations

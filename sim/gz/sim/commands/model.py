@@ -1,7 +1,8 @@
 """List the models of a running world and look at one: `gz model --list`, `gz model -m robot -p`.
 
-Called by `gz.command`. Asks `/world/W/scene/info` for what there is and listens to `/world/W/pose/info` for where it
-is; both come from the SceneBroadcaster of the world.
+Called by `gz.command`. Models come from the service `/world/W/scene/info`, poses from the topic `/world/W/pose/info`;
+both are offered by the SceneBroadcaster of the world.
+Source: https://gazebosim.org/api/sim/8/model_command.html
 """
 
 from __future__ import annotations
@@ -77,7 +78,7 @@ def _named(parts: Any, name: str, sentence: str) -> Any:
 
 
 def _pose_now(node: Node, world: str, model: Any) -> Any:
-    """Return the present pose of a model; that of the scene when no poses come."""
+    """Return the present pose of a model, or that of the scene when no poses arrive."""
     from gz_course.sim.gz.msgs.pose_v_pb2 import Pose_V
 
     heard = threading.Event()

@@ -3,6 +3,7 @@
 Called by `gz.command`. Loads the world, puts it on the wire (`gz.sim.server`) and runs it until SIGINT, SIGTERM or the
 last iteration. Exit codes: 0 ended well, 1 the world cannot be run, 2 nothing that can be run was named, 3 the
 simulator itself failed; wrong options have the codes of `gz.command_line`.
+Source: gz-sim 8, https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/cmd/cmdsim.rb.in
 """
 
 from __future__ import annotations

@@ -26,7 +26,7 @@ class _Frame:
 
 @dataclass(eq=False)
 class Scope:
-    """Named frames of one model, or of the world. `own` is the name of the frame of the scope: `__model__` or `world`."""
+    """Named frames of one model or of the world; `own` names the frame of the scope, `__model__` or `world`."""
 
     own: str
     element: Element

@@ -1,8 +1,9 @@
 """`<polyline>` of a `<geometry>`: outlines in the x-y plane, extruded along z from 0 to `<height>`.
 
 Part of the reader: `gz.sim.sdf.geometry` calls it. Several polylines in one geometry make one shape; an outline inside
-another is a hole in it (even-odd, as Gazebo fills them). The area is cut into triangles by ear clipping (a hole is
-first joined to its outline by a bridge), and these are joined to convex prisms again: only convex bodies touch.
+another is a hole in it (even-odd rule, as in Gazebo). The area is cut into triangles, which are joined to convex
+polygons; their prisms are the pieces that collide, because MuJoCo collides convex meshes only.
+Source: SDFormat, element `<polyline>`, http://sdformat.org/spec
 """
 
 from __future__ import annotations
@@ -21,8 +22,9 @@ _LARGEST = 1e6  # [m]
 
 
 def read_polyline(shapes: Sequence[Element]) -> Geometry | None:
-    """Return the prism of the `<polyline>` elements of one geometry, None when they cross themselves; raises `SdfError`
-    for outlines without area.
+    """Return the prism of the `<polyline>` elements of one geometry, or None when they cross themselves.
+
+    Raises `SdfError` for outlines without area.
     """
     outlines: list[list[Point]] = []
     height = shapes[0].number("height", 1.0)
@@ -56,7 +58,10 @@ def read_polyline(shapes: Sequence[Element]) -> Geometry | None:
 
 
 def _area(outline: Sequence[Point]) -> float:
-    """Return the signed area: positive when the points go round to the left."""
+    """Return the signed area [m^2], positive when the points turn left.
+
+    Source: shoelace formula, https://en.wikipedia.org/wiki/Shoelace_formula
+    """
     return 0.5 * sum(x1 * y2 - x2 * y1 for (x1, y1), (x2, y2) in zip(outline, [*outline[1:], outline[0]], strict=True))
 
 
@@ -70,7 +75,7 @@ def _inside(point: Point, outline: Sequence[Point]) -> bool:
 
 
 def _nested(outlines: list[list[Point]]) -> list[tuple[list[Point], list[list[Point]]]]:
-    """Return each outline that bounds area (turned left) with its holes (turned right)."""
+    """Return each outline that encloses area (turned left) with its holes (turned right)."""
     depth = [sum(_inside(one[0], other) for other in outlines if other is not one) for one in outlines]
     found = []
     for outline, level in zip(outlines, depth, strict=True):
@@ -102,7 +107,10 @@ def _convex_parts(rings: Sequence[Sequence[Point]]) -> list[list[Point]]:
 
 
 def _joined(parts: list[list[int]], polygon: list[Point]) -> list[list[int]]:
-    """Put neighbours together across their common edge while the result is convex."""
+    """Join neighbours across their common edge while the result is convex.
+
+    Source: S. Hertel, K. Mehlhorn, Fast triangulation of the plane with respect to simple polygons, 1985
+    """
     owner = {(part[k - 1], part[k]): index for index, part in enumerate(parts) for k in range(len(part))}
     alive: dict[int, list[int]] = dict(enumerate(parts))
     for edge in list(owner):
@@ -111,7 +119,7 @@ def _joined(parts: list[list[int]], polygon: list[Point]) -> list[list[int]]:
             continue
         a, b = alive[one], alive[other]
         i, j = a.index(edge[1]), b.index(edge[0])
-        # Round a from the edge's end to its start, then on through b.
+        # Around a from the end of the edge to its start, then on through b.
         whole = a[i:] + a[:i] + (b[j:] + b[:j])[1:-1]
         if len(set(whole)) < len(whole):
             continue
@@ -124,7 +132,7 @@ def _joined(parts: list[list[int]], polygon: list[Point]) -> list[list[int]]:
 
 
 def _extruded(outlines: list[list[Point]], polygons: list[list[Point]], height: float) -> TriangleMesh:
-    """Return the walls over all outlines, and floor and lid over the polygons, normals outwards."""
+    """Return the walls of all outlines, and floor and lid of the polygons, normals outwards."""
     vertices: list[tuple[float, float, float]] = []
     triangles: list[tuple[int, int, int]] = []
 

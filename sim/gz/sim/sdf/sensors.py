@@ -1,6 +1,7 @@
 """`<sensor>` inside a `<joint>`: a force-torque sensor between two links.
 
 Part of the reader, called by `gz.sim.sdf.joints`; the sensors of links are read with their link.
+Source: SDFormat, element `<sensor>`, http://sdformat.org/spec
 """
 
 from __future__ import annotations
@@ -13,8 +14,9 @@ from gz_course.sim.gz.sim.sdf.frames import Scope
 
 
 def read_joint_sensors(joint: Joint, scope: Scope, model: Model, diagnostics: Diagnostics) -> list[Sensor]:
-    """Return the sensors of a joint; their poses are in the joint's frame. Raises `SdfError` for a sensor without
-    name or type and for two of one name.
+    """Return the sensors of a joint, with poses in the frame of the joint.
+
+    Raises `SdfError` for a sensor without name or type and for two of the same name.
     """
     found: list[Sensor] = []
     for element in joint.element.all("sensor"):

@@ -1,7 +1,8 @@
 """Look at services and call them: `gz service -l`, `gz service -s /world/default/control ...`.
 
-Called by `gz.command`. What is printed is what the tool of Gazebo Harmonic prints; a call that fails, for whatever
-reason, ends with the code 1, and one that nobody answered says what there would have been.
+Called by `gz.command`. The output is that of the tool of Gazebo Harmonic; a call that fails, for whatever reason, ends
+with the code 1, and one that nobody answered names the nearest service or the right types.
+Source: gz-transport 13, https://github.com/gazebosim/gz-transport/blob/gz-transport13/src/cmd/service_main.cc
 """
 
 from __future__ import annotations

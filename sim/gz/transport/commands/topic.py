@@ -1,7 +1,8 @@
 """Look at topics and publish on them: `gz topic -l`, `gz topic -e -t /odom`.
 
-Called by `gz.command`. What is printed is what the tool of Gazebo Harmonic prints. Different is how it ends: a topic
-or type that there is not gives one line on stderr and the code 1, and `-p` leaves only when the message is out.
+Called by `gz.command`. The output is that of the tool of Gazebo Harmonic. It ends differently: an unknown topic or type
+gives one line on stderr and the code 1, and `-p` ends only when the message has been sent.
+Source: gz-transport 13, https://github.com/gazebosim/gz-transport/blob/gz-transport13/src/cmd/topic_main.cc
 """
 
 from __future__ import annotations
@@ -122,7 +123,7 @@ def _frequency(node: Node, topic: str) -> int:
                 arrival = arrivals.next(look_at)
                 if arrival is not None and len(times) <= _WINDOW:
                     times.append(arrival.time_ns)
-                elif arrival is not None:  # one more than needed: Gazebo's tool uses it as the sign to print
+                elif arrival is not None:  # one more than needed: it makes Gazebo's tool print
                     _print_frequency(times)
                     times.clear()
                 elif arrivals.reader_gone():

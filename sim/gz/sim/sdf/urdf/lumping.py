@@ -27,7 +27,7 @@ class Body:
     head: UrdfLink
     members: list[tuple[UrdfLink, Pose]] = field(default_factory=list)
     joint: UrdfJoint | None = None
-    """The joint that carries the head; its origin counts from `parent`."""
+    """The joint that carries the head; `origin` is its pose in the frame of `parent`."""
     parent: str = ""
     origin: Pose = field(default_factory=Pose)
     inertial: UrdfInertial | None = None
