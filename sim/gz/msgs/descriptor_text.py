@@ -10,16 +10,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from google.protobuf.descriptor import FieldDescriptor
 from google.protobuf.message import Message
 
-_KINDS = {
-    getattr(FieldDescriptor, f"TYPE_{name.upper()}"): name
-    for name in (
-        *("double", "float", "int32", "int64", "uint32", "uint64", "sint32", "sint64"),
-        *("fixed32", "fixed64", "sfixed32", "sfixed64", "bool", "string", "bytes"),
-    )
-}
+from gz_course.sim.gz.msgs.proto_reader import SCALARS
+
+_KINDS = {number: name for name, number in SCALARS.items()}
 
 
 def describe(message_class: type[Message]) -> str:

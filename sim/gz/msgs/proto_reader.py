@@ -28,7 +28,7 @@ _TOKEN = re.compile(
     re.VERBOSE | re.DOTALL,
 )
 
-_SCALARS = {
+SCALARS = {
     name: getattr(FieldDescriptorProto, f"TYPE_{name.upper()}")
     for name in (
         *("double", "float", "int32", "int64", "uint32", "uint64", "sint32", "sint64"),
@@ -191,7 +191,7 @@ class _Reader:
 
     @staticmethod
     def _set_type(field: FieldDescriptorProto, type_name: str) -> None:
-        scalar = _SCALARS.get(type_name)
+        scalar = SCALARS.get(type_name)
         if scalar is not None:
             field.type = scalar
         else:  # message or enum: the descriptor pool finds out which, and where, when it links the file

@@ -40,14 +40,10 @@ def convex_pieces(vertices: Points, triangles: Triangles, *, moving: bool) -> tu
     parts = _components(len(vertices), triangles)
     concave = [_is_concave(vertices, part, moving=moving) for part in parts]
     filled = [part for part, hollow in zip(parts, concave, strict=True) if hollow]
-    if moving:
-        if len(parts) > MOST_MOVING_PIECES:
-            return _solids([vertices[np.unique(triangles)]]), _excess(vertices, [triangles])
-        return _solids([vertices[np.unique(part)] for part in parts]), _excess(vertices, filled)
     wedges = sum(len(part) if hollow else 1 for part, hollow in zip(parts, concave, strict=True))
-    if wedges > MOST_STATIC_PIECES:
-        if len(parts) > MOST_STATIC_PIECES:
-            return _solids([vertices[np.unique(triangles)]]), _excess(vertices, [triangles])
+    if moving or wedges > MOST_STATIC_PIECES:
+        if len(parts) > (MOST_MOVING_PIECES if moving else MOST_STATIC_PIECES):
+            parts = filled = [triangles]
         return _solids([vertices[np.unique(part)] for part in parts]), _excess(vertices, filled)
     pieces: list[Points] = []
     for part, hollow in zip(parts, concave, strict=True):

@@ -46,13 +46,14 @@ def read_polyline(shapes: Sequence[Element]) -> Geometry | None:
     if sum(map(len, outlines)) > _MOST_POINTS:
         raise shapes[0].error(f"<polyline> has more than {_MOST_POINTS} points; use a mesh")
     polygons: list[list[Point]] = []
-    for outline, holes in _nested(outlines):
+    nested = _nested(outlines)
+    for outline, holes in nested:
         cut = _convex_parts([outline, *holes])
         whole = _area(outline) + sum(map(_area, holes))
         if abs(sum(map(_area, cut)) - whole) > 1e-6 * _area(outline):
             return None
         polygons.extend(cut)
-    mesh = _extruded(outlines, polygons, height)
+    mesh = _extruded([ring for outline, holes in nested for ring in (outline, *holes)], polygons, height)
     low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
     return Geometry("polyline", (float(high[0] - low[0]), float(high[1] - low[1]), height), mesh=mesh)
 
@@ -131,8 +132,8 @@ def _joined(parts: list[list[int]], polygon: list[Point]) -> list[list[int]]:
     return list(alive.values())
 
 
-def _extruded(outlines: list[list[Point]], polygons: list[list[Point]], height: float) -> TriangleMesh:
-    """Return the walls of all outlines, and floor and lid of the polygons, normals outwards."""
+def _extruded(rings: list[list[Point]], polygons: list[list[Point]], height: float) -> TriangleMesh:
+    """Return the walls of all rings (holes turned right), and floor and lid of the polygons, normals outwards."""
     vertices: list[tuple[float, float, float]] = []
     triangles: list[tuple[int, int, int]] = []
 
@@ -141,10 +142,9 @@ def _extruded(outlines: list[list[Point]], polygons: list[list[Point]], height: 
         vertices.extend(corners)
         triangles.extend((base, base + k, base + k + 1) for k in range(1, len(corners) - 1))
 
-    for outline, holes in _nested(outlines):
-        for ring in (outline, *holes):
-            for (x1, y1), (x2, y2) in zip(ring, [*ring[1:], ring[0]], strict=True):
-                add((x1, y1, 0.0), (x2, y2, 0.0), (x2, y2, height), (x1, y1, height))
+    for ring in rings:
+        for (x1, y1), (x2, y2) in zip(ring, [*ring[1:], ring[0]], strict=True):
+            add((x1, y1, 0.0), (x2, y2, 0.0), (x2, y2, height), (x1, y1, height))
     for polygon in polygons:
         add(*((x, y, height) for x, y in polygon))
         add(*((x, y, 0.0) for x, y in reversed(polygon)))

@@ -20,16 +20,34 @@ LUMP = "_fixed_joint_lump__"
 """What stands in the name of a lumped shape, between the body's name and its own."""
 
 _TRUE = ("true", "yes", "1")
-_CONTACT = {"kp": "kp", "kd": "kd", "maxVel": "max_vel", "minDepth": "min_depth"}
-_FRICTION = {"mu1": "mu", "mu2": "mu2", "fdir1": "fdir1"}
-_COLLISION = {"laserRetro": "laser_retro", "maxContacts": "max_contacts"}
-_DYNAMICS = {"springReference": "spring_reference", "springStiffness": "spring_stiffness"}
-_STOP = {"stopCfm": "cfm", "stopErp": "erp"}
+_COLLISION = {
+    "kp": "surface/contact/ode/kp",
+    "kd": "surface/contact/ode/kd",
+    "maxVel": "surface/contact/ode/max_vel",
+    "minDepth": "surface/contact/ode/min_depth",
+    "mu1": "surface/friction/ode/mu",
+    "mu2": "surface/friction/ode/mu2",
+    "fdir1": "surface/friction/ode/fdir1",
+    "laserRetro": "laser_retro",
+    "maxContacts": "max_contacts",
+}
+"""Where the value of a word goes in `<collision>`."""
+_JOINT = {
+    "springReference": "axis/dynamics/spring_reference",
+    "springStiffness": "axis/dynamics/spring_stiffness",
+    "stopCfm": "physics/ode/limit/cfm",
+    "stopErp": "physics/ode/limit/erp",
+    "fudgeFactor": "physics/ode/fudge_factor",
+}
+_JOINT_FLAGS = {
+    "provideFeedback": "physics/ode/provide_feedback",
+    "implicitSpringDamper": "physics/ode/implicit_spring_damper",
+    "cfmDamping": "physics/ode/implicit_spring_damper",
+}
 _PRESERVING = ("preserveFixedJoint", "disableFixedJointLumping")
 _TRANSLATED = {
-    *_CONTACT, *_FRICTION, *_COLLISION, *_DYNAMICS, *_STOP, *_PRESERVING,
-    "material", "collision", "visual", "static", "turnGravityOff", "dampingFactor", "selfCollide", "fudgeFactor",
-    "provideFeedback", "canonicalBody", "cfmDamping", "implicitSpringDamper",
+    *_COLLISION, *_JOINT, *_JOINT_FLAGS, *_PRESERVING,
+    "material", "collision", "visual", "static", "turnGravityOff", "dampingFactor", "selfCollide", "canonicalBody",
 }  # fmt: skip
 _PLACED = ("sensor", "light", "projector")
 
@@ -154,7 +172,7 @@ def tell_collision(
     """Add the tags of a URDF link to one of its `<collision>` elements: surface, contacts, blocks."""
     for tag in tags.of(reference):
         blocks = [child for block in tag.element.all("collision") for child in block.children]
-        words = [child for child in tag.element.children if child.tag in (*_CONTACT, *_FRICTION, *_COLLISION)]
+        words = [child for child in tag.element.children if child.tag in _COLLISION]
         if not blocks and not words:
             continue
         if not _reaches(collision, reference, lumped, "collision"):
@@ -165,12 +183,7 @@ def tell_collision(
                 collision.children = [child for child in collision.children if child.tag != "surface"]
             collision.children.append(_copy(block))
         for word in words:
-            if word.tag in _COLLISION:
-                set_value(collision, _COLLISION[word.tag], value_of(word), word)
-            elif word.tag in _FRICTION:
-                set_value(collision, f"surface/friction/ode/{_FRICTION[word.tag]}", value_of(word), word)
-            else:
-                set_value(collision, f"surface/contact/ode/{_CONTACT[word.tag]}", value_of(word), word)
+            set_value(collision, _COLLISION[word.tag], value_of(word), word)
 
 
 def tell_visual(visual: Element, tags: GazeboTags, reference: str, lumped: bool, diagnostics: Diagnostics) -> None:
@@ -218,16 +231,10 @@ def tell_joint(joint: Element, tags: GazeboTags, reference: str) -> None:
     """Add the tags of a joint to the SDF `<joint>`: springs, stops, sensors and everything that is SDF already."""
     for tag in tags.of(reference):
         for child in tag.element.children:
-            if child.tag in _DYNAMICS:
-                set_value(joint, f"axis/dynamics/{_DYNAMICS[child.tag]}", value_of(child), child)
-            elif child.tag in _STOP:
-                set_value(joint, f"physics/ode/limit/{_STOP[child.tag]}", value_of(child), child)
-            elif child.tag == "provideFeedback":
-                set_value(joint, "physics/ode/provide_feedback", "true" if _yes(child) else "false", child)
-            elif child.tag in ("implicitSpringDamper", "cfmDamping"):
-                set_value(joint, "physics/ode/implicit_spring_damper", "true" if _yes(child) else "false", child)
-            elif child.tag == "fudgeFactor":
-                set_value(joint, "physics/ode/fudge_factor", value_of(child), child)
+            if child.tag in _JOINT:
+                set_value(joint, _JOINT[child.tag], value_of(child), child)
+            elif child.tag in _JOINT_FLAGS:
+                set_value(joint, _JOINT_FLAGS[child.tag], "true" if _yes(child) else "false", child)
         joint.children.extend(tag.foreign)
 
 
