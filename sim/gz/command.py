@@ -1,16 +1,12 @@
-"""The `gz` command: finds the sub-command and hands over to it.
+"""The `gz` command: finds the sub-command and runs it.
 
-A sub-command `x` is a file and nothing else, found by looking into the folders and imported only when it is
-called: `gz/x/command.py`, which reads its arguments itself (`gz sim world.sdf` calls main(["world.sdf"]) of
-gz/sim/command.py), or `gz/*/commands/x.py`, for which `gz.command_line` reads them (`gz topic -l` is
-gz/transport/commands/topic.py).
+A sub-command `x` is a file `gz/*/commands/x.py` and nothing else: it is found by looking into the folders and imported
+only when it is called. `gz.command_line` reads its options (`gz topic -l` is gz/transport/commands/topic.py).
 """
 
 from __future__ import annotations
 
 import ast
-import difflib
-import importlib
 import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -22,11 +18,21 @@ _ENGINES = ("mujoco", "pyzmq", "protobuf")
 
 
 def find_commands(folders: Iterable[str | Path] | None = None) -> dict[str, Path]:
+<<<<<<< HEAD
     """Sub-command name -> its file, sorted by name; by default from the folders of the package `gz`."""
     found: dict[str, Path] = {}
     for folder in folders or gz.__path__:
         for path in Path(folder).glob("*/command.py"):
             found.setdefault(path.parent.name, path)
+=======
+    """Return the file of each sub-command, sorted by name; by default from all folders of the `gz` package."""
+    if folders is None:
+        from gz_course.sim import gz
+
+        folders = list(gz.__path__)
+    found: dict[str, Path] = {}
+    for folder in folders:
+>>>>>>> r_h_one
         for path in Path(folder).glob("*/commands/*.py"):
             if not path.stem.startswith("_"):
                 found.setdefault(path.stem, path)
@@ -34,7 +40,7 @@ def find_commands(folders: Iterable[str | Path] | None = None) -> dict[str, Path
 
 
 def _summary(path: Path) -> str:
-    """The first line of the docstring of a file, without importing it."""
+    """Return the first line of the docstring of a file, without importing it."""
     try:
         text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8")))
     except (OSError, SyntaxError, ValueError):
@@ -76,9 +82,8 @@ def _versions() -> str:
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Runs `gz` with the given arguments (default: those of the process); the exit code.
-
-    0 on success, 2 for a command that does not exist, otherwise what the sub-command returns.
+    """Run `gz` with these arguments (default: those of the process) and return the exit code: that of the sub-command,
+    2 for a command that does not exist, 109 for an unknown option.
     """
     arguments = list(sys.argv[1:] if argv is None else argv)
     commands = find_commands()
@@ -89,29 +94,21 @@ def main(argv: Sequence[str] | None = None) -> int:
     if first in ("--versions", "--version"):
         print(_versions())
         return 0
-    if first not in commands:
-        print(_unknown(first, commands), file=sys.stderr)
-        return 2
-    code = _run(first, commands[first], arguments[1:])
-    if argv is None:
-        from gz_course.sim.gz.command_line import leave_signals
+    from gz_course.sim.gz import command_line  # slow to load; help and versions do without
 
-        leave_signals()
+    if first not in commands:
+        is_option = first.startswith("-")
+        known = ["--help", "--versions"] if is_option else list(commands)
+        sentence = command_line.unknown_option(first, known, "gz", "option" if is_option else "command")
+        print(f"gz: {sentence}", file=sys.stderr)
+        return command_line.UNKNOWN_OPTION if is_option else 2
+    path = commands[first]
+    module = f"gz_course.sim.gz.{path.parents[1].name}.commands.{first}"
+    code = command_line.run(module, f"gz {first}", arguments[1:], _summary(path))
+    if argv is None:
+        command_line.leave_signals()
     return code
 
 
-def _run(name: str, path: Path, arguments: list[str]) -> int:
-    if path.parent.name != "commands":
-        return importlib.import_module(f"gz_course.sim.gz.{name}.command").main(arguments) or 0
-    from gz_course.sim.gz import command_line
-
-    module = f"gz_course.sim.gz.{path.parents[1].name}.commands.{name}"
-    return command_line.run(module, f"gz {name}", arguments, _summary(path))
-
-
-def _unknown(name: str, commands: dict[str, Path]) -> str:
-    known = [*commands, "--help", "--versions"]
-    nearest = difflib.get_close_matches(name, known, n=1, cutoff=0.5)
-    hint = f"did you mean `gz {nearest[0]}`?" if nearest else "`gz --help` lists what there is."
-    kind = "option" if name.startswith("-") else "command"
-    return f"gz: there is no {kind} {name!r}; {hint}"
+if __name__ == "__main__":
+    raise SystemExit(main())

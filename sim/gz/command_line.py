@@ -1,14 +1,16 @@
-"""The options of one sub-command of `gz`, and how it ends.
+"""The command line of one sub-command of `gz`: its options, and how it ends.
 
-Between the dispatcher (`gz.command`) and a sub-command file `gz/*/commands/x.py`. Wrong usage is one line on
-stderr and an exit code, those of Gazebo's own tools: 104 a value that cannot be read, 107 a missing companion,
-108 options that exclude each other, 109 an option there is not, 114 a missing value.
+Every sub-command file `gz/*/commands/x.py` is run through here by the dispatcher (`gz.command`). Wrong usage is one
+line on stderr and an exit code, those of Gazebo's own tools: 104 a value that cannot be read, 107 a missing companion,
+108 options that exclude each other, 109 an unknown option, 114 a missing value.
+Source: CLI11, `enum class ExitCodes`, https://github.com/CLIUtils/CLI11/blob/main/include/CLI/Error.hpp
 """
 
 from __future__ import annotations
 
 import argparse
 import difflib
+import math
 import os
 import signal
 import sys
@@ -19,6 +21,7 @@ from typing import Any, NoReturn
 
 BAD_VALUE, NEEDS_OTHER, EXCLUDES_OTHER, UNKNOWN_OPTION, NO_VALUE = 104, 107, 108, 109, 114
 _INTERRUPTED = 130
+_MOST = 10**9
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
 _VALUE_MISSING = ("expected one argument", "expected at least one argument")
 
@@ -27,93 +30,101 @@ class Parser(argparse.ArgumentParser):
     """Options with companions they need and options they exclude."""
 
     def __init__(self, program: str, description: str) -> None:
-        """`program` is what the user has typed so far, e.g. `gz topic`."""
-        super().__init__(prog=program, description=description, allow_abbrev=False)
+        """Begin with `--help` and `--version`; `program` is what the user has typed so far, such as `gz topic`."""
+        # "resolve": a sub-command may have another use for -v.
+        super().__init__(prog=program, description=description, allow_abbrev=False, conflict_handler="resolve")
         self._needs: list[tuple[str, tuple[str, ...]]] = []
         self._excludes: list[tuple[str, ...]] = []
         self._commands: tuple[str, ...] = ()
-        self.add_argument("-v", "--version", action=_Version, help="the version, and nothing else")
+        self.add_argument("-v", "--version", action=Version, help="the version, and nothing else")
 
     def needs(self, option: str, *companions: str) -> None:
-        """From now on `option` is refused without all of its companions (long names)."""
+        """Refuse `option` from now on without all of its companions (long names)."""
         self._needs.append((option, companions))
 
     def excludes(self, *options: str) -> None:
-        """From now on only one of these options (long names) may be given."""
+        """Accept from now on only one of these options (long names)."""
         self._excludes.append(options)
 
     def commands(self, *options: str) -> None:
-        """Exactly one of these options (long names) says what to do; without any of them help is printed."""
+        """Accept exactly one of these options (long names), which says what to do; without any, print the help."""
         self._commands = options
         self.excludes(*options)
 
     def read(self, arguments: Sequence[str]) -> argparse.Namespace:
-        """The values of the options. SystemExit after help, after the version, and, explained, for wrong usage."""
+        """Return the values of the options. Raises SystemExit after help, after the version and after wrong usage."""
         values, rest = self.parse_known_args(list(arguments))
         for group in self._excludes:
-            given = [option for option in group if self._given(values, option)]
-            if len(given) > 1:
-                self._refuse(EXCLUDES_OTHER, f"{given[0]} excludes {given[1]}; use one of them.")
+            found = [option for option in group if self._is_set(values, option)]
+            if len(found) > 1:
+                self._refuse(EXCLUDES_OTHER, f"{found[0]} excludes {found[1]}; use one of them.")
         for option, companions in self._needs:
             for companion in companions:
-                if self._given(values, option) and not self._given(values, companion):
+                if self._is_set(values, option) and not self._is_set(values, companion):
                     self._refuse(NEEDS_OTHER, f"{option} requires {companion}; see {self.prog} --help")
         if rest:
-            self._refuse(UNKNOWN_OPTION, self._unknown(rest[0]))
-        if not any(self._given(values, option) for option in self._commands):
+            self._refuse(UNKNOWN_OPTION, self._unknown(rest))
+        if self._commands and not any(self._is_set(values, option) for option in self._commands):
             self.print_help()
             self.exit()
         return values
 
     def error(self, message: str) -> NoReturn:
-        """What argparse found wrong, as one line."""
+        """Refuse, as one line, what argparse found wrong."""
         self._refuse(NO_VALUE if message.endswith(_VALUE_MISSING) else BAD_VALUE, message)
 
-    def _given(self, values: argparse.Namespace, option: str) -> bool:
+    def _is_set(self, values: argparse.Namespace, option: str) -> bool:
         action = self._option_string_actions[option]
         return getattr(values, action.dest) != action.default
 
-    def _unknown(self, text: str) -> str:
-        if not text.startswith("-"):
-            return f"{text!r} belongs to no option; see {self.prog} --help"
-        name = text.partition("=")[0]
-        nearest = difflib.get_close_matches(name, self._option_string_actions, n=1, cutoff=0.5)
-        hint = f"did you mean {nearest[0]}?" if nearest else f"see {self.prog} --help"
-        return f"there is no option {name!r}; {hint}"
+    def _unknown(self, rest: list[str]) -> str:
+        unknown = next((text for text in rest if text.startswith("-")), None)
+        if unknown is None:
+            return f"{rest[0]!r} belongs to no option; see {self.prog} --help"
+        return unknown_option(unknown.partition("=")[0], list(self._option_string_actions), self.prog)
 
     def _refuse(self, code: int, sentence: str) -> NoReturn:
         print(f"{self.prog}: {sentence}", file=sys.stderr)
         raise SystemExit(code)
 
 
-class _Version(argparse.Action):
-    """Prints the version of this distribution."""
+class Version(argparse.Action):
+    """An option that prints the version of this distribution and ends."""
 
     def __init__(self, option_strings: Sequence[str], dest: str, help: str | None = None) -> None:
         super().__init__(option_strings, argparse.SUPPRESS, nargs=0, default=argparse.SUPPRESS, help=help)
 
     def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> NoReturn:
+        """Print the version and end."""
         from importlib import metadata
 
         print(metadata.version("gz-ros2-course"))
         parser.exit()
 
 
-def positive_seconds(text: str) -> float:
-    """A time in seconds, for options; argparse.ArgumentTypeError when it is negative or no number."""
+def positive_number(text: str) -> float:
+    """Read a time [s] or a rate [Hz] of an option. Raises argparse.ArgumentTypeError below zero and above 1e9."""
     try:
         value = float(text)
     except ValueError:
-        value = -1.0
-    if not 0.0 <= value < threading.TIMEOUT_MAX:
-        raise argparse.ArgumentTypeError(f"expected seconds, zero or more, but found {text!r}")
+        value = math.nan
+    if not 0.0 <= value <= _MOST:
+        raise argparse.ArgumentTypeError(f"expected a number, zero or more, at most 1e9, but found {text!r}")
     return value
 
 
+def integer(text: str) -> int:
+    """Read a whole number of an option. Raises argparse.ArgumentTypeError for anything else."""
+    try:
+        return int(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"expected a whole number, but found {text!r}") from None
+
+
 def whole_number(text: str) -> int:
-    """A number of things, zero or more, for options; argparse.ArgumentTypeError when it is none."""
-    if not (text.isascii() and text.isdigit() and len(text) < 10):
-        raise argparse.ArgumentTypeError(f"expected a whole number, zero or more, but found {text!r}")
+    """Read a count of an option. Raises argparse.ArgumentTypeError for what is no number, below zero or above 1e9."""
+    if not (text.isascii() and text.isdigit() and int(text[:20]) <= _MOST):
+        raise argparse.ArgumentTypeError(f"expected a whole number, zero or more, at most 1e9, but found {text!r}")
     return int(text)
 
 
@@ -123,12 +134,19 @@ def nearest(name: str, known: Sequence[str]) -> str:
     return f"; did you mean {found[0]!r}?" if found else ""
 
 
+def unknown_option(name: str, known: Sequence[str], program: str, kind: str = "option") -> str:
+    """Return the sentence about an option or a command that does not exist."""
+    close = difflib.get_close_matches(name, known, n=1, cutoff=0.5)
+    hint = f"did you mean {close[0]}?" if close else f"see {program} --help"
+    return f"there is no {kind} {name!r}; {hint}"
+
+
 def run(module_name: str, program: str, arguments: Sequence[str], description: str) -> int:
-    """Imports a sub-command and runs it; the exit code.
+    """Import a sub-command and run it; return the exit code.
 
     The module has `add_arguments(parser)` and `run(values) -> int`. Its ValueError and OSError are errors of the
-    user: the sentence is printed and the code is 1. SIGINT and SIGTERM arrive in it as KeyboardInterrupt. When
-    the reader of a pipe has gone the command ends quietly.
+    user: the sentence is printed and the code is 1. SIGINT and SIGTERM arrive in it as KeyboardInterrupt, unless it
+    handles them itself. When the reader of a pipe has gone, the command ends quietly.
     """
     before = [_handle(number, signal.default_int_handler) for number in _SIGNALS]
     try:
@@ -154,13 +172,13 @@ def run(module_name: str, program: str, arguments: Sequence[str], description: s
 
 
 def leave_signals() -> None:
-    """From now on SIGINT and SIGTERM do nothing: saying goodbye to the network is not interrupted."""
+    """Ignore SIGINT and SIGTERM from now on, so that the network is told of the end without interruption."""
     for number in _SIGNALS:
         _handle(number, signal.SIG_IGN)
 
 
 def _handle(number: int, handler: Any) -> Any:
-    """Sets the handler of a signal, where that is allowed; the one before it."""
+    """Set the handler of a signal, where that is allowed; return the one before it."""
     if threading.current_thread() is threading.main_thread():
         return signal.signal(number, handler)
     return None

@@ -1,10 +1,11 @@
-"""The messages of Gazebo (gz.msgs): real protobuf classes, built when they are first asked for.
+"""Messages of Gazebo (gz.msgs): real protobuf classes, built on first use.
 
-`from gz.msgs.twist_pb2 import Twist` works as with the official package; `message_class("gz.msgs.Twist")`
-finds a class by the type name that travels with every message. The definitions are the texts in `proto/`, one
-file for each file of gz-msgs 10 (Harmonic); a file is read, with those it imports, when a class of it is wanted. What
-Fortress has too is compared with it, number by number, in `tests/conformance`; what only Harmonic has is not.
-`proto/fortress/` holds what was different in Fortress. Nothing else of this project is imported from here.
+`from gz.msgs.twist_pb2 import Twist` works as with the official package; `message_class("gz.msgs.Twist")` finds a class
+by the type name that travels with every message. The definitions are the texts in `proto/`, one file for each file of
+gz-msgs 10 (Harmonic); a file is read, with those it imports, when one of its classes is requested. Fields that Fortress
+has too are compared with it in `tests/conformance`. `proto/fortress/` holds the definitions that differ in Fortress.
+This package imports nothing else of the project.
+Source: gz-msgs 10, https://github.com/gazebosim/gz-msgs/tree/gz-msgs10/proto/gz/msgs
 """
 
 from gz_course.sim.gz.msgs.pb2_modules import PROTO_MODULES

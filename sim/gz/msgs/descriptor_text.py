@@ -1,27 +1,24 @@
-"""Message definitions as text: what `gz msg --info TYPE` prints.
+"""Message definitions as text: the output of `gz msg --info TYPE`.
 
-Written from the descriptor of the linked class, in the layout of C++ protobuf's DebugString: nested types
-first, full type names with a leading dot, two spaces an indentation.
+Written from the descriptor of the linked class, in the layout of C++ protobuf: nested types first, full type names with
+a leading dot, an indentation of two spaces.
+Source: `Descriptor::DebugString`,
+https://github.com/protocolbuffers/protobuf/blob/main/src/google/protobuf/descriptor.cc
 """
 
 from __future__ import annotations
 
 from typing import Any
 
-from google.protobuf.descriptor import FieldDescriptor
 from google.protobuf.message import Message
 
-_KINDS = {
-    getattr(FieldDescriptor, f"TYPE_{name.upper()}"): name
-    for name in (
-        *("double", "float", "int32", "int64", "uint32", "uint64", "sint32", "sint64"),
-        *("fixed32", "fixed64", "sfixed32", "sfixed64", "bool", "string", "bytes"),
-    )
-}
+from gz_course.sim.gz.msgs.proto_reader import SCALARS
+
+_KINDS = {number: name for name, number in SCALARS.items()}
 
 
 def describe(message_class: type[Message]) -> str:
-    """Name, file and definition of a message type, ending with an empty line."""
+    """Return name, file and definition of a message type, ending with an empty line."""
     descriptor = message_class.DESCRIPTOR
     definition = "\n".join(_message(descriptor, 0))
     return f"Name: {descriptor.full_name}\nFile: {descriptor.file.name}\n\n{definition}\n\n"

@@ -1,7 +1,8 @@
 """Messages of Gazebo Fortress, the older version whose types are called `ignition.msgs.X`.
 
-They are the same bytes as gz.msgs.X, with one exception: the IMU got covariances in between its fields. Its old form
-is described in `proto/fortress/`; gz.transport converts when a message arrives or leaves under the other name.
+They have the same bytes as gz.msgs.X, with one exception: later versions inserted covariances between the fields of the
+IMU. Its old form is in `proto/fortress/`; gz.transport converts a message that has the other name.
+Source: ign-msgs 8, https://github.com/gazebosim/gz-msgs/blob/ign-msgs8/proto/ignition/msgs/imu.proto
 """
 
 from __future__ import annotations
@@ -10,12 +11,12 @@ from gz_course.sim.gz.msgs.registry import canonical_name, differs_in_fortress, 
 
 
 def same_type(name: str, other: str) -> bool:
-    """Whether two type names mean the same type, whatever their spelling."""
+    """Return whether two type names mean the same type, whatever their spelling."""
     return name == other or canonical_name(name) == canonical_name(other)
 
 
 def converted(data: bytes, from_name: str, to_name: str) -> bytes:
-    """A serialized message of one spelling of a type in the layout of another; almost always the same bytes.
+    """Return a serialized message of one spelling of a type in the layout of another; mostly the same bytes.
 
     Fields that the target does not have (the covariances of an IMU) are dropped. Raises
     google.protobuf.message.DecodeError when the bytes have to be read and cannot be.

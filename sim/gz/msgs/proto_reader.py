@@ -1,9 +1,9 @@
-"""Reads a `.proto` text into the descriptor from which protobuf builds message classes.
+"""Reader of `.proto` texts, which makes the descriptors from which protobuf builds message classes.
 
-First step of the data path: `proto/twist.proto` -> FileDescriptorProto -> (registry) message class -> bytes
-on the wire. It reads the part of proto3 that Gazebo's messages use: package, import, message (nested too),
-enum, oneof, map, repeated, optional, reserved and field options, which are skipped. Grammar: the public
-proto3 language specification.
+First step of the data path: `proto/twist.proto` -> FileDescriptorProto -> (registry) message class -> bytes on the
+wire. It reads the part of proto3 that Gazebo's messages use: package, import, message (nested too), enum, oneof, map,
+repeated, optional, reserved and field options, which are skipped.
+Source: https://protobuf.dev/reference/protobuf/proto3-spec/
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ _TOKEN = re.compile(
     re.VERBOSE | re.DOTALL,
 )
 
-_SCALARS = {
+SCALARS = {
     name: getattr(FieldDescriptorProto, f"TYPE_{name.upper()}")
     for name in (
         *("double", "float", "int32", "int64", "uint32", "uint64", "sint32", "sint64"),
@@ -38,7 +38,7 @@ _SCALARS = {
 
 
 class ProtoSyntaxError(ValueError):
-    """A `.proto` text that cannot be read; the message names file, line, what was expected, what was seen."""
+    """A `.proto` text that cannot be read; the message names file, line, what was expected and what was found."""
 
 
 class _Reader:
@@ -113,7 +113,7 @@ class _Reader:
                 pass
 
     def file(self, name: str) -> FileDescriptorProto:
-        """The whole file, under the name by which other files import it."""
+        """Read the whole file; `name` is the one by which other files import it."""
         result = FileDescriptorProto(name=name, syntax="proto3")
         while self._peek():
             keyword = self._name("syntax, package, import, option, message or enum")
@@ -191,7 +191,7 @@ class _Reader:
 
     @staticmethod
     def _set_type(field: FieldDescriptorProto, type_name: str) -> None:
-        scalar = _SCALARS.get(type_name)
+        scalar = SCALARS.get(type_name)
         if scalar is not None:
             field.type = scalar
         else:  # message or enum: the descriptor pool finds out which, and where, when it links the file
@@ -209,7 +209,7 @@ class _Reader:
         self._expect(";")
 
     def _map_type(self, message: DescriptorProto, field: FieldDescriptorProto) -> None:
-        """A map is a repeated message of its own with the fields key and value."""
+        """Read a map, which is a repeated nested message with the fields key and value."""
         self._expect("<")
         key = self._name("the key type of the map")
         self._expect(",")
@@ -240,9 +240,9 @@ class _Reader:
 
 
 def read_proto(text: str, name: str, path: str | None = None) -> FileDescriptorProto:
-    """The descriptor of one `.proto` text.
+    """Return the descriptor of one `.proto` text.
 
-    `name` is the name under which other files import it ("gz/msgs/twist.proto"); `path` is what error
-    messages call it (default: `name`). Raises ProtoSyntaxError.
+    `name` is the one by which other files import it ("gz/msgs/twist.proto"); `path` names it in error messages
+    (default: `name`). Raises ProtoSyntaxError.
     """
     return _Reader(text, path or name).file(name)

@@ -1,8 +1,8 @@
-"""Finds the protobuf class of a Gazebo type name, and builds it on first use.
+"""Registry of the protobuf classes of Gazebo's types, which are built on first use.
 
-Between `proto/*.proto` (read by proto_reader) and everybody who needs a class: `gz.msgs.X_pb2` modules,
-gz.transport, the bridge, the command line. All classes live in one private descriptor pool, so they cannot
-collide with a gz-msgs package installed beside this one.
+Between `proto/*.proto` (read by proto_reader) and the users of classes: `gz.msgs.X_pb2` modules, gz.transport, the
+bridge, the command line. All classes are in one private descriptor pool, so that they cannot collide with a gz-msgs
+package installed beside this one.
 """
 
 from __future__ import annotations
@@ -33,11 +33,11 @@ _lock = threading.RLock()
 
 
 class UnknownTypeError(ValueError):
-    """A message type name that Gazebo does not have; the message names the nearest ones."""
+    """An unknown name of a message type; the message names the nearest ones."""
 
 
 def load_file(stem: str) -> Any:
-    """The FileDescriptor of `proto/<stem>.proto`, linked together with everything it imports.
+    """Return the FileDescriptor of `proto/<stem>.proto`, linked with everything it imports.
 
     Raises FileNotFoundError when there is no such file.
     """
@@ -58,13 +58,13 @@ def _load(stem: str) -> None:
 
 
 def file_stems() -> list[str]:
-    """The names of all definition files, sorted: `twist` stands for `gz/msgs/twist.proto`."""
+    """Return the names of all definition files, sorted: `twist` stands for `gz/msgs/twist.proto`."""
     return sorted(path.stem for path in PROTO_FOLDER.glob("*.proto"))
 
 
 @functools.cache
 def _home_of_each_type() -> dict[str, tuple[str, str]]:
-    """Top-level name -> (kind, file stem), from a quick look at every file without linking any."""
+    """Return (kind, file stem) by top-level name, from the texts of all files without linking any."""
     homes: dict[str, tuple[str, str]] = {}
     for stem in file_stems():
         text = (PROTO_FOLDER / f"{stem}.proto").read_text(encoding="utf-8")
@@ -74,7 +74,7 @@ def _home_of_each_type() -> dict[str, tuple[str, str]]:
 
 @functools.cache
 def _fortress_homes() -> dict[str, str]:
-    """Name -> file stem of the messages that are different in Fortress."""
+    """Return the file stem by name for the messages that differ in Fortress."""
     homes: dict[str, str] = {}
     for path in sorted((PROTO_FOLDER / "fortress").glob("*.proto")):
         found = _TOP_LEVEL.findall(path.read_text(encoding="utf-8"))
@@ -83,18 +83,18 @@ def _fortress_homes() -> dict[str, str]:
 
 
 def differs_in_fortress(name: str) -> bool:
-    """Whether a type, in any spelling, has other bytes in Fortress (`ignition.msgs.X`) than in `gz.msgs.X`."""
+    """Return whether a type, in any spelling, has other bytes in Fortress (`ignition.msgs.X`) than in `gz.msgs.X`."""
     return canonical_name(name).removeprefix(_PACKAGE) in _fortress_homes()
 
 
 def type_names() -> list[str]:
-    """The full names of all top-level message types, sorted: `["gz.msgs.Actuators", ...]`."""
+    """Return the full names of all top-level message types, sorted: `["gz.msgs.Actuators", ...]`."""
     return sorted(_PACKAGE + name for name, (kind, _) in _home_of_each_type().items() if kind == "message")
 
 
 @functools.lru_cache(maxsize=1024)
 def canonical_name(name: str) -> str:
-    """The one spelling of a type name, `gz.msgs.X`; other names than those of Gazebo stay as they are.
+    """Return a type name in the spelling `gz.msgs.X`; names that are not of Gazebo are returned unchanged.
 
     `ignition.msgs.Twist`, as Fortress calls it, `ign_msgs.Twist` and `gz_msgs.Twist` are `gz.msgs.Twist`.
     """
@@ -107,11 +107,11 @@ def canonical_name(name: str) -> str:
 
 @functools.lru_cache(maxsize=1024)
 def message_class(name: str) -> type[Message]:
-    """The class of a message type.
+    """Return the class of a message type.
 
-    Accepts `gz.msgs.Twist`, `gz_msgs.Twist`, `.gz.msgs.Twist`, `ignition.msgs.Twist`, bare `Twist`, and
-    nested types (`gz.msgs.Header.Map`). `ignition.msgs.IMU` is a class of its own, because its bytes are
-    different. Raises UnknownTypeError with the nearest names for anything else.
+    Accepts `gz.msgs.Twist`, `gz_msgs.Twist`, `.gz.msgs.Twist`, `ignition.msgs.Twist`, bare `Twist`, and nested types
+    (`gz.msgs.Header.Map`). `ignition.msgs.IMU` is a class of its own, because its bytes differ. Raises
+    UnknownTypeError with the nearest names for anything else.
     """
     bare = canonical_name(name).removeprefix(_PACKAGE)
     if name.removeprefix(".") == _FORTRESS_PACKAGE + bare and bare in _fortress_homes():

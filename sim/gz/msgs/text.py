@@ -1,8 +1,10 @@
-"""Messages as text: what `gz topic -e` prints and `gz topic -p` reads.
+"""Messages as text: the output of `gz topic -e` and the input of `gz topic -p`.
 
-Between message objects and the terminal: to_text() and to_json_line() write, from_text() reads protobuf's
-text format. The output is byte for byte that of Gazebo's own tools (C++ protobuf's DebugString and JSON
-writer), so scripts that read one can read the other.
+Between message objects and the terminal: to_text() and to_json_line() write, from_text() reads protobuf's text format.
+The output is byte for byte that of Gazebo's own tools (DebugString and the JSON writer of C++ protobuf), so that
+scripts which read one can read the other.
+Source: text format, https://protobuf.dev/reference/protobuf/textformat-spec/; JSON,
+https://protobuf.dev/programming-guides/json/
 """
 
 from __future__ import annotations
@@ -33,7 +35,7 @@ _INVISIBLE = re.compile(
     "[\x7f-\x9f\xad\u0600-\u0603\u06dd\u070f\u17b4\u17b5\u200b-\u200f\u2028-\u202e\u2060-\u2064\u206a-\u206f"
     "\ufeff\ufff9-\ufffb\U0001d173-\U0001d17a\U000e0001\U000e0020-\U000e007f]"
 )
-"""What the C++ JSON writer escapes although JSON does not ask for it: control and formatting characters."""
+"""Control and formatting characters that the C++ JSON writer escapes although JSON does not require it."""
 _LONG_INTEGERS = (
     FieldDescriptor.CPPTYPE_INT64,
     FieldDescriptor.CPPTYPE_UINT64,
@@ -41,11 +43,11 @@ _LONG_INTEGERS = (
 
 
 class MessageTextError(ValueError):
-    """A text that is no message of the wanted type; says where and what was expected."""
+    """A text that is no message of the expected type; names the place and what was expected."""
 
 
 def to_text(message: Message) -> str:
-    """The message in protobuf's text format, two spaces an indentation, ending with a newline unless empty."""
+    """Return a message in protobuf's text format, indented by two spaces, ending with a newline unless empty."""
     return "".join(_lines(message, ""))
 
 
@@ -95,7 +97,7 @@ def _enum_name(field: FieldDescriptor, value: int) -> str:
 
 
 def _number(value: float, single: bool) -> str:
-    """The shorter of two precisions that reads back as the same number, as C++ protobuf writes it."""
+    """Return a number in the shorter of two precisions that reads back as the same number, as C++ protobuf does."""
     if not math.isfinite(value):
         return "nan" if math.isnan(value) else "inf" if value > 0 else "-inf"
     short, long = ("%.6g", "%.9g") if single else ("%.15g", "%.17g")
@@ -115,9 +117,9 @@ def _as_single(value: float) -> float:
 
 
 def from_text(text: str, message_class: type[AnyMessage]) -> AnyMessage:
-    """The message that a text stands for, e.g. `linear: {x: 0.5}, angular: {z: 0.2}`.
+    """Return the message of a text such as `linear: {x: 0.5}, angular: {z: 0.2}`.
 
-    Raises MessageTextError: one sentence with line and column and, for a field name, the nearest one.
+    Raises MessageTextError: one sentence with line and column and, for an unknown field, the nearest name.
     """
     from google.protobuf import text_format
 
@@ -146,7 +148,7 @@ def _explained(error: str, message: Message) -> str:
 
 
 def _fields_of(start: object, full_name: str) -> list[str]:
-    """The field names of a message type that is reachable from `start`."""
+    """Return the field names of a message type that is reachable from `start`."""
     todo, seen = [start], set()
     while todo:
         descriptor = todo.pop()
@@ -160,10 +162,10 @@ def _fields_of(start: object, full_name: str) -> list[str]:
 
 
 def to_json_line(message: Message) -> str:
-    """The message as one line of JSON, without spaces.
+    """Return a message as one line of JSON, without spaces.
 
-    Names in lowerCamelCase, fields with default values left out, 64-bit integers and infinities as strings,
-    bytes in base64 (protobuf's JSON mapping).
+    Names are in lowerCamelCase, fields with default values are left out, 64-bit integers and infinities are strings,
+    bytes are in base64.
     """
     return (
         "{" + ",".join(f'"{field.json_name}":{_json_of(field, value)}' for field, value in message.ListFields()) + "}"

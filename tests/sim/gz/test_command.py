@@ -9,24 +9,6 @@ from gz_course.sim.gz import command
 
 
 @pytest.fixture
-def hello(tmp_path, monkeypatch):
-    """A sub-command `hello` in a folder of its own, as another installed package would bring it."""
-    folder = tmp_path / "gz" / "hello"
-    folder.mkdir(parents=True)
-    (folder / "command.py").write_text(
-        '"""Greets."""\nprint("imported")\n\ndef main(argv):\n    print("hello", *argv)\n    return len(argv)\n'
-    )
-    monkeypatch.setattr(gz, "__path__", [*gz.__path__, str(tmp_path / "gz")])
-    monkeypatch.delitem(sys.modules, "gz_course.sim.gz.hello", raising=False)
-    monkeypatch.delitem(sys.modules, "gz_course.sim.gz.hello.command", raising=False)
-
-
-def test_a_sub_command_is_found_and_called(hello, capsys):
-    assert command.main(["hello", "big", "world"]) == 2
-    assert capsys.readouterr().out == "imported\nhello big world\n"
-
-
-@pytest.fixture
 def count(tmp_path, monkeypatch):
     """A sub-command `count` among the commands of another package, whose options are read for it."""
     folder = tmp_path / "gz" / "numbers" / "commands"
@@ -97,27 +79,35 @@ def test_a_sub_command_without_anything_to_do_prints_its_help(count, capsys):
 
 
 @pytest.mark.parametrize("arguments", [[], ["--help"], ["-h"]])
-def test_help_lists_sub_commands_without_importing_them(hello, capsys, arguments):
+def test_help_lists_sub_commands_without_importing_them(count, capsys, arguments):
     assert command.main(arguments) == 0
     out = capsys.readouterr().out
-    assert any(line.split() == ["hello", "Greets."] for line in out.splitlines())
-    assert "imported" not in out
+    assert any(line.split() == ["count", "Counts."] for line in out.splitlines())
+    assert "gz.numbers" not in sys.modules
 
 
 @pytest.mark.parametrize(
-    ("wrong", "words"),
+    ("wrong", "code", "words"),
     [
-        ("helo", "did you mean `gz hello`?"),
-        ("--version5", "did you mean `gz --versions`?"),
-        ("xyzzy", "gz --help"),
+        ("cuont", 2, "there is no command 'cuont'; did you mean count?"),
+        ("--version5", 109, "there is no option '--version5'; did you mean --versions?"),
+        ("xyzzy", 2, "see gz --help"),
     ],
 )
-def test_an_unknown_sub_command_is_one_sentence_and_exit_code_2(hello, capsys, wrong, words):
-    assert command.main([wrong]) == 2
+def test_an_unknown_sub_command_is_one_sentence_and_a_code(count, capsys, wrong, code, words):
+    assert command.main([wrong]) == code
     out, error = capsys.readouterr()
     assert (out, error.count("\n")) == ("", 1)
-    assert repr(wrong) in error
-    assert words in error
+    assert error.startswith("gz: ") and words in error
+
+
+@pytest.mark.parametrize("name", command.find_commands())
+def test_an_unknown_option_is_one_sentence_and_one_code_for_every_command(name, capsys):
+    with pytest.raises(SystemExit) as end:
+        command.main([name, "--hepl"])
+    out, error = capsys.readouterr()
+    assert (end.value.code, out) == (109, "")
+    assert error == f"gz {name}: there is no option '--hepl'; did you mean --help?\n"
 
 
 def test_versions_names_the_engines(capsys):

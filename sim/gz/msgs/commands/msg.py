@@ -1,7 +1,8 @@
 """Look at message types: `gz msg --list`, `gz msg --info gz.msgs.Twist`.
 
-Run by `gz.command`; the names come from gz.msgs' registry, the definitions from its descriptors. Exit codes: 0,
-1 for a type that there is not.
+Called by `gz.command`; the names come from the registry of gz.msgs, the definitions from its descriptors. The exit code
+is 1 for an unknown type.
+Source: gz-msgs 10, https://github.com/gazebosim/gz-msgs/blob/gz-msgs10/core/cmd/cmdmsgs.rb.in
 """
 
 from __future__ import annotations
@@ -17,14 +18,14 @@ if TYPE_CHECKING:
 
 
 def add_arguments(parser: Parser) -> None:
-    """Adds the options of `gz msg`."""
+    """Add the options of `gz msg`."""
     parser.add_argument("-l", "--list", action="store_true", help="the names of all message types")
     parser.add_argument("-i", "--info", nargs="+", metavar="TYPE", help="name, file and definition of types")
     parser.commands("--list", "--info")
 
 
 def run(values: argparse.Namespace) -> int:
-    """Runs `gz msg`; the exit code. Raises UnknownTypeError, with the nearest names."""
+    """Run `gz msg`; return the exit code. Raises UnknownTypeError, with the nearest names."""
     if values.list:
         for name in type_names():
             print(name)

@@ -1,3 +1,1 @@
-"""Reading SDF: XML (`element`), known words (`vocabulary`), files (`resources`), frames, and the description
-of a world.
-"""
+"""Reader of SDF: XML (`element`), known words (`vocabulary`), files (`resources`), frames, description of a world."""

@@ -1,7 +1,8 @@
-"""COLLADA files (.dae) become triangles: the visual scene's geometries, each moved by the nodes above it.
+"""Triangles of COLLADA files (.dae): the geometries of the visual scene, each moved by the nodes above it.
 
-Called by `gz.sim.sdf.meshes` only, which turns a missing `pycollada` (extra `collada`) into a sentence. As Gazebo
-does, the file's unit (`<unit meter=...>`) counts and its `<up_axis>` does not: what is z in the file is z in the world.
+Called by `gz.sim.sdf.meshes` only, which turns a missing `pycollada` (extra `collada`) into a sentence. As in Gazebo
+the unit of the file (`<unit meter=...>`) is applied and its `<up_axis>` is not: z in the file is z in the world.
+Source: COLLADA 1.4.1 specification, https://www.khronos.org/files/collada_spec_1_4.pdf
 """
 
 from __future__ import annotations
@@ -26,14 +27,14 @@ _MOST_INSTANCES = 100_000
 
 def triangles_of(path: Path, data: bytes) -> list[Part]:
     """Return the parts of a COLLADA file: their names (innermost named node, geometry) and the corners of their
-    triangles, (3 m, 3) float64 in metres, three rows a triangle. Raises `ResourceError` when it cannot be read.
+    triangles, (3 m, 3) float64 [m], three rows per triangle. Raises `ResourceError` if it cannot be read.
     """
     parts: list[Part]
     try:
-        # What is not supported is for looks (effects, cameras), and a broken reference mostly a missing texture.
+        # Unsupported elements are effects and cameras; a broken reference is mostly a missing texture.
         document = collada.Collada(io.BytesIO(data), ignore=[DaeUnsupportedError, DaeBrokenRefError])
         if document.scene is None:
-            # No scene, so no instances: what the library holds stands where it was modelled.
+            # Without a scene there are no instances: geometries keep their own coordinates.
             parts = [((each.name or each.id,), _corners(each)) for each in document.geometries]
         else:
             left = [_MOST_INSTANCES]
@@ -48,7 +49,7 @@ def triangles_of(path: Path, data: bytes) -> list[Part]:
 
 
 def _walk(path: Path, node: object, matrix: Corners, name: str, depth: int, left: list[int]) -> Iterator[Part]:
-    """Yield the geometries below a node; a node without a name counts as part of the named one above it."""
+    """Yield the geometries below a node; a node without a name has the name of the one above it."""
     left[0] -= 1
     if depth > _DEEPEST or left[0] < 0:
         raise ResourceError(
@@ -75,6 +76,6 @@ def _corners(geometry: collada.geometry.Geometry) -> Corners:
     for primitive in geometry.primitives:
         triangles = primitive.triangleset() if hasattr(primitive, "triangleset") else primitive
         if not isinstance(triangles, collada.triangleset.TriangleSet) or triangles.vertex_index is None:
-            continue  # lines are only seen
+            continue  # lines have no surface
         found.append(np.asarray(triangles.vertex, np.float64)[triangles.vertex_index].reshape(-1, 3))
     return np.concatenate(found) if found else np.zeros((0, 3))

@@ -1,8 +1,9 @@
-"""Which convex bodies a surface of triangles collides as: MuJoCo touches nothing but convex meshes.
+"""Convex pieces of a surface of triangles; MuJoCo collides convex meshes only.
 
-Called for `<mesh>` collisions, whose pieces go to `gz.sim.physics.geoms`. A surface falls into its connected parts;
-each is one convex body when it is convex. A concave part that moves becomes its convex hull; one that never moves (the
-walls of a house) becomes one thin wedge a triangle, which keeps it hollow.
+Called for `<mesh>` collisions, whose pieces go to `gz.sim.physics.geoms`. A surface is split into its connected parts;
+a convex part is one piece. A concave part that moves becomes its convex hull; one that never moves (the walls of a
+house) becomes one thin wedge per triangle, so that it stays hollow.
+Source: MuJoCo, Collision detection, https://mujoco.readthedocs.io/en/stable/computation/index.html#collision-detection
 """
 
 from __future__ import annotations
@@ -19,19 +20,19 @@ Triangles = NDArray[np.int32]
 MOST_MOVING_PIECES = 32
 MOST_STATIC_PIECES = 4000
 WEDGE = 0.01
-"""Thickness (m) of the wedge behind a triangle of a hollow surface."""
+"""Thickness [m] of the wedge behind a triangle of a hollow surface."""
 SHEET = 0.001
-"""Thickness (m) given to a part that is flat."""
+"""Thickness [m] given to a part that is flat."""
 _CONCAVE = 0.02  # a bump of this part of the size makes a part concave
 _HOLE = 1e-3  # a hole larger than this part of the surface leaves it open
 _SAMPLES = 1000  # so many triangles, and points, are looked at for bumps
 
 
 def convex_pieces(vertices: Points, triangles: Triangles, *, moving: bool) -> tuple[tuple[Points, ...], float]:
-    """Return the points of each convex piece, and by which part of their volume hulls are larger than what they stand
-    for: 0 when nothing is filled, inf when the surface is open, so that it has no volume.
+    """Return the points (k, 3) [m] of each convex piece, and by which part of the volume of the surface its hulls are
+    larger: 0 when no part became its hull, inf when the surface is open, so that it has no volume.
 
-    `vertices` (n, 3) in metres, `triangles` (m, 3). A surface without any extent has no pieces.
+    `vertices` (n, 3) [m], `triangles` (m, 3). A surface without any extent has no pieces.
     """
     vertices, triangles = _welded(vertices, triangles)
     if not len(triangles):
@@ -39,14 +40,10 @@ def convex_pieces(vertices: Points, triangles: Triangles, *, moving: bool) -> tu
     parts = _components(len(vertices), triangles)
     concave = [_is_concave(vertices, part, moving=moving) for part in parts]
     filled = [part for part, hollow in zip(parts, concave, strict=True) if hollow]
-    if moving:
-        if len(parts) > MOST_MOVING_PIECES:
-            return _solids([vertices[np.unique(triangles)]]), _excess(vertices, [triangles])
-        return _solids([vertices[np.unique(part)] for part in parts]), _excess(vertices, filled)
     wedges = sum(len(part) if hollow else 1 for part, hollow in zip(parts, concave, strict=True))
-    if wedges > MOST_STATIC_PIECES:
-        if len(parts) > MOST_STATIC_PIECES:
-            return _solids([vertices[np.unique(triangles)]]), _excess(vertices, [triangles])
+    if moving or wedges > MOST_STATIC_PIECES:
+        if len(parts) > (MOST_MOVING_PIECES if moving else MOST_STATIC_PIECES):
+            parts = filled = [triangles]
         return _solids([vertices[np.unique(part)] for part in parts]), _excess(vertices, filled)
     pieces: list[Points] = []
     for part, hollow in zip(parts, concave, strict=True):
@@ -55,7 +52,7 @@ def convex_pieces(vertices: Points, triangles: Triangles, *, moving: bool) -> tu
 
 
 def _welded(vertices: Points, triangles: Triangles) -> tuple[Points, Triangles]:
-    """Join vertices that are in the same place; drop triangles without area."""
+    """Merge vertices at the same place; drop triangles without area."""
     extent = float(np.max(np.ptp(vertices, axis=0))) if len(vertices) else 0.0
     if extent <= 0.0:
         return vertices, triangles[:0]
@@ -86,9 +83,9 @@ def _components(count: int, triangles: Triangles) -> list[Triangles]:
 
 
 def _is_concave(vertices: Points, triangles: Triangles, *, moving: bool) -> bool:
-    """Tell whether points of the part rise clearly above the plane of one of its triangles.
+    """Return whether points of the part lie clearly above the plane of one of its triangles.
 
-    What moves is a body whichever way its normals point; what stays and has them pointing inwards is a room.
+    A surface that moves is a body whichever way its normals point; a static one with normals inwards is a room.
     """
     corners = np.unique(triangles)
     points = vertices[corners[:: 1 + len(corners) // _SAMPLES]]
@@ -103,7 +100,7 @@ def _is_concave(vertices: Points, triangles: Triangles, *, moving: bool) -> bool
 
 
 def _excess(vertices: Points, filled: list[Triangles]) -> float:
-    """Return by which part the hulls of these surfaces are larger than the surfaces; inf when one is open."""
+    """Return by which part of their volume the hulls of these surfaces are larger; inf when a surface is open."""
     own = hull = 0.0
     for triangles in filled:
         a, b, c = (vertices[triangles[:, k]] for k in range(3))
@@ -115,13 +112,13 @@ def _excess(vertices: Points, filled: list[Triangles]) -> float:
 
 
 def _is_closed(a: Points, b: Points, c: Points) -> bool:
-    """Tell whether the areas of the triangles, as vectors, cancel out: those of a hole in the surface are missing."""
+    """Return whether the area vectors of the triangles sum to zero, as those of a closed surface do."""
     areas = np.cross(b - a, c - a)
     return bool(np.linalg.norm(areas.sum(axis=0)) < _HOLE * np.linalg.norm(areas, axis=1).sum())
 
 
 def _hull_volume(points: Points) -> float:
-    """Return the volume (m^3) of the convex hull, which MuJoCo finds; 0 for points in a plane."""
+    """Return the volume [m^3] of the convex hull, computed by MuJoCo; 0 for points in a plane."""
     size = float(np.max(np.ptp(points, axis=0)))
     spec = mujoco.MjSpec()
     mesh = spec.add_mesh(name="hull", uservert=((points - points.mean(axis=0)) / size).ravel())
@@ -136,7 +133,10 @@ def _hull_volume(points: Points) -> float:
 
 
 def _volume(a: Points, b: Points, c: Points) -> float:
-    """Return the volume inside triangles whose normals point outwards (negative: inwards)."""
+    """Return the volume [m^3] inside triangles whose normals point outwards, negative if they point inwards.
+
+    Source: divergence theorem, https://en.wikipedia.org/wiki/Polyhedron#Volume
+    """
     middle = a.mean(axis=0)
     return float(np.einsum("ij,ij->", a - middle, np.cross(b - middle, c - middle))) / 6.0
 
@@ -150,7 +150,7 @@ def _wedges(vertices: Points, triangles: Triangles) -> list[Points]:
 
 
 def _solids(pieces: list[Points]) -> tuple[Points, ...]:
-    """Give flat pieces a thickness; leave out those without an area."""
+    """Return the pieces: flat ones with a thickness, those without an area left out."""
     made: list[Points] = []
     for points in pieces:
         centred = points - points.mean(axis=0)

@@ -1,8 +1,8 @@
-"""What an SDF file says, in plain data: a world of models with links, joints, shapes, sensors and plugins.
+"""Plain data of an SDF file: a world of models with links, joints, shapes, sensors and plugins.
 
-The reader fills these; the MuJoCo builder, the systems, the sensors and the viewer read them. Nested models
-are flattened into their top model: link and joint names carry the scope (`arm::hand`), poses are in the top
-model's frame.
+The reader fills these; the MuJoCo builder, the systems, the sensors and the viewer read them. Nested models are
+flattened into their top model: names of links and joints carry the scope (`arm::hand`), poses are in the frame of the
+top model.
 """
 
 from __future__ import annotations
@@ -18,15 +18,15 @@ from gz_course.sim.gz.sim.sdf.element import Element
 from gz_course.sim.gz.sim.spherical_coordinates import SphericalCoordinates
 
 UNLIMITED = 1e16
-"""Gazebo takes joint limits of this size and above as "no limit"."""
+"""Joint limits of this size and above mean "no limit" in Gazebo."""
 
 
 @dataclass(eq=False)
 class TriangleMesh:
-    """A surface of triangles: `vertices` (n, 3) in metres in the shape's frame, `triangles` (m, 3) indices into them.
+    """A surface of triangles: `vertices` (n, 3) [m] in the frame of the shape, `triangles` (m, 3) indices of vertices.
 
-    `pieces` are the convex bodies that touch, each the points (k, 3) it is the hull of; empty for what is only seen or
-    touches otherwise (heightmaps). Shapes with the same file and scale share one instance.
+    `pieces` are the convex bodies that collide, each the points (k, 3) [m] of its hull; empty for visuals and for
+    heightmaps. Shapes with the same file and scale share one instance.
     """
 
     vertices: NDArray[np.float32]
@@ -36,10 +36,10 @@ class TriangleMesh:
 
 @dataclass(eq=False)
 class Geometry:
-    """One shape: `kind` is SDF's word for it.
+    """One shape; `kind` is its name in SDF.
 
-    `size` holds the full extents (m) as documented at `gz.sim.visuals.VisualShape.size`. `mesh` is the surface of a
-    mesh, cone, polyline or heightmap. `heights` (rows, columns) are a heightmap's heights (m): the first row lies at
+    `size` holds the full extents [m] as documented at `gz.sim.visuals.VisualShape.size`. `mesh` is the surface of a
+    mesh, cone, polyline or heightmap. `heights` (rows, columns) are those of a heightmap [m]: the first row lies at
     -y, the first column at -x.
     """
 
@@ -52,8 +52,8 @@ class Geometry:
 
 @dataclass(eq=False)
 class Collision:
-    """A shape that touches. `mu` is the friction coefficient; `bitmask` decides which pairs can touch at
-    all.
+    """A shape that touches. `mu` is the friction coefficient, `bitmask` decides which pairs can touch, `density` is in
+    [kg/m^3].
     """
 
     name: str
@@ -67,7 +67,7 @@ class Collision:
 
 @dataclass(eq=False)
 class Visual:
-    """A shape that is seen. `rgba` each 0..1."""
+    """A shape that is seen; each value of `rgba` is 0..1."""
 
     name: str
     pose: Pose
@@ -78,9 +78,7 @@ class Visual:
 
 @dataclass(eq=False)
 class Inertial:
-    """Mass (kg), inertia about the centre of mass (ixx iyy izz ixy ixz iyz, kg m^2) and the pose of that
-    frame.
-    """
+    """Mass [kg] and inertia [kg m^2] (ixx iyy izz ixy ixz iyz) about the centre of mass, in the frame `pose`."""
 
     mass: float = 1.0
     moments: tuple[float, float, float, float, float, float] = (1.0, 1.0, 1.0, 0.0, 0.0, 0.0)
@@ -109,7 +107,7 @@ class Light:
     """A light: `kind` is directional, point or spot; `direction` (unit) in the light's own frame.
 
     `pose` is in the world for a light of the world, in the link's frame for a light of a link. Colours are 0..1;
-    `range` (m) and the three factors are SDF's attenuation; the angles of a spot are full cone angles (rad).
+    `range` [m] and the three factors are SDF's attenuation; the angles of a spot are full cone angles [rad].
     """
 
     name: str
@@ -134,8 +132,9 @@ class Light:
 
 @dataclass(eq=False)
 class Link:
-    """A rigid body: scoped name, pose in the top model's frame, and what is fixed to it. A link of a static model
-    nested in a moving one is `static`: it is held by the world.
+    """A rigid body: scoped name, pose in the frame of the top model, and its shapes, sensors and lights.
+
+    A link of a static model nested in a moving one is `static`: it is fixed to the world.
     """
 
     name: str
@@ -151,7 +150,7 @@ class Link:
     static: bool = False
 
     def parts(self) -> Iterator[tuple[str, Collision | Visual | Sensor | Light]]:
-        """Yield (kind, part) of all that is fixed to it, in the order in which entities are numbered."""
+        """Yield (kind, part) of each shape, sensor and light, in the order in which entities are numbered."""
         for kind, parts in (
             ("visual", self.visuals),
             ("collision", self.collisions),
@@ -164,8 +163,10 @@ class Link:
 
 @dataclass(eq=False)
 class Mimic:
-    """`<mimic>`: the axis follows that of `joint` (scoped name; its second axis when `axis` is axis2):
+    """`<mimic>`: the axis follows that of `joint` (scoped name; its second axis when `axis` is axis2) at
     position = multiplier * (leader - reference) + offset.
+
+    Source: SDFormat, element `<mimic>`, http://sdformat.org/spec
     """
 
     joint: str
@@ -177,8 +178,8 @@ class Mimic:
 
 @dataclass(eq=False)
 class Axis:
-    """One axis of a joint: `direction` (unit) in the child link's frame, limits (rad or m; N m or N; rad/s or m/s),
-    losses and spring, and the position the joint starts at.
+    """One axis of a joint: `direction` (unit) in the child link's frame, limits of position [rad or m], effort [N m or
+    N] and velocity [rad/s or m/s], damping, friction, spring, and the initial position [rad or m].
     """
 
     direction: tuple[float, float, float]
@@ -196,13 +197,13 @@ class Axis:
 
 @dataclass(eq=False)
 class Joint:
-    """Connects `parent` to `child` (scoped link names, parent may be `world`); `pose` is in the child link's
-    frame.
+    """A joint between `parent` and `child` (scoped link names, `parent` may be `world`); `pose` is in the frame of the
+    child link.
 
-    `axis2` is the second axis of a universal or revolute2 joint and of a gearbox. `thread_pitch` is a screw's advance
-    (m per turn, positive for a right-handed thread). A gearbox turns `child` by -`gearbox_ratio` times the angle of
-    `parent`, both seen from the link `gearbox_reference`. For a joint of the world the links carry their model's
-    name: `model::link`.
+    `axis2` is the second axis of a universal or revolute2 joint and of a gearbox. `thread_pitch` is the advance of a
+    screw [m per turn], positive for a right-handed thread. A gearbox turns `child` by -`gearbox_ratio` times the angle
+    of `parent`, both seen from the link `gearbox_reference`. In a joint of the world the names of links begin with
+    their model: `model::link`.
     """
 
     name: str
@@ -221,9 +222,7 @@ class Joint:
 
 @dataclass(eq=False)
 class Plugin:
-    """A system asked for by `<plugin filename=... name=...>`; `scope` is the nested model it stands in, if
-    any.
-    """
+    """A system requested by `<plugin filename=... name=...>`; `scope` is the nested model that holds it, if any."""
 
     name: str
     filename: str
@@ -233,8 +232,8 @@ class Plugin:
 
 @dataclass(eq=False)
 class NestedModel:
-    """A model inside a model, after its parts were put into the top model: scoped name (`arm`, `arm::hand`), pose in
-    the top model's frame, scoped name of its canonical link.
+    """A model inside a model whose parts were moved into the top model: scoped name (`arm`, `arm::hand`), pose in the
+    frame of the top model, scoped name of its canonical link.
     """
 
     name: str
@@ -258,7 +257,7 @@ class Model:
     plugins: list[Plugin] = field(default_factory=list)
     nested: list[NestedModel] = field(default_factory=list)
     version: tuple[int, int] = (1, 10)
-    """The SDF version of the file it stands in, whose rules its frames follow."""
+    """SDF version of its file, whose rules its frames follow."""
 
     def link(self, name: str) -> Link | None:
         """Return the link of that scoped name."""
@@ -274,7 +273,7 @@ class Model:
         return [sensor for holder in holders for sensor in holder.sensors]
 
     def mass(self) -> float:
-        """Return the sum of the links' masses (kg)."""
+        """Return the sum of the masses of the links [kg]."""
         return sum(link.inertial.mass for link in self.links)
 
 
@@ -298,4 +297,4 @@ class WorldDescription:
     ambient: tuple[float, float, float] = (0.4, 0.4, 0.4)
     background: tuple[float, float, float] = (0.7, 0.7, 0.7)
     version: tuple[int, int] = (1, 10)
-    """The SDF version of the file it stands in, whose rules its frames follow."""
+    """SDF version of its file, whose rules its frames follow."""

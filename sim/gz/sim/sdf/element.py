@@ -1,9 +1,9 @@
 """XML of an SDF file as a tree of elements that remember their file and line.
 
-First stop of a world file: text -> `Element` tree -> `gz.sim.sdf.reader`. Gazebo's parser (tinyxml2) accepts
-texts that strict XML parsers refuse ("--" inside comments, undeclared prefixes such as `gz:policies`, an
-`<?xml?>` line after white space), so comments and declarations are blanked first, keeping the line numbers,
-and expat runs without namespaces.
+First step of a world file: text -> `Element` tree -> `gz.sim.sdf.reader`. Gazebo's parser (tinyxml2) accepts texts
+that strict XML parsers refuse ("--" inside comments, undeclared prefixes such as `gz:policies`, an `<?xml?>` line after
+white space), so comments and declarations are blanked first, keeping the line numbers, and expat runs without
+namespaces.
 """
 
 from __future__ import annotations
@@ -35,9 +35,7 @@ _FALSE = {"false", "0"}
 
 @dataclass(eq=False)
 class Element:
-    """One XML element: `tag`, `attributes`, `text` (stripped), `children`, and where it stands (`file`,
-    `line`).
-    """
+    """One XML element: `tag`, `attributes`, `text` (stripped), `children`, and its place (`file`, `line`)."""
 
     tag: str
     attributes: dict[str, str] = field(default_factory=dict)
@@ -48,21 +46,21 @@ class Element:
 
     @property
     def where(self) -> str:
-        """`file:line`, the start of every message about this element."""
+        """Return `file:line`, with which every message about this element begins."""
         return f"{self.file}:{self.line}"
 
     @property
     def name(self) -> str:
-        """The `name` attribute, or an empty text."""
+        """Return the attribute `name`, or an empty text."""
         return self.attributes.get("name", "")
 
     @property
     def folder(self) -> Path | None:
-        """The folder of its file, where relative addresses start; None for a text that came from no file."""
+        """Return the folder of the file, to which URIs are relative, or None for a text without a file."""
         return None if self.file.startswith("<") else Path(self.file).parent
 
     def error(self, sentence: str) -> SdfError:
-        """Make (not raise) the error that says `sentence` about this element."""
+        """Return, without raising it, the error that says `sentence` about this element."""
         return SdfError(f"{self.where}: {one_line(sentence)}")
 
     def find(self, tag: str) -> Element | None:
@@ -85,14 +83,14 @@ class Element:
         return child.text if child is not None and child.text else default
 
     def number(self, tag: str, default: float) -> float:
-        """Return child `tag` as a float (`inf` allowed, `nan` not); raise `SdfError` when it is no number."""
+        """Return child `tag` as a float, which may be infinite. Raises `SdfError` when it is no number or NaN."""
         child = self.find(tag)
         if child is None or not child.text:
             return default
         return child.floats(1)[0]
 
     def integer(self, tag: str, default: int) -> int:
-        """Return child `tag` as an int; `360.0` is accepted as Gazebo does."""
+        """Return child `tag` as an int; `360.0` is accepted, as in Gazebo."""
         value = self.number(tag, float(default))
         if not math.isfinite(value):
             raise self.error(f"<{tag}> must be a whole number, got '{self.text_of(tag)}'")
@@ -116,7 +114,7 @@ class Element:
         return tuple(child.floats(len(default)))
 
     def floats(self, count: int) -> list[float]:
-        """Return this element's text as `count` floats; raise `SdfError` quoting what was read."""
+        """Return the text of this element as `count` floats. Raises `SdfError`, with the text, for anything else."""
         words = self.text.split()
         wanted = "a number" if count == 1 else f"{count} numbers"
         if len(words) != count:
@@ -131,7 +129,10 @@ class Element:
         return values
 
     def pose(self) -> Pose:
-        """Return this `<pose>` element as a `Pose`, honouring `degrees` and `rotation_format`."""
+        """Return this `<pose>` as a `Pose` (x y z [m], roll pitch yaw [rad]), with `degrees` and `rotation_format`.
+
+        Source: SDFormat, Specifying pose, http://sdformat.org/tutorials?tut=specify_pose
+        """
         if not self.text:
             return Pose()
         if self.attributes.get("rotation_format", "euler_rpy") == "quat_xyzw":
@@ -153,7 +154,7 @@ class Element:
 
 
 def _advice(element: Element, count: int) -> str:
-    """Return what to change in a text that is not `count` numbers, or nothing."""
+    """Return what to change in a text that is not `count` numbers, or an empty text."""
     text = element.text
     if "${" in text or "$(" in text:
         return "; this is xacro, which is expanded in files whose name ends with .xacro"
@@ -169,9 +170,7 @@ def _advice(element: Element, count: int) -> str:
 
 
 def parse(text: str, file: str = "<string>") -> Element:
-    """Parse XML text into its root `Element`; `file` is only used in messages. Raises `SdfError` with the
-    line.
-    """
+    """Parse XML text into its root `Element`; `file` is only used in messages. Raises `SdfError` with the line."""
     parser = xml.parsers.expat.ParserCreate("utf-8")
     parser.buffer_text = True
     stack: list[Element] = []
@@ -201,7 +200,7 @@ def parse(text: str, file: str = "<string>") -> Element:
             texts[-1].append(data)
 
     def entity(name: str, *_rest: object) -> None:
-        # Entities of one's own can grow a small text beyond any memory.
+        # Nested entities can expand a small text beyond any memory.
         raise SdfError(f"{file}:{parser.CurrentLineNumber}: the entity '{name}' is declared; write its text instead")
 
     parser.StartElementHandler = start
@@ -214,7 +213,7 @@ def parse(text: str, file: str = "<string>") -> Element:
         what = f"it begins with '{first[:20]}'" if first else "it is empty"
         raise SdfError(f"{file}:1: this is no XML: {one_line(what)}, but an SDF or URDF begins with '<'")
     blanked = _blanked(text, file)
-    # Leading white space goes (expat wants the root first) but its lines still count.
+    # Leading white space is removed, because expat expects the root first; its lines still count.
     body = blanked.lstrip()
     skipped = blanked[: len(blanked) - len(body)].count("\n")
     try:
@@ -233,7 +232,7 @@ def parse(text: str, file: str = "<string>") -> Element:
 
 
 def _blanked(text: str, file: str) -> str:
-    """Replace comments and XML declarations by their line breaks; raise `SdfError` for a comment without an end."""
+    """Replace comments and XML declarations by their line breaks. Raises `SdfError` for a comment without an end."""
     kept: list[str] = []
     done = 0
     for opening in _OPENING.finditer(text):

@@ -1,10 +1,9 @@
-"""Where everything stands: SDF's frame rules (`relative_to`, `attached_to`, `<frame>`, `a::b` names),
-resolved once.
+"""Frames of SDF (`relative_to`, `attached_to`, `<frame>`, names `a::b`) and the poses they mean.
 
-The reader makes one `Scope` per model (and one for the world), tells it every named frame, and asks for poses
-in that scope's own frame. Rules are those of SDF 1.7 and later: a pose without `relative_to` is relative to
-the model for links, nested models and frames without `attached_to`; to the child link for joints; to
-`attached_to` for other frames.
+The reader makes one `Scope` per model and one for the world, adds every named frame, and asks for poses in the frame of
+the scope. Rules are those of SDF 1.7 and later: a pose without `relative_to` is relative to the model for links, nested
+models and frames without `attached_to`; to the child link for joints; to `attached_to` for other frames.
+Source: Pose Frame Semantics, http://sdformat.org/tutorials?tut=pose_frame_semantics
 """
 
 from __future__ import annotations
@@ -27,10 +26,7 @@ class _Frame:
 
 @dataclass(eq=False)
 class Scope:
-    """The names of one model (or of the world) and the poses they have in it.
-
-    `own` is the word for this scope's frame: `__model__` or `world`.
-    """
+    """Named frames of one model or of the world; `own` names the frame of the scope, `__model__` or `world`."""
 
     own: str
     element: Element
@@ -49,7 +45,7 @@ class Scope:
         is_link: bool = False,
         nested: Scope | None = None,
     ) -> None:
-        """Tell the scope about a named frame; raises `SdfError` when the name is taken or reserved."""
+        """Add a named frame. Raises `SdfError` when the name is taken or reserved."""
         if not name:
             raise element.error(f"<{element.tag}> needs a name attribute")
         if name == "world" or (name.startswith("__") and name.endswith("__")):
@@ -67,8 +63,9 @@ class Scope:
             self.nested[name] = nested
 
     def pose_of(self, name: str, asker: Element) -> Pose:
-        """Return the pose of frame `name` in this scope's frame; `asker` is blamed when the name is
-        unknown.
+        """Return the pose of frame `name` in the frame of the scope.
+
+        Raises `SdfError` at the line of `asker` when there is no such frame.
         """
         chain: dict[str, tuple[Pose, Element]] = {}
         while True:
@@ -126,8 +123,8 @@ class Scope:
             name = frame.attached_to or self.own
 
     def canonical_link(self, asker: Element) -> str:
-        """Return the link the model's own frame is fixed to: `canonical_link`, else the first link, also
-        nested.
+        """Return the link to which the model's own frame is fixed: `canonical_link`, else the first link, which may be
+        that of a nested model.
         """
         chosen = self.element.attributes.get("canonical_link", "")
         if chosen:

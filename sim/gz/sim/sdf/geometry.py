@@ -1,7 +1,8 @@
-"""`<geometry>` of a `<collision>` or `<visual>`: which shape, how large.
+"""`<geometry>` of a `<collision>` or `<visual>`: its shape and size.
 
 Part of the reader: `Element` -> `Geometry`; meshes, heightmaps and polylines have files of their own. A shape that
 cannot be built is reported and left out.
+Source: SDFormat, element `<geometry>`, http://sdformat.org/spec
 """
 
 from __future__ import annotations
@@ -24,8 +25,9 @@ _SIDES = 32  # of a cone
 
 
 def read_geometry(owner: Element, moving: bool, diagnostics: Diagnostics) -> Geometry | None:
-    """Return the shape of a `<collision>` or `<visual>`, or None (with a warning) when there is none to
-    build; `moving` tells whether its link can move.
+    """Return the shape of a `<collision>` or `<visual>`, or None after a warning when there is none to build.
+
+    `moving` tells whether the link can move.
     """
     holder = owner.find("geometry")
     shapes = list(holder.all(*SHAPES, "image", "empty")) if holder else []
@@ -84,7 +86,7 @@ def _positive(shape: Element, what: str, size: tuple[float, ...]) -> tuple[float
 
 @lru_cache(maxsize=64)
 def _cone(size: tuple[float, float, float]) -> TriangleMesh:
-    """Return a cone round z: the tip at half its length above the origin, the base as much below."""
+    """Return a cone about z of `size` (diameter, diameter, length) [m]: its base at -length/2, its tip at length/2."""
     angles = np.linspace(0.0, 2.0 * np.pi, _SIDES, endpoint=False)
     low, high = -size[2] / 2.0, size[2] / 2.0
     ring = np.stack((np.cos(angles) * size[0] / 2.0, np.sin(angles) * size[0] / 2.0, np.full(_SIDES, low)), axis=1)

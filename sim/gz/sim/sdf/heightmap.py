@@ -1,8 +1,9 @@
 """`<heightmap>` of a `<geometry>`: a grey image becomes heights over a rectangle.
 
 Part of the reader: `gz.sim.sdf.geometry` calls it, `gz.sim.physics.geoms` makes MuJoCo's height field of it. The
-brightest pixel is as high as `<size>` says, black is at zero, the first row of the image lies at +y; negative z turns
-the heights upside down (rules of gz-common's ImageHeightmap). The image is decoded by MuJoCo.
+brightest pixel is as high as `<size>` says, black is at zero, the first row of the image lies at +y; a negative z of
+`<size>` inverts the heights. The image is decoded by MuJoCo.
+Source: gz-common 5, https://github.com/gazebosim/gz-common/blob/gz-common5/geospatial/src/ImageHeightmap.cc
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ _MOST_PIXELS = 4_200_000
 
 
 def read_heightmap(shape: Element, owner: Element, moving: bool, diagnostics: Diagnostics) -> Geometry | None:
-    """Return the terrain, its `<pos>` already in the mesh (the heights begin at zero), or None after a warning."""
+    """Return the terrain without its `<pos>`, its heights beginning at zero, or None after a warning."""
     left_out = f"so <{owner.tag}> '{owner.name}' is left out"
     uri = shape.text_of("uri")
     if moving:
@@ -48,7 +49,10 @@ def read_heightmap(shape: Element, owner: Element, moving: bool, diagnostics: Di
 
 @lru_cache(maxsize=8)
 def _terrain(path: Path, _stamp: int, size: tuple[float, float, float]) -> tuple[NDArray[np.float64], TriangleMesh]:
-    """Return heights (rows, columns) in metres and their surface; a changed file has another stamp."""
+    """Return the heights (rows, columns) [m] and their surface.
+
+    `_stamp`, the time of the file's last change, makes the cache read a changed file again.
+    """
     pixels = _grey(path)
     brightest = float(pixels.max())
     heights = pixels[::-1] / brightest if brightest > 0.0 else pixels
@@ -59,7 +63,7 @@ def _terrain(path: Path, _stamp: int, size: tuple[float, float, float]) -> tuple
 
 
 def _grey(path: Path) -> NDArray[np.float64]:
-    """Return the first channel of an image as (rows, columns) of 0..255."""
+    """Return the first channel of an image, (rows, columns) of 0..255."""
     try:
         data = path.read_bytes()
     except OSError as error:

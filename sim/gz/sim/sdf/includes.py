@@ -1,8 +1,9 @@
-"""`<include>`: the model, light or world of another file takes its place, with the overrides stated beside its `<uri>`.
+"""`<include>`: a model, light or world of another file, with the overrides stated beside the `<uri>`.
 
 Part of the reader: `gz.sim.sdf.models` and `gz.sim.sdf.reader` open every include with it; `gz.sim.sdf.resources` finds
-the file. A file is parsed once, however often it is included. With `merge="true"` there is no model of its own: its
-children are put beside the include, and a frame `_merged__NAME__model__` stands where the model's frame would.
+the file. A file is parsed once, however often it is included. With `merge="true"` the children of the model are put
+beside the include, and a frame `_merged__NAME__model__` replaces the frame of the model.
+Source: Model Composition, http://sdformat.org/tutorials?tut=composition_proposal
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from gz_course.sim.gz.sim.sdf.urdf.xacro_file import restore_places
 
 Version = tuple[int, int]
 MOST_INCLUDES = 5000
-"""A world that opens more includes is refused: files that include each other twice grow without bound."""
+"""Limit of the includes of a world: files that include each other twice grow without bound."""
 _KEPT_BY_PARENT = frozenset(("pose", "static", "self_collide", "allow_auto_disable", "enable_wind", "include_uri"))
 _IN_WORLD = frozenset(("model", "include", "frame", "joint", "plugin"))
 _OF_WORLDS = frozenset(("model", "include", "light", "frame", "joint", "plugin", "actor"))
@@ -28,8 +29,8 @@ _OF_WORLDS = frozenset(("model", "include", "light", "frame", "joint", "plugin",
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Opened:
-    """What stands somewhere in a file or was included there: the element, the SDF version of its file, the element
-    of this file it came through, and the files that are open around it.
+    """An element of a file or of an include: the element, the SDF version of its file, the element of the including
+    file (`place`), and the files that are open around it (`chain`).
     """
 
     element: Element
@@ -39,12 +40,12 @@ class Opened:
 
     @property
     def merged(self) -> bool:
-        """Tell whether this is an include whose children are to be put beside it."""
+        """Return whether this is an include with `merge`, whose children are put beside it."""
         return self.place is not self.element and self.place.attributes.get("merge", "false").lower() in ("true", "1")
 
 
 def sdf_version(root: Element) -> Version:
-    """Return the version an `<sdf>` element states; raises `SdfError` when it is none."""
+    """Return the version of an `<sdf>` element. Raises `SdfError` when it is not a version."""
     text = root.attributes.get("version", "1.10")
     major, _, minor = text.partition(".")
     if not (major.isdigit() and minor.isdigit() and len(text) < 10):
@@ -53,7 +54,7 @@ def sdf_version(root: Element) -> Version:
 
 
 def read_root(text: str, file: str, diagnostics: Diagnostics) -> Element:
-    """Return the `<sdf>` element of a text whose words were checked; a URDF's `<robot>` becomes a model in one."""
+    """Return the `<sdf>` element of a text after checking its words; a URDF `<robot>` is converted."""
     root = parse(text, file)
     restore_places(root)
     if root.tag == "robot":
@@ -69,18 +70,18 @@ def read_root(text: str, file: str, diagnostics: Diagnostics) -> Element:
 
 
 class Includes:
-    """Opens the includes of one world and remembers what could not be opened."""
+    """The includes of one world, and the names of those that were not found."""
 
     def __init__(self, diagnostics: Diagnostics) -> None:
         self._diagnostics = diagnostics
         self._roots: dict[Path, Element] = {}
         self._count = 0
         self.skipped: set[str] = set()
-        """Names of the models that were not found: joints to them are skipped as well."""
+        """Names of the models that were not found; joints to them are skipped as well."""
 
     def open(self, child: Element, version: Version, chain: tuple[Path, ...]) -> Opened | None:
-        """Return what stands at `child`: for an `<include>` what it brings, with its overrides; None (after a warning)
-        when that was not found. Raises `SdfError` for files that include each other.
+        """Return `child`, or for an `<include>` the included element with its overrides, or None after a warning when
+        it was not found. Raises `SdfError` for files that include each other.
         """
         if child.tag != "include":
             return Opened(child, version, child, chain)
@@ -123,7 +124,7 @@ class Includes:
         return found
 
     def _overridden(self, found: Element, include: Element) -> Element:
-        """Return the included element with what the include says instead; the parsed file stays as it is."""
+        """Return a copy of the included element with the overrides of the include."""
         made = replace(found, attributes=dict(found.attributes), children=list(found.children))
         for tag in ("static", "pose"):
             override = include.find(tag)

@@ -1,6 +1,8 @@
 """`<inertial>`: mass, inertia and centre of mass, as stated or (`auto="true"`) as those of the collisions.
 
 Part of the reader, called by `gz.sim.sdf.links` once the collisions of a link are known.
+Source: SDFormat, element `<inertial>`, http://sdformat.org/spec; `auto`:
+https://gazebosim.org/api/sim/8/auto_inertia_calculation.html
 """
 
 from __future__ import annotations
@@ -18,17 +20,17 @@ from gz_course.sim.gz.sim.sdf.element import Element
 
 Matrix = NDArray[np.float64]
 WATER = 1000.0
-"""SDF's default density (kg/m^3)."""
+"""Default density of SDF [kg/m^3]."""
 _HEAVIEST = 1e12  # [kg]
 
 
 def is_automatic(element: Element) -> bool:
-    """Tell whether an `<inertial>` asks for the inertia of the collisions."""
+    """Return whether an `<inertial>` asks for the inertia of the collisions."""
     return element.attributes.get("auto", "false").lower() in ("true", "1")
 
 
 def read_inertial(element: Element, pose: Pose, static: bool) -> Inertial:
-    """Return what an `<inertial>` states; raises `SdfError` for a body that cannot be, unless it never moves."""
+    """Return what an `<inertial>` states. Raises `SdfError` for a body that cannot exist, unless it is static."""
     mass = element.number("mass", 1.0)
     if not static and not 0.0 < mass < _HEAVIEST:
         raise _impossible_mass(element.find("mass") or element, mass)
@@ -46,7 +48,7 @@ def read_inertial(element: Element, pose: Pose, static: bool) -> Inertial:
 
 
 def _check(element: Element, values: list[float]) -> None:
-    small, middle, large = np.linalg.eigvalsh(_symmetric(values))
+    small, middle, large = np.linalg.eigvalsh(tensor(values))
     if small <= 0.0:
         raise element.error(
             f"<inertia> is not that of a body: its smallest principal moment is {small:.3g}, not positive"
@@ -62,14 +64,23 @@ def _impossible_mass(element: Element, mass: float) -> SdfError:
     return element.error(f"<mass> must be greater than zero and below {_HEAVIEST:g} kg, got {mass:g}")
 
 
-def _symmetric(values: Sequence[float]) -> Matrix:
-    ixx, iyy, izz, ixy, ixz, iyz = values
+def tensor(moments: Sequence[float]) -> Matrix:
+    """Return the inertia (3, 3) of `moments`, which are ixx iyy izz ixy ixz iyz [kg m^2]."""
+    ixx, iyy, izz, ixy, ixz, iyz = moments
     return np.array(((ixx, ixy, ixz), (ixy, iyy, iyz), (ixz, iyz, izz)))
 
 
+def point_inertia(position: Matrix) -> Matrix:
+    """Return the inertia (3, 3) of a unit mass at `position` [m] about the origin [m^2].
+
+    Source: parallel axis theorem, https://en.wikipedia.org/wiki/Parallel_axis_theorem#Tensor_generalization
+    """
+    return float(position @ position) * np.eye(3) - np.outer(position, position)
+
+
 def automatic_inertial(element: Element, collisions: Sequence[Collision], diagnostics: Diagnostics) -> Inertial:
-    """Return the inertia of the collisions, each of its own density (kg/m^3): that of the collision, else that of the
-    link's `<inertial>`, else water's. A `<mass>` beside `auto` scales the whole.
+    """Return the inertia of the collisions. The density [kg/m^3] of each is its own, else that of the link's
+    `<inertial>`, else that of water. A `<mass>` beside `auto` scales the whole.
     """
     link_density = element.number("density", WATER)
     mass, moment = 0.0, np.zeros(3)
@@ -100,8 +111,7 @@ def automatic_inertial(element: Element, collisions: Sequence[Collision], diagno
     centre = moment / mass
     total = np.zeros((3, 3))
     for part, place, inertia in bodies:
-        away = place - centre
-        total += inertia + part * (float(away @ away) * np.eye(3) - np.outer(away, away))
+        total += inertia + part * point_inertia(place - centre)
     stated = element.number("mass", mass)
     if not 0.0 < stated < _HEAVIEST or not np.linalg.eigvalsh(total)[0] > 0.0:
         raise _impossible_mass(element, stated)
@@ -112,8 +122,10 @@ def automatic_inertial(element: Element, collisions: Sequence[Collision], diagno
 
 
 def solid(geometry: Geometry) -> tuple[float, NDArray[np.float64], Matrix] | None:
-    """Return volume (m^3), centre of mass (m) and inertia about it for density 1 (kg/m^3 m^5) of a shape, in its own
-    frame; None for what has no volume.
+    """Return volume [m^3], centre of mass (3,) [m] and inertia about it (3, 3) [m^5] of a shape of density 1, in the
+    frame of the shape; None for a shape without volume.
+
+    Source: https://en.wikipedia.org/wiki/List_of_moments_of_inertia
     """
     x, y, z = geometry.size
     centre = np.zeros(3)
@@ -150,7 +162,11 @@ def solid(geometry: Geometry) -> tuple[float, NDArray[np.float64], Matrix] | Non
 
 
 def _mesh_solid(mesh: TriangleMesh) -> tuple[float, NDArray[np.float64], Matrix] | None:
-    """Sum the tetrahedra between the triangles and the middle of the mesh (exact for a closed surface)."""
+    """Sum the tetrahedra between the triangles and the mean of the vertices, which is exact for a closed surface.
+
+    Source: F. Tonon, Explicit Exact Formulas for the 3-D Tetrahedron Inertia Tensor in Terms of its Vertex
+    Coordinates, Journal of Mathematics and Statistics 1 (1), 2004
+    """
     vertices = mesh.vertices.astype(np.float64)
     middle = vertices.mean(axis=0)
     corners = vertices[mesh.triangles] - middle

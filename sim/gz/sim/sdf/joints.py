@@ -1,7 +1,8 @@
 """`<joint>`: which links it connects, where it stands, about which axes it moves.
 
 Part of the reader, called after the links of the model (nested ones included) are known; joints of a `<world>` are read
-when all its models are.
+after all its models.
+Source: SDFormat, element `<joint>`, http://sdformat.org/spec
 """
 
 from __future__ import annotations
@@ -89,9 +90,9 @@ def _link(element: Element, role: str, scope: Scope, places: Mapping[str, Pose])
 
 
 def _thread_pitch(element: Element) -> float:
-    """Return a screw's advance (m per turn, positive for a right-handed thread).
+    """Return the advance of a screw [m per turn], positive for a right-handed thread.
 
-    `<screw_thread_pitch>` states it; the older `<thread_pitch>` is in radians per metre and turns the other way.
+    `<screw_thread_pitch>` states it; the older `<thread_pitch>` is in [rad/m] and turns the other way.
     """
     if element.find("screw_thread_pitch") is not None:
         pitch = element.number("screw_thread_pitch", 1.0)
@@ -181,7 +182,7 @@ def _finite_or(element: Element, tag: str, default: float) -> float:
 
 
 def check_mimics(model: Model) -> None:
-    """Raise `SdfError` for an axis that follows a joint that is not there, has no such axis, or follows it in turn."""
+    """Raise `SdfError` for an axis that follows a joint that does not exist, has no such axis, or follows it."""
     joints = {joint.name: joint for joint in model.joints}
     leaders: dict[str, str] = {}
     for joint in model.joints:

@@ -1,6 +1,7 @@
 """`<light>`: directional, point and spot lights, of the world or of a link.
 
 Part of the reader; cameras that cast rays, the scene message and MuJoCo's own renderer use them.
+Source: SDFormat, element `<light>`, http://sdformat.org/spec
 """
 
 from __future__ import annotations

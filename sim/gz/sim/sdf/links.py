@@ -1,6 +1,7 @@
 """`<link>` and what is fixed to it: inertia, collisions, visuals, sensors, lights.
 
-Part of the reader, called once per link with the scope that knows where the model's frames stand.
+Part of the reader, called once per link with the scope that knows where the model's frames are.
+Source: SDFormat, element `<link>`, http://sdformat.org/spec
 """
 
 from __future__ import annotations
@@ -9,19 +10,18 @@ import numpy as np
 
 from gz_course.sim.gz.sim.errors import Diagnostics
 from gz_course.sim.gz.sim.pose import Pose
-from gz_course.sim.gz.sim.sdf.description import Collision, Link, Model, Sensor, Visual
+from gz_course.sim.gz.sim.sdf.description import Collision, Link, Model, Visual
 from gz_course.sim.gz.sim.sdf.element import Element
 from gz_course.sim.gz.sim.sdf.frames import Scope
 from gz_course.sim.gz.sim.sdf.geometry import read_geometry
 from gz_course.sim.gz.sim.sdf.inertia import WATER, automatic_inertial, is_automatic, read_inertial
 from gz_course.sim.gz.sim.sdf.lights import read_light
 from gz_course.sim.gz.sim.sdf.materials import read_bitmask, read_colour, read_friction
+from gz_course.sim.gz.sim.sdf.sensors import part_pose, read_sensor
 
 
 def read_link(element: Element, scope: Scope, model: Model, diagnostics: Diagnostics) -> Link:
-    """Return the link; its pose is in the frame of `model`, the poses of its parts in the link's own
-    frame.
-    """
+    """Return the link; its pose is in the frame of `model`, the poses of its parts are in the frame of the link."""
     link = Link(element.name, scope.pose_of(element.name, element), element, static=model.static)
     link.gravity = element.flag("gravity", True)
     link.self_collide = element.flag("self_collide", False) or model.self_collide
@@ -33,14 +33,14 @@ def read_link(element: Element, scope: Scope, model: Model, diagnostics: Diagnos
             raise part.error(f"link '{link.name}' already has a <{part.tag}> called '{part.name}'; names must differ")
         names.add((part.tag, part.name))
         if part.tag == "sensor":
-            link.sensors.append(_sensor(part, link, model, scope, diagnostics))
+            link.sensors.append(read_sensor(part, link.name, model, scope, diagnostics))
         elif part.tag == "light":
-            link.lights.append(read_light(part, _part_pose(part, link, scope), diagnostics))
+            link.lights.append(read_light(part, part_pose(part, link.name, scope), diagnostics))
         else:
             _add_shape(part, link, model, scope, diagnostics)
     inertial = element.find("inertial")
     if inertial is not None:
-        pose = _part_pose(inertial, link, scope)
+        pose = part_pose(inertial, link.name, scope)
         if is_automatic(inertial) and not model.static:
             link.inertial = automatic_inertial(inertial, link.collisions, diagnostics)
         elif not is_automatic(inertial):
@@ -53,7 +53,7 @@ def _add_shape(part: Element, link: Link, model: Model, scope: Scope, diagnostic
     geometry = read_geometry(part, not model.static, diagnostics)
     if geometry is None:
         return
-    pose = _part_pose(part, link, scope)
+    pose = part_pose(part, link.name, scope)
     position = part.find("geometry/heightmap/pos")
     if geometry.kind == "heightmap" and position is not None and position.text:
         pose = pose * Pose(position.floats(3))
@@ -68,7 +68,7 @@ def _add_shape(part: Element, link: Link, model: Model, scope: Scope, diagnostic
 
 
 def _warn_of_what_is_missing(element: Element, model: Model, diagnostics: Diagnostics) -> None:
-    """Report what a link asks for and does not get."""
+    """Warn about each element of a link that is not simulated."""
     kinematic = element.find("kinematic")
     if kinematic is not None and element.flag("kinematic", False) and not model.static:
         diagnostics.warn(kinematic.where, f"link '{element.name}' is not held kinematic, forces move it; use <static>")
@@ -82,29 +82,3 @@ def _warn_of_what_is_missing(element: Element, model: Model, diagnostics: Diagno
     for part in element.all("projector", "audio_source", "audio_sink", "battery", "particle_emitter"):
         text = f"<{part.tag}> is not simulated here, link '{element.name}' goes without"
         diagnostics.warn(part.where, text)
-
-
-def _part_pose(element: Element, link: Link, scope: Scope) -> Pose:
-    """Return an element's pose in its link's frame, whatever `relative_to` says."""
-    child = element.find("pose")
-    if child is None:
-        return Pose()
-    base = child.attributes.get("relative_to", "") or child.attributes.get("frame", "")
-    if not base or base == link.name:
-        return child.pose()
-    return link.pose.inverse() * scope.pose_of(base, child) * child.pose()
-
-
-def _sensor(element: Element, link: Link, model: Model, scope: Scope, diagnostics: Diagnostics) -> Sensor:
-    kind = element.attributes.get("type", "")
-    if not kind:
-        raise element.error(f"<sensor> '{element.name}' needs a type attribute, for example type='gpu_lidar'")
-    child = element.find("pose")
-    base = child.attributes.get("relative_to", "") if child is not None else ""
-    if child is not None and base and base.split("::")[0] not in (*scope.frames, scope.own):
-        # gz-sensors falls back to the raw pose here; so the world still runs.
-        diagnostics.warn(child.where, f"sensor pose relative_to='{base}' names no frame; the link's frame is used")
-        pose = child.pose()
-    else:
-        pose = _part_pose(element, link, scope)
-    return Sensor(element.name, kind, pose, element, link.name, model.name)

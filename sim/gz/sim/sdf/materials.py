@@ -1,7 +1,9 @@
-"""`<material>` and `<surface>`: what a `<visual>` looks like and how a `<collision>` rubs.
+"""`<material>` and `<surface>`: the colour of a `<visual>`, the friction of a `<collision>` and what it touches.
 
-Part of the reader, called by `gz.sim.sdf.links`. What MuJoCo cannot carry (textures, direction-dependent friction,
+Part of the reader, called by `gz.sim.sdf.links`. What is not simulated (textures, direction-dependent friction,
 bouncing) is reported.
+Source: SDFormat, elements `<material>` and `<surface>`, http://sdformat.org/spec; names of scripts: gazebo-classic,
+media/materials/scripts/gazebo.material
 """
 
 from __future__ import annotations
@@ -101,7 +103,7 @@ def _unit(value: float) -> float:
 
 
 def _is_known(script: Element | None) -> bool:
-    """Tell whether a script is one of Gazebo's own, whose colours count more than those beside it."""
+    """Return whether a script is one of Gazebo's own, whose colours win over those beside it."""
     name = script.text_of("name", script.text) if script is not None else ""
     return name.startswith("Gazebo/") and name.rsplit("/", 1)[-1].lower() in _SCRIPT_COLOURS
 
@@ -157,7 +159,7 @@ def _warn_of_directions(surface: Element, mu: float, name: str, diagnostics: Dia
 
 
 def read_bitmask(collision: Element) -> int:
-    """Return the bits that decide which collisions can touch: those that have one in common."""
+    """Return the bitmask of a `<collision>`: two collisions can touch when they have a bit in common."""
     text = collision.text_of("surface/contact/collide_bitmask", "0xFF")
     try:
         return int(text, 0) & 0x7FFFFFFF

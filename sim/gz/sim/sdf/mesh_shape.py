@@ -1,7 +1,8 @@
-"""`<mesh>` of a `<geometry>`: its file, scale and submesh become a surface of triangles.
+"""`<mesh>` of a `<geometry>`: file, scale and submesh as a surface of triangles.
 
-Part of the reader: `gz.sim.sdf.geometry` calls it, `gz.sim.sdf.meshes` reads the file, `gz.sim.sdf.convex` says what
-touches. Equal meshes (file, submesh, scale) are read once and shared.
+Part of the reader: `gz.sim.sdf.geometry` calls it, `gz.sim.sdf.meshes` reads the file, `gz.sim.sdf.convex` makes the
+convex pieces that collide. Equal meshes (file, submesh, scale) are read once and shared.
+Source: SDFormat, element `<mesh>`, http://sdformat.org/spec
 """
 
 from __future__ import annotations
@@ -21,9 +22,9 @@ from gz_course.sim.gz.sim.sdf.meshes import read_mesh
 from gz_course.sim.gz.sim.sdf.resources import find_file
 
 FULLER = 0.1
-"""A hull that is larger than its mesh by more than this part is worth a sentence."""
+"""A hull whose volume exceeds that of its mesh by more than this part causes a warning."""
 _LARGEST = 1e6  # [m]
-_LONGEST_MOVING = 20.0  # [m]; a longer thing that moves is rather a drawing in millimetres
+_LONGEST_MOVING = 20.0  # [m]; a longer thing that moves is more likely a drawing in millimetres
 _SMALLEST_AREA = 1e-12  # [m^2]
 
 
@@ -77,7 +78,7 @@ def _load(
     scale: tuple[float, float, float],
     touching: str,
 ) -> tuple[TriangleMesh, float]:
-    """Read and scale a mesh; a changed file has another stamp and is read again."""
+    """Read and scale a mesh. `_stamp` (time of change, size) makes the cache read a changed file again."""
     read = read_mesh(path, submesh, center)
     vertices = np.asarray(read.vertices, dtype=np.float64) * np.array(scale)
     triangles = np.asarray(read.triangles, dtype=np.int32)

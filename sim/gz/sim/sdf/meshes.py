@@ -1,7 +1,8 @@
-"""Mesh files: STL (binary and ASCII), OBJ and, with the extra `collada`, COLLADA become vertices and triangles.
+"""Mesh files as vertices and triangles: STL (binary and ASCII), OBJ and, with the extra `collada`, COLLADA.
 
 Called for the `<mesh>` of a geometry, with the path that `gz.sim.sdf.resources` found; the vertices go to the MuJoCo
-builder and to viewers. `<scale>` is not applied here, so that one file is read once for all sizes it is used in.
+builder and to viewers. `<scale>` is not applied here, so that one file is read once for all its sizes.
+Source: STL, https://www.fabbers.com/tech/STL_Format; Wavefront OBJ, https://paulbourke.net/dataformats/obj/
 """
 
 from __future__ import annotations
@@ -30,8 +31,8 @@ _STL_FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attri
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Mesh:
-    """A surface of triangles: `vertices` (n, 3) float64 in metres as the file has them (unscaled), `triangles` (m, 3)
-    int32, each row three indices of vertices, counter-clockwise seen from outside. Both are read-only.
+    """A surface of triangles: `vertices` (n, 3) float64 [m] as in the file, unscaled; `triangles` (m, 3) int32, the
+    indices of the vertices, counter-clockwise seen from outside. Both are read-only.
     """
 
     vertices: Vertices
@@ -40,18 +41,18 @@ class Mesh:
 
 @dataclass(eq=False)
 class _Part:
-    """A run of triangles that goes by these names: an OBJ group or object, a solid, a COLLADA node."""
+    """Triangles with the names of their part: an OBJ group or object, a solid, a COLLADA node."""
 
     names: tuple[str, ...]
     triangles: list[tuple[int, int, int]]
 
 
 def read_mesh(path: Path, submesh: str = "", center: bool = False) -> Mesh:
-    """Read a mesh file; the ending of its name says what it is.
+    """Read a mesh file, whose format is that of its suffix.
 
-    `submesh` picks the part of that name (OBJ: object or group; COLLADA: node or geometry; ASCII STL: solid). `center`
-    moves what was picked so that the middle of its bounding box is the origin. Raises `ResourceError` with file and,
-    for text formats, line when the file is missing, damaged, too large, empty or of a kind that is not read.
+    `submesh` selects the part of that name (OBJ: object or group; COLLADA: node or geometry; ASCII STL: solid).
+    `center` moves the selection so that the middle of its bounding box is the origin. Raises `ResourceError` with the
+    file and, for text formats, the line if the file is missing, damaged, too large, empty or of another format.
     """
     kind = path.suffix.lower()
     if kind not in READABLE:
@@ -104,7 +105,7 @@ def _listed(folder: Path) -> list[Path]:
 def _finished(
     path: Path, vertices: Vertices, runs: Sequence[Sequence[tuple[int, int, int]] | Triangles], center: bool
 ) -> Mesh:
-    """Make the mesh of some runs of triangles: equal vertices become one, unused ones and flat triangles go."""
+    """Return the mesh of some runs of triangles: equal vertices are merged; unused ones and flat triangles dropped."""
     arrays = [np.asarray(run, dtype=np.int32).reshape(-1, 3) for run in runs]
     triangles = np.concatenate(arrays) if arrays else np.zeros((0, 3), np.int32)
     used, flat = np.unique(triangles, return_inverse=True)
@@ -124,7 +125,7 @@ def _finished(
 
 
 def _stl(path: Path, data: bytes) -> tuple[Vertices, list[_Part]]:
-    """Read either kind of STL. Binary files may start with the word "solid" too, so their size decides first."""
+    """Read binary or ASCII STL. A binary file may begin with the word "solid" too, so its size decides first."""
     count = int.from_bytes(data[80:_STL_HEADER], "little") if len(data) >= _STL_HEADER else -1
     expected = _STL_HEADER + count * _STL_FACET.itemsize
     if count >= 0 and expected <= len(data) and (expected == len(data) or not _looks_ascii(data)):
@@ -181,7 +182,7 @@ def _ascii_stl(path: Path, data: bytes) -> tuple[Vertices, list[_Part]]:
 
 
 def _obj(path: Path, data: bytes) -> tuple[Vertices, list[_Part]]:
-    """Read Wavefront OBJ: `v`, `f` (any number of corners, negative indices), `o`, `g`; the rest is for looks only."""
+    """Read Wavefront OBJ: `v`, `f` (any number of corners, negative indices), `o` and `g`; the rest is ignored."""
     vertices: list[tuple[float, ...]] = []
     parts: list[_Part] = [_Part((), [])]
     thing = ""
@@ -214,7 +215,7 @@ def _obj(path: Path, data: bytes) -> tuple[Vertices, list[_Part]]:
 
 
 def _corners(path: Path, line: int, words: list[str], count: int) -> list[int]:
-    """Return the vertex indices of one OBJ face; `a`, `a/b`, `a//c` and `a/b/c` are how a corner is written."""
+    """Return the vertex indices of one OBJ face, whose corners are written `a`, `a/b`, `a//c` or `a/b/c`."""
     if len(words) < 3:
         raise ResourceError(f"{path}:{line}: a face needs at least three corners, got {len(words)}")
     corners: list[int] = []

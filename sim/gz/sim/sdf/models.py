@@ -2,6 +2,7 @@
 
 Part of the reader: `gz.sim.sdf.reader` calls it for every model of a world. Frames are resolved by
 `gz.sim.sdf.frames`, includes opened by `gz.sim.sdf.includes`.
+Source: SDFormat, element `<model>`, http://sdformat.org/spec
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ def pose_and_base(element: Element) -> tuple[Pose, str]:
 
 
 def read_plugin(element: Element) -> Plugin:
-    """Return a `<plugin>`; raises `SdfError` when it names nothing."""
+    """Return a `<plugin>`. Raises `SdfError` when it names nothing."""
     name, filename = element.name, element.attributes.get("filename", "")
     if not name and not filename:
         raise element.error("<plugin> needs filename and name, for example name='gz::sim::systems::DiffDrive'")
@@ -83,8 +84,9 @@ class ModelReader:
         if model.links:
             model.canonical_link = scope.canonical_link(element)
         for part in parts:
-            if part.element.tag == "joint" and not self._to_nothing(part.element, scope):
-                model.joints.append(read_joint(part.element, scope, model, part.version, self._diagnostics))
+            joint = part.element
+            if joint.tag == "joint" and not joint_to_skipped(joint, scope, self._includes, self._diagnostics):
+                model.joints.append(read_joint(joint, scope, model, part.version, self._diagnostics))
         check_mimics(model)
         pose, base = pose_and_base(element)
         placement = element.attributes.get("placement_frame", "")
@@ -108,7 +110,7 @@ class ModelReader:
         return found
 
     def merged(self, part: Opened, static: bool = False, *, world: bool = False) -> list[Opened]:
-        """Return the children of a merged include, which stand beside it in a model or (`world`) in the world."""
+        """Return the children of a merged include, which stand beside it in a model or, with `world`, in the world."""
         if part.element.tag == "world":
             children = lifted(part, Pose(), "", "", world=True)
         else:
@@ -122,13 +124,9 @@ class ModelReader:
                 made.extend(self.merged(inner, static, world=world) if inner.merged else [inner])
         return made
 
-    def _to_nothing(self, joint: Element, scope: Scope) -> bool:
-        """Tell (and say) whether a joint leads to a model whose include was skipped."""
-        return joint_to_skipped(joint, scope, self._includes, self._diagnostics)
-
 
 def joint_to_skipped(joint: Element, scope: Scope, includes: Includes, diagnostics: Diagnostics) -> bool:
-    """Tell, after a warning, whether a joint leads to a model whose include was skipped."""
+    """Return whether a joint leads to a model whose include was skipped; warn if so."""
     for role in ("parent", "child"):
         first = joint.text_of(role).split("::")[0]
         if first in includes.skipped and first not in scope.frames:
@@ -138,7 +136,7 @@ def joint_to_skipped(joint: Element, scope: Scope, includes: Includes, diagnosti
 
 
 def add_frame(scope: Scope, element: Element) -> None:
-    """Tell the scope about a link, frame or joint."""
+    """Register a link, frame or joint in the scope."""
     pose, base = pose_and_base(element)
     if element.tag == "link":
         scope.add(element.name, element, pose=pose, relative_to=base, is_link=True)
@@ -151,7 +149,7 @@ def add_frame(scope: Scope, element: Element) -> None:
 
 
 def _flatten(model: Model, inner: Model, name: str, pose: Pose) -> None:
-    """Put a nested model's parts into its parent, with `name::` before every name."""
+    """Move the parts of a nested model into its parent and prefix every name with `name::`."""
     for link in inner.links:
         link.name = f"{name}::{link.name}"
         link.pose = pose * link.pose

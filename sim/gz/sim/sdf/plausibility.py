@@ -1,8 +1,8 @@
-"""Says so when a file states what SDF allows but hardly anybody means: degrees for radians, a size at the wrong place,
-a wheel without inertia, a robot that nothing can hold.
+"""Warnings about what SDF allows but is hardly meant: degrees for radians, a size at the wrong place, a wheel without
+inertia, a robot that touches nothing.
 
-Part of the reader: `gz.sim.sdf.includes` asks for the elements of every file, `gz.sim.sdf.reader` for every model that
-was read. Nothing is changed; the world runs as it is written.
+Part of the reader: `gz.sim.sdf.includes` checks the elements of every file, `gz.sim.sdf.reader` every model that was
+read. Nothing is changed; the world runs as it is written.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ from gz_course.sim.gz.sim.sdf.element import Element
 from gz_course.sim.gz.sim.sdf.vocabulary import CHILDREN
 
 Found = Iterator[tuple[str, str]]
-"""Places and sentences."""
+"""Places (`file:line`) and sentences."""
 
 NEWEST_VERSION = (1, 12)
 MOST_RADIANS = 6.5
-"""A larger angle in a pose is more than a turn; people mean degrees."""
+"""An angle [rad] in a pose beyond this is more than a turn; most likely degrees were meant."""
 DEGREES = frozenset(range(15, 361, 15))
-"""Limits of joints that people mean in degrees; other large ones are joints of several turns."""
+"""Limits of joints that are most likely degrees; other large ones are joints of several turns."""
 _NEEDED = {
     "box": ("size",),
     "sphere": ("radius",),
@@ -31,7 +31,7 @@ _NEEDED = {
     "cone": ("radius", "length"),
     "ellipsoid": ("radii",),
 }
-"""What a shape is nothing without; SDF has a default for all of it."""
+"""What every shape should state, although SDF has a default for it."""
 _NO_TEXT = frozenset((*_NEEDED, *["plane", "mesh", "geometry", "visual", "link", "inertial", "inertia", "axis"]))
 _AXIS_NEEDED = frozenset(("revolute", "continuous", "prismatic", "screw"))
 
@@ -42,14 +42,14 @@ def check(root: Element, diagnostics: Diagnostics) -> None:
     while waiting:
         element = waiting.pop()
         for where, sentence in _stray_text(element):
-            diagnostics.warn(where, sentence)  # it is lost
+            diagnostics.warn(where, sentence)  # the text is lost
         for where, sentence in _RULES.get(element.tag, _nothing)(element):
             diagnostics.doubt(where, sentence)
         waiting.extend(child for child in reversed(element.children) if child.tag not in ("plugin", "gui"))
 
 
 def check_origins(robot: Element, diagnostics: Diagnostics) -> None:
-    """Warn about the angles of a URDF; its other elements are looked at when it has become SDF."""
+    """Warn about the angles of a URDF; its other elements are checked after the conversion to SDF."""
     for element in (*robot.all("link"), *robot.all("joint")):
         for holder in (element, *element.children):
             for origin in holder.all("origin"):
@@ -151,11 +151,11 @@ def _numbers(text: str) -> list[float]:
     try:
         return [float(word) for word in text.split()]
     except ValueError:
-        return []  # the reader says so
+        return []  # the reader reports it
 
 
 def check_model(model: Model, held: bool, diagnostics: Diagnostics) -> None:
-    """Warn about a model that moves but lacks what moving needs; `held` tells whether the world holds it by a joint."""
+    """Warn about a model that moves but lacks what moving needs; `held`: a joint of the world holds it."""
     if model.static:
         return
     links = {link.name: link for link in model.links}

@@ -1,15 +1,16 @@
 """`<polyline>` of a `<geometry>`: outlines in the x-y plane, extruded along z from 0 to `<height>`.
 
 Part of the reader: `gz.sim.sdf.geometry` calls it. Several polylines in one geometry make one shape; an outline inside
-another is a hole in it (even-odd, as Gazebo fills them). The area is cut into triangles by ear clipping (a hole is
-first joined to its outline by a bridge), and these are joined to convex prisms again: only convex bodies touch.
+another is a hole in it (even-odd rule, as in Gazebo). The area is cut into triangles, which are joined to convex
+polygons; their prisms are the pieces that collide, because MuJoCo collides convex meshes only.
+Source: SDFormat, element `<polyline>`, http://sdformat.org/spec
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
+import mapbox_earcut
 import numpy as np
 
 from gz_course.sim.gz.sim.sdf.description import Geometry, TriangleMesh
@@ -21,8 +22,9 @@ _LARGEST = 1e6  # [m]
 
 
 def read_polyline(shapes: Sequence[Element]) -> Geometry | None:
-    """Return the prism of the `<polyline>` elements of one geometry, None when they cross themselves; raises `SdfError`
-    for outlines without area.
+    """Return the prism of the `<polyline>` elements of one geometry, or None when they cross themselves.
+
+    Raises `SdfError` for outlines without area.
     """
     outlines: list[list[Point]] = []
     height = shapes[0].number("height", 1.0)
@@ -44,19 +46,23 @@ def read_polyline(shapes: Sequence[Element]) -> Geometry | None:
     if sum(map(len, outlines)) > _MOST_POINTS:
         raise shapes[0].error(f"<polyline> has more than {_MOST_POINTS} points; use a mesh")
     polygons: list[list[Point]] = []
-    for outline, holes in _nested(outlines):
-        cut = _triangulated(_bridged(outline, holes))
+    nested = _nested(outlines)
+    for outline, holes in nested:
+        cut = _convex_parts([outline, *holes])
         whole = _area(outline) + sum(map(_area, holes))
         if abs(sum(map(_area, cut)) - whole) > 1e-6 * _area(outline):
             return None
         polygons.extend(cut)
-    mesh = _extruded(outlines, polygons, height)
+    mesh = _extruded([ring for outline, holes in nested for ring in (outline, *holes)], polygons, height)
     low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
     return Geometry("polyline", (float(high[0] - low[0]), float(high[1] - low[1]), height), mesh=mesh)
 
 
 def _area(outline: Sequence[Point]) -> float:
-    """Return the signed area: positive when the points go round to the left."""
+    """Return the signed area [m^2], positive when the points turn left.
+
+    Source: shoelace formula, https://en.wikipedia.org/wiki/Shoelace_formula
+    """
     return 0.5 * sum(x1 * y2 - x2 * y1 for (x1, y1), (x2, y2) in zip(outline, [*outline[1:], outline[0]], strict=True))
 
 
@@ -70,7 +76,7 @@ def _inside(point: Point, outline: Sequence[Point]) -> bool:
 
 
 def _nested(outlines: list[list[Point]]) -> list[tuple[list[Point], list[list[Point]]]]:
-    """Return each outline that bounds area (turned left) with its holes (turned right)."""
+    """Return each outline that encloses area (turned left) with its holes (turned right)."""
     depth = [sum(_inside(one[0], other) for other in outlines if other is not one) for one in outlines]
     found = []
     for outline, level in zip(outlines, depth, strict=True):
@@ -85,66 +91,27 @@ def _nested(outlines: list[list[Point]]) -> list[tuple[list[Point], list[list[Po
     return found
 
 
-def _bridged(outline: list[Point], holes: list[list[Point]]) -> list[Point]:
-    """Join each hole to the outline by a cut that is passed twice, from the hole's rightmost point."""
-    joined = list(outline)
-    for hole in sorted(holes, key=lambda each: -max(each)[0]):
-        start = max(range(len(hole)), key=lambda index: hole[index])
-        turned = hole[start:] + hole[:start]
-        others = [*holes, joined]
-        candidates = sorted(range(len(joined)), key=lambda index: math.dist(joined[index], turned[0]))
-        at = next(
-            (index for index in candidates if not any(_crossed(joined[index], turned[0], each) for each in others)),
-            candidates[0],
-        )
-        joined = [*joined[: at + 1], *turned, turned[0], *joined[at:]]
-    return joined
-
-
 def _side(a: Point, b: Point, c: Point) -> float:
+    """Return twice the signed area of a triangle: positive when it turns left."""
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
-def _crossed(start: Point, end: Point, outline: Sequence[Point]) -> bool:
-    for a, b in zip(outline, [*outline[1:], outline[0]], strict=True):
-        if start in (a, b) or end in (a, b):
-            continue
-        apart = _side(start, end, a) * _side(start, end, b)
-        if apart <= 0.0 and _side(a, b, start) * _side(a, b, end) <= 0.0:
-            return True
-    return False
+def _convex_parts(rings: Sequence[Sequence[Point]]) -> list[list[Point]]:
+    """Cut an outline with holes (the other rings) into convex polygons, all turned left.
 
-
-def _triangulated(polygon: list[Point]) -> list[list[Point]]:
-    """Cut a polygon (turned left) into convex ones: ears are clipped, then put together while they stay convex."""
-    left = list(range(len(polygon)))
-    ears: list[list[int]] = []
-    tried = 0
-    while len(left) > 3 and tried <= len(left):
-        before, here, after = left[-1], left[0], left[1]
-        a, b, c = polygon[before], polygon[here], polygon[after]
-        turn = _side(a, b, c)
-        if turn > 0.0 and not any(_within(a, b, c, polygon[k]) for k in left[2:-1] if polygon[k] not in (a, b, c)):
-            ears.append([before, here, after])
-            left.pop(0)
-            tried = 0
-        elif turn == 0.0 and b in (a, c):
-            left.pop(0)
-            tried = 0
-        else:
-            left.append(left.pop(0))
-            tried += 1
-    if len(left) == 3 and _side(*(polygon[k] for k in left)) > 0.0:
-        ears.append(left)
-    return [[polygon[k] for k in part] for part in _joined(ears, polygon)]
-
-
-def _within(a: Point, b: Point, c: Point, point: Point) -> bool:
-    return _side(a, b, point) >= 0.0 and _side(b, c, point) >= 0.0 and _side(c, a, point) >= 0.0
+    Source: ear clipping of mapbox-earcut, https://github.com/mapbox/earcut
+    """
+    points = [point for ring in rings for point in ring]
+    ends = np.cumsum([len(ring) for ring in rings], dtype=np.uint32)
+    ears = mapbox_earcut.triangulate_float64(np.array(points, dtype=np.float64), ends).reshape(-1, 3).tolist()
+    return [[points[k] for k in part] for part in _joined(ears, points)]
 
 
 def _joined(parts: list[list[int]], polygon: list[Point]) -> list[list[int]]:
-    """Put neighbours together across their common edge while the result is convex."""
+    """Join neighbours across their common edge while the result is convex.
+
+    Source: S. Hertel, K. Mehlhorn, Fast triangulation of the plane with respect to simple polygons, 1985
+    """
     owner = {(part[k - 1], part[k]): index for index, part in enumerate(parts) for k in range(len(part))}
     alive: dict[int, list[int]] = dict(enumerate(parts))
     for edge in list(owner):
@@ -153,7 +120,7 @@ def _joined(parts: list[list[int]], polygon: list[Point]) -> list[list[int]]:
             continue
         a, b = alive[one], alive[other]
         i, j = a.index(edge[1]), b.index(edge[0])
-        # Round a from the edge's end to its start, then on through b.
+        # Around a from the end of the edge to its start, then on through b.
         whole = a[i:] + a[:i] + (b[j:] + b[:j])[1:-1]
         if len(set(whole)) < len(whole):
             continue
@@ -165,8 +132,8 @@ def _joined(parts: list[list[int]], polygon: list[Point]) -> list[list[int]]:
     return list(alive.values())
 
 
-def _extruded(outlines: list[list[Point]], polygons: list[list[Point]], height: float) -> TriangleMesh:
-    """Return the walls over all outlines, and floor and lid over the polygons, normals outwards."""
+def _extruded(rings: list[list[Point]], polygons: list[list[Point]], height: float) -> TriangleMesh:
+    """Return the walls of all rings (holes turned right), and floor and lid of the polygons, normals outwards."""
     vertices: list[tuple[float, float, float]] = []
     triangles: list[tuple[int, int, int]] = []
 
@@ -175,10 +142,9 @@ def _extruded(outlines: list[list[Point]], polygons: list[list[Point]], height: 
         vertices.extend(corners)
         triangles.extend((base, base + k, base + k + 1) for k in range(1, len(corners) - 1))
 
-    for outline, holes in _nested(outlines):
-        for ring in (outline, *holes):
-            for (x1, y1), (x2, y2) in zip(ring, [*ring[1:], ring[0]], strict=True):
-                add((x1, y1, 0.0), (x2, y2, 0.0), (x2, y2, height), (x1, y1, height))
+    for ring in rings:
+        for (x1, y1), (x2, y2) in zip(ring, [*ring[1:], ring[0]], strict=True):
+            add((x1, y1, 0.0), (x2, y2, 0.0), (x2, y2, height), (x1, y1, height))
     for polygon in polygons:
         add(*((x, y, height) for x, y in polygon))
         add(*((x, y, 0.0) for x, y in reversed(polygon)))

@@ -1,8 +1,8 @@
-"""An SDF text becomes a `WorldDescription`: includes opened, frames resolved, nested models flattened.
+"""Reader of SDF: a text becomes a `WorldDescription`, with includes opened, frames resolved, nested models flattened.
 
-`World.load` -> `read_world_file` -> (here) -> `gz.sim.physics.builder`. What SDF does not know is reported
-and skipped; what makes no sense (a number that is no number, a joint to a link that does not exist) raises
-`SdfError` at its line.
+`World.load` -> `read_world_file` -> (here) -> `gz.sim.physics.builder`. Unknown elements are reported and skipped; what
+makes no sense (a text for a number, a joint to a link that does not exist) raises `SdfError` with its line.
+Source: SDFormat, elements `<sdf>` and `<world>`, http://sdformat.org/spec
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ _NOT_SIMULATED = {
 
 
 def read_world_file(path: Path, diagnostics: Diagnostics) -> WorldDescription:
-    """Read the world of an SDF file; raise `SdfError` for what is none, also for a file with only a model."""
+    """Read the world of an SDF file. Raises `SdfError` for anything else, also for a file with only a model."""
     return read_world(read_text(path), str(path), diagnostics)
 
 

@@ -1,9 +1,10 @@
-"""Where worlds, models, meshes and images are found, and how their text is read.
+"""Files of worlds, models, meshes and images: how they are found and how their text is read.
 
-Called by `World.load` for the world's name and by the reader for every `<uri>`. Folders are those of
+Called by `World.load` for the name of the world and by the reader for every `<uri>`. Folders are those of
 GZ_SIM_RESOURCE_PATH, then of SDF_PATH and IGN_GAZEBO_RESOURCE_PATH, then the built-in ones; `package://` also looks
-into `share/` of every prefix in AMENT_PREFIX_PATH. Nothing is ever downloaded: an address of Gazebo Fuel stands for the
+into `share/` of every prefix in AMENT_PREFIX_PATH. Nothing is ever downloaded: an address of Gazebo Fuel means the
 model of that name in one of those folders (`Ground Plane` and `Sun` are built in).
+Source: Finding resources, https://gazebosim.org/api/sim/8/resources.html
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ def package_shares() -> list[Path]:
 
 
 def find_world(name: str | Path) -> Path:
-    """Return the file of a world given as a path or a name; raise `ResourceError` with the nearest one."""
+    """Return the file of a world given as a path or a name. Raises `ResourceError` with the nearest name."""
     text = str(name)
     if text.startswith(("http://", "https://")):
         raise ResourceError(f"world '{text}' would have to be downloaded, which is not done here; save it as a file")
@@ -95,8 +96,9 @@ def find_model(uri: str, relative_to: Path | None) -> Path:
 
 
 def find_file(uri: str, relative_to: Path | None) -> Path:
-    """Return the mesh or image that a `<uri>` means, written as those of `find_model`; raise `ResourceError` when there
-    is no such file.
+    """Return the mesh or image of a `<uri>`, written as those of `find_model`.
+
+    Raises `ResourceError` when there is no such file.
     """
     candidates = list(_candidates(uri, relative_to))
     for candidate in candidates:
@@ -158,7 +160,7 @@ def _fuel_path(uri: str) -> str:
 
 
 def _path_hint(path: str, relative_to: Path | None) -> str:
-    """Return what to set when the model is the very one that names the file, but its folder is on no path."""
+    """Return what to set when the file belongs to the model that names it, but no path leads to its folder."""
     name = path.split("/")[0]
     for folder in (relative_to, *relative_to.resolve().parents) if relative_to is not None else ():
         for each in (folder, folder / name):

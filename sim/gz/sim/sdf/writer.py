@@ -1,6 +1,6 @@
-"""Elements become XML text again: the way back of `gz.sim.sdf.element.parse`.
+"""XML text of elements, the inverse of `gz.sim.sdf.element.parse`.
 
-The world generator (`gz.sim.sdf_generator`) writes with it what `generate_world_sdf` answers and recordings keep.
+Used by the world generator (`gz.sim.sdf_generator`) for the answer of `generate_world_sdf` and for recordings.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from gz_course.sim.gz.sim.sdf.element import Element
 
 
 def to_xml(element: Element, indent: str = "") -> str:
-    """Return an element and everything in it as indented XML lines, without a final newline."""
+    """Return an element with its children as indented XML lines, without a final newline."""
     attributes = "".join(f" {name}={quoteattr(_clean(value))}" for name, value in element.attributes.items())
     text = escape(_clean(element.text))
     if not element.children:
@@ -28,8 +28,8 @@ def to_xml(element: Element, indent: str = "") -> str:
 
 
 def pose_element(pose: Pose, version: tuple[int, int]) -> Element:
-    """Return a `<pose>` that reads back as `pose`: to the last digit with SDF 1.9 and later, which knows quaternions,
-    by roll, pitch and yaw before.
+    """Return a `<pose>` that reads back as `pose`: exactly as a quaternion from SDF 1.9 on, by roll, pitch and yaw
+    before.
     """
     position = " ".join(_number(value) for value in pose.position)
     if version >= (1, 9):
@@ -43,5 +43,5 @@ def _number(value: float) -> str:
 
 
 def _clean(text: str) -> str:
-    """Leave out what XML cannot hold."""
+    """Remove control characters, which XML cannot hold."""
     return "".join(letter for letter in text if letter >= " " or letter in "\t\n\r")

@@ -1,1 +1,1 @@
-"""Sub-commands of `gz` about topics and services, and what they share."""
+"""Sub-commands of `gz` about topics and services."""

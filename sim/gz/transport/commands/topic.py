@@ -1,7 +1,8 @@
 """Look at topics and publish on them: `gz topic -l`, `gz topic -e -t /odom`.
 
-Run by `gz.command`. What is printed is what the tool of Gazebo Harmonic prints. Different is how it ends: a topic
-or type that there is not gives one line on stderr and the code 1, and `-p` leaves only when the message is out.
+Called by `gz.command`. The output is that of the tool of Gazebo Harmonic. It ends differently: an unknown topic or type
+gives one line on stderr and the code 1, and `-p` ends only when the message has been sent.
+Source: gz-transport 13, https://github.com/gazebosim/gz-transport/blob/gz-transport13/src/cmd/topic_main.cc
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from collections.abc import Sequence
 
 from google.protobuf.message import DecodeError, Message
 
-from gz_course.sim.gz.command_line import Parser, nearest, positive_seconds, whole_number
+from gz_course.sim.gz.command_line import Parser, nearest, positive_number, whole_number
 from gz_course.sim.gz.msgs import canonical_name, message_class
 from gz_course.sim.gz.transport.echo_queue import Arrival, EchoQueue
 from gz_course.sim.gz.transport.message_info import MessagePublisher
@@ -29,10 +30,10 @@ _FORTRESS = "ignition.msgs."
 
 
 def add_arguments(parser: Parser) -> None:
-    """Adds the options of `gz topic`."""
+    """Add the options of `gz topic`."""
     parser.add_argument("-t", "--topic", metavar="NAME", help="name of a topic")
     parser.add_argument("-m", "--msgtype", metavar="TYPE", help="type of the message to publish, e.g. gz.msgs.Twist")
-    parser.add_argument("-d", "--duration", type=positive_seconds, metavar="S", help="echo for S seconds, then end")
+    parser.add_argument("-d", "--duration", type=positive_number, metavar="S", help="echo for S seconds, then end")
     parser.add_argument("-n", "--num", type=whole_number, metavar="N", help="echo N messages, then end (0: no end)")
     parser.add_argument("-l", "--list", action="store_true", help="the names of all topics")
     parser.add_argument("-i", "--info", action="store_true", help="publishers and subscribers of a topic")
@@ -49,7 +50,7 @@ def add_arguments(parser: Parser) -> None:
 
 
 def run(values: argparse.Namespace) -> int:
-    """Runs `gz topic`; the exit code. Raises ValueError for names, types and texts that are not valid."""
+    """Run `gz topic`; return the exit code. Raises ValueError for names, types and texts that are not valid."""
     with Node() as node:
         if values.list:
             for topic in node.topic_list():
@@ -122,7 +123,7 @@ def _frequency(node: Node, topic: str) -> int:
                 arrival = arrivals.next(look_at)
                 if arrival is not None and len(times) <= _WINDOW:
                     times.append(arrival.time_ns)
-                elif arrival is not None:  # one more than needed: Gazebo's tool uses it as the sign to print
+                elif arrival is not None:  # one more than needed: it makes Gazebo's tool print
                     _print_frequency(times)
                     times.clear()
                 elif arrivals.reader_gone():

@@ -1,3 +1,3 @@
-"""Reading URDF: `<robot>` (`robot`), xacro (`xacro_file`), fixed joints lumped (`lumping`), `<gazebo>` tags
-(`gazebo_tags`), and the SDF model that all this means (`convert`).
+"""Reader of URDF: `<robot>` (`robot`), xacro (`xacro_file`), lumping of fixed joints (`lumping`), `<gazebo>` tags
+(`gazebo_tags`), and the conversion to an SDF model (`convert`).
 """

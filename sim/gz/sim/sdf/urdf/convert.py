@@ -1,8 +1,9 @@
-"""A URDF `<robot>` becomes the SDF `<model>` that Gazebo makes of it.
+"""Conversion of a URDF `<robot>` to the SDF `<model>` that Gazebo makes of it.
 
-Called by the SDF reader for every text whose root is `<robot>`; what comes out is an `Element` tree that the reader
-goes on with, every element at the file and line of the URDF it comes from. Names are Gazebo's: an unnamed collision of
-link `wheel` is `wheel_collision`, lumped into `base` it is `base_fixed_joint_lump__wheel_collision_1`.
+Called by the SDF reader for every text whose root is `<robot>`. The result is an `Element` tree for the reader, every
+element with the file and line of its URDF. Names are those of Gazebo: an unnamed collision of link `wheel` is
+`wheel_collision`, lumped into `base` it is `base_fixed_joint_lump__wheel_collision_1`.
+Source: sdformat 14, https://github.com/gazebosim/sdformat/blob/sdf14/src/parser_urdf.cc
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ _BALL = 0.01  # [m]
 
 
 def sdf_of_robot(element: Element, diagnostics: Diagnostics) -> Element:
-    """Return `<sdf><model>` for a `<robot>`; raises `SdfError` with file and line when it is no valid URDF."""
+    """Return `<sdf><model>` for a `<robot>`. Raises `SdfError` with file and line when it is no valid URDF."""
     robot = read_robot(element, diagnostics)
     tags = read_gazebo_tags(robot, diagnostics)
     bodies = lump(robot, tags.preserved())
@@ -52,7 +53,7 @@ def sdf_of_robot(element: Element, diagnostics: Diagnostics) -> Element:
 
 
 def _with_mass(robot: Robot, bodies: list[Body], diagnostics: Diagnostics) -> list[Body]:
-    """Return the bodies that Gazebo keeps: one without mass goes, with everything it carries."""
+    """Return the bodies that Gazebo keeps; it drops a body without mass, with everything the body carries."""
     gone: dict[str, str] = {}
     kept: list[Body] = []
     for body in bodies:
@@ -162,7 +163,7 @@ def _shape(shape: UrdfShape, name: str, pose: Pose) -> Element:
 def _colour(visual: Element, shape: UrdfShape) -> None:
     """Give a visual the colour of its URDF material, unless a `<gazebo>` tag gave it one.
 
-    Gazebo brightens it: what a URDF calls full is 0.8 of diffuse light and 0.4 of ambient light.
+    As in Gazebo it is brightened: the value 0.8 of a URDF is full light.
     """
     if shape.colour is None:
         return
@@ -257,7 +258,7 @@ def _axis(joint: UrdfJoint, robot: Robot, diagnostics: Diagnostics) -> Element:
 
 
 def _add_frames(model: Element, body: Body, robot: Robot, tags: GazeboTags, diagnostics: Diagnostics) -> None:
-    """Keep the names of lumped links and their joints as frames; say when a tag about such a joint is lost."""
+    """Keep the names of lumped links and their joints as frames; warn when a tag about such a joint is lost."""
     for link, pose in body.members[1:]:
         joint = link.joint
         assert joint is not None

@@ -1,5 +1,6 @@
-"""Program: expands one xacro file to standard output, each element marked with the file and line it comes from.
+"""Program that expands one xacro file to standard output, each element marked with its file and line.
 
+Source: https://wiki.ros.org/xacro
 Started by `xacro_file.expand`: `python -m gz.sim.sdf.urdf.expand_xacro FILE [NAME:=VALUE ...]`. Exit code 0 and the XML
 on standard output, or 1 and a line of JSON, `{"error": sentence}`, as the last of standard error.
 """
@@ -26,7 +27,7 @@ _MOST_ELEMENTS = 100_000
 
 
 class _Places:
-    """The files that were opened, and the element xacro looked at last."""
+    """The files that were opened, and the element at which xacro looked last."""
 
     def __init__(self) -> None:
         self.files: list[str] = []
@@ -34,7 +35,7 @@ class _Places:
         self.count = 0
 
     def handle(self, _operation: int, key: str, data: Any, _source: Any, copy: Any) -> None:
-        """Called by the DOM when an element is copied: the copy comes from the same place."""
+        """Give a copied element the place of the original (called by the DOM)."""
         if copy is not None:
             self.count += 1
             if self.count > _MOST_ELEMENTS:
@@ -42,19 +43,19 @@ class _Places:
             copy.setUserData(key, data, self)
 
     def seen(self, node: Any) -> None:
-        """Remember an element as the one to blame."""
+        """Remember an element as the place of the next error."""
         place = node.getUserData(PLACE)
         if place is not None:
             self.last = place
 
     def where(self) -> str:
-        """`file:line` of the element seen last."""
+        """Return `file:line` of the element seen last."""
         return f"{self.files[self.last[0]]}:{self.last[1]}" if self.last else ""
 
 
 def _builder(places: _Places, number: int) -> Any:
     class Builder(xml.dom.expatbuilder.ExpatBuilderNS):
-        """Builds a DOM whose elements know their line."""
+        """Builder of a DOM whose elements know their line."""
 
         def start_element_handler(self, name: str, attributes: list[str]) -> None:
             super().start_element_handler(name, attributes)
@@ -64,7 +65,7 @@ def _builder(places: _Places, number: int) -> Any:
 
 
 def expand(file: str, arguments: dict[str, str]) -> str:
-    """Return the expanded XML text; raises whatever xacro raises, with `notes` saying where."""
+    """Return the expanded XML text. Raises what xacro raises, with a note that names file and line."""
     import xacro
 
     places = _Places()
@@ -93,7 +94,7 @@ def expand(file: str, arguments: dict[str, str]) -> str:
 
         return wrapper
 
-    # xacro says which file is wrong, not which line: these functions of it meet every element in turn.
+    # xacro names the file of an error, not the line; these functions are called for every element in turn.
     xacro.parse = parse
     for name in ("eval_all", "handle_macro_call", "check_attrs", "reqd_attrs"):
         setattr(xacro, name, watched(getattr(xacro, name)))

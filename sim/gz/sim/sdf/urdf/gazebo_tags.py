@@ -1,7 +1,9 @@
-"""The `<gazebo>` tags of a URDF: what they say about the robot, a link or a joint, put into the SDF elements.
+"""`<gazebo>` tags of a URDF, which add to the SDF of the robot, of a link or of a joint.
 
 Part of the conversion. Words that are older than SDF (`mu1`, `turnGravityOff`, `springStiffness`) are translated; every
-other element is SDF already and is taken over as it stands (sensors, plugins, `<gravity>`, ...).
+other element is SDF already and is copied unchanged (sensors, plugins, `<gravity>`, ...).
+Source: https://classic.gazebosim.org/tutorials?tut=ros_urdf; sdformat 14, `InsertSDFExtension*`,
+https://github.com/gazebosim/sdformat/blob/sdf14/src/parser_urdf.cc
 """
 
 from __future__ import annotations
@@ -18,36 +20,54 @@ LUMP = "_fixed_joint_lump__"
 """What stands in the name of a lumped shape, between the body's name and its own."""
 
 _TRUE = ("true", "yes", "1")
-_CONTACT = {"kp": "kp", "kd": "kd", "maxVel": "max_vel", "minDepth": "min_depth"}
-_FRICTION = {"mu1": "mu", "mu2": "mu2", "fdir1": "fdir1"}
-_COLLISION = {"laserRetro": "laser_retro", "maxContacts": "max_contacts"}
-_DYNAMICS = {"springReference": "spring_reference", "springStiffness": "spring_stiffness"}
-_STOP = {"stopCfm": "cfm", "stopErp": "erp"}
+_COLLISION = {
+    "kp": "surface/contact/ode/kp",
+    "kd": "surface/contact/ode/kd",
+    "maxVel": "surface/contact/ode/max_vel",
+    "minDepth": "surface/contact/ode/min_depth",
+    "mu1": "surface/friction/ode/mu",
+    "mu2": "surface/friction/ode/mu2",
+    "fdir1": "surface/friction/ode/fdir1",
+    "laserRetro": "laser_retro",
+    "maxContacts": "max_contacts",
+}
+"""Where the value of a word goes in `<collision>`."""
+_JOINT = {
+    "springReference": "axis/dynamics/spring_reference",
+    "springStiffness": "axis/dynamics/spring_stiffness",
+    "stopCfm": "physics/ode/limit/cfm",
+    "stopErp": "physics/ode/limit/erp",
+    "fudgeFactor": "physics/ode/fudge_factor",
+}
+_JOINT_FLAGS = {
+    "provideFeedback": "physics/ode/provide_feedback",
+    "implicitSpringDamper": "physics/ode/implicit_spring_damper",
+    "cfmDamping": "physics/ode/implicit_spring_damper",
+}
 _PRESERVING = ("preserveFixedJoint", "disableFixedJointLumping")
 _TRANSLATED = {
-    *_CONTACT, *_FRICTION, *_COLLISION, *_DYNAMICS, *_STOP, *_PRESERVING,
-    "material", "collision", "visual", "static", "turnGravityOff", "dampingFactor", "selfCollide", "fudgeFactor",
-    "provideFeedback", "canonicalBody", "cfmDamping", "implicitSpringDamper",
+    *_COLLISION, *_JOINT, *_JOINT_FLAGS, *_PRESERVING,
+    "material", "collision", "visual", "static", "turnGravityOff", "dampingFactor", "selfCollide", "canonicalBody",
 }  # fmt: skip
 _PLACED = ("sensor", "light", "projector")
 
 
 @dataclass(eq=False)
 class GazeboTag:
-    """One `<gazebo>`: `reference` is the link or joint it speaks of, empty for the robot."""
+    """One `<gazebo>`; `reference` names its link or joint and is empty for the robot."""
 
     reference: str
     element: Element
 
     @property
     def foreign(self) -> list[Element]:
-        """The children that are SDF already."""
+        """Return the children that are SDF already."""
         return [child for child in self.element.children if child.tag not in _TRANSLATED]
 
 
 @dataclass(eq=False)
 class GazeboTags:
-    """All `<gazebo>` tags of a robot, by what they refer to."""
+    """All `<gazebo>` tags of a robot by reference."""
 
     by_reference: dict[str, list[GazeboTag]] = field(default_factory=dict)
 
@@ -56,7 +76,7 @@ class GazeboTags:
         return self.by_reference.get(reference, [])
 
     def joints_that(self, *words: str) -> set[str]:
-        """Return the references whose tags say yes to one of `words`."""
+        """Return the references for which one of `words` is true."""
         return {
             tag.reference
             for tags in self.by_reference.values()
@@ -71,7 +91,7 @@ class GazeboTags:
 
 
 def read_gazebo_tags(robot: Robot, diagnostics: Diagnostics) -> GazeboTags:
-    """Collect the tags of a robot; a reference to nothing gets a warning (Gazebo drops it silently)."""
+    """Return the tags of a robot; warn about references to nothing, which Gazebo drops silently."""
     tags = GazeboTags()
     for element in robot.element.all("gazebo"):
         reference = element.attributes.get("reference", "")
@@ -93,7 +113,7 @@ def read_gazebo_tags(robot: Robot, diagnostics: Diagnostics) -> GazeboTags:
 
 
 def value_of(element: Element) -> str:
-    """Return the value of a translated word: its attribute `value`, else its text."""
+    """Return the value of a tag: its attribute `value`, else its text."""
     return element.attributes.get("value", element.text).strip()
 
 
@@ -102,7 +122,7 @@ def _yes(element: Element) -> bool:
 
 
 def tell_model(model: Element, tags: GazeboTags, lumped: dict[str, str]) -> None:
-    """Put the tags without reference into `<model>`: plugins, `static`, and joints (lumped links renamed)."""
+    """Add the tags without reference to `<model>`: plugins, `static`, and joints, with lumped links renamed."""
     for tag in tags.of(""):
         for child in tag.element.all("static"):
             set_value(model, "static", "true" if _yes(child) else "false", child)
@@ -120,7 +140,7 @@ def tell_model(model: Element, tags: GazeboTags, lumped: dict[str, str]) -> None
 
 
 def tell_link(link: Element, tags: GazeboTags, reference: str, pose: Pose | None) -> None:
-    """Put the tags about a URDF link into the SDF `<link>`; `pose` is where a lumped link stands in it (else None)."""
+    """Add the tags of a URDF link to the SDF `<link>`; `pose` is that of a lumped link in it, else None."""
     for tag in tags.of(reference):
         for child in tag.element.all("turnGravityOff"):
             off = value_of(child).lower() not in ("false", "no", "0")
@@ -135,7 +155,7 @@ def tell_link(link: Element, tags: GazeboTags, reference: str, pose: Pose | None
 
 
 def _moved(element: Element, pose: Pose) -> Element:
-    """Return a sensor or light of a lumped link, its pose now in the body's frame."""
+    """Return a sensor or light of a lumped link with its pose in the frame of the body."""
     stated = element.find("pose")
     if stated is not None and stated.attributes.get("relative_to", ""):
         return element
@@ -149,10 +169,10 @@ def _moved(element: Element, pose: Pose) -> Element:
 def tell_collision(
     collision: Element, tags: GazeboTags, reference: str, lumped: bool, diagnostics: Diagnostics
 ) -> None:
-    """Put the tags about a URDF link into one of its `<collision>` elements: surface, contacts, blocks."""
+    """Add the tags of a URDF link to one of its `<collision>` elements: surface, contacts, blocks."""
     for tag in tags.of(reference):
         blocks = [child for block in tag.element.all("collision") for child in block.children]
-        words = [child for child in tag.element.children if child.tag in (*_CONTACT, *_FRICTION, *_COLLISION)]
+        words = [child for child in tag.element.children if child.tag in _COLLISION]
         if not blocks and not words:
             continue
         if not _reaches(collision, reference, lumped, "collision"):
@@ -163,16 +183,11 @@ def tell_collision(
                 collision.children = [child for child in collision.children if child.tag != "surface"]
             collision.children.append(_copy(block))
         for word in words:
-            if word.tag in _COLLISION:
-                set_value(collision, _COLLISION[word.tag], value_of(word), word)
-            elif word.tag in _FRICTION:
-                set_value(collision, f"surface/friction/ode/{_FRICTION[word.tag]}", value_of(word), word)
-            else:
-                set_value(collision, f"surface/contact/ode/{_CONTACT[word.tag]}", value_of(word), word)
+            set_value(collision, _COLLISION[word.tag], value_of(word), word)
 
 
 def tell_visual(visual: Element, tags: GazeboTags, reference: str, lumped: bool, diagnostics: Diagnostics) -> None:
-    """Put the tags about a URDF link into one of its `<visual>` elements: material, `<visual>` blocks."""
+    """Add the tags of a URDF link to one of its `<visual>` elements: material, `<visual>` blocks."""
     for tag in tags.of(reference):
         blocks = [child for block in tag.element.all("visual") for child in block.children]
         materials = list(tag.element.all("material"))
@@ -198,7 +213,7 @@ def tell_visual(visual: Element, tags: GazeboTags, reference: str, lumped: bool,
 
 
 def _reaches(shape: Element, reference: str, lumped: bool, kind: str) -> bool:
-    """Tell whether Gazebo applies the tags about a link to this shape of it, which it decides by the shape's name."""
+    """Return whether Gazebo applies the tags of a link to this shape, which depends on the name of the shape."""
     if lumped:
         return f"{LUMP}{reference}_{kind}" in shape.name
     return LUMP not in shape.name
@@ -213,22 +228,16 @@ def _warn_of_name(shape: Element, reference: str, word: Element, diagnostics: Di
 
 
 def tell_joint(joint: Element, tags: GazeboTags, reference: str) -> None:
-    """Put the tags about a joint into the SDF `<joint>`: springs, stops, sensors and all that is SDF already."""
+    """Add the tags of a joint to the SDF `<joint>`: springs, stops, sensors and everything that is SDF already."""
     for tag in tags.of(reference):
         for child in tag.element.children:
-            if child.tag in _DYNAMICS:
-                set_value(joint, f"axis/dynamics/{_DYNAMICS[child.tag]}", value_of(child), child)
-            elif child.tag in _STOP:
-                set_value(joint, f"physics/ode/limit/{_STOP[child.tag]}", value_of(child), child)
-            elif child.tag == "provideFeedback":
-                set_value(joint, "physics/ode/provide_feedback", "true" if _yes(child) else "false", child)
-            elif child.tag in ("implicitSpringDamper", "cfmDamping"):
-                set_value(joint, "physics/ode/implicit_spring_damper", "true" if _yes(child) else "false", child)
-            elif child.tag == "fudgeFactor":
-                set_value(joint, "physics/ode/fudge_factor", value_of(child), child)
+            if child.tag in _JOINT:
+                set_value(joint, _JOINT[child.tag], value_of(child), child)
+            elif child.tag in _JOINT_FLAGS:
+                set_value(joint, _JOINT_FLAGS[child.tag], "true" if _yes(child) else "false", child)
         joint.children.extend(tag.foreign)
 
 
 def _copy(element: Element) -> Element:
-    """Return an element whose children can be changed without touching what it was made from."""
+    """Return a deep copy of an element."""
     return make(element, element.tag, element.text, element.attributes, [_copy(child) for child in element.children])

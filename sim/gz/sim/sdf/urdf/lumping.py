@@ -1,7 +1,8 @@
-"""Which links of a URDF become one: a link on a fixed joint is lumped into the link that carries it.
+"""Lumping of fixed joints: a link of a URDF on a fixed joint becomes part of the link that carries it.
 
 Part of the conversion. As in Gazebo a fixed joint stays when a `<gazebo reference="JOINT">` says `preserveFixedJoint`
 or `disableFixedJointLumping`, or when the parent is the link `world`.
+Source: sdformat 14, `ReduceFixedJoints`, https://github.com/gazebosim/sdformat/blob/sdf14/src/parser_urdf.cc
 """
 
 from __future__ import annotations
@@ -11,12 +12,10 @@ from collections.abc import Collection
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gz_course.sim.gz.sim.pose import Pose, matrix
+from gz_course.sim.gz.sim.sdf.inertia import point_inertia, tensor
 from gz_course.sim.gz.sim.sdf.urdf.robot import WORLD, Robot, UrdfInertial, UrdfJoint, UrdfLink
-
-Matrix = NDArray[np.float64]
 
 
 @dataclass(eq=False)
@@ -28,21 +27,21 @@ class Body:
     head: UrdfLink
     members: list[tuple[UrdfLink, Pose]] = field(default_factory=list)
     joint: UrdfJoint | None = None
-    """The joint that carries the head; its origin counts from `parent`."""
+    """The joint that carries the head; `origin` is its pose in the frame of `parent`."""
     parent: str = ""
     origin: Pose = field(default_factory=Pose)
     inertial: UrdfInertial | None = None
 
     @property
     def name(self) -> str:
-        """The name of the link in the SDF model."""
+        """Return the name of the link in the SDF model."""
         return self.head.name
 
 
 def lump(robot: Robot, preserved: Collection[str]) -> list[Body]:
-    """Return the bodies of a robot, parents first; `preserved` names fixed joints that stay.
+    """Return the bodies of a robot, parents first; `preserved` names the fixed joints that stay.
 
-    A root called `world` is no body: it is the world.
+    A root called `world` stands for the world and is no body.
     """
     bodies: dict[str, Body] = {}
     placed: dict[str, tuple[Body, Pose]] = {}
@@ -68,9 +67,10 @@ def lump(robot: Robot, preserved: Collection[str]) -> list[Body]:
 
 
 def _lumped_inertial(body: Body) -> UrdfInertial | None:
-    """Return the inertia of all members together, about their centre of mass, along the axes of the head's own.
+    """Return the inertia of all members about their centre of mass, along the axes of the head's own inertia:
+    the sum of R_i I_i R_i' + m_i (|c_i|^2 1 - c_i c_i'), moved to the common centre of mass.
 
-    I = sum R_i I_i R_i' + m_i (|c_i|^2 1 - c_i c_i'), moved to the common centre by the parallel axis theorem.
+    Source: parallel axis theorem, https://en.wikipedia.org/wiki/Parallel_axis_theorem#Tensor_generalization
     """
     parts = [(link.inertial, pose) for link, pose in body.members if link.inertial is not None]
     if not parts:
@@ -84,21 +84,11 @@ def _lumped_inertial(body: Body) -> UrdfInertial | None:
         place = pose * inertial.pose
         turn = matrix(place.quaternion)
         moment += inertial.mass * place.position
-        inertia += turn @ _tensor(inertial) @ turn.T + inertial.mass * _point(place.position)
+        inertia += turn @ tensor(inertial.moments) @ turn.T + inertial.mass * point_inertia(place.position)
     centre = moment / mass if mass else np.zeros(3)
-    inertia -= mass * _point(centre)
+    inertia -= mass * point_inertia(centre)
     axes = own.pose.quaternion if own is not None else np.array((1.0, 0.0, 0.0, 0.0))
     turn = matrix(axes)
     (ixx, ixy, ixz), (_, iyy, iyz), (_, _, izz) = (turn.T @ inertia @ turn).tolist()
     element = own.element if own is not None else parts[0][0].element
     return UrdfInertial(mass, (ixx, iyy, izz, ixy, ixz, iyz), Pose(centre, axes), element)
-
-
-def _tensor(inertial: UrdfInertial) -> Matrix:
-    ixx, iyy, izz, ixy, ixz, iyz = inertial.moments
-    return np.array(((ixx, ixy, ixz), (ixy, iyy, iyz), (ixz, iyz, izz)))
-
-
-def _point(position: Matrix) -> Matrix:
-    """Return the inertia of a unit mass at `position` about the origin (m^2)."""
-    return float(position @ position) * np.eye(3) - np.outer(position, position)

@@ -1,4 +1,4 @@
-"""Makes SDF elements that stand where their URDF stands, so that every message about them names its file and line."""
+"""SDF elements with the file and line of their URDF, so that every message about them names the right place."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ def make(
 
 
 def write(values: Sequence[float]) -> str:
-    """Write floats so that reading gives the same floats."""
+    """Return the text of floats, which reads back as the same floats."""
     return " ".join(repr(float(value)) for value in values)
 
 
 def place(source: Element, pose: Pose, relative_to: str = "") -> Element:
-    """Make a `<pose>`; as a quaternion, which is exact where roll, pitch and yaw are not."""
+    """Make a `<pose>` with a quaternion, which is exact where roll, pitch and yaw are not."""
     w, x, y, z = pose.quaternion
     attributes = {"relative_to": relative_to} if relative_to else {}
     attributes["rotation_format"] = "quat_xyzw"
@@ -33,7 +33,7 @@ def place(source: Element, pose: Pose, relative_to: str = "") -> Element:
 
 
 def set_value(element: Element, path: str, text: str, source: Element) -> None:
-    """Give `element` the text at `path` (`surface/friction/ode/mu`), instead of what stood there."""
+    """Set the text at `path` below `element` (`surface/friction/ode/mu`), replacing what was there."""
     *above, last = path.split("/")
     for tag in above:
         below = element.find(tag)

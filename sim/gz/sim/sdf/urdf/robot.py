@@ -1,7 +1,8 @@
-"""A URDF `<robot>` in plain data: links and joints as a tree, every number read and checked.
+"""Plain data of a URDF `<robot>`: links and joints as a tree, every number read and checked.
 
-First stop of a URDF, called by `gz.sim.sdf.urdf.convert`. Rules are those of http://wiki.ros.org/urdf/XML; what ROS's
-own parser refuses (a joint without limits, two roots, a circle) is refused here, in a sentence with file and line.
+First step of a URDF, called by `gz.sim.sdf.urdf.convert`. What the parser of ROS refuses (a joint without limits, two
+roots, a circle) is refused here, in a sentence with file and line.
+Source: http://wiki.ros.org/urdf/XML
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ _WORDS: dict[str, frozenset[str]] = {
 
 @dataclass(eq=False)
 class UrdfInertial:
-    """Mass (kg), its place in the link's frame, and the inertia there (ixx iyy izz ixy ixz iyz, kg m^2)."""
+    """Mass [kg], pose in the frame of the link, and inertia [kg m^2] in that pose (ixx iyy izz ixy ixz iyz)."""
 
     mass: float
     moments: tuple[float, float, float, float, float, float]
@@ -45,9 +46,9 @@ class UrdfInertial:
 
 @dataclass(eq=False)
 class UrdfShape:
-    """A `<visual>` or `<collision>`: its own `name` (often empty), its pose in the link, the shape in its `<geometry>`.
+    """A `<visual>` or `<collision>`: its `name` (often empty), pose in the frame of the link, shape in `<geometry>`.
 
-    `colour` (r, g, b, a; each 0..1) is that of a visual's material, None when it has none.
+    `colour` (r, g, b, a; each 0..1) is that of the material of a visual, or None.
     """
 
     name: str
@@ -59,7 +60,7 @@ class UrdfShape:
 
 @dataclass(eq=False)
 class UrdfJoint:
-    """A joint: `origin` is the pose of joint and child link in the parent link's frame."""
+    """A joint; `origin` is the pose of joint and child link in the frame of the parent link."""
 
     name: str
     kind: str
@@ -84,7 +85,7 @@ class UrdfLink:
 
 @dataclass(eq=False)
 class Robot:
-    """A whole robot. `links` and `joints` by name in file order; `root` is the link nobody carries."""
+    """A robot: `links` and `joints` by name in file order; `root` is the link without a parent."""
 
     name: str
     element: Element
@@ -102,7 +103,7 @@ class Robot:
 
 
 def read_robot(element: Element, diagnostics: Diagnostics) -> Robot:
-    """Read `<robot>`; raises `SdfError` at the line of what is wrong."""
+    """Read `<robot>`. Raises `SdfError` with the line of the fault."""
     if not element.name:
         raise element.error("<robot> needs a name attribute")
     leftover = next((child for child in element.children if child.tag.startswith("xacro:")), None)
@@ -132,7 +133,7 @@ def read_robot(element: Element, diagnostics: Diagnostics) -> Robot:
 
 
 def numbers(element: Element, attribute: str, count: int, default: tuple[float, ...] | None = None) -> list[float]:
-    """Return an attribute as `count` finite floats; without `default` it has to be there."""
+    """Return an attribute as `count` finite floats. Raises `SdfError` if it is missing and has no `default`."""
     text = element.attributes.get(attribute)
     if text is None:
         if default is not None:
@@ -152,7 +153,7 @@ def numbers(element: Element, attribute: str, count: int, default: tuple[float, 
 
 
 def origin_of(element: Element) -> Pose:
-    """Return the `<origin xyz rpy>` of an element (m, rad about fixed axes), or the identity."""
+    """Return the `<origin xyz rpy>` of an element (xyz [m], rpy [rad] about fixed axes), or the identity."""
     origin = element.find("origin")
     if origin is None:
         return Pose()
@@ -237,7 +238,7 @@ def _shape(element: Element, diagnostics: Diagnostics) -> UrdfShape | None:
 
 
 def _visual_colour(visual: Element, colours: dict[str, Colour | None], diagnostics: Diagnostics) -> Colour | None:
-    """Return the colour of a visual. As in ROS the first definition of a name counts for all that use it."""
+    """Return the colour of a visual; as in ROS the first definition of a name is valid for all who use it."""
     material = visual.find("material")
     if material is None:
         return None
@@ -279,8 +280,8 @@ def _end(joint: Element, role: str, robot: Robot) -> str:
 
 
 def _make_tree(robot: Robot) -> None:
-    """Give every link its parent joint and its child joints; refuse what is no tree."""
-    # ROS's parser keeps joints by name; lumped parts are numbered in this order.
+    """Give every link its parent joint and its child joints. Raises `SdfError` when they form no tree."""
+    # The parser of ROS sorts joints by name; lumped parts are numbered in this order.
     for joint in sorted(robot.joints.values(), key=lambda each: each.name.encode()):
         child = robot.links[joint.child]
         if child.joint is not None:

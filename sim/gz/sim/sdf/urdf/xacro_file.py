@@ -1,8 +1,9 @@
-"""Runs xacro on a `.xacro` file and keeps the file and line that every element comes from.
+"""Expansion of a `.xacro` file, keeping the file and line of every element.
 
-Called by `gz.sim.sdf.resources.read_text`. xacro can loop and calculate without end, so it runs in a process of its
-own (`expand_xacro`) with limits of time and memory. The text that comes back is plain XML in which every element has an
-attribute `PLACE`; `restore_places` takes them off again after parsing.
+Called by `gz.sim.sdf.resources.read_text`. xacro can loop without end, so it runs in a process of its own
+(`expand_xacro`) with limits of time and memory. The result is plain XML in which every element has an attribute
+`PLACE`; `restore_places` removes them after parsing.
+Source: https://wiki.ros.org/xacro
 """
 
 from __future__ import annotations
@@ -21,9 +22,9 @@ if TYPE_CHECKING:  # the child process imports this module too, and needs no num
     from gz_course.sim.gz.sim.sdf.element import Element
 
 PLACE = "_place_"
-"""Attribute of every element of an expanded text: number of the file, colon, line."""
+"""Attribute of every element of an expanded text: `FILE:LINE`, with the index of the file in `FILES`."""
 FILES = "_files_"
-"""Attribute of its root: JSON list of the files."""
+"""Attribute of the root: JSON list of the files."""
 
 _SECONDS = 20.0
 _PLACE = re.compile("([0-9]{1,6}):([0-9]{1,9})")
@@ -31,7 +32,7 @@ _COLOURS = re.compile("\x1b\\[[0-9;]*m")
 
 
 def expand(path: Path, arguments: dict[str, str] | None = None) -> str:
-    """Return what xacro makes of a file, for `arguments` (xacro's `name:=value`); raise `SdfError` in one sentence."""
+    """Return the expanded text of a file for `arguments` (xacro's `name:=value`). Raises `SdfError` in one sentence."""
     pairs = [f"{name}:={value}" for name, value in (arguments or {}).items()]
     command = [sys.executable, "-m", "gz_course.sim.gz.sim.sdf.urdf.expand_xacro", str(path), *pairs]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path)), "PYTHONIOENCODING": "utf-8"}
@@ -62,12 +63,12 @@ def expand(path: Path, arguments: dict[str, str] | None = None) -> str:
 
 
 def restore_places(root: Element) -> None:
-    """Give every element of an expanded text the file and line it was written at."""
+    """Give every element of an expanded text its original file and line."""
     if FILES not in root.attributes:
         return
     try:
         files = [str(file) for file in json.loads(root.attributes.pop(FILES))]
-    except (ValueError, TypeError, RecursionError):  # written by hand, it means nothing
+    except (ValueError, TypeError, RecursionError):  # written by hand and not ours
         files = []
     waiting = [(root, root.file, root.line)]
     while waiting:

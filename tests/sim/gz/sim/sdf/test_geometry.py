@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import random
 from pathlib import Path
 
 import numpy as np
@@ -161,6 +162,20 @@ def test_outlines_inside_outlines_are_holes_and_islands() -> None:
     made = polyline(square(10, 0), square(8, 1), square(6, 2), square(2, 3))
     assert made is not None and footprint(made) == pytest.approx(100 - 64 + 36 - 4)
     assert solid(made)[0] == pytest.approx(2 * 68, rel=1e-5)  # type: ignore[index]
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_holes_that_are_apart_are_cut_out(seed: int) -> None:
+    chance = random.Random(seed)
+    holes = [[chance.uniform(0.3, 1.5) for _ in range(chance.randint(3, 8))] for _ in range(9)]
+
+    def star(radii: list[float], x: float, y: float) -> list[tuple[float, float]]:
+        angles = [2 * math.pi * k / len(radii) for k in range(len(radii))]
+        return [(x + r * math.cos(a), y + r * math.sin(a)) for r, a in zip(radii, angles, strict=True)]
+
+    rings = [star(radii, 4.0 * (k % 3), 4.0 * (k // 3)) for k, radii in enumerate(holes)]
+    made = polyline([(-3, -3), (11, -3), (11, 11), (-3, 11)], *rings)
+    assert made is not None and footprint(made) == pytest.approx(14**2 - sum(map(area, rings)), rel=1e-9)
 
 
 def test_convex_parts_of_a_mesh_touch_one_by_one() -> None:

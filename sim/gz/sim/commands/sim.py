@@ -1,23 +1,23 @@
 """Run a simulation: `gz sim FILE -r -s`.
 
-Reads the arguments, loads the world, puts it on the wire (`gz.sim.server`) and runs it until SIGINT,
-SIGTERM or the last iteration. Exit codes: 0 ended well, 1 the world cannot be run, 2 the arguments make
-no sense, 3 the simulator itself failed.
+Called by `gz.command`. Loads the world, puts it on the wire (`gz.sim.server`) and runs it until SIGINT, SIGTERM or the
+last iteration. Exit codes: 0 ended well, 1 the world cannot be run, 2 nothing that can be run was named, 3 the
+simulator itself failed; wrong options have the codes of `gz.command_line`.
+Source: gz-sim 8, https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/cmd/cmdsim.rb.in
 """
 
 from __future__ import annotations
 
 import argparse
-import difflib
 import logging
-import math
 import signal
 import sys
 import threading
 import traceback
-from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING
+
+from gz_course.sim.gz.command_line import Parser, Version, integer, positive_number, whole_number
 
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.sdf.description import Plugin
@@ -25,8 +25,6 @@ if TYPE_CHECKING:
 
 _LEVELS = {0: logging.CRITICAL + 1, 1: logging.WARNING, 2: logging.WARNING, 3: logging.INFO, 4: logging.DEBUG}
 _PREFIXES = {logging.WARNING: "[Wrn]", logging.INFO: "[Msg]", logging.DEBUG: "[Dbg]"}
-
-
 _ACCEPTED = {
     "--force-version": "N",
     "--physics-engine": "NAME",
@@ -37,66 +35,21 @@ _ACCEPTED = {
 _ACCEPTED_FLAGS = ("--levels", "--log-compress", "--record-resources")
 
 
-class _Parser(argparse.ArgumentParser):
-    """Says what is wrong in one sentence, with the nearest option, and exits with 2."""
-
-    def error(self, message: str) -> NoReturn:
-        if message.startswith("unrecognized arguments: "):
-            unknown = message.removeprefix("unrecognized arguments: ").split()[0]
-            options = [option for action in self._actions for option in action.option_strings]
-            close = difflib.get_close_matches(unknown, options, n=1, cutoff=0.5)
-            hint = f"did you mean '{close[0]}'?" if close else "see gz sim --help"
-            message = f"there is no option or second file '{unknown}'; {hint}"
-        sys.stderr.write(f"gz sim: {message}\n")
-        raise SystemExit(2)
-
-
-def _number(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value) or value < 0.0:
-        raise argparse.ArgumentTypeError(f"must be a number, zero or more, got {text}")
-    return value
-
-
-def _whole(text: str) -> int:
-    try:
-        return int(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"must be a whole number, got {text}") from None
-
-
-def _count(text: str) -> int:
-    value = _whole(text)
-    if value < 0:
-        raise argparse.ArgumentTypeError(f"must be zero or more, got {text}")
-    return value
-
-
-def _seconds(text: str) -> float:
-    value = _number(text)
-    if value > 1e9:
-        raise argparse.ArgumentTypeError(f"must be at most 1e9 seconds, got {text}")
-    return value
-
-
-def _parser() -> _Parser:
-    parser = _Parser(prog="gz sim", description="Run a simulation.", allow_abbrev=False)
+def add_arguments(parser: Parser) -> None:
+    """Add the options of `gz sim`."""
     parser.add_argument("file", nargs="?", help="world: a path, a name in GZ_SIM_RESOURCE_PATH, or a built-in world")
     parser.add_argument("-r", dest="run", action="store_true", help="run at once (without it the world starts paused)")
     parser.add_argument("-s", dest="server", action="store_true", help="server only; there is no other way here")
     parser.add_argument("-g", dest="gui", action="store_true", help="the window of a full Gazebo; refused here")
     parser.add_argument(
-        "-v", "--verbose", dest="verbose", nargs="?", type=_count, const=3, default=1, metavar="LEVEL",
+        "-v", "--verbose", nargs="?", type=whole_number, const=3, default=1, metavar="LEVEL",
         help="0 silent, 1 and 2 errors and warnings, 3 messages (plain -v), 4 everything",
     )  # fmt: skip
-    parser.add_argument("--iterations", type=_count, default=0, metavar="N", help="end after N steps (0: never)")
-    parser.add_argument("-z", dest="rate", type=_number, metavar="HZ", help="steps per second of wall time")
-    parser.add_argument("--seed", type=_whole, default=0, metavar="N", help="seed of all sensor noise")
+    parser.add_argument("--iterations", type=whole_number, default=0, metavar="N", help="end after N steps (0: never)")
+    parser.add_argument("-z", dest="rate", type=positive_number, metavar="HZ", help="steps per second of wall time")
+    parser.add_argument("--seed", type=integer, default=0, metavar="N", help="seed of all sensor noise")
     parser.add_argument(
-        "--initial-sim-time", type=_seconds, default=0.0, metavar="S", help="simulated time to start at, in seconds"
+        "--initial-sim-time", type=positive_number, default=0.0, metavar="S", help="simulated time to start at [s]"
     )
     parser.add_argument("--strict", action="store_true", help="refuse a world that would be warned about")
     recording = parser.add_argument_group("recording (read it with gz log)")
@@ -105,7 +58,9 @@ def _parser() -> _Parser:
     recording.add_argument(
         "--record-topic", action="append", default=[], metavar="REGEX", help="record these topics too; may be repeated"
     )
-    recording.add_argument("--record-period", type=_seconds, metavar="S", help="shortest time between recorded poses")
+    recording.add_argument(
+        "--record-period", type=positive_number, metavar="S", help="shortest time between recorded poses [s]"
+    )
     recording.add_argument("--log-overwrite", action="store_true", help="use the folder even if it holds a recording")
     engine = "'raycast' (default), or 'mujoco' for its renderer on a machine with OpenGL"
     for option in ("--render-engine", "--render-engine-server"):
@@ -117,8 +72,7 @@ def _parser() -> _Parser:
     for option in _ACCEPTED_FLAGS:
         parser.add_argument(option, action="store_true", help="accepted, changes nothing here")
     parser.add_argument("--playback", metavar="FOLDER", help="refused: recordings are read with gz log")
-    parser.add_argument("--version", "--versions", dest="version", action="store_true", help="the version")
-    return parser
+    parser.add_argument("--versions", action=Version, help="the same as --version")
 
 
 def _set_up_logging(verbose: int) -> None:
@@ -134,54 +88,46 @@ def _set_up_logging(verbose: int) -> None:
     logger.setLevel(_LEVELS.get(verbose, logging.DEBUG))
 
 
-def main(argv: Sequence[str] | None = None) -> int:
-    """Run `gz sim` with these arguments (default: those of the process after `gz sim`); return the exit
-    code.
-    """
+def run(values: argparse.Namespace) -> int:
+    """Run `gz sim`; return the exit code."""
     stop = threading.Event()
     for number in (signal.SIGINT, signal.SIGTERM):
         # Set from a thread of its own: the handler may have interrupted a wait that holds the event's lock.
         signal.signal(number, lambda _number, _frame: threading.Thread(target=stop.set, daemon=True).start())
-    arguments = _parser().parse_args(sys.argv[2:] if argv is None else list(argv))
-    _set_up_logging(arguments.verbose)
-    if arguments.version:
-        from importlib import metadata
-
-        print(metadata.version("gz-ros2-course"))
-        return 0
+    _set_up_logging(values.verbose)
     refused = ""
-    if arguments.gui:
+    if values.gui:
         refused = "-g asks for Gazebo's window, which is not part of this simulator; use -s"
-    elif arguments.playback is not None:
+    elif values.playback is not None:
         refused = "--playback is not done here; look into a recording with gz log -i, or run the world again"
-    elif arguments.file is None:
+    elif values.file is None:
         refused = "which world? Name a file or a built-in world, for example: gz sim -r lidar_room.sdf"
     if refused:
         sys.stderr.write(f"gz sim: {refused}\n")
         return 2
     try:
-        return _simulate(arguments, stop)
+        return _simulate(values, stop)
     except Exception as error:  # a fault of ours, not of the world
         logging.getLogger("gz.sim").debug("%s", traceback.format_exc())
         sys.stderr.write(f"gz sim: the simulator itself failed ({type(error).__name__}: {error}); -v 4 tells where\n")
         return 3
 
 
-def _recorder(arguments: argparse.Namespace) -> list[Plugin]:
-    """Return the LogRecord plugin that the options ask for, if they ask for one."""
+def _recorder(values: argparse.Namespace) -> list[Plugin]:
+    """Return the LogRecord plugin that the options ask for, in a list, or an empty list."""
     from gz_course.sim.gz.sim.sdf.description import Plugin
     from gz_course.sim.gz.sim.sdf.element import Element
 
-    if not (arguments.record or arguments.record_path or arguments.record_topic):
+    if not (values.record or values.record_path or values.record_topic):
         return []
     where = "command line"
     element = Element("plugin", {"name": "gz::sim::systems::LogRecord", "filename": "gz-sim-log-record-system"})
-    texts = [("record_topic", topic) for topic in arguments.record_topic]
-    if arguments.record_path:
-        texts.append(("record_path", arguments.record_path))
-    if arguments.record_period is not None:
-        texts.append(("record_period", repr(arguments.record_period)))
-    if arguments.log_overwrite:
+    texts = [("record_topic", topic) for topic in values.record_topic]
+    if values.record_path:
+        texts.append(("record_path", values.record_path))
+    if values.record_period is not None:
+        texts.append(("record_period", repr(values.record_period)))
+    if values.log_overwrite:
         texts.append(("overwrite", "true"))
     element.file = where
     element.children = [Element(tag, {}, text, file=where) for tag, text in texts]
@@ -189,7 +135,7 @@ def _recorder(arguments: argparse.Namespace) -> list[Plugin]:
 
 
 def _look_for_others(node: Node) -> None:
-    """Say so when another simulator tells another time to the same listeners; takes a second, in its own thread."""
+    """Warn when another simulator publishes `/clock` in the same partition; waits for discovery, about 1 [s]."""
     from gz_course.sim.gz.sim.errors import LOG
 
     try:
@@ -204,7 +150,7 @@ def _look_for_others(node: Node) -> None:
         )
 
 
-def _simulate(arguments: argparse.Namespace, stop: threading.Event) -> int:
+def _simulate(values: argparse.Namespace, stop: threading.Event) -> int:
     # These load MuJoCo and the transport; help and usage errors do not wait for them.
     from gz_course.sim.gz.sim.errors import LOG, SimError
     from gz_course.sim.gz.sim.server import Server
@@ -213,12 +159,12 @@ def _simulate(arguments: argparse.Namespace, stop: threading.Event) -> int:
 
     try:
         world = World.load(
-            Path(arguments.file),
-            seed=arguments.seed,
-            render_engine=arguments.render_engine,
-            initial_sim_time=arguments.initial_sim_time,
-            strict=arguments.strict,
-            server_plugins=_recorder(arguments),
+            Path(values.file),
+            seed=values.seed,
+            render_engine=values.render_engine,
+            initial_sim_time=values.initial_sim_time,
+            strict=values.strict,
+            server_plugins=_recorder(values),
         )
     except SimError as error:
         sys.stderr.write(f"gz sim: {error}\n")
@@ -231,19 +177,15 @@ def _simulate(arguments: argparse.Namespace, stop: threading.Event) -> int:
     with node:
         try:
             server = Server(world, node)
-            server.paused = not arguments.run
+            server.paused = not values.run
             threading.Thread(target=_look_for_others, args=(node,), daemon=True).start()
             LOG.info("world '%s' is loaded with models %s", world.name, world.model_names(static=True))
             if server.paused:
                 LOG.warning("world '%s' is paused; start it with -r to let time run", world.name)
-            server.run(update_rate=arguments.rate, iterations=arguments.iterations, stop=stop)
+            server.run(update_rate=values.rate, iterations=values.iterations, stop=stop)
         except SimError as error:
             sys.stderr.write(f"gz sim: {error}\n")
             return 1
         finally:
             world.close()
     return 0
-
-
-if __name__ == "__main__":
-    raise SystemExit(main(sys.argv[1:]))

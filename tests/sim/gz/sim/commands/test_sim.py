@@ -135,33 +135,47 @@ def test_errors_are_one_sentence(start: Callable[..., subprocess.Popen[str]], tm
 
 
 @pytest.mark.parametrize(
-    ("arguments", "sentence"),
+    ("arguments", "code", "sentence"),
     [
-        (["--iteratons", "5", "empty.sdf"], "did you mean '--iterations'"),
-        (["--iterations", "-5", "empty.sdf"], "zero or more"),
-        (["--iterations", "some", "empty.sdf"], "must be a whole number, got some"),
-        (["--seed", "1.5", "empty.sdf"], "must be a whole number, got 1.5"),
-        (["-z", "fast", "empty.sdf"], "must be a number, zero or more, got fast"),
-        (["empty.sdf", "other.sdf"], "second file 'other.sdf'"),
-        (["-g"], "use -s"),
-        (["--playback", "log"], "gz log -i"),
-        (["--initial-sim-time", "-3", "empty.sdf"], "zero or more"),
-        (["--record-pth", "x", "empty.sdf"], "did you mean '--record-path'"),
-        ([], "which world"),
+        (["--iteratons", "5", "empty.sdf"], 109, "did you mean --iterations?"),
+        (["--iterations", "-5", "empty.sdf"], 104, "zero or more"),
+        (
+            ["--iterations", "some", "empty.sdf"],
+            104,
+            "expected a whole number, zero or more, at most 1e9, but found 'some'",
+        ),
+        (["--seed", "1.5", "empty.sdf"], 104, "expected a whole number, but found '1.5'"),
+        (["-z", "fast", "empty.sdf"], 104, "expected a number, zero or more, at most 1e9, but found 'fast'"),
+        (["empty.sdf", "other.sdf"], 109, "'other.sdf' belongs to no option"),
+        (["-g"], 2, "use -s"),
+        (["--playback", "log"], 2, "gz log -i"),
+        (["--initial-sim-time", "-3", "empty.sdf"], 104, "zero or more"),
+        (["--initial-sim-time"], 114, "--initial-sim-time"),
+        (["--record-pth", "x", "empty.sdf"], 109, "did you mean --record-path?"),
+        ([], 2, "which world"),
     ],
 )
-def test_arguments_that_make_no_sense_exit_with_two(
-    arguments: list[str], sentence: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+def test_wrong_usage_is_one_line_and_a_code(
+    arguments: list[str], code: int, sentence: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    from gz_course.sim.gz.sim import command
+    from gz_course.sim.gz.command import main
 
-    monkeypatch.setattr(command.signal, "signal", lambda *_: None)
     try:
-        code = command.main(arguments)
+        result = main(["sim", *arguments])
     except SystemExit as stopped:
-        code = stopped.code
-    assert code == 2
-    assert sentence in capsys.readouterr().err
+        result = stopped.code
+    out, error = capsys.readouterr()
+    assert (result, out, error.count("\n")) == (code, "", 1)
+    assert error.startswith("gz sim: ") and sentence in error
+
+
+@pytest.mark.parametrize("option", ["--version", "--versions"])
+def test_the_version_is_one_line(option: str, capsys: pytest.CaptureFixture[str]) -> None:
+    from gz_course.sim.gz.command import main
+
+    with pytest.raises(SystemExit) as stopped:
+        main(["sim", option])
+    assert not stopped.value.code and capsys.readouterr().out.count(".") == 2
 
 
 def test_warnings_have_a_place_and_verbosity_hides_them(
@@ -241,11 +255,10 @@ def test_a_second_simulator_that_tells_another_time_says_so(start: Callable[...,
 def test_a_fault_of_ours_is_one_sentence_and_code_three(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from gz_course.sim.gz.sim import command
+    from gz_course.sim.gz.command import main
     from gz_course.sim.gz.sim.world import World
 
-    monkeypatch.setattr(command.signal, "signal", lambda *_: None)
     monkeypatch.setattr(World, "step", lambda *_: [][1])
-    assert command.main(["-r", "empty.sdf"]) == 3
+    assert main(["sim", "-r", "empty.sdf"]) == 3
     err = capsys.readouterr().err
     assert err.startswith("gz sim: the simulator itself failed (IndexError") and err.count("\n") == 1
