@@ -18,21 +18,9 @@ _ENGINES = ("mujoco", "pyzmq", "protobuf")
 
 
 def find_commands(folders: Iterable[str | Path] | None = None) -> dict[str, Path]:
-<<<<<<< HEAD
-    """Sub-command name -> its file, sorted by name; by default from the folders of the package `gz`."""
+    """Return the file of each sub-command, sorted by name; by default from all folders of the `gz` package."""
     found: dict[str, Path] = {}
     for folder in folders or gz.__path__:
-        for path in Path(folder).glob("*/command.py"):
-            found.setdefault(path.parent.name, path)
-=======
-    """Return the file of each sub-command, sorted by name; by default from all folders of the `gz` package."""
-    if folders is None:
-        from gz_course.sim import gz
-
-        folders = list(gz.__path__)
-    found: dict[str, Path] = {}
-    for folder in folders:
->>>>>>> r_h_one
         for path in Path(folder).glob("*/commands/*.py"):
             if not path.stem.startswith("_"):
                 found.setdefault(path.stem, path)

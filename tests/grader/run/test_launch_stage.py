@@ -123,11 +123,7 @@ def test_programs_complain_as_they_always_do(launch):
     assert "there is no option '--nonsense'" in run.log
     assert "gz.msgs.Clok" in run.log and "gz.msgs.Clock" in run.log
     codes = sorted((each["program"], each["code"]) for each in run.facts["ended_early"])
-<<<<<<< HEAD
-    assert codes == [("gz", 1), ("gz", 2), *[("ros_gz_bridge.parameter_bridge", 2)] * 2]
-=======
-    assert codes == [("gz", 1), ("gz", 109), *[("gz_course.sim.ros_gz_bridge.parameter_bridge", 2)] * 2]
->>>>>>> r_h_one
+    assert codes == [("gz", 1), ("gz", 109), *[("ros_gz_bridge.parameter_bridge", 2)] * 2]
     assert run.facts["simulators"] == [] and run.facts["simulator_at_end"] == ""
     assert not run.facts["running"], "a launch with nothing left to do ends"
 
