@@ -1,9 +1,11 @@
-"""Does for every Python of this environment what `source setup.bash` does on a full install.
+"""The environment that `source setup.bash` sets up on a full install, for every Python of this environment.
 
 This folder is an ament prefix: `share/ament_index` names the packages, `share/<package>` holds their files,
-`lib/<package>` their executables. `gz_ros2_course_prefix.pth` calls `main` whenever Python starts, so that
-`ros2 run`, `get_package_share_directory` and launch files find them in scripts, kernels and tests alike. What
-the user has set comes first: a sourced workspace wins. Only `os` and `sys` are imported: every start pays for it.
+`lib/<package>` their executables. `gz_ros2_course_prefix.pth` calls `main` whenever Python starts, so that `ros2 run`,
+`get_package_share_directory` and launch files find them. A workspace that the user has sourced comes first. Only `os`
+and `sys` are imported, because this runs at every start of Python.
+
+Source: https://docs.ros.org/en/jazzy/p/ament_index_python/ and REP-122, https://www.ros.org/reps/rep-0122.html
 """
 
 from __future__ import annotations
@@ -18,18 +20,18 @@ LIBRARY_PATH = "LD_LIBRARY_PATH"
 
 
 def main() -> None:
-    """Set up this process and its children, and leave no trace among the imported modules."""
+    """Set up the environment of this process and its children."""
     source(os.environ)
-    # A student's own module of these names must be found, not this one.
+    # A student may have modules of these names.
     for name in (__name__, __name__.rpartition(".")[0]):
         sys.modules.pop(name, None)
 
 
 def source(environment: MutableMapping[str, str]) -> None:
-    """Add the course's prefix, that of the ROS wheels and the commands behind what is there; repeatable.
+    """Append the course's prefix, that of the ROS wheels and the folder of the commands; may be repeated.
 
-    AMENT_PREFIX_PATH and PATH only grow at their end. COURSE_PYTHON is the Python that runs this: the
-    executables in `lib` start with it.
+    AMENT_PREFIX_PATH and PATH grow at their end. COURSE_PYTHON becomes the Python that runs this, with which the
+    executables in `lib` start.
     """
     _append(environment, "AMENT_PREFIX_PATH", PREFIX)
     _append(environment, "AMENT_PREFIX_PATH", sys.prefix)
@@ -40,11 +42,11 @@ def source(environment: MutableMapping[str, str]) -> None:
 
 
 def drop_stale_guard(environment: MutableMapping[str, str]) -> None:
-    """Forget that the ROS wheels have set LD_LIBRARY_PATH when it does not hold their libraries any more.
+    """Delete the guard variable of the ROS wheels if LD_LIBRARY_PATH does not hold their libraries.
 
-    The wheels restart Python once to set it and leave a guard variable behind. Where only the guard survives (a
-    cleaned environment, another environment's Python), `import rclpy` fails; without the guard the wheels,
-    whose `.pth` file comes after this one, set it again.
+    The wheels restart Python once to set LD_LIBRARY_PATH, and set the guard. If only the guard is left (a cleaned
+    environment, another environment's Python), `import rclpy` fails. Without the guard the wheels, whose `.pth` file
+    comes after this one, set LD_LIBRARY_PATH again.
     """
     libraries = environment.get(LIBRARY_PATH, "").split(os.pathsep)
     if WHEELS_GUARD in environment and os.path.join(sys.prefix, "lib") not in libraries:  # noqa: PTH118

@@ -1,5 +1,7 @@
-"""Publishes a robot's description and where its links are, in place of the ``robot_state_publisher`` package.
+"""A publisher of a robot's description and transforms, in place of the `robot_state_publisher` package.
 
-Contents: ``kinematics`` (a URDF and joint positions become transforms), ``publisher`` (topics and parameters) and the
-executable ``robot_state_publisher``.
+Contents: `kinematics` (transforms from a URDF and joint positions), `publisher` (topics and parameters) and the program
+`robot_state_publisher`.
+
+Source: README.md of https://github.com/ros/robot_state_publisher
 """

@@ -1,7 +1,9 @@
-"""Forward kinematics of a URDF: positions of joints become transforms from parent link to child link.
+"""Forward kinematics of a URDF: transforms from parent link to child link by joint positions.
 
-`publisher.StatePublisher` reads the description with `Kinematics.from_urdf` and asks it for each joint state. Poses are
-those of http://wiki.ros.org/urdf/XML/joint: the joint's `<origin>`, then its motion along or about `<axis>`.
+`publisher.StatePublisher` reads the description with `Kinematics.from_urdf` and calls `transforms` for joint states. A
+transform is the joint's `<origin>`, then its motion along or about `<axis>`.
+
+Source: http://wiki.ros.org/urdf/XML/joint
 """
 
 from __future__ import annotations
@@ -10,7 +12,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from gz_course.sim.gz.sim.errors import Diagnostics
+from gz_course.sim.gz.sim.errors import Diagnostics, nearest
 from gz_course.sim.gz.sim.pose import Pose
 from gz_course.sim.gz.sim.sdf.element import Element, parse
 from gz_course.sim.gz.sim.sdf.urdf.robot import UrdfJoint, numbers, read_robot
@@ -22,7 +24,7 @@ _MOVING = (*_TURNING, "prismatic")
 
 @dataclass(frozen=True)
 class Transform:
-    """Where a link is: `pose` of frame `child` in frame `parent` (m, quaternion wxyz)."""
+    """The pose of frame `child` in frame `parent`: position [m] and quaternion (w, x, y, z)."""
 
     parent: str
     child: str
@@ -31,7 +33,7 @@ class Transform:
 
 @dataclass(frozen=True)
 class Mimic:
-    """A joint whose position is `multiplier * position of joint + offset`."""
+    """The rule of a joint whose position is `multiplier * position of joint + offset` [rad] or [m]."""
 
     joint: str
     multiplier: float
@@ -51,7 +53,7 @@ class MovingJoint:
     mimic: Mimic | None = None
 
     def transform(self, position: float) -> Transform:
-        """Return where the child link is when the joint stands at `position` (rad or m)."""
+        """Return the transform of the child link at a joint position [rad] or [m]."""
         x, y, z = self.axis
         if self.turns:
             sine = math.sin(position / 2.0)
@@ -63,7 +65,7 @@ class MovingJoint:
 
 @dataclass
 class Kinematics:
-    """The joints of a robot called `name` by name; `warnings` are sentences about what will not be published."""
+    """The joints of a robot; `moving` has them by name, `warnings` says what is not published."""
 
     name: str
     root: str
@@ -73,12 +75,12 @@ class Kinematics:
 
     @classmethod
     def from_urdf(cls, text: str, file: str = "<robot_description>") -> Kinematics:
-        """Read a URDF text; `file` stands in messages. Raises `SdfError` with file and line."""
+        """Read a URDF text; `file` is for error sentences. Raises SdfError with file and line."""
         element = parse(text, file)
         restore_places(element)
         if element.tag != "robot":
             raise element.error(f"the outermost element of a URDF must be <robot>, got <{element.tag}>")
-        diagnostics = Diagnostics(strict=True)  # collects, and logs nothing
+        diagnostics = Diagnostics(strict=True)  # strict: collect warnings without logging them
         robot = read_robot(element, diagnostics)
         made = cls(robot.name, robot.root, warnings=diagnostics.warnings)
         for joint in robot.joints.values():
@@ -93,16 +95,14 @@ class Kinematics:
             )
         elif joint.kind == "floating":
             self.warnings.append(
-                f"{joint.element.where}: joint '{joint.name}' floats, so its transform is for others to publish"
+                f"{joint.element.where}: joint '{joint.name}' is floating; its transform is not published here"
             )
         else:
             if joint.kind != "fixed":
-                self.warnings.append(f"{joint.element.where}: {joint.kind} joint '{joint.name}' is taken as fixed")
+                self.warnings.append(f"{joint.element.where}: {joint.kind} joint '{joint.name}' is treated as fixed")
             self.fixed.append(Transform(joint.parent, joint.child, joint.origin))
 
     def _check_mimics(self, joints: Mapping[str, UrdfJoint]) -> None:
-        from gz_course.sim.gz.sim.errors import nearest
-
         for name, joint in self.moving.items():
             if joint.mimic is None:
                 continue
@@ -115,9 +115,9 @@ class Kinematics:
                 raise place.error(f"joint '{name}' mimics '{leader.name}', which mimics another; name that one")
 
     def transforms(self, positions: Mapping[str, float]) -> list[Transform]:
-        """Return where the child links of these joints, and of those that mimic them, are (rad or m).
+        """Return the transforms of the joints at these positions [rad] or [m], and of joints that mimic them.
 
-        Names the robot does not have are passed over.
+        Names that the robot does not have are ignored.
         """
         return [
             joint.transform(position)

@@ -1,7 +1,9 @@
-"""What robot_state_publisher does with its node: `/robot_description`, `/tf_static`, and `/tf` from `/joint_states`.
+"""The topics of robot_state_publisher: `/robot_description`, `/tf_static`, and `/tf` from `/joint_states`.
 
-`robot_state_publisher.main` makes one `StatePublisher`. Where tf2_msgs is not installed, transforms are worked out
-but cannot be sent, which is said once.
+`robot_state_publisher.main` creates one `StatePublisher`. If tf2_msgs is not installed, only the description is
+published, with one warning.
+
+Source: README.md of https://github.com/ros/robot_state_publisher
 """
 
 from __future__ import annotations
@@ -18,7 +20,7 @@ from std_msgs.msg import String
 
 from gz_course.sim.gz.sim.errors import SimError
 from gz_course.sim.robot_state_publisher.kinematics import Kinematics, Transform
-from gz_course.sim.ros_gz_bridge.ros_program import UsageError, first_line
+from gz_course.sim.ros_program.errors import UsageError, first_line
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -40,11 +42,11 @@ _FASTEST_HZ = 1000.0
 
 
 class StatePublisher:
-    """Publishes for one node until the node ends.
+    """The publishers and subscriptions of one node, which last as long as the node.
 
-    `values` are those of the parameters, all of them; the parameter robot_description may change later. `send` and
-    `send_static` take the transforms for `/tf` and `/tf_static`; by default topics of these names. Raises
-    `UsageError` for parameters and a description that make no sense.
+    `values` holds all parameters; only robot_description may change later. `send` and `send_static` get the transforms
+    for `/tf` and `/tf_static`; by default they are published there. Raises UsageError for a wrong parameter or
+    description.
     """
 
     def __init__(
@@ -73,16 +75,14 @@ class StatePublisher:
         node.add_post_set_parameters_callback(self._change)
 
     def take(self, state: JointState) -> None:
-        """Send the transforms of a joint state, each joint at most publish_frequency times a second of its stamps."""
+        """Send the transforms of a joint state, of each joint at most `publish_frequency` [Hz] by its stamps."""
         if len(state.name) != len(state.position):
-            self._complain(
-                f"a joint state with {len(state.name)} names and {len(state.position)} positions is passed over"
-            )
+            self._complain(f"a joint state with {len(state.name)} names and {len(state.position)} positions is ignored")
             return
         positions = dict(zip(state.name, state.position, strict=True))
         unreal = next((name for name, position in positions.items() if not math.isfinite(position)), None)
         if unreal is not None:
-            self._complain(f"a joint state in which '{unreal}' is {positions[unreal]} is passed over")
+            self._complain(f"a joint state in which '{unreal}' is {positions[unreal]} is ignored")
             return
         if state.name and not any(name in self._kinematics.moving for name in state.name):
             self._complain(f"no joint of the joint state is one of robot '{self._kinematics.name}': {state.name[0]}")
@@ -108,19 +108,19 @@ class StatePublisher:
         last = self._published_ns.get(name)
         if last is None:
             return True
-        # A source that started anew begins with small stamps again; it is not waited for.
+        # Stamps more than a second older come from a publisher that was restarted.
         return stamp_ns >= last + self._period_ns or stamp_ns < last - 10**9
 
     def _complain(self, sentence: str) -> None:
         if not self._complained:
             self._complained = True
-            self._logger.warning(f"{sentence} (said once)")
+            self._logger.warning(f"{sentence} (reported once)")
 
     def _stamped(self, transforms: Iterable[Transform], stamp: Any) -> list[TransformStamped]:
         return [_message(each, self._prefix, stamp) for each in transforms]
 
     def _tell(self, text: str) -> None:
-        """Publish a description that was read, and the transforms that never change."""
+        """Publish the description and the transforms of fixed joints."""
         for warning in self._kinematics.warnings:
             self._logger.warning(warning)
         self._description.publish(String(data=text))
@@ -164,19 +164,15 @@ def _message(transform: Transform, prefix: str, stamp: Any) -> TransformStamped:
 
 
 def _tf_topics(node: Node) -> tuple[Send, Send]:
-    """Return what publishes on `/tf` and `/tf_static`."""
+    """Return the functions that publish on `/tf` and `/tf_static`; without tf2_msgs they do nothing."""
     try:
         message_type = importlib.import_module("tf2_msgs.msg").TFMessage
     except ImportError:
         node.get_logger().warning(NO_TF)
-        return _nowhere, _nowhere
+        return (lambda _: None), (lambda _: None)
     moving = node.create_publisher(message_type, "/tf", QoSProfile(depth=100))
     static = node.create_publisher(message_type, "/tf_static", _LATCHED)
     return (
         lambda transforms: moving.publish(message_type(transforms=transforms)),
         lambda transforms: static.publish(message_type(transforms=transforms)),
     )
-
-
-def _nowhere(_: list[TransformStamped]) -> None:
-    """There is no type to send it with."""

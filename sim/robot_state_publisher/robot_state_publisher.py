@@ -1,8 +1,7 @@
-"""The executable `robot_state_publisher`: a robot's description and transforms on ROS topics.
+"""The program `ros2 run robot_state_publisher robot_state_publisher robot.urdf`.
 
-`ros2 run robot_state_publisher robot_state_publisher robot.urdf`, or with the text in the parameter robot_description.
-A robot_state_publisher that is really installed is started instead. Exit codes: 0 after SIGINT or SIGTERM, 2 for
-arguments that make no sense, 1 if it broke.
+The text may also be in the parameter robot_description. A robot_state_publisher of a ROS installation is started
+instead. Exit codes: 0 after SIGINT or SIGTERM, 2 for unusable arguments, 1 if a callback failed.
 """
 
 from __future__ import annotations
@@ -10,9 +9,12 @@ from __future__ import annotations
 import os
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from gz_course.sim.ros_gz_bridge.ros_program import UsageError, first_line, run, wait_for_signal
+from gz_course.sim.ros_program.errors import UsageError, first_line
+from gz_course.sim.ros_program.parameters import read_parameters
+from gz_course.sim.ros_program.program import run
+from gz_course.sim.ros_program.spinner import wait_for_signal
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -32,7 +34,7 @@ ROS parameters (after --ros-args, each as -p name:=value):
 
 
 def main(argv: list[str] | None = None) -> int:
-    """Publish until SIGINT or SIGTERM; return the exit code."""
+    """Publish until SIGINT or SIGTERM and return the exit code."""
     arguments = sys.argv[1:] if argv is None else argv
     program = installed(os.environ.get("AMENT_PREFIX_PATH", ""))
     if program is not None:
@@ -42,7 +44,6 @@ def main(argv: list[str] | None = None) -> int:
 
 def installed(prefixes: str) -> Path | None:
     """Return the program of this name in one of the ament prefixes (separated by `:`) other than the course's."""
-    # The course's own prefix is where this program was started from.
     for prefix in filter(None, prefixes.split(os.pathsep)):
         program = Path(prefix, "lib", NAME, NAME)
         if os.access(program, os.X_OK) and program.is_file() and not _is_ours(program):
@@ -58,7 +59,7 @@ def _is_ours(program: Path) -> bool:
 def _publish(node: Node, arguments: list[str]) -> int:
     from gz_course.sim.robot_state_publisher.publisher import DEFAULTS, StatePublisher
 
-    values = {name: _parameter(node, name, default) for name, default in DEFAULTS.items()}
+    values = read_parameters(node, DEFAULTS)
     if len(arguments) > 1:
         raise UsageError(f"one URDF file can be given, not {len(arguments)}: {' '.join(arguments)}")
     if arguments and arguments[0].startswith("-"):
@@ -68,20 +69,19 @@ def _publish(node: Node, arguments: list[str]) -> int:
     if arguments:
         values["robot_description"] = text_of(Path(arguments[0]))
     if not values["robot_description"].strip():
-        raise UsageError("there is no robot: give a URDF file, or its text as the parameter robot_description")
+        raise UsageError("no robot is given; give a URDF file, or its text as the parameter robot_description")
     for name, value in values.items():
         if node.has_parameter(name):
             node.undeclare_parameter(name)
         node.declare_parameter(name, value, ignore_override=True)
-    _warn_of_unknown(node, DEFAULTS)
-    publisher = StatePublisher(node, values)  # held here: nothing else does
+    publisher = StatePublisher(node, values)  # nothing else keeps a reference
     code = wait_for_signal(node)
     del publisher
     return code
 
 
 def text_of(path: Path) -> str:
-    """Return the URDF in a file; one that ends in `.xacro` is expanded. Raises `UsageError`."""
+    """Return the URDF text of a file, expanded if it is xacro. Raises UsageError if it cannot be read."""
     from gz_course.sim.gz.sim.errors import SimError
     from gz_course.sim.gz.sim.sdf.element import parse
     from gz_course.sim.gz.sim.sdf.resources import read_text
@@ -91,31 +91,13 @@ def text_of(path: Path) -> str:
     try:
         text = read_text(path)
         if ".xacro" in path.suffixes:
-            # What others read must be a plain URDF, without the places that our reader keeps.
+            # Subscribers need a plain URDF, without the line numbers that the reader keeps in it.
             element = parse(text, str(path))
             restore_places(element)
             text = to_xml(element) + "\n"
     except SimError as error:
         raise UsageError(first_line(error)) from None
     return text
-
-
-def _parameter(node: Node, name: str, default: Any) -> Any:
-    value = node.get_parameter(name).value if node.has_parameter(name) else None
-    if value is None:
-        return default
-    if isinstance(default, float) and type(value) in (int, float):
-        return float(value)
-    if type(value) is not type(default):
-        words = {str: "a text", float: "a number", bool: "true or false"}[type(default)]
-        raise UsageError(f"the parameter {name} must be {words}, not {str(value)[:80]!r}")
-    return value
-
-
-def _warn_of_unknown(node: Node, known: dict[str, Any]) -> None:
-    for name in node.get_parameters_by_prefix(""):
-        if name not in (*known, "use_sim_time", "start_type_description_service"):
-            node.get_logger().warning(f"the parameter {name} is not known here; there are {', '.join(known)}")
 
 
 if __name__ == "__main__":

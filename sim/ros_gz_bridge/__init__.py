@@ -1,8 +1,9 @@
-"""The bridge between Gazebo topics and ROS 2 topics, standing where the ``ros_gz_bridge`` package stands.
+"""The bridge between Gazebo topics and ROS 2 topics, in place of the `ros_gz_bridge` package.
 
-Contents: ``entry`` (what one bridge is); ``config``, ``arguments`` and ``parameters`` (the three ways to write it down:
-YAML, command line, ROS parameters), which read keys with ``entry_reader`` and look for trouble with ``checks``;
-``type_pairs`` and ``convert`` (which message becomes which); ``bridge``, ``link``, ``lane`` and ``service_link`` (the
-running bridge); ``parameter_bridge`` and ``lint`` (the commands; ``ros_program`` is what such have in common),
-``watch`` (what a running bridge notices), ``shared_memory`` (room for pictures).
+Contents: `entry` (one bridge as data); `config`, `arguments` and `parameters` (its three notations: YAML, command line,
+ROS parameters), which read keys with `entry_reader` and look for mistakes with `checks`; `type_pairs`, `fields` and
+`convert` (the conversions); `bridge`, `link`, `worker` and `service_link` (the running bridge) and `watch` (its
+warnings); `parameter_bridge`, `lint` and `bridge_types` (the programs).
+
+Source: README.md of ros_gz_bridge, https://github.com/gazebosim/ros_gz/tree/jazzy/ros_gz_bridge
 """

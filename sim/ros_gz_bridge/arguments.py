@@ -1,6 +1,8 @@
-"""Reads bridges from the command line: ``NAME@ROS_TYPE@GZ_TYPE`` and its relatives.
+"""The bridges of a command line, written `NAME@ROS_TYPE@GZ_TYPE` and the like; for `parameter_bridge` and `lint`.
 
-Used by ``parameter_bridge`` and by ``lint``. One name stands for both sides; ROS remapping gives another one to ROS.
+The name is that of both sides; ROS remapping changes the one of the ROS side.
+
+Source: ros_gz_bridge/src/parameter_bridge.cpp (its usage text), https://github.com/gazebosim/ros_gz
 """
 
 from __future__ import annotations
@@ -12,7 +14,7 @@ from gz_course.sim.ros_gz_bridge.checks import check
 from gz_course.sim.ros_gz_bridge.config import Config
 from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction, ServiceEntry
 from gz_course.sim.ros_gz_bridge.entry_reader import old_type_warning, service_type_faults, type_faults
-from gz_course.sim.ros_gz_bridge.finding import Finding, raise_errors
+from gz_course.sim.ros_gz_bridge.finding import Finding
 from gz_course.sim.ros_gz_bridge.names import gz_name_fault, ros_name_fault
 from gz_course.sim.ros_gz_bridge.type_pairs import UnknownPairError, canonical_gz_type, find_service, pairs
 
@@ -21,24 +23,8 @@ _SYNTAX = "TOPIC@ROS_TYPE@GZ_TYPE, with [ (Gazebo to ROS) or ] (ROS to Gazebo) i
 _SERVICE_SYNTAX = "SERVICE@ROS_TYPE or SERVICE@ROS_TYPE@GZ_REQUEST_TYPE@GZ_REPLY_TYPE"
 
 
-def parse_argument(text: str) -> BridgeEntry | ServiceEntry:
-    """The entry written as ``TOPIC@ROS_TYPE@GZ_TYPE`` (or ``[``, ``]``), or as a service. Raises ``ConfigError``."""
-    config = Config()
-    entry = _read(text, config.findings)
-    raise_errors(config.findings)
-    assert entry is not None
-    return entry
-
-
-def parse_arguments(texts: Iterable[str]) -> list[BridgeEntry]:
-    """The topics of several arguments. Raises ``ConfigError`` listing the faults of all of them."""
-    config = read_arguments(texts)
-    raise_errors(config.findings)
-    return config.topics
-
-
 def read_arguments(texts: Iterable[str], *, lazy: bool = False) -> Config:
-    """What several arguments ask for, faults included; raises nothing."""
+    """Return the entries and the faults of several arguments; raise nothing."""
     config = Config()
     order: dict[str, int] = {}
     for text in texts:
@@ -104,5 +90,5 @@ def _name_faults(name: str, missing: str) -> list[str]:
 
 
 def _partner(ros_type: str) -> str:
-    """The Gazebo type usually meant with ``ros_type``, for an example in a sentence."""
+    """Return the first Gazebo type that pairs with `ros_type`, for an example in a sentence."""
     return next((pair.gz_type for pair in pairs() if pair.ros_type == ros_type), "gz.msgs.StringMsg")

@@ -1,9 +1,9 @@
-"""A new ROS message with every field at its default, without the detours of its constructor.
+"""A new ROS message with every field at its default, made faster than by its constructor.
 
-The constructor that ROS generates for a Python message imports the types of its parts, makes each part, looks for every
-field among its arguments and calls a setter for it, each time. ``blank`` looks once at a message the constructor made,
-and from then on makes its like: what cannot be changed is shared, what can is made anew. The conversions of messages
-that come often (``convert/``) begin with it and fill what it returns.
+The constructor that ROS generates for a Python message imports the types of its parts, creates each part, looks up
+every field among its arguments and calls its setter, each time. `blank` inspects one constructed message of a class and
+then copies it: immutable values are shared, others are created anew. The conversions in `convert/` fill what it
+returns.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ _makers: dict[type, Callable[[], Any]] = {}
 
 
 def blank(message_class: type[Message]) -> Message:
-    """Equal to ``message_class()``, and as independent of any other message."""
+    """Return a message equal to `message_class()`, which shares nothing mutable with another message."""
     maker = _makers.get(message_class)
     if maker is None:
         maker = _makers[message_class] = _maker(message_class)
@@ -29,7 +29,7 @@ def blank(message_class: type[Message]) -> Message:
 
 
 def _maker(message_class: type) -> Callable[[], Any]:
-    """What makes such messages: the constructor itself, if one of them holds something unforeseen."""
+    """Return a function that makes such messages: the constructor itself if a field is of an unforeseen type."""
     model = message_class()
     shared: list[tuple[str, Any]] = []
     renewed: list[tuple[str, Callable[[], Any]]] = []

@@ -1,8 +1,8 @@
-"""The running bridge: takes messages from one side, converts them, publishes them on the other.
+"""The running bridge: takes messages from one side, converts them and publishes them on the other.
 
-It joins a ROS node and a Gazebo node that somebody else owns and spins: ROS messages arrive in the executor's
-thread or in that of a ``RosListener``, Gazebo messages in the thread that delivers them (the publisher's own, or the
-dispatcher of ``gz.transport``). Commands that are not finite numbers stop here, before they can reach the simulator.
+It connects a ROS node and a Gazebo node that its owner spins. ROS messages arrive in the executor's thread or in that
+of a `RosListener`, Gazebo messages in the thread that delivers them (the publisher's, or the dispatcher of
+`gz.transport`). Commands that are not finite numbers are dropped here, before they reach the simulator.
 """
 
 from __future__ import annotations
@@ -21,45 +21,29 @@ from rclpy.timer import Timer
 from gz_course.sim.gz.transport import AdvertiseMessageOptions, naming
 from gz_course.sim.gz.transport import Node as GzNode
 from gz_course.sim.ros_gz_bridge.echo_filter import EchoFilter, GzEcho
-from gz_course.sim.ros_gz_bridge.entry import (
-    BridgeEntry,
-    BridgeError,
-    Direction,
-    EntryStatus,
-    HeaderOverrides,
-    ServiceEntry,
-)
+from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, BridgeError, EntryStatus, HeaderOverrides, ServiceEntry
 from gz_course.sim.ros_gz_bridge.link import GzToRos, RosToGz, Row, error_text, sentence
 from gz_course.sim.ros_gz_bridge.ros_listener import RosListener
 from gz_course.sim.ros_gz_bridge.service_link import ServiceLink
 from gz_course.sim.ros_gz_bridge.type_pairs import TypePair, UnknownPairError, find_pair, find_service
 
-__all__ = [
-    "Bridge",
-    "BridgeEntry",
-    "BridgeError",
-    "Direction",
-    "EntryStatus",
-    "HeaderOverrides",
-    "ServiceEntry",
-    "error_text",
-]
-
 _ECHO_MARGIN = 16
 
 
 class Bridge:
-    """Bridges ``entries`` and ``services`` between ``ros_node`` and ``gz_node`` until ``close``.
+    """A bridge of `entries` and `services` between `ros_node` and `gz_node`, until `close`.
 
-    Give it a Gazebo node of its own: closing drops every subscription that node has on the bridged topics.
-    The ROS node may have other endpoints; it must be spun by its owner.
-    ``publish`` receives each ROS publisher and the message meant for it, and decides when it leaves; by
-    default it leaves at once. ``heard`` is shown every message that comes from ROS, before it is judged and
-    converted. ``heartbeat`` (s) is how often lazy entries look for listeners. ``threaded`` gives each topic with heavy
-    messages from other processes a thread of its own, and all that comes from ROS another; without it everything is
-    bridged in the thread that delivers it.
-    ``monotonic`` (s) paces warnings. Raises ``BridgeError`` listing every entry that cannot work, and then leaves
-    nothing behind.
+    Give it a Gazebo node of its own: closing drops every subscription that node has on the bridged topics. The ROS node
+    may have other endpoints; its owner must spin it.
+
+    - `publish(publisher, message)` is called for each message to ROS and may publish it later; by default at once.
+    - `heard(entry, message)` is called for every message from ROS, before it is checked and converted.
+    - `heartbeat` [s] is the period in which lazy entries look for subscribers.
+    - `threaded` gives each topic with large messages from other processes a thread, and all topics from ROS another;
+      without it a message is bridged in the thread that delivers it.
+    - `monotonic` returns the time [s] by which warnings are limited.
+
+    Raises BridgeError listing every entry that cannot work, and then leaves nothing behind.
     """
 
     def __init__(
@@ -112,12 +96,12 @@ class Bridge:
         self.close()
 
     def status(self) -> list[EntryStatus]:
-        """The counters of every entry, in the order given; a copy that does not change any more."""
+        """Return a copy of the counters of every entry, in the order of `entries`. Thread-safe."""
         with self._status_lock:
             return [dataclasses.replace(status) for status in self._status]
 
     def close(self) -> None:
-        """Give back every publisher, subscription and timer; harmless when repeated. Counters stay."""
+        """Destroy every publisher, subscription and timer; may be repeated. The counters stay."""
         if self._timer is not None:
             self._ros_node.destroy_timer(self._timer)
             self._timer = None
@@ -135,12 +119,12 @@ class Bridge:
         self._gz_publishers.clear()
 
     def say_unsaid(self, at_once: bool = False) -> None:
-        """Warn of lost messages that no warning has counted yet; owners call it now and then."""
+        """Warn of lost messages that no warning has counted yet; the owner calls it from time to time."""
         for link in self._links():
             link.say_unsaid(at_once)
 
     def _checked(self) -> list[Row]:
-        """Every entry with its pair and its topic as ROS names it, after remapping."""
+        """Return every entry with its pair and its ROS topic after remapping. Raises BridgeError."""
         rows, errors = [], []
         for entry, status in zip(self.entries, self._status, strict=True):
             try:
@@ -160,7 +144,7 @@ class Bridge:
         return rows
 
     def _set_up(self, rows: list[Row]) -> None:
-        """Create every endpoint: publishers first, so that no message arrives with nowhere to go."""
+        """Create every endpoint, publishers first, so that no message arrives before it can be published."""
         filters = _echo_filters(rows)
         errors = []
         for row in rows:
@@ -200,12 +184,12 @@ class Bridge:
                     link.disconnect()
 
     def _gz_name(self, topic: str) -> str:
-        """The Gazebo topic as others see it: namespace and remapping of the node applied."""
+        """Return the Gazebo topic with namespace and remapping of the node applied."""
         options = self._gz_node.options
         return naming.split(naming.fully_qualified("", options.namespace, options.renamed(topic)))[1]
 
     def _gz_publisher(self, topic: str, pair: TypePair) -> Any:
-        """One Gazebo publisher a topic, however many entries feed it."""
+        """Return the one Gazebo publisher of a topic, which several entries may share."""
         name = self._gz_name(topic)
         publisher = self._gz_publishers.get(name)
         if publisher is None:
@@ -216,7 +200,7 @@ class Bridge:
         return publisher
 
     def _disconnect_gz(self, topic: str) -> None:
-        """Leave a Gazebo topic once no entry listens to it any more (leaving is for the whole topic)."""
+        """Unsubscribe from a Gazebo topic when no entry listens to it; this ends all subscriptions of the topic."""
         listeners = [link for link in self._to_ros if link.gz_topic == topic]
         if not any(link.connected for link in listeners):
             self._gz_node.unsubscribe(topic)
@@ -237,28 +221,23 @@ def _publish_now(publisher: Publisher, message: Any) -> None:
 
 
 def _echo_filters(rows: list[Row]) -> list[tuple[Row, EchoFilter]]:
-    """A filter for every entry that listens to a ROS topic which one of the entries publishes."""
+    """Return a filter for every entry that subscribes to a ROS topic which one of the entries publishes."""
     depths: dict[str, int] = {}
     for row in rows:
         if row.entry.direction.to_ros:
             depths[row.ros_topic] = depths.get(row.ros_topic, 0) + row.entry.publisher_queue
-    return [
-        (
-            row,
-            EchoFilter(_content_of(row.pair), depths[row.ros_topic] + row.entry.subscriber_queue + _ECHO_MARGIN),
-        )
-        for row in rows
-        if row.entry.direction.to_gz and row.ros_topic in depths
-    ]
+    listening = [row for row in rows if row.entry.direction.to_gz and row.ros_topic in depths]
+    capacities = [depths[row.ros_topic] + row.entry.subscriber_queue + _ECHO_MARGIN for row in listening]
+    return [(row, EchoFilter(_content_of(row.pair), n)) for row, n in zip(listening, capacities, strict=True)]
 
 
 def _content_of(pair: TypePair) -> Callable[[Any], bytes]:
-    """The bytes by which an echo filter compares ROS messages: what would be sent to Gazebo."""
+    """Return the function by which an echo filter compares ROS messages: the bytes that Gazebo would get."""
 
     def content(ros: Any) -> bytes:
         try:
             return bytes(pair.to_gz(ros).SerializeToString())
-        except Exception:  # it would be dropped, not bridged, so all such messages are alike
+        except Exception:  # such messages are dropped and need not be distinguished
             return b""
 
     return content

@@ -1,8 +1,6 @@
-"""The program ``ros2 run ros_gz_bridge bridge_types``: says which ROS type becomes which Gazebo type.
+"""The program `ros2 run ros_gz_bridge bridge_types`, which prints the type pairs of the bridge, one a line.
 
-It prints what ``type_pairs`` knows here; pairs of ROS packages that are not installed are counted out, and named
-on the standard error output. Everything known goes to the standard output, one to a line, so that it can be
-searched.
+Pairs of ROS packages that are not installed are left out; standard error names these packages.
 """
 
 from __future__ import annotations
@@ -24,7 +22,7 @@ from gz_course.sim.ros_gz_bridge.type_pairs import (
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Print what was asked for; the exit code is 0, 1 for a type that has no partner, 2 for a wrong call."""
+    """Print what was asked for; return 0, 1 for a type that has no partner, or 2 for wrong arguments."""
     parser = argparse.ArgumentParser(
         prog="bridge_types", description="Says which message types the bridge converts into which."
     )
@@ -48,7 +46,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _answer(chosen: argparse.Namespace) -> list[str]:
-    """The lines that answer. Raises ``UnknownPairError`` for a type without partner."""
+    """Return the lines to print. Raises UnknownPairError for a type without partner."""
     known = pairs()
     if chosen.get_gz_to_ros is not None:
         return _partners_of_gz(known, canonical_gz_type(chosen.get_gz_to_ros))

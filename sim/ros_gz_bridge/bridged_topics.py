@@ -1,7 +1,7 @@
-"""The ROS parameter by which a running bridge tells what it bridges: `ros2 param get /ros_gz_bridge bridged_topics`.
+"""The ROS parameter that lists what a running bridge bridges: `ros2 param get /ros_gz_bridge bridged_topics`.
 
-Each entry is one text, a mapping (JSON) with the keys of the configuration file, topics as they are after remapping.
-``parameter_bridge`` offers it; who looks at the graph from outside reads it with ``entries``.
+Each text is a JSON object with the keys of the configuration file; topics are those after remapping.
+`parameter_bridge` sets it, and tools that inspect the graph read it with `entries`.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _TOPICS_AND_TYPES = ("ros_topic_name", "gz_topic_name", "ros_type_name", "gz_typ
 
 
 def offer(node: Node, entries: Iterable[BridgeEntry]) -> None:
-    """Set the parameter on the bridge's node; it replaces what was offered before."""
+    """Set the parameter on the bridge's node, replacing an earlier value."""
     from rclpy.parameter import Parameter
 
     texts = [_text(entry, node.resolve_topic_name(entry.ros_topic)) for entry in entries]
@@ -31,7 +31,7 @@ def offer(node: Node, entries: Iterable[BridgeEntry]) -> None:
 
 
 def entries(texts: Iterable[str]) -> list[BridgeEntry]:
-    """Read the parameter's value. Raises ValueError for a text that is no entry."""
+    """Return the entries of the parameter's value. Raises ValueError for a text that is no entry."""
     found = []
     for text in texts:
         try:

@@ -1,8 +1,7 @@
-"""What is wrong or surprising with bridges that can be read: each check looks at all entries together.
+"""Checks of bridges that could be read: what cannot work, and what works in another way than expected.
 
-``config`` and ``arguments`` call ``check`` on what they have read, so ``lint`` and a starting ``parameter_bridge`` say
-the same. A check is a function marked with ``@_check``; it yields a ``Finding`` for each entry it has to say something
-about. Where each one comes from: reports of people who waited for messages in vain.
+`config` and `arguments` call `check`, so `lint` and a starting `parameter_bridge` report the same. A check is a
+function marked with `@_check`; it looks at all entries together and yields a `Finding` for each fault.
 """
 
 from __future__ import annotations
@@ -18,45 +17,17 @@ _checks: list[_Check] = []
 
 _CLOCK = "rosgraph_msgs/msg/Clock"
 _TF = "tf2_msgs/msg/TFMessage"
-_PUBLISHED_BY_GAZEBO = {
-    "gz.msgs.BatteryState",
-    "gz.msgs.CameraInfo",
-    "gz.msgs.Clock",
-    "gz.msgs.Contacts",
-    "gz.msgs.FluidPressure",
-    "gz.msgs.IMU",
-    "gz.msgs.Image",
-    "gz.msgs.LaserScan",
-    "gz.msgs.Magnetometer",
-    "gz.msgs.Model",
-    "gz.msgs.NavSat",
-    "gz.msgs.Odometry",
-    "gz.msgs.OdometryWithCovariance",
-    "gz.msgs.PointCloudPacked",
-}
+_SENSORS = ("BatteryState", "CameraInfo", "Contacts", "FluidPressure", "IMU", "Image", "LaserScan", "Magnetometer")
+_STATES = ("Clock", "Model", "NavSat", "Odometry", "OdometryWithCovariance", "PointCloudPacked")
+_PUBLISHED_BY_GAZEBO = {f"gz.msgs.{name}" for name in (*_SENSORS, *_STATES)}
 _COMMANDS = re.compile(r"(^|[/_])cmd_(vel|pos|force|thrust|effort)$|/(enable|joint_trajectory)$")
-_WITHOUT_HEADER = {
-    "builtin_interfaces",
-    "rosgraph_msgs",
-    "std_msgs",
-    "rcl_interfaces",
-    "tf2_msgs",
-}
-_HEADERLESS = {
-    "geometry_msgs/msg/Point",
-    "geometry_msgs/msg/Pose",
-    "geometry_msgs/msg/PoseWithCovariance",
-    "geometry_msgs/msg/Quaternion",
-    "geometry_msgs/msg/Transform",
-    "geometry_msgs/msg/Twist",
-    "geometry_msgs/msg/TwistWithCovariance",
-    "geometry_msgs/msg/Vector3",
-    "geometry_msgs/msg/Wrench",
-}
+_WITHOUT_HEADER = {"builtin_interfaces", "rosgraph_msgs", "std_msgs", "rcl_interfaces", "tf2_msgs"}
+_PARTS = ("Point", "Pose", "Quaternion", "Transform", "Twist", "Vector3", "Wrench")
+_HEADERLESS = {f"geometry_msgs/msg/{name}" for name in (*_PARTS, "PoseWithCovariance", "TwistWithCovariance")}
 
 
 def check(topics: Iterable[BridgeEntry], services: Iterable[ServiceEntry] = ()) -> Iterator[Finding]:
-    """Every finding of every check, in the order of the entries."""
+    """Yield the findings of all checks, in the order of the entries."""
     topics, services = list(topics), list(services)
     sources = [entry.source for entry in topics] + [entry.source for entry in services]
     order = {source: number for number, source in enumerate(sources)}
@@ -74,13 +45,13 @@ def _warning(entry: BridgeEntry, sentence: str) -> Finding:
 
 
 def _never(entry: BridgeEntry, sentence: str) -> Finding:
-    """An error about what can be set up, but can never do what it is for; the original bridges it."""
+    """Return an error about a bridge that can be set up but never carries a useful message; the original bridges it."""
     return Finding(entry.source, sentence, tolerated=True)
 
 
 @_check
 def _repeated(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
-    """Two entries that would carry the same message over the same route twice."""
+    """Report entries that bridge the same message on the same route twice."""
     seen: dict[tuple[str, ...], BridgeEntry] = {}
     for entry in topics:
         for way, used in (("ros", entry.direction.to_ros), ("gz", entry.direction.to_gz)):
@@ -97,43 +68,36 @@ def _repeated(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -
 
 
 @_check
-def _two_types_on_one_ros_topic(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
-    """DDS takes one type a topic and process, and never connects endpoints of different types."""
-    first: dict[str, BridgeEntry] = {}
+def _two_types_on_one_topic(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
+    """Report a topic with two types: a subscriber receives messages of its own type only."""
+    first_ros: dict[str, BridgeEntry] = {}
+    first_gz: dict[str, BridgeEntry] = {}
     for entry in topics:
-        other = first.setdefault(entry.ros_topic, entry)
+        other = first_ros.setdefault(entry.ros_topic, entry)
         if other.ros_type != entry.ros_type:
             yield Finding(
                 entry.source,
                 f"{entry.ros_topic} is {entry.ros_type} here and {other.ros_type} in {other.source}; a ROS topic has "
                 "one type, give one of the two another ros_topic_name",
             )
-
-
-@_check
-def _two_types_on_one_gz_topic(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
-    """A Gazebo publisher has one type; a subscription with another one hears nothing."""
-    first: dict[str, BridgeEntry] = {}
-    for entry in topics:
-        other = first.setdefault(entry.gz_topic, entry)
+        other = first_gz.setdefault(entry.gz_topic, entry)
         if other.gz_type != entry.gz_type:
-            both_publish = other.direction.to_gz and entry.direction.to_gz
             yield Finding(
                 entry.source,
                 f"the Gazebo topic {entry.gz_topic} is {entry.gz_type} here and {other.gz_type} in {other.source}; "
-                "messages of one type never reach who expects the other",
-                warning=not both_publish,
+                "a subscriber of one type receives no messages of the other",
+                warning=not (other.direction.to_gz and entry.direction.to_gz),
             )
 
 
 @_check
 def _clock_to_gazebo(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
-    """Who else advertises the clock makes Gazebo keep its own off the topic."""
+    """Report a bridge that advertises the clock in Gazebo, which then does not publish its own there."""
     for entry in topics:
         if entry.ros_type == _CLOCK and entry.direction is Direction.ROS_TO_GZ:
             yield _never(
                 entry,
-                f"gives Gazebo a clock on {entry.gz_topic}, but Gazebo makes its time itself and listens to none; "
+                f"gives Gazebo a clock on {entry.gz_topic}, but Gazebo makes its own time and listens to no clock; "
                 "did you mean [ or direction: GZ_TO_ROS? (--compat bridges it all the same)",
             )
         elif entry.ros_type == _CLOCK and entry.direction is Direction.BIDIRECTIONAL:
@@ -146,7 +110,7 @@ def _clock_to_gazebo(topics: Sequence[BridgeEntry], services: Sequence[ServiceEn
 
 @_check
 def _clock_name(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
-    """Nodes with use_sim_time look at one topic only, and two clocks contradict each other."""
+    """Report a clock on another topic than /clock, and two clocks on it."""
     clocks = [entry for entry in topics if entry.ros_type == _CLOCK and entry.direction.to_ros]
     on_the_topic = [entry for entry in clocks if entry.ros_topic.strip("/") == "clock"]
     if clocks and not on_the_topic:
@@ -165,8 +129,8 @@ def _clock_name(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry])
 
 
 @_check
-def _against_the_stream(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
-    """A direction in which nothing can come: sensors to Gazebo, commands from Gazebo."""
+def _wrong_direction(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
+    """Report sensors bridged to Gazebo and commands bridged from Gazebo."""
     for entry in topics:
         if entry.ros_type == _CLOCK:
             continue
@@ -193,7 +157,7 @@ def _against_the_stream(topics: Sequence[BridgeEntry], services: Sequence[Servic
 
 @_check
 def _poses_without_frames(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
-    """The poses of the scene carry names, but no frames."""
+    """Report the poses of the scene, which carry names but no frames, as transforms."""
     for entry in topics:
         if entry.ros_type == _TF and entry.direction.to_ros and entry.gz_topic.endswith("pose/info"):
             yield _warning(
@@ -205,14 +169,14 @@ def _poses_without_frames(topics: Sequence[BridgeEntry], services: Sequence[Serv
 
 @_check
 def _static_transforms(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
-    """Who joins later must still get them."""
+    """Report /tf_static bridged so that nodes that start later do not receive it."""
     for entry in topics:
         if entry.ros_type != _TF or not entry.direction.to_ros or not entry.ros_topic.endswith("tf_static"):
             continue
         if entry.qos_profile is None:
             yield _warning(
                 entry,
-                f"{entry.ros_topic} is sent once, and who joins later misses it; add -p "
+                f"{entry.ros_topic} is sent once, and nodes that start later miss it; add -p "
                 f"qos_overrides.{entry.ros_topic}.publisher.durability:=transient_local",
             )
         if entry.lazy:
@@ -221,7 +185,7 @@ def _static_transforms(topics: Sequence[BridgeEntry], services: Sequence[Service
 
 @_check
 def _lazy_commands(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
-    """A lazy bridge saves what the sender computes; a command costs nothing and must not be late."""
+    """Report lazy bridges to Gazebo: they save no computing of the sender, and lose the first command."""
     for entry in topics:
         if entry.lazy and entry.direction is Direction.ROS_TO_GZ:
             yield _warning(
@@ -232,25 +196,26 @@ def _lazy_commands(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntr
         elif entry.lazy and entry.direction is Direction.BIDIRECTIONAL:
             yield _warning(
                 entry,
-                "a lazy bridge that goes both ways counts itself as a listener in the original and never rests; "
+                "a lazy bridge that goes both ways counts itself as a listener in the original and never disconnects; "
                 "give it one direction",
             )
 
 
 @_check
-def _frame_of_nothing(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
-    """frame_id is written into a header; some messages have none."""
+def _frame_id_without_header(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
+    """Report `frame_id` for messages without a header."""
     for entry in topics:
-        package = entry.ros_type.split("/")[0]
-        headerless = entry.ros_type in _HEADERLESS or (
-            package in _WITHOUT_HEADER and entry.ros_type != "std_msgs/msg/Header"
-        )
+        of_package = entry.ros_type.split("/")[0] in _WITHOUT_HEADER and entry.ros_type != "std_msgs/msg/Header"
+        headerless = entry.ros_type in _HEADERLESS or of_package
         if entry.frame_id and entry.direction.to_ros and headerless:
             yield _warning(entry, f"'frame_id' changes nothing here: {entry.ros_type} has no header")
 
 
 def private_gz_names(topics: Iterable[BridgeEntry], services: Iterable[ServiceEntry]) -> Iterator[Finding]:
-    """Gazebo knows no ``~``; the bridge expands it if it is told to. For who knows whether it is."""
+    """Yield an error for each Gazebo name with `~`, which works only with `expand_gz_topic_names`.
+
+    Not among the checks, because only the caller knows that parameter.
+    """
     names = [(entry.source, entry.gz_topic) for entry in topics]
     names += [(entry.source, entry.gz_service) for entry in services]
     for source, name in names:

@@ -1,8 +1,9 @@
-"""Reads bridges from a YAML file and says exactly what is wrong with them.
+"""The bridges of a YAML file, and its faults with file and line.
 
-The syntax is ros_gz_bridge's own; ``parameter_bridge`` hands the entries to ``bridge.Bridge``. What the original
-passes over in silence (a misspelt key, a type nobody converts, the same bridge twice) is an error here, with file and
-line, and all errors of a file are listed at once.
+What the original ros_gz_bridge ignores (a misspelt key, a type without conversion, a repeated bridge) is an error here.
+All errors of a file are reported at once.
+
+Source: "Configuring the bridge via YAML" in README.md of ros_gz_bridge, https://github.com/gazebosim/ros_gz
 """
 
 from __future__ import annotations
@@ -19,49 +20,37 @@ from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, ServiceEntry
 from gz_course.sim.ros_gz_bridge.entry_reader import KEYS, SERVICE_KEYS, EntryReader, Value, unknown_key
 from gz_course.sim.ros_gz_bridge.finding import ConfigError, Finding, raise_errors
 
-__all__ = [
-    "MAX_BYTES",
-    "MAX_ENTRIES",
-    "Config",
-    "ConfigError",
-    "compose",
-    "load_yaml",
-    "parse_yaml",
-    "read_file",
-    "read_yaml",
-]
-
 MAX_BYTES = 256 * 1024
-"""Largest YAML file read, in bytes."""
+"""Size of the largest YAML file that is read [byte]."""
 MAX_ENTRIES = 1000
-"""Most bridges one file may hold."""
+"""Largest number of bridges in a file."""
 
 
 @dataclass
 class Config:
-    """What was read: the bridges that can be made of it, and everything there is to say about it."""
+    """A configuration that was read: the bridges that can be made, and its errors and warnings."""
 
     topics: list[BridgeEntry] = field(default_factory=list)
     services: list[ServiceEntry] = field(default_factory=list)
     findings: list[Finding] = field(default_factory=list)
 
     def add(self, entry: BridgeEntry | ServiceEntry | None) -> None:
-        """Take an entry in; None is none."""
+        """Add a topic or a service; None adds nothing."""
         if isinstance(entry, ServiceEntry):
             self.services.append(entry)
         elif entry is not None:
             self.topics.append(entry)
 
     def include(self, other: Config) -> None:
-        """Take everything of another configuration in."""
+        """Add bridges and findings of another configuration."""
         self.topics += other.topics
         self.services += other.services
         self.findings += other.findings
 
     def tolerant(self) -> Config:
-        """The same as the original ros_gz_bridge would take it: every error is a warning.
+        """Return the configuration as the original ros_gz_bridge takes it: every error becomes a warning.
 
-        What the original passes over is bridged, an entry that cannot work is left out.
+        Entries that cannot work are left out.
         """
         findings = [Finding(each.place, each.sentence, warning=True) for each in self.findings]
         broken = {each.place for each in self.findings if not (each.warning or each.tolerated)}
@@ -70,23 +59,26 @@ class Config:
 
 
 def load_yaml(path: str | Path, *, lazy: bool = False) -> list[BridgeEntry]:
-    """The topics of a YAML file that may hold nothing else. Raises ``ConfigError`` listing every fault in it.
+    """Return the topics of a YAML file. Raises ConfigError listing every fault, a service among them.
 
-    ``lazy`` holds for the entries that do not say.
+    `lazy` is the default for entries without that key.
     """
-    return _topics_only(read_file(path, lazy=lazy))
+    return topics_of(read_file(path, lazy=lazy))
 
 
-def parse_yaml(text: str | bytes, file_name: str = "<string>", *, lazy: bool = False) -> list[BridgeEntry]:
-    """As ``load_yaml``, for a text; ``file_name`` stands in the error sentences."""
-    return _topics_only(read_yaml(text, file_name, lazy=lazy))
+def topics_of(config: Config) -> list[BridgeEntry]:
+    """Return the topics. Raises ConfigError listing every error, and every service as one."""
+    only_topics = "is a service; only topics can be bridged here"
+    services = [Finding(entry.source, f"{entry.name} {only_topics}") for entry in config.services]
+    raise_errors([*config.findings, *services])
+    return config.topics
 
 
 def read_file(path: str | Path, *, lazy: bool = False) -> Config:
-    """What a YAML file holds, faults included; raises nothing."""
+    """Return the bridges and the faults of a YAML file; raise nothing."""
     path = Path(path)
     try:
-        if not stat.S_ISREG(path.stat().st_mode) and not path.is_dir():  # a pipe could keep us waiting for ever
+        if not stat.S_ISREG(path.stat().st_mode) and not path.is_dir():  # reading a pipe might never end
             return _only(str(path), "cannot read the bridge configuration: it is no ordinary file")
         with path.open("rb") as file:
             data = file.read(MAX_BYTES + 1)
@@ -97,7 +89,7 @@ def read_file(path: str | Path, *, lazy: bool = False) -> Config:
 
 
 def read_yaml(text: str | bytes, file_name: str = "<string>", *, lazy: bool = False) -> Config:
-    """As ``read_file``, for a text."""
+    """Do the same as `read_file` for a text."""
     first_line = f"{file_name}:1"
     if len(text) > MAX_BYTES:
         return _only(first_line, f"larger than {MAX_BYTES // 1024} KiB, which no bridge configuration needs")
@@ -123,28 +115,19 @@ def read_yaml(text: str | bytes, file_name: str = "<string>", *, lazy: bool = Fa
     return config
 
 
-def _topics_only(config: Config) -> list[BridgeEntry]:
-    services = [
-        Finding(entry.source, f"{entry.name} is a service; only topics can be bridged here")
-        for entry in config.services
-    ]
-    raise_errors([*config.findings, *services])
-    return config.topics
-
-
 def _only(place: str, sentence: str) -> Config:
     return Config(findings=[Finding(place, sentence)])
 
 
 def compose(text: str | bytes, file_name: str) -> yaml.Node | None:
-    """The node tree of a YAML text with its line numbers; nothing in it is ever built into an object.
+    """Return the node tree of a YAML text, with line numbers, without constructing any object from it.
 
-    Raises ``ConfigError`` with one sentence that begins with the place if the text is not YAML.
+    Raises ConfigError with one sentence that begins with file and line if the text is not YAML.
     """
     try:
         return yaml.compose(text, Loader=yaml.SafeLoader)
     except yaml.MarkedYAMLError as error:
-        # What was never ended is noticed too late: the fault is where it began.
+        # An unfinished key or quotation is noticed too late: report where it began.
         began = error.context in ("while scanning a simple key", "while scanning a quoted scalar")
         mark = (error.context_mark if began else None) or error.problem_mark or error.context_mark
         problem = " ".join((error.problem or error.context or "unreadable").split())
@@ -167,7 +150,7 @@ def _unreadable(error: yaml.reader.ReaderError) -> str:
 
 
 def _hint(problem: str, text: str | bytes, line: int) -> str:
-    """What YAML's own words do not say about the line (0 is the first) where it gave up."""
+    """Return a hint that PyYAML's message lacks, from the line (counted from 0) where parsing stopped."""
     if problem == "found unexpected end of stream":
         return "; a quotation mark that opens here is never closed"
     lines = (text if isinstance(text, str) else text.decode(errors="replace")).splitlines()
@@ -186,7 +169,7 @@ def _hint(problem: str, text: str | bytes, line: int) -> str:
 
 
 def _column(line: str) -> int:
-    """Where the key of a line begins, a dash left out."""
+    """Return the column in which the key of a line begins, after a dash."""
     return len(line) - len(line.lstrip(" -"))
 
 

@@ -1,23 +1,22 @@
-"""Keeps a bridge from hearing itself: the echo of a message it published is not bridged back.
+"""Filters that keep a bridge from bridging its own messages back.
 
 A bidirectional entry publishes on a ROS topic it also subscribes to, so DDS hands it its own messages. rclpy
-neither lets a subscription ignore its own node nor says who sent a message, so ``EchoFilter`` recognises the
-echo by three things together:
+neither lets a subscription ignore its own node nor says who sent a message, so `EchoFilter` recognises the
+echo by three properties together:
 
 * content: what the message would become on the Gazebo side, byte for byte;
-* time: DDS stamps a message while ``publish`` runs, so the stamp of an echo lies between the moment just
+* time: DDS stamps a message while `publish` runs, so the stamp of an echo lies between the moment just
   before and the moment just after that call (both read from the same system clock, here with 1 µs of
   rounding);
-* number: every publication excuses one arrival and no more.
+* number: every publication accounts for one arrival.
 
-So genuine messages pass, however often they repeat. One sent a moment earlier or later than our own, even
-with the same content, carries a stamp outside the window. One sent by somebody else within the very
-microseconds of ``publish`` and with the same content cannot be told from the echo, nor needs to be: one of
-the two passes, and the two are equal. An echo that DDS dropped leaves its record behind, whose window no
+So messages of others pass, however often they repeat. One that is sent before or after the bridge's own, even with the
+same content, has a stamp outside the window. One with the same content that is sent within the microseconds of
+`publish` is equal to the echo, and one of the two passes. An echo that DDS dropped leaves a record whose window no
 later stamp can fall into.
 
-The worst that can happen is the opposite, one message bridged back once (when the system clock is set back
-during ``publish``); it cannot circulate, because ``GzEcho`` does the same on the Gazebo side.
+If the system clock is set back during `publish`, one message is bridged back once; it does not circulate, because
+`GzEcho` filters on the Gazebo side.
 """
 
 from __future__ import annotations
@@ -43,11 +42,10 @@ class _Publication:
 
 
 class EchoFilter:
-    """Recognises, for one ROS subscription, the messages published by the same bridge.
+    """A filter for one ROS subscription against the messages published by the same bridge. Thread-safe.
 
-    ``content`` turns a ROS message into the bytes compared. ``capacity`` is how many publications may still
-    be on their way: the depths of the publishers and of the subscription, whatever lies further back can no
-    longer arrive. Thread safe: publishing and receiving happen in different threads.
+    `content` turns a ROS message into the bytes that are compared. `capacity` is how many publications may still
+    arrive: the sum of the depths of the publishers and of the subscription.
     """
 
     def __init__(self, content: Callable[[Any], bytes], capacity: int, now: Callable[[], int] = time.time_ns) -> None:
@@ -58,7 +56,7 @@ class EchoFilter:
 
     @contextlib.contextmanager
     def publishing(self, message: Any) -> Iterator[None]:
-        """Wrap the very call that hands ``message`` to DDS."""
+        """Record `message` around the call that hands it to DDS."""
         publication = _Publication(self._content(message), self._now() - _ROUNDING_NS)
         with self._lock:
             self._published.append(publication)
@@ -68,7 +66,7 @@ class EchoFilter:
             publication.not_after = self._now() + _ROUNDING_NS
 
     def is_echo(self, message: Any, source_timestamp: int) -> bool:
-        """Whether ``message``, stamped by DDS at ``source_timestamp`` (ns since 1970), is one of our own."""
+        """Return whether `message`, stamped by DDS at `source_timestamp` [ns since 1970], is from this bridge."""
         with self._lock:
             if not self._published:
                 return False
@@ -84,16 +82,15 @@ class EchoFilter:
 
 
 class EchoAwarePublisher(Publisher):
-    """A ROS publisher that tells echo filters the moment a message really leaves.
+    """A ROS publisher that records each message in echo filters when it is handed to DDS.
 
-    The owner of the bridge may hold messages back and release them later, so the moment is taken here and not
-    where the bridge decides to publish. ``filters`` are those of the subscriptions on the same topic.
+    The owner of the bridge may hold messages back, so this is later than when the bridge converts them. `filters` are
+    those of the subscriptions on the same topic.
     """
 
     filters: tuple[EchoFilter, ...] = ()
 
     def publish(self, msg: Any) -> None:
-        """Publish ``msg``, noting it in every filter."""
         with contextlib.ExitStack() as stack:
             for echo_filter in self.filters:
                 stack.enter_context(echo_filter.publishing(msg))
@@ -101,11 +98,10 @@ class EchoAwarePublisher(Publisher):
 
 
 class GzEcho:
-    """The same for Gazebo topics of the bridge's own process, where delivery happens inside ``publish``.
+    """The filter for Gazebo topics within the bridge's own process, where delivery happens inside `publish`.
 
-    While a message is being published, its content is remembered for this thread; an arrival in the same
-    thread on the same topic with that content is the echo. Other publishers of the process are heard,
-    whatever they send.
+    While a message is being published, its content is kept for this thread; an arrival in the same thread on the same
+    topic with that content is the echo. Messages of other publishers of the process pass.
     """
 
     def __init__(self) -> None:
@@ -118,7 +114,7 @@ class GzEcho:
 
     @contextlib.contextmanager
     def publishing(self, topic: str, message: Any) -> Iterator[None]:
-        """Wrap the call that publishes ``message`` on the Gazebo ``topic``."""
+        """Record `message` around the call that publishes it on the Gazebo `topic`."""
         current = self._current()
         mark = (topic, message.SerializeToString())
         current.append(mark)
@@ -128,6 +124,6 @@ class GzEcho:
             current.remove(mark)
 
     def is_echo(self, topic: str, message: Any) -> bool:
-        """Whether ``message``, arriving on ``topic`` in this thread, is the one the bridge is publishing."""
+        """Return whether `message`, arriving on `topic` in this thread, is the one the bridge is publishing."""
         current = self._current()
         return bool(current) and (topic, message.SerializeToString()) in current

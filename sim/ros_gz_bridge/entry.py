@@ -1,7 +1,7 @@
-"""What one bridge is: two topic names, two types, a direction and its options; and what became of it.
+"""The data of one bridge: two topic names, two types, a direction and options; and its counters.
 
-Entries are made by ``config`` (YAML), ``arguments`` (command line) and ``parameters`` (ROS parameters) and taken by
-``bridge.Bridge``. Nothing here imports ROS, so a file can be checked before any node exists.
+`config` (YAML), `arguments` (command line) and `parameters` (ROS parameters) make entries, `bridge.Bridge` runs them.
+Nothing here imports ROS, so a configuration can be checked without a node.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 
 class Direction(enum.Enum):
-    """Which way messages travel; the values are the words used in the YAML file."""
+    """The direction of a bridge; the values are the words of the YAML file."""
 
     BIDIRECTIONAL = "BIDIRECTIONAL"
     GZ_TO_ROS = "GZ_TO_ROS"
@@ -20,12 +20,10 @@ class Direction(enum.Enum):
 
     @property
     def to_ros(self) -> bool:
-        """True when Gazebo messages are to reach ROS."""
         return self is not Direction.ROS_TO_GZ
 
     @property
     def to_gz(self) -> bool:
-        """True when ROS messages are to reach Gazebo."""
         return self is not Direction.GZ_TO_ROS
 
 
@@ -33,10 +31,10 @@ class Direction(enum.Enum):
 class BridgeEntry:
     """One topic bridged between Gazebo and ROS.
 
-    ``publisher_queue`` and ``subscriber_queue`` are depths (messages) on the ROS side; the Gazebo side has no
-    queue. ``lazy`` connects the sending side only while somebody listens on the receiving side. ``frame_id``
-    replaces ``header.frame_id`` of messages going to ROS. ``source`` says where the entry was written
-    (``bridge.yaml:7``), for messages to people. ``qos_profile`` is a name of ``qos_profile.QOS_PROFILES``.
+    `publisher_queue` and `subscriber_queue` are depths [messages] on the ROS side; the Gazebo side has no queue. `lazy`
+    subscribes on one side only while there is a subscriber on the other. `frame_id` replaces `header.frame_id` of
+    messages to ROS. `source` is the place where the entry was written (`bridge.yaml:7`). `qos_profile` is a name of
+    `qos_profile.QOS_PROFILES`.
     """
 
     ros_topic: str
@@ -52,23 +50,21 @@ class BridgeEntry:
     qos_profile: str | None = None
 
     def __post_init__(self) -> None:
-        for name, depth in (
-            ("publisher_queue", self.publisher_queue),
-            ("subscriber_queue", self.subscriber_queue),
-        ):
-            if depth < 1:
-                raise ValueError(f"{name} must be 1 or more, not {depth}")
+        for name in ("publisher_queue", "subscriber_queue"):
+            if getattr(self, name) < 1:
+                raise ValueError(f"{name} must be 1 or more, not {getattr(self, name)}")
 
     @property
     def same_route(self) -> tuple[str, str, str, str]:
-        """What makes two entries the same route: both topics and both types."""
+        """Both topics and both types; entries for which they are equal carry the same messages."""
         return (self.ros_topic, self.gz_topic, self.ros_type, self.gz_type)
 
 
 @dataclass(frozen=True)
 class ServiceEntry:
-    """One Gazebo service offered as a ROS service of the same name; ``gz_request_type`` may be empty, then it is
-    the one of the ROS type.
+    """One Gazebo service offered as a ROS service of the same name.
+
+    An empty Gazebo type stands for the one that pairs with the ROS type.
     """
 
     name: str
@@ -80,16 +76,16 @@ class ServiceEntry:
 
     @property
     def gz_service(self) -> str:
-        """The name on the Gazebo side: the same, unless it was expanded."""
+        """The name on the Gazebo side: `gz_name` if it was expanded, else `name`."""
         return self.gz_name or self.name
 
 
 @dataclass
 class EntryStatus:
-    """What went through one entry so far, in messages.
+    """The counters of one entry [messages].
 
-    ``dropped`` were refused or could not be converted (``last_error`` says why); ``skipped`` gave way because they
-    came faster than they could be bridged; ``echoes`` are the bridge's own messages coming back, which are ignored.
+    `dropped` were refused or could not be converted (`last_error` says why); `skipped` were dropped from a full queue;
+    `echoes` are the bridge's own messages coming back, which are ignored.
     """
 
     entry: BridgeEntry
@@ -103,10 +99,9 @@ class EntryStatus:
 
 @dataclass(frozen=True)
 class HeaderOverrides:
-    """What a bridge writes over the header of every message going to ROS.
+    """Values that a bridge writes into the header of every message to ROS.
 
-    ``frame_id`` replaces the frame unless the entry has one of its own; ``wall_time`` replaces the stamp with
-    the system clock.
+    `frame_id` replaces the frame unless the entry has its own; `wall_time` replaces the stamp by the system clock.
     """
 
     frame_id: str = ""
@@ -114,7 +109,7 @@ class HeaderOverrides:
 
 
 class BridgeError(RuntimeError):
-    """Entries that cannot be set up; ``errors`` holds one sentence for each."""
+    """Entries that cannot be set up; `errors` holds one sentence for each."""
 
     def __init__(self, errors: Iterable[str]) -> None:
         self.errors = list(errors)

@@ -1,7 +1,9 @@
-"""Makes one entry of keys and values, wherever they were written, and says what is wrong with them.
+"""The reader of one entry from keys and values, which come from a YAML file or from ROS parameters.
 
-The keys are those of ros_gz_bridge's YAML; its ROS parameters ``bridges.<name>.<key>`` are the same. ``config`` and
-``parameters`` hand over each value as a ``Value``, which knows its place.
+The keys of the YAML file and of the parameters `bridges.<name>.<key>` are the same. `config` and `parameters` pass each
+value as a `Value` with its place.
+
+Source: README.md and src/bridge_config.cpp of ros_gz_bridge, https://github.com/gazebosim/ros_gz
 """
 
 from __future__ import annotations
@@ -16,19 +18,8 @@ from gz_course.sim.ros_gz_bridge.names import gz_name_fault, nearest, ros_name_f
 from gz_course.sim.ros_gz_bridge.qos_profile import QOS_PROFILES, depth_of
 from gz_course.sim.ros_gz_bridge.type_pairs import UnknownPairError, canonical_gz_type, find_pair, find_service
 
-KEYS = (
-    "topic_name",
-    "ros_topic_name",
-    "gz_topic_name",
-    "ros_type_name",
-    "gz_type_name",
-    "direction",
-    "publisher_queue",
-    "subscriber_queue",
-    "lazy",
-    "qos_profile",
-    "frame_id",
-)
+_NAMES = ("topic_name", "ros_topic_name", "gz_topic_name", "ros_type_name", "gz_type_name")
+KEYS = (*_NAMES, "direction", "publisher_queue", "subscriber_queue", "lazy", "qos_profile", "frame_id")
 """The keys of a topic."""
 SERVICE_KEYS = ("service_name", "ros_type_name", "gz_req_type_name", "gz_rep_type_name")
 """The keys of a service."""
@@ -39,9 +30,9 @@ _OLD_PREFIX = "ignition.msgs."
 
 @dataclass(frozen=True)
 class Value:
-    """One value as it was written: its place, its ``kind`` (text, bool, int, null or something else) and its text.
+    """One value as it was written: its place, `kind` (text, bool, int, float, null or structure) and text.
 
-    ``shown`` is how a sentence names it; the text of what is no single value is empty.
+    `shown` is its description for error sentences. The text of a structure is empty.
     """
 
     place: str
@@ -51,15 +42,14 @@ class Value:
 
     @property
     def is_scalar(self) -> bool:
-        """Whether it is a single value and not nothing."""
+        """Whether it is a single value and not empty."""
         return self.kind in ("text", "bool", "int", "float") and bool(self.text)
 
 
 class EntryReader:
-    """Reads the values of one entry, adding what is wrong with them to ``findings``."""
+    """The reader of one entry; adds its faults to `findings`. `lazy` is the default of that key."""
 
     def __init__(self, place: str, values: Mapping[str, Value], findings: list[Finding], lazy: bool = False) -> None:
-        """``lazy`` holds if the entry does not say."""
         self._place = place
         self._values = values
         self._all_findings = findings
@@ -67,7 +57,7 @@ class EntryReader:
         self._lazy = lazy
 
     def read(self) -> BridgeEntry | ServiceEntry | None:
-        """The entry, or None if something is wrong with it that the original would not pass over either."""
+        """Return the entry, or None if it has a fault that the original does not ignore either."""
         service = any(key in self._values for key in _OF_SERVICES_ONLY)
         entry = self._service() if service else self._topic()
         broken = any(not (finding.warning or finding.tolerated) for finding in self._findings)
@@ -212,7 +202,9 @@ class EntryReader:
         if "publisher_queue" in self._values and not direction.to_ros:
             self._warn("publisher_queue", "'publisher_queue' changes nothing here: this bridge does not publish to ROS")
         if "subscriber_queue" in self._values and not direction.to_gz:
-            self._warn("subscriber_queue", "'subscriber_queue' changes nothing here: this bridge hears nothing of ROS")
+            self._warn(
+                "subscriber_queue", "'subscriber_queue' changes nothing here: this bridge does not subscribe in ROS"
+            )
         if frame_id and not direction.to_ros:
             self._warn("frame_id", "'frame_id' changes nothing here: it is for messages that go to ROS")
 
@@ -224,7 +216,7 @@ class EntryReader:
 
 
 def unknown_key(key: str | None) -> str:
-    """The sentence about a key that no entry has."""
+    """Return the sentence about a key that does not exist."""
     if key is None:
         return f"a key must be one of {', '.join(KEYS)}"
     guess = nearest(key, (*KEYS, *_OF_SERVICES_ONLY))
@@ -232,7 +224,7 @@ def unknown_key(key: str | None) -> str:
 
 
 def type_faults(ros_type: str, gz_type: str) -> Iterator[str]:
-    """Why the two types of a topic cannot be bridged."""
+    """Yield why the two types of a topic cannot be bridged."""
     if not gz_type:
         yield "the Gazebo type after the direction mark is missing"
     elif re.search(r"[@\[\]]", gz_type):
@@ -247,7 +239,7 @@ def type_faults(ros_type: str, gz_type: str) -> Iterator[str]:
 
 
 def service_type_faults(ros_type: str, gz_request_type: str, gz_reply_type: str) -> Iterator[str]:
-    """Why the types of a service cannot be bridged."""
+    """Yield why the types of a service cannot be bridged."""
     try:
         find_service(ros_type, gz_request_type, gz_reply_type)
     except UnknownPairError as error:
@@ -255,7 +247,7 @@ def service_type_faults(ros_type: str, gz_request_type: str, gz_reply_type: str)
 
 
 def old_type_warning(gz_type: str) -> str | None:
-    """What to say about a Gazebo type in Fortress's spelling."""
+    """Return the warning about a Gazebo type in the spelling of Gazebo Fortress, or None."""
     if gz_type.startswith(_OLD_PREFIX):
         return f"'{gz_type}' is the old spelling, which newer releases than Jazzy do not know; write " + (
             canonical_gz_type(gz_type)

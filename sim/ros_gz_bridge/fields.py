@@ -1,35 +1,36 @@
-"""Pairs whose fields correspond one to one, declared as a list of fields instead of two functions.
+"""Descriptions of message pairs, of which both directions of a conversion follow.
 
-The files in ``convert/`` describe a message with ``Fields`` (which may stand inside another) and enter it with
-``add_fields``. What needs more than copying (images, scans, covariances) has functions of its own there.
+A file in `convert/` describes a message as a `Part` (two functions) or as `Fields` (a list of fields that correspond)
+and enters it in the table of type pairs with `message_pair`. Parts may stand inside others.
 """
 
 from __future__ import annotations
 
+import operator
 from array import array
 from collections.abc import Callable, Mapping
 from typing import Any, Protocol
 
-from std_msgs.msg import ColorRGBA
+from std_msgs.msg import ColorRGBA, Header
 
 from gz_course.sim.gz.msgs import message_class
 from gz_course.sim.ros_gz_bridge.blank import blank
-from gz_course.sim.ros_gz_bridge.header import header_to_gz, header_to_ros
+from gz_course.sim.ros_gz_bridge.header import copy_header, fill_header
 from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError, add_pair
 
 
 class Kind(Protocol):
-    """How the value of one field travels."""
+    """The conversion of one field of a message."""
 
     def get(self, gz: Any, name: str) -> Any:
-        """The ROS value of the field ``name`` of a Gazebo message."""
+        """Return the ROS value of the field `name` of a Gazebo message."""
 
     def put(self, value: Any, gz: Any, name: str) -> None:
-        """Write a ROS value into the field ``name`` of a Gazebo message."""
+        """Write a ROS value into the field `name` of a Gazebo message."""
 
 
 class Plain:
-    """A number, text or truth value; perhaps changed on its way."""
+    """A number, text or truth value, converted by a function in each direction; copied by default."""
 
     def __init__(
         self, to_ros: Callable[[Any], Any] = lambda value: value, to_gz: Callable[[Any], Any] = lambda value: value
@@ -38,30 +39,38 @@ class Plain:
         self._to_gz = to_gz
 
     def get(self, gz: Any, name: str) -> Any:
-        """Read and change."""
         return self._to_ros(getattr(gz, name))
 
     def put(self, value: Any, gz: Any, name: str) -> None:
-        """Change and write."""
         setattr(gz, name, self._to_gz(value))
 
 
 class Part:
-    """A message inside the message: ``to_ros`` makes a ROS message, ``to_gz`` writes into a Gazebo one."""
+    """A message, or a message inside another one.
 
-    def __init__(self, to_ros: Callable[[Any], Any], to_gz: Callable[[Any, Any], None]) -> None:
-        self.to_ros = to_ros
-        self.to_gz = to_gz
+    `fill(gz, ros)` writes a Gazebo message into a new ROS message, `copy(ros, gz)` a ROS message into a new Gazebo
+    message. Both raise `ConversionError` for a message that the other side cannot hold.
+    """
+
+    def __init__(self, ros_class: Any, fill: Callable[[Any, Any], None], copy: Callable[[Any, Any], None]) -> None:
+        self._ros_class = ros_class
+        self.fill = fill
+        self.copy = copy
+
+    def to_ros(self, gz: Any) -> Any:
+        """Return a new ROS message."""
+        ros = blank(self._ros_class)
+        self.fill(gz, ros)
+        return ros
 
     def get(self, gz: Any, name: str) -> Any:
-        """A new ROS message."""
         return self.to_ros(getattr(gz, name))
 
     def put(self, value: Any, gz: Any, name: str) -> None:
-        """Fill the Gazebo message; it counts as given even if every field is zero."""
+        """Fill the Gazebo message `name`, which counts as set even if every field is zero."""
         inside = getattr(gz, name)
         inside.SetInParent()
-        self.to_gz(value, inside)
+        self.copy(value, inside)
 
 
 class Each:
@@ -71,76 +80,80 @@ class Each:
         self._part = part
 
     def get(self, gz: Any, name: str) -> list[Any]:
-        """One ROS message for each."""
         return [self._part.to_ros(item) for item in getattr(gz, name)]
 
     def put(self, value: Any, gz: Any, name: str) -> None:
-        """One Gazebo message for each."""
         items = getattr(gz, name)
         for item in value:
-            self._part.to_gz(item, items.add())
+            self._part.copy(item, items.add())
 
 
-class Numbers:
-    """A list of numbers; ``code`` is the type code of Python's ``array`` that ROS keeps them in."""
+class Items:
+    """A list of numbers or texts; `make` builds the ROS list from the values."""
 
-    def __init__(self, code: str) -> None:
-        self._code = code
+    def __init__(self, make: Callable[[Any], Any]) -> None:
+        self._make = make
 
-    def get(self, gz: Any, name: str) -> array[Any]:
-        """An array."""
-        return array(self._code, getattr(gz, name))
-
-    def put(self, value: Any, gz: Any, name: str) -> None:
-        """A repeated field."""
-        getattr(gz, name).extend(value)
-
-
-class Texts:
-    """A list of strings."""
-
-    def get(self, gz: Any, name: str) -> list[str]:
-        """A list."""
-        return list(getattr(gz, name))
+    def get(self, gz: Any, name: str) -> Any:
+        return self._make(getattr(gz, name))
 
     def put(self, value: Any, gz: Any, name: str) -> None:
-        """A repeated field."""
         getattr(gz, name).extend(value)
 
 
 class Fields(Part):
-    """Two messages whose fields correspond: for each ROS field how it travels.
+    """Two messages whose fields correspond; `kinds` says for each ROS field how it is converted.
 
-    ``renamed`` gives the Gazebo names that differ from the ROS ones. Fields that are not listed stay at their
-    default on both sides.
+    `renamed` gives the Gazebo names that differ from the ROS ones. Fields that are not listed keep their default on
+    both sides.
     """
 
     def __init__(self, ros_class: Any, renamed: Mapping[str, str] | None = None, /, **kinds: Kind) -> None:
-        super().__init__(self._make, self._fill)
-        self._ros_class = ros_class
+        super().__init__(ros_class, self._fill, self._copy)
         self._kinds = [(name, (renamed or {}).get(name, name), kind) for name, kind in kinds.items()]
 
-    def _make(self, gz: Any) -> Any:
-        ros = blank(self._ros_class)
+    def _fill(self, gz: Any, ros: Any) -> None:
         for ros_name, gz_name, kind in self._kinds:
             setattr(ros, ros_name, kind.get(gz, gz_name))
-        return ros
 
-    def _fill(self, ros: Any, gz: Any) -> None:
+    def _copy(self, ros: Any, gz: Any) -> None:
         for ros_name, gz_name, kind in self._kinds:
             kind.put(getattr(ros, ros_name), gz, gz_name)
 
 
-def add_fields(ros_type: str, gz_type: str, part: Part, fault: Callable[[Any], str | None] | None = None) -> None:
-    """Enter the pair that ``part`` describes in the table of type pairs."""
+def stamped(ros_class: Any, field: str, part: Part, gz_header: str = "header") -> Part:
+    """Return the part of a ROS message that holds a header and, in `field`, what `part` describes.
+
+    `gz_header` is the path of the header in the Gazebo message.
+    """
+    header_of = operator.attrgetter(gz_header)
+
+    def fill(gz: Any, ros: Any) -> None:
+        fill_header(header_of(gz), ros.header)
+        part.fill(gz, getattr(ros, field))
+
+    def copy(ros: Any, gz: Any) -> None:
+        copy_header(ros.header, header_of(gz))
+        part.copy(getattr(ros, field), gz)
+
+    return Part(ros_class, fill, copy)
+
+
+def message_pair(ros_type: str, gz_type: str, part: Part, fault: Callable[[Any], str | None] | None = None) -> None:
+    """Enter the pair that `part` describes in the table of type pairs; for `fault` see `TypePair`."""
     gz_class = message_class(gz_type)
 
     def to_gz(ros: Any) -> Any:
         gz = gz_class()
-        part.to_gz(ros, gz)
+        part.copy(ros, gz)
         return gz
 
     add_pair(ros_type, gz_type, to_ros=part.to_ros, to_gz=to_gz, fault=fault)
+
+
+def plain(*names: str) -> dict[str, Kind]:
+    """Return the kinds of fields that are copied."""
+    return dict.fromkeys(names, PLAIN)
 
 
 def _uint8(number: int) -> int:
@@ -149,13 +162,17 @@ def _uint8(number: int) -> int:
     return number
 
 
-def _color_to_gz(ros: ColorRGBA, gz: Any) -> None:
-    gz.r, gz.g, gz.b, gz.a = ros.r, ros.g, ros.b, ros.a
+def _copy_color(source: Any, target: Any) -> None:
+    target.r, target.g, target.b, target.a = source.r, source.g, source.b, source.a
 
 
 PLAIN = Plain()
 ENUM = Plain(to_ros=_uint8)
-"""An enumeration with the same numbers on both sides; ROS keeps it in a ``uint8``."""
-FLOATS, DOUBLES, INT32S, TEXTS = Numbers("f"), Numbers("d"), Numbers("i"), Texts()
-HEADER = Part(header_to_ros, header_to_gz)
-COLOR = Part(lambda gz: ColorRGBA(r=gz.r, g=gz.g, b=gz.b, a=gz.a), _color_to_gz)
+"""An enumeration with the same numbers on both sides; ROS keeps it in a `uint8`."""
+TEXTS = Items(list)
+FLOATS = Items(lambda numbers: array("f", numbers))
+DOUBLES = Items(lambda numbers: array("d", numbers))
+INT32S = Items(lambda numbers: array("i", numbers))
+HEADER = Part(Header, fill_header, copy_header)
+COLOR = Part(ColorRGBA, _copy_color, _copy_color)
+"""Red, green, blue and opacity, each 0 to 1."""

@@ -1,6 +1,6 @@
-"""What is wrong with a configuration: one sentence, its place, and whether the bridge can start all the same.
+"""Errors and warnings about the configuration of a bridge.
 
-Made by ``config``, ``arguments``, ``parameters`` and ``checks``; shown by ``lint`` and ``parameter_bridge``.
+`config`, `arguments`, `parameters` and `checks` make them; `lint` and `parameter_bridge` print them.
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ _LONGEST = 600
 
 @dataclass(frozen=True)
 class Finding:
-    """One fault. ``place`` is ``file:line`` or the argument or parameter it was found in.
+    """An error or a warning. `place` is `file:line`, or the argument or parameter it was found in.
 
-    A ``warning`` stops nothing. ``tolerated`` marks an error that the original ros_gz_bridge passes over and
-    bridges all the same; with ``--compat`` such an error is only a warning.
+    `tolerated` marks an error in spite of which the original ros_gz_bridge bridges the entry; with `--compat` it is
+    only a warning.
     """
 
     place: str
@@ -29,7 +29,7 @@ class Finding:
 
 
 class ConfigError(ValueError):
-    """One or more faults in a configuration; ``errors`` holds one sentence for each, with its place."""
+    """A configuration with errors; `errors` holds one sentence for each, with its place."""
 
     def __init__(self, errors: Iterable[str]) -> None:
         self.errors = list(errors)
@@ -37,13 +37,13 @@ class ConfigError(ValueError):
 
 
 def raise_errors(findings: Iterable[Finding]) -> None:
-    """Raise ``ConfigError`` if any of ``findings`` is an error."""
+    """Raise ConfigError if any of `findings` is an error."""
     errors = [str(finding) for finding in findings if not finding.warning]
     if errors:
         raise ConfigError(errors)
 
 
 def one_line(text: str) -> str:
-    """``text`` without line breaks and at most 600 characters long, whatever it quotes."""
+    """Return `text` without line breaks, shortened to 600 characters; it may quote a file."""
     words = " ".join(text.split())
     return words if len(words) <= _LONGEST else f"{words[: _LONGEST // 2]} ... {words[-_LONGEST // 2 :]}"

@@ -1,11 +1,12 @@
-"""Stamps, headers and frame names: the rules every stamped message shares.
+"""Conversion of stamps, headers and frame names, for every stamped message in `convert/`.
 
-Gazebo keeps ROS's ``frame_id`` as a key with a value in ``header.data``; odometry and transforms also use the
-key ``child_frame_id``. Gazebo scopes names with ``::`` where ROS writes ``/``. The files in ``convert/`` call
-these functions, so the rules are written once.
+Gazebo keeps ROS's `frame_id` as a key with a value in `header.data`; odometry and transforms also use the key
+`child_frame_id`. Gazebo scopes names with `::` where ROS writes `/`.
 
-A new ROS message (``blank``) comes with all its parts, and a Python object costs more than the numbers in it. So they
-are filled in place (``fill_...``) instead of being replaced by parts that were made a second time.
+A new ROS message (`blank`) comes with all its parts. They are filled in place (`fill_...`), because creating Python
+objects costs more than copying the numbers in them.
+
+Source: ros_gz_bridge/src/convert/std_msgs.cpp and utils.cpp, https://github.com/gazebosim/ros_gz
 """
 
 from __future__ import annotations
@@ -16,7 +17,6 @@ from builtin_interfaces.msg import Duration as RosDuration
 from builtin_interfaces.msg import Time as RosTime
 from std_msgs.msg import Header as RosHeader
 
-from gz_course.sim.ros_gz_bridge.blank import blank
 from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError
 
 FRAME_ID = "frame_id"
@@ -25,42 +25,34 @@ _INT32 = range(-(2**31), 2**31)
 
 
 def fill_stamp(gz_time: Any, ros_time: RosTime | RosDuration) -> None:
-    """Write a ``gz.msgs.Time`` (sec int64, nsec int32) into a ROS time (sec int32, nanosec uint32)."""
+    """Write a `gz.msgs.Time` or `Duration` (sec int64, nsec int32) into a ROS one (sec int32, nanosec uint32).
+
+    Raises ConversionError if the seconds do not fit or the nanoseconds are negative.
+    """
     sec, nsec = gz_time.sec, gz_time.nsec
     if sec not in _INT32 or nsec < 0:
         raise ConversionError(f"the stamp {sec} s {nsec} ns does not fit a ROS time")
     ros_time.sec, ros_time.nanosec = sec, nsec
 
 
-def stamp_to_ros(gz_time: Any) -> RosTime:
-    """A ``gz.msgs.Time`` as a ROS time."""
-    ros = RosTime()
-    fill_stamp(gz_time, ros)
-    return ros
+def copy_stamp(ros_time: RosTime | RosDuration, gz_time: Any) -> None:
+    """Write a ROS time or duration into a `gz.msgs.Time` or `Duration`.
 
-
-def stamp_to_gz(ros_time: RosTime, gz_time: Any) -> None:
-    """Write a ROS time into ``gz_time`` (a ``gz.msgs.Time``)."""
+    Raises ConversionError if the nanoseconds do not fit 31 bits.
+    """
     if ros_time.nanosec >= 2**31:
         raise ConversionError(f"the stamp {ros_time.sec} s {ros_time.nanosec} ns does not fit a Gazebo time")
     gz_time.sec = ros_time.sec
     gz_time.nsec = ros_time.nanosec
 
 
-def duration_to_ros(gz_duration: Any) -> RosDuration:
-    """A ``gz.msgs.Duration`` (sec int64, nsec int32) as a ROS duration (sec int32, nanosec uint32)."""
-    ros = RosDuration()
-    fill_stamp(gz_duration, ros)
-    return ros
-
-
 def frame_to_ros(name: str) -> str:
-    """A Gazebo scoped name (``robot::base::lidar``) as a ROS frame (``robot/base/lidar``)."""
+    """Return the ROS frame (`robot/base/lidar`) of a Gazebo scoped name (`robot::base::lidar`)."""
     return name.replace("::", "/")
 
 
 def header_value(gz_header: Any, key: str) -> str:
-    """The frame kept under ``key``, in ROS spelling; the last entry counts, a missing one is empty."""
+    """Return the frame kept under `key`, in ROS spelling; of several the last one, of none the empty text."""
     for entry in reversed(gz_header.data):
         if entry.key == key:
             return frame_to_ros(entry.value[0]) if entry.value else ""
@@ -68,26 +60,17 @@ def header_value(gz_header: Any, key: str) -> str:
 
 
 def set_header_value(gz_header: Any, key: str, value: str) -> None:
-    """Append ``key`` with one value to a Gazebo header."""
+    """Append `key` with one value to a Gazebo header."""
     entry = gz_header.data.add()
     entry.key = key
     entry.value.append(value)
 
 
 def fill_header(gz_header: Any, ros_header: RosHeader) -> None:
-    """Write stamp and ``frame_id`` of a ``gz.msgs.Header`` into a ROS header."""
     fill_stamp(gz_header.stamp, ros_header.stamp)
     ros_header.frame_id = header_value(gz_header, FRAME_ID)
 
 
-def header_to_ros(gz_header: Any) -> RosHeader:
-    """Stamp and ``frame_id`` of a ``gz.msgs.Header``."""
-    ros = blank(RosHeader)
-    fill_header(gz_header, ros)
-    return ros
-
-
-def header_to_gz(ros_header: RosHeader, gz_header: Any) -> None:
-    """Write stamp and ``frame_id`` into ``gz_header`` (a ``gz.msgs.Header``)."""
-    stamp_to_gz(ros_header.stamp, gz_header.stamp)
+def copy_header(ros_header: RosHeader, gz_header: Any) -> None:
+    copy_stamp(ros_header.stamp, gz_header.stamp)
     set_header_value(gz_header, FRAME_ID, ros_header.frame_id)

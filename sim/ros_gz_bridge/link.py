@@ -1,7 +1,7 @@
-"""The two ways through one entry of a bridge: from Gazebo to ROS, and from ROS to Gazebo.
+"""The two directions of an entry of a bridge: from Gazebo to ROS, and from ROS to Gazebo.
 
-``bridge.Bridge`` makes one of these for each direction of each entry. Each owns its endpoint on the ROS side,
-converts what arrives, counts it, and says at most once a second that messages could not be bridged.
+`bridge.Bridge` makes one link for each direction of each entry. A link owns its endpoint on the ROS side, converts and
+counts messages, and warns at most once a second that messages could not be bridged.
 """
 
 from __future__ import annotations
@@ -21,29 +21,20 @@ from rclpy.qos_overriding_options import QoSOverridingOptions
 from gz_course.sim.gz.transport import MessageInfo
 from gz_course.sim.ros_gz_bridge.echo_filter import EchoAwarePublisher, EchoFilter
 from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, BridgeError, EntryStatus, ServiceEntry
-from gz_course.sim.ros_gz_bridge.lane import HEAVY_BYTES, Lane
-from gz_course.sim.ros_gz_bridge.qos_profile import qos
+from gz_course.sim.ros_gz_bridge.qos_profile import PUBLISHER_POLICIES, qos
 from gz_course.sim.ros_gz_bridge.type_pairs import TypePair
+from gz_course.sim.ros_gz_bridge.worker import HEAVY_BYTES, Worker
 
 if TYPE_CHECKING:
     from gz_course.sim.ros_gz_bridge.bridge import Bridge
 
-_PUBLISHER_POLICIES = (
-    QoSPolicyKind.DEADLINE,
-    QoSPolicyKind.DEPTH,
-    QoSPolicyKind.DURABILITY,
-    QoSPolicyKind.HISTORY,
-    QoSPolicyKind.LIVELINESS,
-    QoSPolicyKind.RELIABILITY,
-)
-
-
+_PUBLISHER_POLICIES = tuple(QoSPolicyKind[name.upper()] for name in PUBLISHER_POLICIES)
 _SECONDS_BETWEEN_WARNINGS = 1.0
 
 
 @dataclass(frozen=True)
 class Row:
-    """An entry with its counters, its pair and its topic as ROS names it, after remapping."""
+    """An entry with its counters, its type pair and its ROS topic after remapping."""
 
     entry: BridgeEntry
     status: EntryStatus
@@ -52,7 +43,7 @@ class Row:
 
 
 class Link:
-    """What both directions of an entry share: counting, and saying what could not be bridged."""
+    """The common part of both directions: counters, and warnings of what could not be bridged."""
 
     def __init__(self, bridge: Bridge, row: Row) -> None:
         self.entry = row.entry
@@ -68,7 +59,7 @@ class Link:
         self._said_at: float | None = None
 
     def look_for_echoes(self, others: Iterable[Link]) -> None:
-        """Find out whether one of ``others``, which go the other way, joins the same Gazebo topic."""
+        """Note whether one of `others`, which are of the other direction, uses the same Gazebo topic."""
         self._hears_itself = any(other.gz_topic == self.gz_topic for other in others)
 
     def _count(self, field: str) -> None:
@@ -84,7 +75,7 @@ class Link:
         self.say_unsaid()
 
     def say_unsaid(self, at_once: bool = False) -> None:
-        """Warn of the messages lost since the last warning; at most once a second unless ``at_once``."""
+        """Warn of the messages lost since the last warning; at most once a second unless `at_once`."""
         with self._bridge._status_lock:
             now = self._bridge._monotonic()
             recently = self._said_at is not None and now - self._said_at < _SECONDS_BETWEEN_WARNINGS
@@ -100,12 +91,12 @@ class Link:
 
 
 class GzToRos(Link):
-    """One entry's way from Gazebo to ROS."""
+    """The direction from Gazebo to ROS of one entry."""
 
     def __init__(self, bridge: Bridge, row: Row, heard_by: tuple[EchoFilter, ...]) -> None:
         super().__init__(bridge, row)
         self.subscribed = False
-        self._lane: Lane | None = None
+        self._worker: Worker | None = None
         self.publisher = bridge._ros_node.create_publisher(
             row.pair.ros_class,
             row.entry.ros_topic,
@@ -117,12 +108,12 @@ class GzToRos(Link):
             self.publisher.filters = heard_by
 
     def wanted(self) -> bool:
-        """Whether anybody but this bridge listens on the ROS side."""
+        """Return whether anybody but this bridge subscribes on the ROS side."""
         own = sum(link.connected and link.ros_topic == self.ros_topic for link in self._bridge._to_gz)
         return bool(self.publisher.get_subscription_count() > own)
 
     def connect(self) -> None:
-        """Listen to Gazebo. Raises ``BridgeError`` when ``gz.transport`` refuses."""
+        """Subscribe in Gazebo. Raises BridgeError if `gz.transport` refuses."""
         self.connected = True
         if not self.subscribed:
             self.subscribed = True
@@ -135,28 +126,27 @@ class GzToRos(Link):
                 raise BridgeError([sentence(self.entry, f"cannot subscribe to the Gazebo topic {topic}")])
 
     def disconnect(self) -> None:
-        """Stop listening to Gazebo."""
         if self.connected:
             self.connected = False
             self._bridge._disconnect_gz(self.gz_topic)
 
     def close(self) -> None:
-        """Stop listening and give back the publisher; a message on its way through may still leave."""
+        """Unsubscribe and destroy the publisher; a message being bridged may still be published."""
         self.disconnect()
         if not self._closed:
             self._closed = True
-            if self._lane is not None:
-                self._lane.close()
+            if self._worker is not None:
+                self._worker.close()
             self._bridge._ros_node.destroy_publisher(self.publisher)
 
     def _on_data(self, data: bytes, info: MessageInfo) -> None:
-        """A serialized message: a heavy topic goes into a lane of its own, where it delays no other."""
-        if self._lane is None and len(data) >= HEAVY_BYTES and not info.intra_process:
-            self._lane = Lane(self.gz_topic, self._on_heavy, self.entry.publisher_queue, self._skipped)
-        if self._lane is None or info.intra_process:
+        """Bridge a serialized message, in a worker if the topic carries large ones."""
+        if self._worker is None and len(data) >= HEAVY_BYTES and not info.intra_process:
+            self._worker = Worker(self.gz_topic, self._on_heavy, self.entry.publisher_queue, self._skipped)
+        if self._worker is None or info.intra_process:
             self._on_message(self._pair.gz_class.FromString(data))
         else:
-            self._lane.put(data)
+            self._worker.put(data)
 
     def _on_heavy(self, data: bytes) -> None:
         try:
@@ -204,7 +194,7 @@ class GzToRos(Link):
 
 
 class RosToGz(Link):
-    """One entry's way from ROS to Gazebo."""
+    """The direction from ROS to Gazebo of one entry."""
 
     def __init__(self, bridge: Bridge, row: Row, echo_filter: EchoFilter | None) -> None:
         super().__init__(bridge, row)
@@ -213,16 +203,15 @@ class RosToGz(Link):
         self.subscription: Any = None
 
     def wanted(self) -> bool:
-        """Whether anybody listens on the Gazebo side (a bidirectional entry hears itself, so always)."""
+        """Return whether anybody subscribes on the Gazebo side; a bidirectional entry does so itself."""
         return bool(self._publisher.has_connections())
 
     def connect(self) -> None:
-        """Listen to ROS."""
         if self.connected:
             return
         self.connected = True
         listener = self._bridge._listener
-        # rclpy looks at the number of parameters: with two it passes the stamps of the message along.
+        # rclpy passes the stamps of the message to a callback with two parameters.
         self.subscription = self._bridge._ros_node.create_subscription(
             self._pair.ros_class,
             self.entry.ros_topic,
@@ -235,7 +224,6 @@ class RosToGz(Link):
             listener.add(self.subscription, self._on_message_with_info, self._on_failure)
 
     def disconnect(self) -> None:
-        """Stop listening to ROS."""
         self.connected = False
         if self.subscription is not None:
             if self._bridge._listener is not None:
@@ -244,7 +232,6 @@ class RosToGz(Link):
             self.subscription = None
 
     def close(self) -> None:
-        """Stop listening; a message on its way through may still leave."""
         self.disconnect()
 
     def _on_failure(self, error: Exception) -> None:
@@ -284,10 +271,10 @@ class RosToGz(Link):
 
 
 def error_text(error: BaseException) -> str:
-    """The text of an error in one line, without the places in ROS's C sources that it may carry."""
+    """Return the text of an error in one line, without places in ROS's C sources."""
     return re.sub(r", at /\S+:\d+", "", " ".join(str(error).split())) or type(error).__name__
 
 
 def sentence(entry: BridgeEntry | ServiceEntry, text: str) -> str:
-    """``text`` after the place the entry was written, if that is known."""
+    """Return `text` after the place of the entry, if that is known."""
     return f"{entry.source}: {text}" if entry.source else text

@@ -1,8 +1,7 @@
-"""The command ``lint``: says what is wrong with the configuration of a bridge without starting one.
+"""The program `ros2 run ros_gz_bridge lint bridge.yaml`, which checks the configuration of a bridge.
 
-``ros2 run ros_gz_bridge lint bridge.yaml``, or with arguments as ``parameter_bridge`` takes them. The findings are
-those of a starting ``parameter_bridge``, one a line on stdout; the exit code is 2 if there is an error among them,
-else 0.
+It also takes the arguments of `parameter_bridge`. It prints the findings of a starting `parameter_bridge`, one a line;
+the exit code is 2 if there is an error among them, else 0.
 """
 
 from __future__ import annotations
@@ -22,12 +21,12 @@ Checks the YAML files (or the arguments) of a bridge between Gazebo and ROS 2 an
 Each finding is one line: FILE:LINE: error: ... or FILE:LINE: warning: ...
 Exit code: 0 without errors (there may be warnings), 2 with errors.
 
-  --compat  what the original ros_gz_bridge passes over is no error, only a warning
+  --compat  report what the original ros_gz_bridge ignores as a warning, not as an error
 """
 
 
 def main(argv: list[str] | None = None) -> int:
-    """Check what the command line names; 0 or 2."""
+    """Check what the command line names; return the exit code."""
     arguments = sys.argv[1:] if argv is None else argv
     if not arguments or {"-h", "--help"} & set(arguments):
         print(HELP, end="")
@@ -43,7 +42,7 @@ def main(argv: list[str] | None = None) -> int:
         return 2
     try:
         return _report(words, compat)
-    except BrokenPipeError:  # the reader, for instance head, has seen enough
+    except BrokenPipeError:  # the reader, for instance head, has ended
         sys.stderr.close()
         return 2
 
@@ -66,7 +65,7 @@ def _report(words: list[str], compat: bool) -> int:
 
 
 def _read(words: list[str]) -> list[Config]:
-    """What each file holds, and all arguments together."""
+    """Return one configuration for each file, and one for all arguments."""
     from gz_course.sim.ros_gz_bridge.arguments import read_arguments
     from gz_course.sim.ros_gz_bridge.checks import private_gz_names
     from gz_course.sim.ros_gz_bridge.config import read_file

@@ -1,6 +1,8 @@
-"""Whether a topic or service name can be used on the ROS side and on the Gazebo side.
+"""The rules for names of topics and services on the ROS side and on the Gazebo side.
 
-``config``, ``arguments`` and ``parameters`` ask here, before any node exists that would refuse the name.
+`config`, `arguments` and `parameters` check names here, before there is a node that would refuse them.
+
+Source: https://design.ros2.org/articles/topic_and_service_names.html
 """
 
 from __future__ import annotations
@@ -17,7 +19,7 @@ _LONGEST = 1000
 
 
 def ros_name_fault(name: str) -> str | None:
-    """What is wrong with a ROS topic or service name, or None. Substitutions (``{node}``) and ``~`` may stand."""
+    """Return what is wrong with a ROS topic or service name, or None. `{node}` and `~` are allowed."""
     if len(name) <= _LONGEST and _ROS_NAME.fullmatch(name) and "__" not in name:
         return None
     return (
@@ -27,15 +29,15 @@ def ros_name_fault(name: str) -> str | None:
 
 
 def gz_name_fault(name: str) -> str | None:
-    """What is wrong with a Gazebo topic or service name, or None. ``~/x`` may stand: it can be expanded."""
+    """Return what is wrong with a Gazebo topic or service name, or None. `~/x` is allowed: it can be expanded."""
     rule = naming.broken_rule(name.removeprefix("~/"), may_be_empty=False)
     return f"'{name}' is not a Gazebo topic name: it {rule}" if rule else None
 
 
 def expand_gz_name(name: str, namespace: str, node_name: str) -> str:
-    """A Gazebo name within the ROS node: ``/abs`` stays, ``rel`` and ``~/private`` get its namespace.
+    """Return a Gazebo name expanded as a ROS name: `/abs` stays, `rel` and `~/private` get the node's namespace.
 
-    As ros_gz_bridge's parameter ``expand_gz_topic_names`` has it.
+    This is what the parameter `expand_gz_topic_names` of ros_gz_bridge asks for.
     """
     if name.startswith("/"):
         return name
@@ -46,6 +48,6 @@ def expand_gz_name(name: str, namespace: str, node_name: str) -> str:
 
 
 def nearest(word: str, words: Iterable[str], cutoff: float = 0.6) -> str:
-    """The tail of a sentence that points to the closest of ``words``, or nothing."""
+    """Return the end of a sentence that names the closest of `words`, or an empty text."""
     close = difflib.get_close_matches(word[:200], list(words), n=1, cutoff=cutoff)
     return f"; did you mean {close[0]}?" if close else ""

@@ -1,8 +1,10 @@
-"""The command ``parameter_bridge``: bridges Gazebo and ROS topics until it is interrupted.
+"""The program `parameter_bridge`, which bridges Gazebo and ROS topics until it is interrupted.
 
-It reads the command line and the YAML file (``config``), starts one ROS node and one Gazebo node, and lets
-``bridge.Bridge`` work between them. Everything wrong is said before anything runs: one sentence a fault, exit
-code 2. Importing this module loads nothing heavy, so that ``ros_program.run`` has signals in hand from the start.
+It reads the command line, the ROS parameters and the YAML file, and runs `bridge.Bridge` between one ROS node and one
+Gazebo node. All faults of the configuration are reported at the start, with exit code 2. Importing this module loads
+no ROS, so that `ros_program.program.run` handles signals from the start.
+
+Source: README.md and src/parameter_bridge.cpp of ros_gz_bridge, https://github.com/gazebosim/ros_gz
 """
 
 from __future__ import annotations
@@ -11,7 +13,9 @@ import sys
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from gz_course.sim.ros_gz_bridge.ros_program import UsageError, run, wait_for_signal
+from gz_course.sim.ros_program.errors import UsageError
+from gz_course.sim.ros_program.program import run
+from gz_course.sim.ros_program.spinner import wait_for_signal
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -33,7 +37,7 @@ Quote each argument: some shells give [ a meaning of their own.
 A service of Gazebo is offered to ROS with SERVICE@ROS_TYPE or SERVICE@ROS_TYPE@GZ_REQUEST_TYPE@GZ_REPLY_TYPE:
   parameter_bridge /world/empty/control@ros_gz_interfaces/srv/ControlWorld
 
-  --compat  errors in the configuration are warnings, as far as the original ros_gz_bridge passes over them
+  --compat  report errors that the original ros_gz_bridge ignores as warnings
 
 ROS parameters (after --ros-args, each as -p name:=value, or in a file after --params-file):
   config_file                         YAML list of bridges; not together with bridges on the command line
@@ -53,11 +57,11 @@ _SWITCH_S = 0.001
 
 
 def main(argv: list[str] | None = None) -> int:
-    """Run the bridge until SIGINT or SIGTERM: exit code 0; 2 if it could not start, 1 if it broke."""
+    """Run the bridge until SIGINT or SIGTERM; return 0, 2 if it could not start, or 1 if a callback failed."""
     if not (sys.argv[1:] if argv is None else argv):
         print(HELP, end="")
         return 2
-    return run("parameter_bridge", "ros_gz_bridge", _bridge, HELP, argv, lasting=True, pictures=True)
+    return run("parameter_bridge", "ros_gz_bridge", _bridge, HELP, argv, lasting=True, images=True)
 
 
 def _bridge(node: Node, texts: list[str]) -> int:
@@ -93,7 +97,7 @@ def _bridge(node: Node, texts: list[str]) -> int:
             logger.warning(sentence)
         bridged_topics.offer(node, config.topics)
         parameters.declare(node)
-        # A thread that converts an image gives way to the one that has a clock in hand after this time.
+        # So soon a thread that converts an image yields to one that bridges the clock.
         sys.setswitchinterval(_SWITCH_S)
         watcher = Watcher(Watch(bridge, gz_node, logger), heartbeat)
         watcher.start()
@@ -107,9 +111,9 @@ def _bridge(node: Node, texts: list[str]) -> int:
 
 
 def _configured(node: Node, texts: list[str], given: Any, compat: bool) -> Config:
-    """The bridges of the command line, of the parameters and of the file; what is left in ``findings`` is advice.
+    """Return the bridges of the command line, of the parameters and of the file, with warnings in `findings`.
 
-    Raises ``UsageError`` with every error, unless ``compat`` turns them into warnings.
+    Raises UsageError with every error, unless `compat` turns them into warnings.
     """
     from gz_course.sim.ros_gz_bridge.arguments import read_arguments
     from gz_course.sim.ros_gz_bridge.checks import check, private_gz_names
@@ -150,7 +154,7 @@ def _configured(node: Node, texts: list[str], given: Any, compat: bool) -> Confi
 
 
 def _expand(config: Config, node: Node) -> None:
-    """Give the Gazebo names the namespace of the node, as the parameter expand_gz_topic_names asks."""
+    """Expand the Gazebo names with the namespace and the name of the node."""
     from gz_course.sim.ros_gz_bridge.names import expand_gz_name
 
     namespace, name = node.get_namespace(), node.get_name()

@@ -1,7 +1,9 @@
-"""The ROS parameters of the bridge's node: what they ask for, and which of them change nothing.
+"""The ROS parameters of the bridge's node.
 
-``parameter_bridge`` calls ``read_parameters`` once, when its node exists; the bridge does not change while it runs, so
-later changes are refused.
+`parameter_bridge` calls `read_parameters` once, at the start. The bridge does not change while it runs, so
+later changes of parameters are refused.
+
+Source: README.md and src/ros_gz_bridge.cpp of ros_gz_bridge, https://github.com/gazebosim/ros_gz
 """
 
 from __future__ import annotations
@@ -17,6 +19,8 @@ from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction
 from gz_course.sim.ros_gz_bridge.entry_reader import KEYS, SERVICE_KEYS, EntryReader, Value, unknown_key
 from gz_course.sim.ros_gz_bridge.finding import Finding
 from gz_course.sim.ros_gz_bridge.names import nearest
+from gz_course.sim.ros_gz_bridge.qos_profile import PUBLISHER_POLICIES
+from gz_course.sim.ros_program.parameters import OF_EVERY_NODE, TYPE_WORDS
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -29,23 +33,20 @@ DEFAULTS: dict[str, Any] = {
     "override_frame_id": "",
     "override_timestamps_with_wall_time": False,
 }
-"""The parameters that every bridge has, with their defaults."""
-_WORDS = {str: "a text", bool: "true or false", int: "a whole number"}
-_OF_EVERY_NODE = {"use_sim_time", "start_type_description_service"}
-_PUBLISHER_POLICIES = ("deadline", "depth", "durability", "history", "liveliness", "reliability")
+"""The parameters of every bridge, with their defaults; `subscription_heartbeat` in [ms]."""
 _SUBSCRIPTION_POLICIES = ("depth", "history", "reliability")
 
 
 @dataclass
 class Parameters:
-    """What the parameters ask for, faults included; ``config`` holds the bridges of ``bridge_names``."""
+    """The values of the parameters; `config` holds the bridges of `bridge_names`, and all faults."""
 
     values: dict[str, Any] = field(default_factory=lambda: dict(DEFAULTS))
     config: Config = field(default_factory=Config)
 
 
 def read_parameters(node: Node) -> Parameters:
-    """The parameters ``node`` was started with (declared from its overrides); raises nothing."""
+    """Return the parameters that `node` was started with (declared from its overrides); raise nothing."""
     given = {name: parameter.value for name, parameter in node.get_parameters_by_prefix("").items()}
     read = Parameters()
     for name, default in DEFAULTS.items():
@@ -53,7 +54,7 @@ def read_parameters(node: Node) -> Parameters:
             continue
         value = given[name]
         if type(value) is not type(default):
-            sentence = f"the parameter {name} must be {_WORDS[type(default)]}, not {value!r}"
+            sentence = f"the parameter {name} must be {TYPE_WORDS[type(default)]}, not {value!r}"
             read.config.findings.append(Finding("", sentence))
         elif name == "subscription_heartbeat" and not 1 <= value <= 3_600_000:
             sentence = f"the parameter {name} must be a number of ms above 0 and up to an hour, not {value}"
@@ -65,7 +66,7 @@ def read_parameters(node: Node) -> Parameters:
 
 
 def _read_bridges(given: dict[str, Any], read: Parameters) -> None:
-    """The bridges of ``bridge_names`` and ``bridges.<name>.<key>``."""
+    """Add the bridges of `bridge_names` and `bridges.<name>.<key>` to `read.config`."""
     findings = read.config.findings
     names = given.get("bridge_names", [])
     if not isinstance(names, Sequence) or isinstance(names, str) or not all(isinstance(name, str) for name in names):
@@ -103,15 +104,15 @@ def _value(place: str, value: Any) -> Value:
 
 
 def advice(node: Node, entries: Iterable[BridgeEntry]) -> Iterator[str]:
-    """Parameters that change nothing: unknown names, and QoS overrides of endpoints that do not exist."""
+    """Yield warnings of parameters without effect: unknown ones, and QoS overrides of endpoints that do not exist."""
     endpoints: dict[str, tuple[str, ...]] = {}
     for entry in entries:
         topic = node.resolve_topic_name(entry.ros_topic)
         if entry.direction.to_ros:
-            endpoints[f"qos_overrides.{topic}.publisher."] = _PUBLISHER_POLICIES
+            endpoints[f"qos_overrides.{topic}.publisher."] = PUBLISHER_POLICIES
         if entry.direction.to_gz:
             endpoints[f"qos_overrides.{topic}.subscription."] = _SUBSCRIPTION_POLICIES
-    known = {*DEFAULTS, *_OF_EVERY_NODE, "bridge_names", bridged_topics.PARAMETER}
+    known = {*DEFAULTS, *OF_EVERY_NODE, "bridge_names", bridged_topics.PARAMETER}
     for name in sorted(node.get_parameters_by_prefix("")):
         if name.startswith("qos_overrides."):
             yield from _qos_advice(name, endpoints)
@@ -134,7 +135,7 @@ def _qos_advice(name: str, endpoints: dict[str, tuple[str, ...]]) -> Iterator[st
 
 
 def declare(node: Node) -> None:
-    """Declare what is not declared yet, so that ``ros2 param`` shows it, and refuse changes from now on."""
+    """Declare the missing parameters, so that `ros2 param` shows them, and refuse changes from now on."""
     from rcl_interfaces.msg import SetParametersResult
     from rclpy.parameter import Parameter
 
@@ -154,7 +155,7 @@ def declare(node: Node) -> None:
 
 
 def creation_lines(config: Config) -> Iterator[str]:
-    """What ros_gz_bridge says for each direction of a bridge."""
+    """Yield the log lines of ros_gz_bridge, one for each direction of a bridge."""
     for entry in config.topics:
         gz, ros = f"{entry.gz_topic} ({entry.gz_type})", f"{entry.ros_topic} ({entry.ros_type})"
         if entry.direction is not Direction.ROS_TO_GZ:

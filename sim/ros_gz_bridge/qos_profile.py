@@ -1,7 +1,6 @@
-"""The named QoS profiles an entry may ask for with ``qos_profile``, and the profile of each of its endpoints.
+"""The QoS profiles that an entry may name with `qos_profile`, and the QoS of its endpoints.
 
-The names are those of ros_gz_bridge's YAML, the policies those of ROS's profiles of these names (rmw/qos_profiles,
-and rclcpp's ClockQoS and RosoutQoS). ``entry_reader`` asks for the depth, ``link`` for the profile.
+Source: README.md of ros_gz_bridge (names); rmw/qos_profiles.h, and rclcpp/qos.hpp for ClockQoS and RosoutQoS (policies)
 """
 
 from __future__ import annotations
@@ -33,20 +32,22 @@ QOS_PROFILES = {
     "BEST_AVAILABLE": _Policies(10, "BEST_AVAILABLE", "BEST_AVAILABLE", best_available=True),
 }
 DEFAULT_DEPTH = 10
+PUBLISHER_POLICIES = ("deadline", "depth", "durability", "history", "liveliness", "reliability")
+"""The policies that `qos_overrides` may set for a publisher."""
 
 
 def depth_of(profile: str | None) -> int:
-    """The depth (messages) of a profile, where the entry does not give one."""
+    """Return the depth [messages] of a profile, for entries without one."""
     return QOS_PROFILES[profile].depth if profile else DEFAULT_DEPTH
 
 
 def reliable(profile: str | None) -> bool:
-    """Whether a profile surely makes a reliable publisher."""
+    """Return whether publishers with a profile are reliable."""
     return profile is None or QOS_PROFILES[profile].reliability == "RELIABLE"
 
 
 def qos(profile: str | None, depth: int) -> QoSProfile:
-    """The QoS of an endpoint: that of the profile (default: reliable, volatile), with ``depth`` messages."""
+    """Return the QoS of an endpoint: that of the profile (None: reliable, volatile), with `depth` [messages]."""
     from rclpy.duration import Duration
     from rclpy.qos import DurabilityPolicy, LivelinessPolicy, QoSProfile, ReliabilityPolicy
 

@@ -1,9 +1,8 @@
-"""Takes what comes from ROS and hands it to the bridge, in one thread, without the long way through an executor.
+"""A thread that takes ROS messages with a wait set of its own, faster than an executor.
 
-An executor of rclpy asks every service, timer and event of the node whether it is its turn, and makes a task of each
-message. A command on its way to the simulator need not wait for that: the subscriptions of a ``RosListener`` have a
-wait set of their own. ``bridge.Bridge`` makes one when it works with threads, ``link.RosToGz`` adds its subscription
-and is called with each message; from there it goes to ``gz.transport`` in the same thread.
+An executor of rclpy checks every service, timer and event of the node and makes a task of each message, which delays
+commands to the simulator. `bridge.Bridge` makes one `RosListener` if it is threaded; `link.RosToGz` adds its
+subscription, and its callback passes each message to `gz.transport` in the same thread.
 """
 
 from __future__ import annotations
@@ -25,21 +24,19 @@ _STOP_WITHIN_S = 1.0
 
 
 class ListenerGroup(CallbackGroup):
-    """The callback group of a listener's subscriptions: executors leave them alone.
+    """The callback group of a listener's subscriptions and their QoS events, which executors ignore.
 
-    Their QoS events as well: DDS would wake whoever waits for these with every message, too.
+    An executor that waited for the events alone would be woken by every message.
     """
 
     def can_execute(self, entity: Any) -> bool:
-        """Whether an executor may wait for it."""
         return False
 
     def beginning_execution(self, entity: Any) -> bool:
-        """Whether an executor may begin with it."""
         return False
 
     def ending_execution(self, entity: Any) -> None:
-        """Nothing is kept."""
+        """Do nothing: there is no state."""
 
 
 class _Input(NamedTuple):
@@ -50,10 +47,12 @@ class _Input(NamedTuple):
 
 
 class RosListener:
-    """One thread that waits for the messages of many subscriptions. They must be created with its ``group``."""
+    """One thread that waits for the messages of many subscriptions, which must be created with its `group`.
+
+    It starts with the first `add`. Thread-safe.
+    """
 
     def __init__(self, context: Context) -> None:
-        """Nothing runs before the first ``add``."""
         self.group = ListenerGroup()
         self._context = context
         self._inputs: dict[Subscription, _Input] = {}
@@ -69,9 +68,9 @@ class RosListener:
         callback: Callable[[Any, dict[str, int]], None],
         failed: Callable[[Exception], None],
     ) -> None:
-        """From now on call ``callback(message, what DDS says about it)`` for each message, in the listener's thread.
+        """Call `callback(message, message info)` for each message from now on, in the listener's thread.
 
-        What it raises, and what DDS says of a message that cannot be taken, goes to ``failed``.
+        `failed` gets the exceptions of `callback`, and those of messages that cannot be taken.
         """
         with self._lock:
             self._inputs[subscription] = _Input(subscription.handle, subscription.msg_type, callback, failed)
@@ -82,14 +81,14 @@ class RosListener:
         self._wake.trigger()
 
     def remove(self, subscription: Subscription) -> None:
-        """Forget a subscription, which may then be destroyed; a message taken already is still handed over."""
+        """Stop waiting for a subscription, which may then be destroyed; a message already taken is still delivered."""
         with self._lock:
             self._inputs.pop(subscription, None)
             self._changed = True
         self._wake.trigger()
 
     def close(self) -> None:
-        """End the thread after the message it is at; harmless when repeated."""
+        """End the thread after the current message; may be repeated."""
         with self._lock:
             if not self._open:
                 return
@@ -111,9 +110,9 @@ class RosListener:
             self._listen(inputs)
 
     def _listen(self, inputs: dict[Subscription, _Input]) -> None:
-        """Wait for messages and hand them over until there are other subscriptions to wait for."""
+        """Wait for messages and deliver them until the set of subscriptions changes."""
         events = []
-        with contextlib.ExitStack() as in_use:  # what is in a wait set must not be destroyed
+        with contextlib.ExitStack() as in_use:  # entities of a wait set must not be destroyed
             in_use.enter_context(self._context.handle)
             in_use.enter_context(self._wake.handle)
             for subscription in inputs:
@@ -145,7 +144,7 @@ class RosListener:
 
 
 def _hand_over(each: _Input) -> None:
-    """The next message of a subscription, if nobody else took it."""
+    """Take the next message of a subscription and call its callback."""
     try:
         taken = each.handle.take_message(each.message_type, False)
         if taken is not None:

@@ -1,7 +1,7 @@
-"""One Gazebo service offered as a ROS service: the request goes to Gazebo, the reply comes back.
+"""A Gazebo service offered as a ROS service.
 
-``bridge.Bridge`` makes one for each service entry. The call to Gazebo waits in a thread of its own, so that topics go
-on meanwhile; one thread is enough for the calls of a service, which Gazebo answers one at a time anyway.
+`bridge.Bridge` makes one link for each service entry. The call to Gazebo waits in a thread of the link, so that topics
+are bridged meanwhile; one thread is enough, because Gazebo answers the calls of a service one at a time.
 """
 
 from __future__ import annotations
@@ -20,14 +20,16 @@ from gz_course.sim.ros_gz_bridge.names import nearest
 from gz_course.sim.ros_gz_bridge.type_pairs import find_service
 
 TIMEOUT_S = 5.0
-"""So long Gazebo has time to answer."""
+"""Time for Gazebo to answer [s]."""
 
 
 class ServiceLink:
-    """Offers ``entry`` on ``ros_node`` until ``close``; the owner spins the node."""
+    """The service of `entry` on `ros_node`, whose owner spins it, until `close`.
+
+    `timeout` is how long to wait for Gazebo [s]. Raises what rclpy raises for a name it refuses.
+    """
 
     def __init__(self, ros_node: RosNode, gz_node: GzNode, entry: ServiceEntry, timeout: float = TIMEOUT_S) -> None:
-        """``timeout`` is how long to wait for Gazebo [s]. Raises what rclpy raises for a name it refuses."""
         self.entry = entry
         self._node = ros_node
         self._gz_node = gz_node
@@ -36,29 +38,29 @@ class ServiceLink:
         self._types = find_service(entry.ros_type, entry.gz_request_type, entry.gz_reply_type)
         self._callers = concurrent.futures.ThreadPoolExecutor(1, thread_name_prefix=f"service {entry.name}")
         self._open = True
-        # Reentrant: topics of the same node do not wait for Gazebo's answer.
+        # Reentrant, so that topics of the same node do not wait for Gazebo's answer.
         self._group = ReentrantCallbackGroup()
         self._service = ros_node.create_service(
             self._types.ros_class, entry.name, self._on_request, callback_group=self._group
         )
 
     def close(self) -> None:
-        """Take the service back; calls under way are given up."""
+        """Destroy the service and cancel its calls."""
         if self._open:
             self._open = False
             self._callers.shutdown(wait=False, cancel_futures=True)
             self._node.destroy_service(self._service)
 
     async def _on_request(self, request: Any, response: Any) -> Any:
-        """The ROS response. A coroutine: rclpy's executor does other things until Gazebo has answered."""
+        """Return the ROS response; a coroutine, so that rclpy's executor goes on until Gazebo has answered."""
         answered: Future = Future(executor=self._node.executor)
-        answered.add_done_callback(lambda _: None)  # what wakes the executor
+        answered.add_done_callback(lambda _: None)  # a callback makes rclpy wake the executor
         self._callers.submit(self._call, request, answered)
         reply = await answered
         return response if reply is None else reply
 
     def _call(self, request: Any, answered: Future) -> None:
-        """Ask Gazebo; sets the result of ``answered`` to the ROS response, or None if there is none."""
+        """Call Gazebo and set the result of `answered` to the ROS response, or to None if there is none."""
         reply = None
         try:
             reply = self._ask(request)
@@ -90,7 +92,7 @@ class ServiceLink:
         return None
 
     def _why(self) -> str:
-        """Why nobody has answered, as far as can be seen from here."""
+        """Return the likely reason why nobody has answered."""
         wanted = (self._types.gz_request_type, self._types.gz_reply_type)
         offered = {(each.req_type_name, each.rep_type_name) for each in self._gz_node.service_info(self._gz_name)}
         if not offered:

@@ -1,9 +1,8 @@
-"""Which ROS type becomes which Gazebo type: the table of type pairs, and that of services.
+"""The tables of type pairs and of services: which ROS type becomes which Gazebo type.
 
-``bridge`` asks this table for the two conversion functions of an entry, ``config`` asks it whether an entry
-can work at all. A pair is declared with ``@type_pair(...)`` in ``convert/<ros package>.py`` (or with
-``add_pair``), a service with ``@service_types(...)``; the files of that folder are found by looking, so a new
-ROS package is supported by adding one file. The pairs of a package that is not installed appear once it is.
+`bridge` takes the two conversion functions of an entry from here; `config` asks whether an entry can work at all. The
+files of `convert/` fill the tables, one for each ROS package (`fields.message_pair`, `add_service`); adding a file
+there adds a package. The pairs of a package that is not installed are left out.
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ import re
 import threading
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Any, cast
+from typing import Any
 
 import gz_course.sim.ros_gz_bridge.convert as ros_gz_bridge_convert
 from gz_course.sim.gz.msgs import message_class
@@ -25,23 +24,23 @@ _GZ_PREFIXES = ("ignition.msgs.", "gz_msgs.", "ign_msgs.")
 
 
 class ConversionError(ValueError):
-    """One message that cannot be said in the other language (for instance a stamp out of range)."""
+    """A message that the other side cannot hold, for instance because its stamp is out of range."""
 
 
 class UnknownPairError(ValueError):
-    """No conversion exists between the two types; the sentence names the nearest pair that does."""
+    """Two types without a conversion; the text names the nearest pair."""
 
 
 class MissingPackageError(UnknownPairError):
-    """The pair exists, but the ROS package that defines its message is not installed."""
+    """A known pair whose ROS package is not installed."""
 
 
 @dataclass(frozen=True)
 class TypePair:
     """One ROS type, one Gazebo type and the functions between them.
 
-    ``to_ros`` and ``to_gz`` raise ``ConversionError`` for a message that does not fit. ``fault`` looks at a
-    ROS message and returns None, or the words for what must not reach the simulator (``"linear.x is nan"``).
+    `to_ros` and `to_gz` raise ConversionError for a message that does not fit. `fault` returns None, or what in a ROS
+    message must not reach the simulator (`"linear.x is nan"`).
     """
 
     ros_type: str
@@ -55,11 +54,10 @@ class TypePair:
 
 @dataclass(frozen=True)
 class ServiceTypes:
-    """One ROS service type and the Gazebo service behind it: the types of its request and of its reply.
+    """One ROS service type, the types of request and reply of the Gazebo service, and the functions between them.
 
-    A Gazebo service is offered to ROS, never the reverse, so the request travels to Gazebo and the reply to
-    ROS. ``request_to_gz`` and ``reply_to_ros`` raise ``ConversionError`` for what does not fit. ``fault`` looks
-    at a ROS request as ``TypePair.fault`` does at a message.
+    Gazebo services are offered to ROS, never the reverse. `request_to_gz` and `reply_to_ros` raise ConversionError for
+    what does not fit. `fault` is for a ROS request what `TypePair.fault` is for a message.
     """
 
     ros_type: str
@@ -79,22 +77,6 @@ _loaded: set[str] = set()
 _lock = threading.RLock()
 
 
-def type_pair(ros_type: str, gz_type: str) -> Callable[[type], type]:
-    """Class decorator: declare the static methods ``to_ros``, ``to_gz`` (perhaps ``fault``) as a pair."""
-
-    def declare(conversions: type) -> type:
-        add_pair(
-            ros_type,
-            gz_type,
-            to_ros=conversions.to_ros,  # type: ignore[attr-defined]
-            to_gz=conversions.to_gz,  # type: ignore[attr-defined]
-            fault=getattr(conversions, "fault", None),
-        )
-        return conversions
-
-    return declare
-
-
 def add_pair(
     ros_type: str,
     gz_type: str,
@@ -103,29 +85,12 @@ def add_pair(
     to_gz: Callable[[Any], Any],
     fault: Callable[[Any], str | None] | None = None,
 ) -> None:
-    """Enter a pair in the table. Raises ``ValueError`` if the two types are already paired."""
+    """Enter a pair in the table. Raises ValueError if the two types are already paired."""
     ros_class = _ros_class(ros_type)
     with _lock:
         if (ros_type, gz_type) in _pairs:
             raise ValueError(f"the pair {ros_type} = {gz_type} is declared twice")
         _pairs[ros_type, gz_type] = TypePair(ros_type, gz_type, ros_class, message_class(gz_type), to_ros, to_gz, fault)
-
-
-def service_types(ros_type: str, gz_request_type: str, gz_reply_type: str) -> Callable[[type], type]:
-    """Class decorator: declare the static methods ``request_to_gz``, ``reply_to_ros`` (perhaps ``fault``)."""
-
-    def declare(conversions: Any) -> type:
-        add_service(
-            ros_type,
-            gz_request_type,
-            gz_reply_type,
-            request_to_gz=conversions.request_to_gz,
-            reply_to_ros=conversions.reply_to_ros,
-            fault=getattr(conversions, "fault", None),
-        )
-        return cast(type, conversions)
-
-    return declare
 
 
 def add_service(
@@ -137,7 +102,7 @@ def add_service(
     reply_to_ros: Callable[[Any], Any],
     fault: Callable[[Any], str | None] | None = None,
 ) -> None:
-    """Enter a service in the table. Raises ``ValueError`` if it is there already."""
+    """Enter a service in the table. Raises ValueError if it is there already."""
     key = (ros_type, gz_request_type, gz_reply_type)
     ros_class = _ros_class(ros_type)
     with _lock:
@@ -155,31 +120,31 @@ def add_service(
 
 
 def convertible_packages() -> list[str]:
-    """ROS packages that have a file in ``convert/``, installed or not."""
+    """Return the names of the ROS packages that have a file in `convert/`, installed or not."""
     return sorted(module.name for module in pkgutil.iter_modules(ros_gz_bridge_convert.__path__))
 
 
 def missing_packages() -> list[str]:
-    """Packages of ``convertible_packages`` that are not installed; their pairs cannot be used."""
+    """Return those of `convertible_packages` that are not installed; their pairs cannot be used."""
     return [name for name in convertible_packages() if not _installed(name)]
 
 
 def pairs() -> list[TypePair]:
-    """Every pair that can be used here, sorted by ROS type."""
+    """Return every pair whose ROS package is installed, sorted by ROS type."""
     for package in convertible_packages():
         _load(package)
     return [_pairs[key] for key in sorted(_pairs)]
 
 
 def services() -> list[ServiceTypes]:
-    """Every service that can be bridged here, sorted by ROS type."""
+    """Return every service whose ROS package is installed, sorted by ROS type."""
     for package in convertible_packages():
         _load(package)
     return [_services[key] for key in sorted(_services)]
 
 
 def canonical_gz_type(gz_type: str) -> str:
-    """``gz.msgs.X`` for the older spellings (``ignition.msgs.X``, ``gz_msgs.X``); others unchanged."""
+    """Return `gz.msgs.X` for the older spellings (`ignition.msgs.X`, `gz_msgs.X`), other names unchanged."""
     for prefix in _GZ_PREFIXES:
         if gz_type.startswith(prefix):
             return "gz.msgs." + gz_type.removeprefix(prefix)
@@ -187,10 +152,9 @@ def canonical_gz_type(gz_type: str) -> str:
 
 
 def find_pair(ros_type: str, gz_type: str) -> TypePair:
-    """The pair of exactly these two types.
+    """Return the pair of these two types.
 
-    Raises ``MissingPackageError`` when the ROS package is not installed and ``UnknownPairError``, naming the
-    nearest pair, when there is no such pair.
+    Raises MissingPackageError if the ROS package is not installed, and UnknownPairError if there is no such pair.
     """
     gz_type = canonical_gz_type(gz_type)
     need_package(ros_type)
@@ -200,10 +164,7 @@ def find_pair(ros_type: str, gz_type: str) -> TypePair:
 
 
 def find_service(ros_type: str, gz_request_type: str = "", gz_reply_type: str = "") -> ServiceTypes:
-    """The service of exactly these types; a Gazebo type left empty is filled in from the ROS type.
-
-    Raises as ``find_pair`` does.
-    """
+    """Return the service of these types; an empty Gazebo type matches any. Raises as `find_pair` does."""
     wanted = (canonical_gz_type(gz_request_type), canonical_gz_type(gz_reply_type))
     need_package(ros_type)
     for service in services():
@@ -223,12 +184,12 @@ def _installed(package: str) -> bool:
 
 
 def nearest_type(name: str, known: Iterable[str]) -> str:
-    """The name among ``known`` (not empty) that looks most like ``name``."""
+    """Return the name among `known` (not empty) that is most like `name`."""
     return difflib.get_close_matches(name, sorted(set(known)), n=1, cutoff=0.0)[0]
 
 
 def need_package(ros_type: str) -> None:
-    """Load the conversions of a type's ROS package. Raises ``MissingPackageError`` if the package is absent."""
+    """Load the conversions of a type's ROS package. Raises MissingPackageError if the package is not installed."""
     package = ros_type.split("/")[0]
     if package in convertible_packages():
         if not _installed(package):
@@ -247,7 +208,6 @@ def _load(package: str) -> None:
 
 
 def _explain_unknown(ros_type: str, gz_type: str) -> str:
-    """One sentence: what was asked, what is wrong with it, and the nearest pair."""
     known = pairs()
     partners = [pair.gz_type for pair in known if pair.ros_type == ros_type]
     if partners:
@@ -269,10 +229,8 @@ def _explain_unknown_service(ros_type: str, wanted: tuple[str, str]) -> str:
     known = services()
     for service in known:
         if service.ros_type == ros_type:
-            return (
-                f"the service {ros_type} does not go with {' and '.join(filter(None, wanted))}; it takes "
-                f"{service.gz_request_type} and answers {service.gz_reply_type}"
-            )
+            takes = f"it takes {service.gz_request_type} and answers {service.gz_reply_type}"
+            return f"the service {ros_type} does not go with {' and '.join(filter(None, wanted))}; {takes}"
     seen = f"no conversion is known for the service {ros_type}"
     if not known:
         absent = ", ".join(missing_packages())

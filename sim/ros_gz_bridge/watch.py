@@ -1,7 +1,7 @@
-"""Looks after a running bridge: says when Gazebo's side of a topic is missing, went away, or came back.
+"""Messages about the Gazebo side of a running bridge: publishers that are missing, went away or came back.
 
-``parameter_bridge`` runs one. ``gz.transport`` connects by itself when a simulator comes back; what is missing there is
-that somebody says so. The grader, whose simulator cannot go away, does without.
+`parameter_bridge` runs a `Watcher`. `gz.transport` reconnects by itself when a simulator comes back, but says nothing.
+The grader, whose simulator cannot go away, does not need one.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ if TYPE_CHECKING:
     from gz_course.sim.ros_gz_bridge.bridge import Bridge
 
 MISSING_AFTER_S = 5.0
-"""So long a topic may have no publisher before that is worth a line."""
+"""Time after which a topic without publisher is reported [s]."""
 _MOST_NAMED = 5
 
 
 class Watch:
-    """What is known of Gazebo's side of every topic that goes to ROS; ``look`` compares it with what was before."""
+    """The known publishers in Gazebo of every topic that goes to ROS; `look` reports what has changed."""
 
     def __init__(
         self,
@@ -42,13 +42,13 @@ class Watch:
         self._present: set[str] = set()
         self._gone: set[str] = set()
         self._reported: set[tuple[str, str]] = set()
-        # A bidirectional bridge advertises the topic itself, so nothing can be told of it.
+        # A bidirectional bridge publishes the topic itself, which hides whether the simulator does.
         self._expected = {
             entry.gz_topic: entry for entry in bridge.entries if entry.direction.to_ros and not entry.direction.to_gz
         }
 
     def look(self) -> None:
-        """Compare, and say what has changed."""
+        """Log what has changed since the last call."""
         self._bridge.say_unsaid()
         gone, back = [], []
         for topic, entry in self._expected.items():
@@ -91,7 +91,7 @@ class Watch:
                 else f"nobody in Gazebo publishes {topic} so far: no simulator runs in this partition (GZ_PARTITION)"
             )
         if len(missing) > _MOST_NAMED:
-            self._logger.warning(f"nor {len(missing) - _MOST_NAMED} more of the bridged topics")
+            self._logger.warning(f"nobody in Gazebo publishes {len(missing) - _MOST_NAMED} more of the bridged topics")
 
     def _wrong_type(self, topic: str, wanted: str, seen: set[str]) -> None:
         from gz_course.sim.gz.msgs.fortress import same_type
@@ -106,7 +106,7 @@ class Watch:
 
 
 class Watcher(threading.Thread):
-    """Calls ``watch.look`` every ``period`` seconds of wall time until ``stop``."""
+    """A thread that calls `watch.look` every `period` [s] of wall time until `stop`."""
 
     def __init__(self, watch: Watch, period: float) -> None:
         super().__init__(name="bridge watch", daemon=True)
@@ -115,12 +115,11 @@ class Watcher(threading.Thread):
         self._ended = threading.Event()
 
     def run(self) -> None:
-        """Look again and again."""
         while not self._ended.wait(self._period):
             self._watch.look()
 
     def stop(self) -> None:
-        """End the thread; does not wait for a look that is under way."""
+        """End the thread without waiting for a call of `look` in progress."""
         self._ended.set()
         self.join(0.2)
 

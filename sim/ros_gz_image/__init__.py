@@ -1,1 +1,1 @@
-"""Brings Gazebo's images to ROS, in place of the ``ros_gz_image`` package: the executable ``image_bridge``."""
+"""The program `image_bridge`, in place of the `ros_gz_image` package."""

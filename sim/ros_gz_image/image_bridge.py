@@ -1,8 +1,9 @@
-"""The executable `image_bridge`: Gazebo's images as ROS images. `ros2 run ros_gz_image image_bridge /camera /depth`.
+"""The program `ros2 run ros_gz_image image_bridge /camera /depth`, which bridges Gazebo's images to ROS.
 
-Each topic keeps its name; remaps give another one in ROS. The conversion is that of ros_gz_bridge. Pictures are raw:
-there are no compressed ones beside them. With `lazy` a camera is listened to, and so rendered, only while somebody
-listens in ROS.
+Each topic keeps its name, unless it is remapped in ROS. The conversion is that of ros_gz_bridge; images are not
+compressed. With `lazy` a camera is subscribed to, and so rendered, only while there is a subscriber in ROS.
+
+Source: README.md of ros_gz_image, https://github.com/gazebosim/ros_gz/tree/jazzy/ros_gz_image
 """
 
 from __future__ import annotations
@@ -10,7 +11,10 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING, Any
 
-from gz_course.sim.ros_gz_bridge.ros_program import UsageError, first_line, run, wait_for_signal
+from gz_course.sim.ros_program.errors import UsageError, first_line
+from gz_course.sim.ros_program.parameters import read_parameters
+from gz_course.sim.ros_program.program import run
+from gz_course.sim.ros_program.spinner import wait_for_signal
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -29,26 +33,27 @@ ROS parameters (after --ros-args, each as -p name:=value):
   subscription_heartbeat  how often lazy bridges look for listeners, in ms (default 1000)
 To give a topic another name in ROS: -r /camera:=/robot/image_raw
 """
-_PARAMETERS: dict[str, Any] = {"qos": "default", "lazy": False, "subscription_heartbeat": 1000}
-_WORDS = {str: "a text", bool: "true or false", int: "a whole number"}
-_OF_NODES = {"use_sim_time", "start_type_description_service"}
+_DEFAULTS: dict[str, Any] = {"qos": "default", "lazy": False, "subscription_heartbeat": 1000}
 
 
 def main(argv: list[str] | None = None) -> int:
-    """Bridge until SIGINT or SIGTERM: exit code 0; 2 for arguments that make no sense, 1 if it broke."""
-    return run("image_bridge", "ros_gz_image", _bridge, HELP, argv, lasting=True, pictures=True)
+    """Bridge until SIGINT or SIGTERM; return 0, 2 for unusable arguments, or 1 if a callback failed."""
+    return run("image_bridge", "ros_gz_image", _bridge, HELP, argv, lasting=True, images=True)
 
 
 def _bridge(node: Node, topics: list[str]) -> int:
     from gz_course.sim.gz.transport import Node as GzNode
 
-    values = _read_parameters(node)
+    values = read_parameters(node, _DEFAULTS)
+    heartbeat = values["subscription_heartbeat"]
+    if not 0 < heartbeat < 10**9:
+        raise UsageError(f"the parameter subscription_heartbeat must be above 0, not {heartbeat}")
     profile = qos_profile(values["qos"])
     if not topics:
         raise UsageError("there is no topic to bridge; give one or more, such as /camera (see --help)")
     wrong = next((topic for topic in topics if topic.startswith("-") or "@" in topic), "")
     if wrong:
-        raise UsageError(f"'{wrong}' is not the name of a topic; image_bridge takes names only, types are known")
+        raise UsageError(f"'{wrong}' is not the name of a topic; image_bridge takes names only, without types")
     with GzNode() as gz_node:
         bridges = []
         for topic in dict.fromkeys(topics):
@@ -57,7 +62,7 @@ def _bridge(node: Node, topics: list[str]) -> int:
             except Exception as error:
                 raise UsageError(f"cannot bridge '{topic}': {first_line(error)}") from None
         if values["lazy"]:
-            _follow_listeners(node, bridges, values["subscription_heartbeat"] / 1000)
+            _follow_listeners(node, bridges, heartbeat / 1000)
         else:
             for bridge in bridges:
                 bridge.connect()
@@ -66,9 +71,9 @@ def _bridge(node: Node, topics: list[str]) -> int:
 
 
 class ImageTopic:
-    """One topic on both sides. `connect` and `disconnect` start and end listening to Gazebo; both may be repeated.
+    """One topic on both sides; `connect` and `disconnect` may be repeated.
 
-    Raises `ValueError` or an error of rclpy for a name that Gazebo or ROS does not take.
+    Raises ValueError or an error of rclpy for a name that Gazebo or ROS does not accept.
     """
 
     def __init__(self, node: Node, gz_node: GzNode, topic: str, profile: QoSProfile) -> None:
@@ -86,17 +91,17 @@ class ImageTopic:
 
     @property
     def wanted(self) -> bool:
-        """Whether somebody listens in ROS."""
+        """Whether there is a subscriber in ROS."""
         return bool(self._publisher.get_subscription_count())
 
     def connect(self) -> None:
-        """Listen to Gazebo: messages arrive in a thread of gz.transport."""
+        """Subscribe in Gazebo; messages arrive in a thread of `gz.transport`."""
         if not self._connected:
             self._connected = True
             self._gz_node.subscribe(self._pair.gz_class, self._topic, self._on_image)
 
     def disconnect(self) -> None:
-        """Listen no more: without another listener the camera is not rendered."""
+        """Unsubscribe in Gazebo, which stops rendering if there is no other subscriber."""
         if self._connected:
             self._connected = False
             self._gz_node.unsubscribe(self._topic)
@@ -114,7 +119,7 @@ class ImageTopic:
 
 
 def qos_profile(name: str) -> QoSProfile:
-    """Return the QoS of ROS's publishers by the word of the parameter `qos`; raise `UsageError` for another word."""
+    """Return the QoS that a value of the parameter `qos` means. Raises UsageError for an unknown value."""
     from rclpy.qos import QoSProfile, qos_profile_sensor_data, qos_profile_system_default
 
     profiles = {
@@ -128,7 +133,7 @@ def qos_profile(name: str) -> QoSProfile:
 
 
 def _follow_listeners(node: Node, bridges: list[ImageTopic], period: float) -> None:
-    """Look every `period` s of wall time who listens in ROS."""
+    """Connect the topics that have a subscriber in ROS, every `period` [s] of wall time."""
     from rclpy.clock import Clock, ClockType
 
     def look() -> None:
@@ -139,26 +144,6 @@ def _follow_listeners(node: Node, bridges: list[ImageTopic], period: float) -> N
                 bridge.disconnect()
 
     node.create_timer(period, look, clock=Clock(clock_type=ClockType.STEADY_TIME))
-
-
-def _read_parameters(node: Node) -> dict[str, Any]:
-    values = dict(_PARAMETERS)
-    for name in node.get_parameters_by_prefix(""):
-        if name not in values:
-            if name not in _OF_NODES and not name.startswith("qos_overrides."):
-                node.get_logger().warning(
-                    f"the parameter {name} is not known here and changes nothing; there are {', '.join(_PARAMETERS)}"
-                )
-            continue
-        value = node.get_parameter(name).value
-        if type(value) is not type(_PARAMETERS[name]):
-            raise UsageError(f"the parameter {name} must be {_WORDS[type(_PARAMETERS[name])]}, not {value!r}")
-        values[name] = value
-    if not 0 < values["subscription_heartbeat"] < 10**9:
-        raise UsageError(
-            f"the parameter subscription_heartbeat must be above 0, not {values['subscription_heartbeat']}"
-        )
-    return values
 
 
 if __name__ == "__main__":

@@ -1,7 +1,9 @@
-"""The executable `create`: puts a model into a running world. `ros2 run ros_gz_sim create -file box.sdf -z 1`.
+"""The program `ros2 run ros_gz_sim create -file box.sdf -z 1`, which creates a model in a running world.
 
-`main` reads options and ROS parameters, then Gazebo's service `/world/W/create/blocking` is asked once. The text may be
-SDF or URDF, the file xacro too. Exit codes: 0 created, 1 not created, 2 the arguments make no sense.
+It reads options and ROS parameters and calls Gazebo's service `/world/W/create/blocking` once. The text may be SDF or
+URDF, a file also xacro. Exit codes: 0 created, 1 not created, 2 unusable arguments.
+
+Source: ros_gz_sim/src/create.cpp, https://github.com/gazebosim/ros_gz
 """
 
 from __future__ import annotations
@@ -13,8 +15,10 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gz_course.sim.ros_gz_bridge.ros_program import Failure, Spinner, UsageError, first_line, run
 from gz_course.sim.ros_gz_sim.flags import Flag, read, usage, with_parameters
+from gz_course.sim.ros_program.errors import Failure, UsageError, first_line
+from gz_course.sim.ros_program.program import run
+from gz_course.sim.ros_program.spinner import Spinner
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -29,9 +33,7 @@ FLAGS = (
     Flag("topic", "Topic that carries the text, such as /robot_description"),
     Flag("name", "Name in the world (default: the one in the file)"),
     Flag("allow_renaming", "Whether a number is put behind a name that is taken", "switch"),
-    Flag("x", "Position in the world, m", "number"),
-    Flag("y", "Position in the world, m", "number"),
-    Flag("z", "Position in the world, m", "number"),
+    *(Flag(axis, "Position in the world, m", "number") for axis in "xyz"),
     Flag("R", "Roll, rad", "number"),
     Flag("P", "Pitch, rad", "number"),
     Flag("Y", "Yaw, rad", "number"),
@@ -46,7 +48,7 @@ SOURCES = ("file", "param", "string", "topic")
 
 
 def main(argv: list[str] | None = None) -> int:
-    """Create one model; return the exit code."""
+    """Create one model and return the exit code."""
     return run("create", "ros_gz_sim", _create, HELP, argv)
 
 
@@ -59,7 +61,7 @@ def _create(node: Node, arguments: list[str]) -> int:
     if not given:
         raise UsageError("Must specify either -file, -param, -string or -topic")
     if len(given) > 1:
-        raise UsageError(f"-{given[0]} and -{given[1]} are both given; which one is meant? Give one of them")
+        raise UsageError(f"-{given[0]} and -{given[1]} are both given; give one of them")
     timeout = values.get("timeout", DEFAULT_TIMEOUT_S)
     start = time.monotonic()
     text = _text(node, given[0], values[given[0]], timeout)
@@ -79,9 +81,10 @@ def _create(node: Node, arguments: list[str]) -> int:
 
 
 def factory(values: dict[str, Any]) -> Any:
-    """Return the gz.msgs.EntityFactory of these options, without what is to be created.
+    """Return the `gz.msgs.EntityFactory` of these options, without the model's text or file.
 
-    R = Rz(Y) Ry(P) Rx(R), as in SDF. A pose is set only when one of its numbers is given.
+    The rotation is Rz(Y) Ry(P) Rx(R). The pose is set only when one of its numbers is not zero.
+    Source: http://sdformat.org/tutorials?tut=specify_pose
     """
     from gz_course.sim.gz.msgs.entity_factory_pb2 import EntityFactory
 
@@ -93,7 +96,7 @@ def factory(values: dict[str, Any]) -> Any:
 
 
 def set_pose(pose: Any, position: list[float], rpy: list[float]) -> None:
-    """Fill a gz.msgs.Pose from a position (m) and roll, pitch, yaw (rad)."""
+    """Fill a `gz.msgs.Pose` from a position [m] and roll, pitch, yaw [rad]."""
     from gz_course.sim.gz.sim.pose import quaternion_from_rpy
 
     pose.position.x, pose.position.y, pose.position.z = position
@@ -102,9 +105,9 @@ def set_pose(pose: Any, position: list[float], rpy: list[float]) -> None:
 
 
 def find(name: str, world: RunningWorld) -> str:
-    """Return the path of a file or a URI, as seen from here or, failing that, by the simulator.
+    """Return the path of a file or URI as resolved by this process, else by the simulator.
 
-    Raises `Failure`.
+    Raises Failure if neither finds it.
     """
     from gz_course.sim.gz.sim.errors import SimError
     from gz_course.sim.gz.sim.sdf.resources import find_model
@@ -121,7 +124,7 @@ def find(name: str, world: RunningWorld) -> str:
 
 
 def why_refused(world: RunningWorld, request: Any) -> str:
-    """Return the sentence for a creation the simulator refused: the text or the name is at fault."""
+    """Return why the simulator refused to create an entity: a fault of its text or of its name."""
     from gz_course.sim.gz.sim.errors import Diagnostics, SimError
     from gz_course.sim.gz.sim.sdf.reader import read_model
     from gz_course.sim.gz.sim.sdf.resources import read_text
@@ -129,7 +132,7 @@ def why_refused(world: RunningWorld, request: Any) -> str:
     try:
         file = request.sdf_filename or "<string>"
         text = request.sdf or read_text(Path(request.sdf_filename))
-        # strict: its warnings are the simulator's to say, not ours.
+        # strict collects warnings without logging them; the simulator logs them.
         name = request.name or read_model(text, file, Diagnostics(strict=True)).name
     except SimError as error:
         return f"the entity was not created: {first_line(error)}"
@@ -146,7 +149,7 @@ def why_refused(world: RunningWorld, request: Any) -> str:
 
 
 def _text(node: Node, source: str, value: str, timeout: float) -> str:
-    """Return the text of a source other than a file."""
+    """Return the text of a source; empty for a file."""
     if source == "string":
         return value
     if source == "topic":
@@ -170,7 +173,7 @@ def _from_parameter(node: Node, name: str) -> str:
 
 
 def _from_topic(node: Node, topic: str, timeout: float) -> str:
-    """Return the first text on a topic; it may have been published before (transient local)."""
+    """Return the first text on a topic, also one that was published before (transient local)."""
     from rclpy.qos import DurabilityPolicy, QoSProfile
     from std_msgs.msg import String
 
@@ -197,7 +200,7 @@ def _from_topic(node: Node, topic: str, timeout: float) -> str:
     if wrong:
         reason = f"it carries {wrong}, and std_msgs/msg/String is needed"
     elif publishers:
-        reason = "its publisher said nothing; one that has spoken already must be transient local"
+        reason = "its publisher sent nothing; to receive an earlier message its durability must be transient local"
     else:
         reason = "nobody publishes it; is robot_state_publisher running, in the same ROS_DOMAIN_ID?"
     raise Failure(f"no message came on the topic '{name}' within {timeout:g} s: {reason}")

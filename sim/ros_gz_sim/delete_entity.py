@@ -1,7 +1,9 @@
-"""The executable `delete_entity`: takes a model or a light, by name or by number, out of a running world.
+"""The program `ros2 run ros_gz_sim delete_entity --name box`, which deletes a model or a light by name or id.
 
-`ros2 run ros_gz_sim delete_entity --name box --type model`. It asks Gazebo's service `/world/W/remove/blocking`; no
-bridge is needed. `remove` uses `delete`, `set_entity_pose` the choice of an entity. Exit codes as for `create`.
+It calls Gazebo's service `/world/W/remove/blocking`, without a bridge. `remove` uses `delete`, `set_entity_pose` the
+options that choose an entity. Exit codes as for `create`.
+
+Source: ros_gz_sim/src/delete_entity.cpp and ros_gz_interfaces/msg/Entity.msg, https://github.com/gazebosim/ros_gz
 """
 
 from __future__ import annotations
@@ -9,8 +11,9 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING, Any
 
-from gz_course.sim.ros_gz_bridge.ros_program import Failure, UsageError, run
 from gz_course.sim.ros_gz_sim.flags import Flag, read, usage
+from gz_course.sim.ros_program.errors import Failure, UsageError
+from gz_course.sim.ros_program.program import run
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -19,8 +22,8 @@ if TYPE_CHECKING:
 
 MODEL = 2
 TYPES = {"none": 0, "light": 1, "model": MODEL, "link": 3, "visual": 4, "collision": 5, "sensor": 6, "joint": 7}
-"""As in ros_gz_interfaces/msg/Entity and gz.msgs.Entity."""
-_MODEL_OF_OLD = 6  # what the original program calls a model, and its default
+"""The numbers of `ros_gz_interfaces/msg/Entity` and `gz.msgs.Entity`."""
+_ORIGINAL_MODEL = 6  # the number of a model, and the default, in the original program
 WHICH = (
     Flag("world", "World it is in (default: the one that runs)"),
     Flag("name", "Name of the entity"),
@@ -32,7 +35,7 @@ HELP = usage("usage: delete_entity --name NAME | --id N [--type TYPE] [--world W
 
 
 def main(argv: list[str] | None = None) -> int:
-    """Delete one entity; return the exit code."""
+    """Delete one entity and return the exit code."""
     return run("delete_entity", "entity_deleter", _delete, HELP, argv)
 
 
@@ -42,7 +45,7 @@ def _delete(node: Node, arguments: list[str]) -> int:
 
 
 def which(values: dict[str, Any]) -> dict[str, Any]:
-    """Return name or id, and type, as fields of a gz.msgs.Entity; raise `UsageError`."""
+    """Return name or id, and type, as fields of a `gz.msgs.Entity`. Raises UsageError."""
     if bool(values.get("name")) == ("id" in values):
         raise UsageError("say which entity: give --name or --id, one of them")
     word = str(values.get("type", "model")).lower()
@@ -51,7 +54,7 @@ def which(values: dict[str, Any]) -> dict[str, Any]:
         from gz_course.sim.gz.sim.errors import nearest
 
         raise UsageError(f"there is no type '{word}'; {nearest(word, TYPES, listing='types are')}")
-    if word == str(_MODEL_OF_OLD):
+    if word == str(_ORIGINAL_MODEL):
         number = MODEL
     if number not in (MODEL, TYPES["light"]):
         raise UsageError(f"an entity of type {word} cannot be changed alone; type must be model or light")
@@ -59,7 +62,7 @@ def which(values: dict[str, Any]) -> dict[str, Any]:
 
 
 def delete(node: Node, values: dict[str, Any], entity: dict[str, Any]) -> int:
-    """Remove the entity with these fields of a gz.msgs.Entity; return 0, or raise `Failure`."""
+    """Remove the entity with these fields of a `gz.msgs.Entity`; return 0. Raises Failure if it is not removed."""
     from gz_course.sim.gz.msgs.entity_pb2 import Entity
     from gz_course.sim.gz.transport import Node as GzNode
     from gz_course.sim.ros_gz_sim.running_world import DEFAULT_TIMEOUT_S, RunningWorld
@@ -75,7 +78,7 @@ def delete(node: Node, values: dict[str, Any], entity: dict[str, Any]) -> int:
 
 
 def missing(world: RunningWorld, entity: dict[str, Any]) -> str:
-    """Return the sentence for an entity the world does not have; empty when it has it."""
+    """Return the sentence about an entity that the world does not have; empty if it has it."""
     from gz_course.sim.gz.sim.errors import nearest
 
     name = entity.get("name", "")

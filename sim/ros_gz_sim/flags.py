@@ -1,7 +1,9 @@
-"""Options as ros_gz_sim's executables take them: `-name box`, `--name box`, `-name=box`, or a ROS parameter.
+"""Options of ros_gz_sim's programs: `-name box`, `--name box`, `-name=box`, or a ROS parameter.
 
-The executables declare a list of `Flag`; `read` makes the values from the command line, `with_parameters` lays the
-parameters of the node over them. Everything that makes no sense raises `UsageError`.
+A program declares a list of `Flag`; `read` parses the command line, and `with_parameters` replaces values by the
+parameters of the node. Both raise UsageError.
+
+Source: gflags, which the original programs use, https://gflags.github.io/gflags/#commandline
 """
 
 from __future__ import annotations
@@ -11,7 +13,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from gz_course.sim.ros_gz_bridge.ros_program import UsageError
+from gz_course.sim.ros_program.errors import UsageError
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -28,17 +30,17 @@ class Flag:
     kind: str = "text"
     count: int = 1
     parameter: bool = True
-    """Whether a ROS parameter of the same name means the same."""
+    """Whether it may be given as a ROS parameter of the same name."""
 
 
 def usage(head: str, flags: Iterable[Flag], tail: str = "") -> str:
-    """Return the help text: `head`, one line a flag, `tail`."""
+    """Return the help text: `head`, one line for each flag, `tail`."""
     lines = [f"  -{flag.name:<16} {flag.about}" for flag in flags]
     return "\n".join([head, *lines, *([tail] if tail else [])]) + "\n"
 
 
 def read(arguments: Sequence[str], flags: Iterable[Flag]) -> dict[str, Any]:
-    """Return the values of the flags that are given. The last of two wins."""
+    """Return the values of the flags that are given; of a repeated one the last."""
     known = {flag.name: flag for flag in flags}
     values: dict[str, Any] = {}
     waiting = list(arguments)
@@ -46,8 +48,8 @@ def read(arguments: Sequence[str], flags: Iterable[Flag]) -> dict[str, Any]:
         word = waiting.pop(0)
         name, equals, text = word.lstrip("-").partition("=")
         if not word.startswith("-") or word.strip("-") == "":
-            raise UsageError(f"there is no place for the argument '{word}'; options start with - (see --help)")
-        if name not in known and name.startswith("no") and _is_switch(known.get(name[2:])):
+            raise UsageError(f"unexpected argument '{word}'; options start with - (see --help)")
+        if name not in known and name.startswith("no") and getattr(known.get(name[2:]), "kind", "") == "switch":
             values[name[2:]] = False
             continue
         if name not in known:
@@ -68,7 +70,7 @@ def read(arguments: Sequence[str], flags: Iterable[Flag]) -> dict[str, Any]:
 
 
 def with_parameters(node: Node, values: dict[str, Any], flags: Iterable[Flag]) -> dict[str, Any]:
-    """Return `values` with the node's parameters over them; an empty parameter counts as not given."""
+    """Return `values`, replaced by the node's parameters; an empty parameter counts as not given."""
     merged = dict(values)
     for flag in flags:
         if not flag.parameter or not node.has_parameter(flag.name):
@@ -79,10 +81,6 @@ def with_parameters(node: Node, values: dict[str, Any], flags: Iterable[Flag]) -
         text = ("true" if value else "false") if isinstance(value, bool) else str(value)
         merged[flag.name] = _value(flag, text, f"the parameter {flag.name}")
     return merged
-
-
-def _is_switch(flag: Flag | None) -> bool:
-    return flag is not None and flag.kind == "switch"
 
 
 def _value(flag: Flag, text: str, what: str) -> Any:

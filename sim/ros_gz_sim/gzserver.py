@@ -1,7 +1,9 @@
-"""The executable `gzserver`: Gazebo's server with the world named by ROS parameters, running.
+"""The program `gzserver`: Gazebo's server with the world named by ROS parameters, running.
 
-`gz_server.launch.py` starts it. It reads the parameters and then becomes `gz sim -r -s`, so that signals and the exit
+`gz_server.launch.py` starts it. It reads the parameters and becomes `gz sim -r -s` by `exec`, so signals and the exit
 code are those of the simulator.
+
+Source: ros_gz_sim/src/gzserver.cpp, https://github.com/gazebosim/ros_gz
 """
 
 from __future__ import annotations
@@ -11,8 +13,9 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gz_course.sim.ros_gz_bridge.ros_program import UsageError, run
 from gz_course.sim.ros_gz_sim.flags import Flag, read, usage, with_parameters
+from gz_course.sim.ros_program.errors import UsageError
+from gz_course.sim.ros_program.program import run
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -20,14 +23,14 @@ if TYPE_CHECKING:
 FLAGS = (
     Flag("world_sdf_file", "World: a path, a name in GZ_SIM_RESOURCE_PATH, or a built-in world"),
     Flag("world_sdf_string", "SDF text of the world"),
-    Flag("initial_sim_time", "Time the world starts at, s", "number"),
+    Flag("initial_sim_time", "Time the world starts at, in s", "number"),
     Flag("verbosity_level", "How much is said: 0 to 4", "whole"),
 )
 HELP = usage("usage: gzserver --ros-args -p world_sdf_file:=FILE | -p world_sdf_string:=SDF\n", FLAGS)
 
 
 def main(argv: list[str] | None = None) -> int:
-    """Read the parameters and become the simulator; return an exit code only for what makes no sense (2)."""
+    """Read the parameters and replace this process by the simulator; return 2 if they cannot be used."""
     command: list[str] = []
 
     def decide(node: Node, arguments: list[str]) -> int:
@@ -54,7 +57,7 @@ def _command(values: dict[str, object]) -> list[str]:
 
 
 def _in_memory(text: str) -> Path:
-    """Return the path of a file that ends with this process, whatever program it becomes."""
+    """Return the path of a file in memory that lasts as long as this process, also after `exec`."""
     descriptor = os.memfd_create("world_sdf_string", 0)  # without MFD_CLOEXEC: it outlives exec
     with os.fdopen(os.dup(descriptor), "w", encoding="utf-8") as file:
         file.write(text)

@@ -1,6 +1,8 @@
-"""The executable `remove`: takes a model out of a running world.
+"""The program `ros2 run ros_gz_sim remove --ros-args -p entity_name:=box`, which removes a model from a running world.
 
-`ros2 run ros_gz_sim remove --ros-args -p world:=empty -p entity_name:=box`. Exit codes as for `create`.
+Exit codes as for `create`.
+
+Source: ros_gz_sim/src/remove.cpp, https://github.com/gazebosim/ros_gz
 """
 
 from __future__ import annotations
@@ -8,9 +10,10 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-from gz_course.sim.ros_gz_bridge.ros_program import UsageError, run
 from gz_course.sim.ros_gz_sim.delete_entity import MODEL, delete
 from gz_course.sim.ros_gz_sim.flags import Flag, read, usage, with_parameters
+from gz_course.sim.ros_program.errors import UsageError
+from gz_course.sim.ros_program.program import run
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -28,7 +31,7 @@ HELP = usage(
 
 
 def main(argv: list[str] | None = None) -> int:
-    """Remove one model; return the exit code."""
+    """Remove one model and return the exit code."""
     return run("remove", "ros_gz_sim", _remove, HELP, argv)
 
 

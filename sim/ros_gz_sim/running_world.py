@@ -1,7 +1,7 @@
-"""The world of a running `gz sim`, found and asked through Gazebo's services, with one deadline for all of it.
+"""The world of a running `gz sim`, reached through Gazebo's services, with one deadline for all calls.
 
-The executables of ros_gz_sim use it. Nothing is asked for twice and nothing waits without end: what does not answer
-in time ends in a `Failure` that says which worlds there are.
+The programs of ros_gz_sim use it. If there is no answer in time, it raises Failure with the names of the worlds that
+run.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from google.protobuf.message import Message
 from gz_course.sim.gz.sim.errors import nearest
 from gz_course.sim.gz.sim.systems.topics import valid_topic
 from gz_course.sim.gz.transport import Node
-from gz_course.sim.ros_gz_bridge.ros_program import Failure, UsageError
 from gz_course.sim.ros_gz_sim.flags import Flag
+from gz_course.sim.ros_program.errors import Failure, UsageError
 
 TIMEOUT = Flag("timeout", "Longest wait for the world, in s of wall time (default 10)", "number")
 DEFAULT_TIMEOUT_S = 10.0
@@ -26,11 +26,10 @@ _OF_WORLD = re.compile("/world/([^/]+)/")
 
 
 class RunningWorld:
-    """A world that may still be starting. `name` is that of the first world found when none is given.
+    """A world that may still be starting; without a `name` the first world found.
 
-    `timeout` (s) is for everything; it counts from `start` (s, `time.monotonic`), by default now. `warn` is told at
-    once when only other worlds answer.
-    Raises `Failure` when no simulator answers.
+    `timeout` [s] is for all calls together, counted from `start` [s] of `time.monotonic`, by default now. `warn` is
+    called with a sentence when only other worlds run. Raises Failure if no simulator answers.
     """
 
     def __init__(
@@ -57,13 +56,13 @@ class RunningWorld:
             warn(f"Waiting for world '{name}': {self._others()}")
 
     def call(self, verb: str, request: Message) -> bool:
-        """Ask `/world/NAME/VERB` and wait until it is done; False when the simulator refuses.
+        """Call `/world/NAME/VERB` and wait until it is done; return False if the simulator refuses.
 
-        Raises `Failure` when there is no answer in time.
+        Raises Failure if there is no answer in time.
         """
         from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
 
-        service = f"{self._topic}/{verb}/blocking"  # the plain service answers before anything was done
+        service = f"{self._topic}/{verb}/blocking"  # the service without /blocking answers before it is done
         kind = request.DESCRIPTOR.full_name
         outcome = self._node.call_raw(
             service, request.SerializeToString(), kind, Boolean.DESCRIPTOR.full_name, self._left_ms()
@@ -73,7 +72,7 @@ class RunningWorld:
         return outcome.result and bool(Boolean.FromString(outcome.response).data)
 
     def entities(self) -> tuple[list[str], list[str]]:
-        """Return the names of all models and of all lights; nothing where the world has no SceneBroadcaster."""
+        """Return the names of all models and of all lights; both empty if the world has no SceneBroadcaster."""
         from gz_course.sim.gz.msgs.empty_pb2 import Empty
         from gz_course.sim.gz.msgs.scene_pb2 import Scene
 
@@ -82,7 +81,7 @@ class RunningWorld:
         return [model.name for model in scene.model], [light.name for light in scene.light]
 
     def resolve(self, uri: str) -> str:
-        """Return the path the simulator finds for a URI; empty when it finds none."""
+        """Return the path the simulator finds for a URI; empty if it finds none."""
         from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
 
         service = "/gazebo/resource_paths/resolve"
@@ -107,7 +106,7 @@ class RunningWorld:
     def _why_silent(self, service: str, verb: str) -> str:
         if service in self._node.service_list():
             return (
-                f"world '{self.name}' did not answer to '{verb}' within {self._timeout:g} s and may still obey; "
+                f"world '{self.name}' did not answer to '{verb}' within {self._timeout:g} s and may still do it; "
                 f"a larger -{TIMEOUT.name} waits longer"
             )
         if self._is_there():

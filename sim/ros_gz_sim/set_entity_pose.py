@@ -1,7 +1,8 @@
-"""The executable `set_entity_pose`: moves a model or a light of a running world.
+"""The program `ros2 run ros_gz_sim set_entity_pose --name box --pos 1 2 0.5`, which moves a model or a light.
 
-`ros2 run ros_gz_sim set_entity_pose --name box --pos 1 2 0.5 --euler 0 0 1.57`. It asks Gazebo's service
-`/world/W/set_pose/blocking`; no bridge is needed. Exit codes as for `create`.
+It calls Gazebo's service `/world/W/set_pose/blocking`, without a bridge. Exit codes as for `create`.
+
+Source: ros_gz_sim/src/set_entity_pose.cpp, https://github.com/gazebosim/ros_gz
 """
 
 from __future__ import annotations
@@ -9,10 +10,11 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-from gz_course.sim.ros_gz_bridge.ros_program import Failure, UsageError, run
 from gz_course.sim.ros_gz_sim.delete_entity import WHICH, missing, which
 from gz_course.sim.ros_gz_sim.flags import read, usage
 from gz_course.sim.ros_gz_sim.spawn_entity import POSE, fill_pose
+from gz_course.sim.ros_program.errors import Failure, UsageError
+from gz_course.sim.ros_program.program import run
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -22,7 +24,7 @@ HELP = usage("usage: set_entity_pose --name NAME | --id N --pos X Y Z [--euler R
 
 
 def main(argv: list[str] | None = None) -> int:
-    """Move one entity; return the exit code."""
+    """Move one entity and return the exit code."""
     return run("set_entity_pose", "entity_pose_setter", _set_pose, HELP, argv)
 
 

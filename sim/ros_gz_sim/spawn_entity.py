@@ -1,7 +1,9 @@
-"""The executable `spawn_entity`: puts a model into a running world, with the options of the simulation interfaces.
+"""The program `ros2 run ros_gz_sim spawn_entity --sdf_filename box.sdf --pos 1 2 0.5`, which creates a model.
 
-`ros2 run ros_gz_sim spawn_entity --name box --sdf_filename box.sdf --pos 1 2 0.5`. It asks Gazebo's service
-`/world/W/create/blocking`; no bridge is needed. `set_entity_pose` shares its pose options. Exit codes as for `create`.
+It calls Gazebo's service `/world/W/create/blocking`, without a bridge. `set_entity_pose` has the same options for a
+pose. Exit codes as for `create`.
+
+Source: ros_gz_sim/src/spawn_entity.cpp, https://github.com/gazebosim/ros_gz
 """
 
 from __future__ import annotations
@@ -10,9 +12,10 @@ import math
 import sys
 from typing import TYPE_CHECKING, Any
 
-from gz_course.sim.ros_gz_bridge.ros_program import Failure, UsageError, run
 from gz_course.sim.ros_gz_sim.create import find, set_pose, why_refused
 from gz_course.sim.ros_gz_sim.flags import Flag, read, usage
+from gz_course.sim.ros_program.errors import Failure, UsageError
+from gz_course.sim.ros_program.program import run
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -35,7 +38,7 @@ HELP = usage("usage: spawn_entity --sdf_filename F | --sdf_string S [--name NAME
 
 
 def main(argv: list[str] | None = None) -> int:
-    """Spawn one entity; return the exit code."""
+    """Spawn one entity and return the exit code."""
     return run("spawn_entity", "entity_spawner", _spawn, HELP, argv)
 
 
@@ -66,9 +69,9 @@ def _spawn(node: Node, arguments: list[str]) -> int:
 
 
 def fill_pose(message: Any, field: str, values: dict[str, Any]) -> bool:
-    """Set the pose `field` of a message from --pos and --quat or --euler; False when none of them is given.
+    """Set the pose in `field` of a message (empty: the message itself) from --pos and --quat or --euler.
 
-    Raises `UsageError` for both orientations, or a quaternion without length.
+    Return False if none of them is given. Raises UsageError for both orientations, or a quaternion of length zero.
     """
     if "quat" in values and "euler" in values:
         raise UsageError("--quat and --euler are both given; give one of them")
@@ -79,7 +82,7 @@ def fill_pose(message: Any, field: str, values: dict[str, Any]) -> bool:
     if "quat" in values:
         length = math.hypot(*values["quat"])
         if not 1e-9 < length < math.inf:
-            raise UsageError("--quat has no direction: its four numbers are x y z w, 0 0 0 1 for no rotation")
+            raise UsageError("--quat must not be all zeros; its four numbers are x y z w, 0 0 0 1 for no rotation")
         x, y, z, w = (part / length for part in values["quat"])
         pose.orientation.x, pose.orientation.y, pose.orientation.z, pose.orientation.w = x, y, z, w
     return True

@@ -115,11 +115,11 @@ class Programs:
         path.write_text(f"<sdf version='1.9'><world name='small'>{world}</world></sdf>")
         return self.start(Path(sys.executable).with_name("gz"), "sim", "-r", "-s", path)
 
-    def gz_node(self):
+    def gz_node(self, partition=None):
         from gz_course.sim.gz.transport import Node, NodeOptions
 
         options = NodeOptions()
-        options.partition = self.partition
+        options.partition = partition or self.partition
         return Node(options)
 
     def scene(self):

@@ -1,4 +1,7 @@
-"""actuator_msgs: Actuators, commands to motors (rad or m, rad/s or m/s, or -1 to 1)."""
+"""actuator_msgs: Actuators, commands to motors: [rad] or [m], [rad/s] or [m/s], or normalized from -1 to 1.
+
+Source: actuator_msgs/msg/Actuators.msg, https://github.com/rudislabs/actuator_msgs
+"""
 
 from __future__ import annotations
 
@@ -6,13 +9,12 @@ import math
 
 from actuator_msgs.msg import Actuators
 
-from gz_course.sim.ros_gz_bridge.fields import DOUBLES, HEADER, Fields, add_fields
+from gz_course.sim.ros_gz_bridge.fields import DOUBLES, HEADER, Fields, message_pair
 
 _NUMBERS = ("position", "velocity", "normalized")
 
 
 def _fault(ros: Actuators) -> str | None:
-    """The numbers no motor can follow (``"velocity[1] is nan"``), or None."""
     bad = [
         f"{field}[{index}] is {number}"
         for field in _NUMBERS
@@ -22,7 +24,7 @@ def _fault(ros: Actuators) -> str | None:
     return ", ".join(bad) or None
 
 
-add_fields(
+message_pair(
     "actuator_msgs/msg/Actuators",
     "gz.msgs.Actuators",
     Fields(Actuators, header=HEADER, **dict.fromkeys(_NUMBERS, DOUBLES)),

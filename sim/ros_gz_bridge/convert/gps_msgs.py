@@ -1,4 +1,7 @@
-"""gps_msgs: GPSFix, position on the globe (degrees, metres) with velocity (m/s)."""
+"""gps_msgs: GPSFix, position on the globe with velocity.
+
+Source: gps_msgs/msg/GPSFix.msg, https://github.com/swri-robotics/gps_umd
+"""
 
 from __future__ import annotations
 
@@ -7,49 +10,36 @@ from typing import Any
 
 from gps_msgs.msg import GPSFix, GPSStatus
 
-from gz_course.sim.gz.msgs.navsat_pb2 import NavSat
-from gz_course.sim.ros_gz_bridge.header import frame_to_ros, header_to_gz, header_to_ros
-from gz_course.sim.ros_gz_bridge.type_pairs import type_pair
+from gz_course.sim.ros_gz_bridge.fields import Part, message_pair
+from gz_course.sim.ros_gz_bridge.header import copy_header, fill_stamp, frame_to_ros
 
 
-@type_pair("gps_msgs/msg/GPSFix", "gz.msgs.NavSat")
-class GPSFixPair:
-    """Position, and velocity as speed, track and climb.
+def _fill_fix(gz: Any, ros: GPSFix) -> None:
+    """Write position [deg], [m] and velocity as speed [m/s], track [rad] and climb [m/s].
 
-    The track is the mathematical angle of the velocity, in radians from east towards north, as ros_gz_bridge
-    fills it, not the compass bearing in degrees that the ROS message describes.
+    The track is the angle of the velocity from east towards north, as ros_gz_bridge fills it, not the compass bearing
+    in degrees that the ROS message describes.
     """
-
-    @staticmethod
-    def to_ros(gz: Any) -> GPSFix:
-        """Gazebo to ROS."""
-        header = header_to_ros(gz.header)
+    for header in (ros.header, ros.status.header):
+        fill_stamp(gz.header.stamp, header.stamp)
         header.frame_id = frame_to_ros(gz.frame_id)
-        return GPSFix(
-            header=header,
-            status=GPSStatus(header=header, status=GPSStatus.STATUS_FIX),
-            latitude=gz.latitude_deg,
-            longitude=gz.longitude_deg,
-            altitude=gz.altitude,
-            speed=math.hypot(gz.velocity_east, gz.velocity_north),
-            track=math.atan2(gz.velocity_north, gz.velocity_east),
-            climb=gz.velocity_up,
-            position_covariance_type=GPSFix.COVARIANCE_TYPE_UNKNOWN,
-        )
+    ros.status.status = GPSStatus.STATUS_FIX
+    ros.latitude, ros.longitude, ros.altitude = gz.latitude_deg, gz.longitude_deg, gz.altitude
+    ros.speed = math.hypot(gz.velocity_east, gz.velocity_north)
+    ros.track = math.atan2(gz.velocity_north, gz.velocity_east)
+    ros.climb = gz.velocity_up
+    ros.position_covariance_type = GPSFix.COVARIANCE_TYPE_UNKNOWN
 
-    @staticmethod
-    def to_gz(ros: GPSFix) -> Any:
-        """ROS to Gazebo."""
-        # A track that is not finite is unknown; sine and cosine would refuse it.
-        track = ros.track if math.isfinite(ros.track) else 0.0
-        gz = NavSat(
-            latitude_deg=ros.latitude,
-            longitude_deg=ros.longitude,
-            altitude=ros.altitude,
-            velocity_east=ros.speed * math.cos(track),
-            velocity_north=ros.speed * math.sin(track),
-            velocity_up=ros.climb,
-            frame_id=ros.header.frame_id,
-        )
-        header_to_gz(ros.header, gz.header)
-        return gz
+
+def _copy_fix(ros: GPSFix, gz: Any) -> None:
+    # A track that is not finite is unknown; sine and cosine would refuse it.
+    track = ros.track if math.isfinite(ros.track) else 0.0
+    copy_header(ros.header, gz.header)
+    gz.latitude_deg, gz.longitude_deg, gz.altitude = ros.latitude, ros.longitude, ros.altitude
+    gz.velocity_east = ros.speed * math.cos(track)
+    gz.velocity_north = ros.speed * math.sin(track)
+    gz.velocity_up = ros.climb
+    gz.frame_id = ros.header.frame_id
+
+
+message_pair("gps_msgs/msg/GPSFix", "gz.msgs.NavSat", Part(GPSFix, _fill_fix, _copy_fix))

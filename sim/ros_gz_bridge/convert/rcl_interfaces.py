@@ -1,4 +1,7 @@
-"""rcl_interfaces: ParameterValue, one value of a type that is known only when it arrives."""
+"""rcl_interfaces: ParameterValue, one value of a type that is known only when it arrives.
+
+Source: rcl_interfaces/msg/ParameterType.msg, https://github.com/ros2/rcl_interfaces; gz/msgs/any.proto
+"""
 
 from __future__ import annotations
 
@@ -7,10 +10,11 @@ from typing import Any
 from rcl_interfaces.msg import ParameterType, ParameterValue
 
 from gz_course.sim.gz.msgs.any_pb2 import Any as GzAny
-from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError, type_pair
+from gz_course.sim.ros_gz_bridge.fields import Part, message_pair
+from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError
 
 _INT32 = (-(2**31), 2**31 - 1)
-# Gazebo type, its field, ROS type, its field: what both sides have.
+# Gazebo type and its field, ROS type and its field.
 _TYPES = (
     (GzAny.BOOLEAN, "bool_value", ParameterType.PARAMETER_BOOL, "bool_value"),
     (GzAny.INT32, "int_value", ParameterType.PARAMETER_INTEGER, "integer_value"),
@@ -20,49 +24,40 @@ _TYPES = (
 _ROS_NAMES = {value: name for name, value in vars(ParameterType).items() if name.startswith("PARAMETER_")}
 
 
-def value_to_ros(gz: Any) -> ParameterValue | None:
-    """A ``gz.msgs.Any`` as a parameter's value; None for a type ROS parameters do not have (a pose, a colour)."""
-    if gz.type == GzAny.NONE:
-        return ParameterValue()
+def fill_value(gz: Any, ros: ParameterValue) -> bool:
+    """Write a `gz.msgs.Any`; return False for a type that ROS parameters do not have (a pose, a colour)."""
     for gz_type, gz_field, ros_type, ros_field in _TYPES:
         if gz.type == gz_type:
-            return ParameterValue(type=ros_type, **{ros_field: getattr(gz, gz_field)})
-    return None
+            ros.type = ros_type
+            setattr(ros, ros_field, getattr(gz, gz_field))
+            return True
+    return bool(gz.type == GzAny.NONE)
 
 
 def copy_value(ros: ParameterValue, gz: Any) -> bool:
-    """Write into a ``gz.msgs.Any``; integers beyond 32 bits stop at the limit. False for a list: Any has none."""
+    """Write into a `gz.msgs.Any`, clamping integers to 32 bits; return False for a list, which it cannot hold."""
     if ros.type == ParameterType.PARAMETER_NOT_SET:
         gz.type = GzAny.NONE
         return True
     for gz_type, gz_field, ros_type, ros_field in _TYPES:
         if ros.type == ros_type:
             value = getattr(ros, ros_field)
-            if gz_type == GzAny.INT32:
-                value = min(max(value, _INT32[0]), _INT32[1])
             gz.type = gz_type
-            setattr(gz, gz_field, value)
+            setattr(gz, gz_field, min(max(value, _INT32[0]), _INT32[1]) if gz_type == GzAny.INT32 else value)
             return True
     return False
 
 
-@type_pair("rcl_interfaces/msg/ParameterValue", "gz.msgs.Any")
-class ParameterValuePair:
-    """A truth value, an integer (32 bits), a double or a string."""
+def _fill(gz: Any, ros: ParameterValue) -> None:
+    if not fill_value(gz, ros):
+        name = GzAny.ValueType.Name(gz.type) if gz.type in GzAny.ValueType.values() else f"number {gz.type}"
+        raise ConversionError(f"a ROS parameter cannot hold a gz.msgs.Any of type {name}")
 
-    @staticmethod
-    def to_ros(gz: Any) -> ParameterValue:
-        """Gazebo to ROS."""
-        if (ros := value_to_ros(gz)) is None:
-            name = GzAny.ValueType.Name(gz.type) if gz.type in GzAny.ValueType.values() else f"number {gz.type}"
-            raise ConversionError(f"a ROS parameter cannot hold a gz.msgs.Any of type {name}")
-        return ros
 
-    @staticmethod
-    def to_gz(ros: ParameterValue) -> Any:
-        """ROS to Gazebo."""
-        gz = GzAny()
-        if not copy_value(ros, gz):
-            name = _ROS_NAMES.get(ros.type, f"number {ros.type}")
-            raise ConversionError(f"gz.msgs.Any cannot hold a parameter of type {name}")
-        return gz
+def _copy(ros: ParameterValue, gz: Any) -> None:
+    if not copy_value(ros, gz):
+        name = _ROS_NAMES.get(ros.type, f"number {ros.type}")
+        raise ConversionError(f"gz.msgs.Any cannot hold a parameter of type {name}")
+
+
+message_pair("rcl_interfaces/msg/ParameterValue", "gz.msgs.Any", Part(ParameterValue, _fill, _copy))

@@ -1,19 +1,22 @@
-"""trajectory_msgs: JointTrajectory, a plan for several joints (rad or m, and their derivatives; N or Nm)."""
+"""trajectory_msgs: JointTrajectory, a plan for several joints: [rad] or [m] and their derivatives, [N] or [N m].
+
+Source: trajectory_msgs/msg/JointTrajectoryPoint.msg, https://github.com/ros2/common_interfaces
+"""
 
 from __future__ import annotations
 
 import math
 
+from builtin_interfaces.msg import Duration
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from gz_course.sim.ros_gz_bridge.fields import DOUBLES, HEADER, TEXTS, Each, Fields, Part, add_fields
-from gz_course.sim.ros_gz_bridge.header import duration_to_ros, stamp_to_gz
+from gz_course.sim.ros_gz_bridge.fields import DOUBLES, HEADER, TEXTS, Each, Fields, Part, message_pair
+from gz_course.sim.ros_gz_bridge.header import copy_stamp, fill_stamp
 
 _NUMBERS = ("positions", "velocities", "accelerations", "effort")
 
 
 def _fault(ros: JointTrajectory) -> str | None:
-    """The numbers no joint can follow (``"points[2].positions[0] is nan"``), or None."""
     bad = [
         f"points[{index}].{field}[{joint}] is {number}"
         for index, point in enumerate(ros.points)
@@ -27,10 +30,10 @@ def _fault(ros: JointTrajectory) -> str | None:
 _POINT = Fields(
     JointTrajectoryPoint,
     **dict.fromkeys(_NUMBERS, DOUBLES),
-    time_from_start=Part(duration_to_ros, stamp_to_gz),
+    time_from_start=Part(Duration, fill_stamp, copy_stamp),
 )
 
-add_fields(
+message_pair(
     "trajectory_msgs/msg/JointTrajectory",
     "gz.msgs.JointTrajectory",
     Fields(JointTrajectory, header=HEADER, joint_names=TEXTS, points=Each(_POINT)),

@@ -85,7 +85,7 @@ def test_fixed_joints_are_apart():
     assert (fixed.parent, fixed.child) == ("a", "b")
     assert fixed.pose.is_close(Pose.from_rpy((1, 2, 3), (0, 0, 1.5)))
     assert kinematics.moving == {}
-    assert any("joint 'free' floats" in warning for warning in kinematics.warnings)
+    assert any("joint 'free' is floating" in warning for warning in kinematics.warnings)
 
 
 MIMIC = (

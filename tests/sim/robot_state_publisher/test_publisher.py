@@ -109,7 +109,7 @@ def test_joint_states_are_heard(publisher, ros_node, spin_until):
 
 @pytest.mark.parametrize("frequency", [-1.0, 1001.0, math.nan])
 def test_a_frequency_that_makes_no_sense(publisher, frequency):
-    from gz_course.sim.ros_gz_bridge.ros_program import UsageError
+    from gz_course.sim.ros_program.errors import UsageError
 
     with pytest.raises(UsageError, match="publish_frequency must be 0 to 1000 Hz"):
         publisher(publish_frequency=frequency)

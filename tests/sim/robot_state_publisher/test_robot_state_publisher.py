@@ -65,13 +65,13 @@ def test_an_installed_one_does_the_work(programs):
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        ([], "there is no robot: give a URDF file"),
+        ([], "no robot is given; give a URDF file"),
         (["nothing.urdf"], "nothing.urdf: the file cannot be read (No such file or directory)"),
         (["a.urdf", "b.urdf"], "one URDF file can be given, not 2: a.urdf b.urdf"),
         (["--urdf"], "there is no option '--urdf'"),
         (["a.urdf", "--ros-args", "-p", f"robot_description:={URDF}"], "given as a file and in robot_description"),
         (["--ros-args", "-p", "robot_description:=<robot name='r'/>"], "robot 'r' has no <link>"),
-        (["--ros-args", "-p", "robot_description:=5"], "the parameter robot_description must be a text, not '5'"),
+        (["--ros-args", "-p", "robot_description:=5"], "the parameter robot_description must be a text, not 5"),
         (
             ["--ros-args", "-p", f"robot_description:={URDF}", "-p", "publish_frequency:=-1"],
             "the parameter publish_frequency must be 0 to 1000 Hz, not -1",

@@ -15,8 +15,9 @@ from gz_course.sim.gz.msgs.image_pb2 import Image as GzImage
 from gz_course.sim.gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
 from gz_course.sim.gz.msgs.twist_pb2 import Twist as GzTwist
 from gz_course.sim.gz.transport import MessageInfo, Node, NodeOptions, Scope
-from gz_course.sim.ros_gz_bridge.arguments import parse_argument
-from gz_course.sim.ros_gz_bridge.bridge import Bridge, BridgeEntry, BridgeError, Direction, HeaderOverrides
+from gz_course.sim.ros_gz_bridge.arguments import read_arguments
+from gz_course.sim.ros_gz_bridge.bridge import Bridge
+from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, BridgeError, Direction, HeaderOverrides
 from gz_course.sim.ros_gz_bridge.qos_profile import QOS_PROFILES
 
 TWIST = ("geometry_msgs/msg/Twist", "gz.msgs.Twist")
@@ -351,9 +352,8 @@ def test_entries_that_cannot_work_are_all_named_and_nothing_stays(stage):
 
 
 def test_an_entry_from_the_command_line_runs(stage, inbox, eventually):
-    bridge = stage.bridge(parse_argument(f"{stage.topic}@sensor_msgs/msg/Image[gz.msgs.Image"))
-    images = inbox()
-    stage.ros_subscription(Image, images)
+    bridge = stage.bridge(*read_arguments([f"{stage.topic}@sensor_msgs/msg/Image[gz.msgs.Image"]).topics)
+    stage.ros_subscription(Image, images := inbox())
     eventually(lambda: bridge._to_ros[0].publisher.get_subscription_count() == 1, "the bridge knows its subscriber")
     pixels = bytes(range(12))
     stage.gz.advertise(stage.topic, GzImage).publish(
@@ -390,7 +390,7 @@ def test_a_heavy_message_does_not_delay_another_topic(stage, inbox):
     images.wait(11)
     assert bridge.status()[0].skipped == 9, "a queue of ten, and the one it was at"
     bridge.close()
-    assert not camera._lane._thread.is_alive()
+    assert not camera._worker._thread.is_alive()
 
 
 @pytest.mark.parametrize("profile", sorted(QOS_PROFILES))

@@ -6,9 +6,9 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from gz_course.sim.ros_gz_bridge import type_pairs
-from gz_course.sim.ros_gz_bridge.arguments import parse_argument, parse_arguments
-from gz_course.sim.ros_gz_bridge.config import MAX_BYTES, ConfigError, load_yaml, parse_yaml, read_yaml
+from gz_course.sim.ros_gz_bridge.config import MAX_BYTES, ConfigError, load_yaml, read_yaml
 from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction
+from gz_course.tests.sim.ros_gz_bridge.reading import parse_argument, parse_arguments, parse_yaml
 
 PAIRS = [(pair.ros_type, pair.gz_type) for pair in type_pairs.pairs()]
 MARKS = {"@": Direction.BIDIRECTIONAL, "[": Direction.GZ_TO_ROS, "]": Direction.ROS_TO_GZ}

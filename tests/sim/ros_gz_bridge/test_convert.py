@@ -18,7 +18,8 @@ from gz_course.sim.gz.msgs.odometry_pb2 import Odometry as GzOdometry
 from gz_course.sim.gz.msgs.pose_pb2 import Pose as GzPose
 from gz_course.sim.gz.msgs.time_pb2 import Time as GzTime
 from gz_course.sim.ros_gz_bridge import type_pairs
-from gz_course.sim.ros_gz_bridge.header import header_to_ros, set_header_value
+from gz_course.sim.ros_gz_bridge.fields import HEADER
+from gz_course.sim.ros_gz_bridge.header import set_header_value
 from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError, find_pair
 from gz_course.tests.sim.ros_gz_bridge.ros_messages import messages, plain
 
@@ -119,13 +120,13 @@ def test_a_scan_with_fewer_ranges_than_beams_is_refused():
 
 def test_the_last_frame_id_of_a_header_counts_and_a_missing_one_is_empty():
     gz = GzPose()
-    assert header_to_ros(gz.header).frame_id == ""
+    assert HEADER.to_ros(gz.header).frame_id == ""
     set_header_value(gz.header, "seq", "12")
     set_header_value(gz.header, "frame_id", "first")
     set_header_value(gz.header, "frame_id", "robot::odom")
-    assert header_to_ros(gz.header).frame_id == "robot/odom"
+    assert HEADER.to_ros(gz.header).frame_id == "robot/odom"
     gz.header.data.add(key="frame_id")
-    assert header_to_ros(gz.header).frame_id == ""
+    assert HEADER.to_ros(gz.header).frame_id == ""
 
 
 def test_odometry_carries_both_frames():

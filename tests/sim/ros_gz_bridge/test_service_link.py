@@ -12,10 +12,10 @@ from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
 from gz_course.sim.gz.msgs.twist_pb2 import Twist as GzTwist
 from gz_course.sim.gz.transport import Node, NodeOptions, Scope
 from gz_course.sim.ros_gz_bridge import type_pairs
-from gz_course.sim.ros_gz_bridge.arguments import parse_argument
-from gz_course.sim.ros_gz_bridge.bridge import Bridge, BridgeError
-from gz_course.sim.ros_gz_bridge.config import ConfigError, parse_yaml, read_yaml
-from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction, ServiceEntry
+from gz_course.sim.ros_gz_bridge.bridge import Bridge
+from gz_course.sim.ros_gz_bridge.config import ConfigError, read_yaml
+from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, BridgeError, Direction, ServiceEntry
+from gz_course.tests.sim.ros_gz_bridge.reading import parse_argument, parse_yaml
 
 TYPES = ("std_srvs/srv/SetBool", "gz.msgs.Boolean", "gz.msgs.StringMsg")
 DEADLINE = 20.0

@@ -6,6 +6,9 @@ import signal
 import psutil
 import pytest
 
+from gz_course.sim.gz.msgs.empty_pb2 import Empty
+from gz_course.sim.gz.msgs.stringmsg_v_pb2 import StringMsg_V
+
 GROUND = "<include><uri>model://ground_plane</uri></include><include><uri>model://sun</uri></include>"
 CUBE = (
     "<sdf version='1.9'><model name='cube'><static>true</static><link name='l'><collision name='c'><geometry><box>"
@@ -141,7 +144,9 @@ def test_a_world_without_user_commands(programs, create):
     path = programs.folder / "bare.sdf"
     path.write_text(f"<sdf version='1.9'><world name='bare'>{world}</world></sdf>")
     programs.module("gz_course.sim.ros_gz_sim.gzserver", "-world_sdf_file", path, GZ_PARTITION=partition)
-    code, said = create("-string", CUBE, "-timeout", "3", GZ_PARTITION=partition)
+    with programs.gz_node(partition) as node:
+        assert node.request("/gazebo/worlds", None, Empty, StringMsg_V, 60_000)[0], "the server runs"
+    code, said = create("-string", CUBE, "-timeout", "5", GZ_PARTITION=partition)
     assert code == 1
     assert "world 'bare' runs but offers no service" in said
     assert "gz-sim-user-commands-system" in said

@@ -58,7 +58,7 @@ def test_spawn_and_move(world, run):
         (["delete_entity", "--id", "999"], 1, "world 'small' has no model or light with the number 999"),
         (["set_entity_pose", "--name", "still"], 2, "there is no pose; give --pos"),
         (["set_entity_pose", "--name", "still", "--pos", "0", "0", "nan"], 2, "-pos must be a finite number"),
-        (["set_entity_pose", "--name", "still", "--quat", "0", "0", "0", "0"], 2, "--quat has no direction"),
+        (["set_entity_pose", "--name", "still", "--quat", "0", "0", "0", "0"], 2, "--quat must not be all zeros"),
         (["set_entity_pose", "--name", "stil", "--pos", "0", "0", "1"], 1, "did you mean 'still'?"),
         (["spawn_entity", "--name", "a"], 2, "say what to spawn"),
         (

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz_course.sim.ros_gz_bridge.ros_program import UsageError
 from gz_course.sim.ros_gz_sim.flags import Flag, read
+from gz_course.sim.ros_program.errors import UsageError
 
 FLAGS = (
     Flag("name", ""),
@@ -44,8 +44,8 @@ def test_values(words, values):
     [
         (["-nam", "box"], "there is no option '-nam'; did you mean '-name'?"),
         (["--nam=box"], "there is no option '--nam'; did you mean '--name'?"),
-        (["box"], "there is no place for the argument 'box'; options start with - (see --help)"),
-        (["-"], "there is no place for the argument '-'; options start with - (see --help)"),
+        (["box"], "unexpected argument 'box'; options start with - (see --help)"),
+        (["-"], "unexpected argument '-'; options start with - (see --help)"),
         (["-x"], "-x needs a value after it"),
         (["--pos", "1", "2"], "-pos needs 3 values after it"),
         (["-x", "nan"], "-x must be a finite number, got 'nan'"),

@@ -23,7 +23,7 @@ class RunningWorld:
     def __init__(
         self, node: Any, name: str, timeout: float, warn: Callable[[str], object], *, start: float | None = None
     ) -> None:
-        from gz_course.sim.ros_gz_bridge.ros_program import Failure
+        from gz_course.sim.ros_program.errors import Failure
 
         end = (time.monotonic() if start is None else start) + timeout
         worlds: list[str] = []

@@ -1,8 +1,9 @@
 """geometry_msgs: vectors, rotations, poses, transforms, twists and wrenches.
 
-Lengths are metres, angles radians, speeds m/s and rad/s, forces newtons; both sides use the same units, so
-every number is copied. Quaternions are x, y, z, w on both sides and copied as they are: one that was never
-filled in stays 0, 0, 0, 0, and its sign is kept.
+Both sides use the units of REP-103 ([m], [rad], [m/s], [rad/s], [N], [N m]), so every number is copied. Quaternions
+are x, y, z, w on both sides and copied as they are: one that was never set stays 0, 0, 0, 0, and its sign is kept.
+
+Source: REP-103, https://www.ros.org/reps/rep-0103.html; ros_gz_bridge/src/convert/geometry_msgs.cpp
 """
 
 from gz_course.sim.ros_gz_bridge.convert.geometry_msgs import poses, twists  # noqa: F401

@@ -2,32 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
-from ros_gz_interfaces.msg import (
-    Altimeter,
-    Contact,
-    Contacts,
-    Dataframe,
-    Entity,
-    EntityWrench,
-    Float32Array,
-    GuiCamera,
-    JointWrench,
-    Light,
-    LogicalCameraImage,
-    LogicalCameraImageModel,
-    MaterialColor,
-    SensorNoise,
-    StringVec,
-    TrackVisual,
-    VideoRecord,
-)
+from ros_gz_interfaces import msg
 from std_msgs.msg import String, UInt32
 
-from gz_course.sim.gz.msgs.dataframe_pb2 import Dataframe as GzDataframe
 from gz_course.sim.ros_gz_bridge.convert.geometry_msgs.poses import POSE, VECTOR3
-from gz_course.sim.ros_gz_bridge.convert.geometry_msgs.twists import WRENCH, not_finite
+from gz_course.sim.ros_gz_bridge.convert.geometry_msgs.twists import WRENCH, finite
 from gz_course.sim.ros_gz_bridge.fields import (
     COLOR,
     DOUBLES,
@@ -38,25 +20,20 @@ from gz_course.sim.ros_gz_bridge.fields import (
     TEXTS,
     Each,
     Fields,
-    Kind,
+    Part,
     Plain,
-    add_fields,
+    message_pair,
+    plain,
 )
-from gz_course.sim.ros_gz_bridge.header import header_to_gz, header_to_ros, header_value, set_header_value
-from gz_course.sim.ros_gz_bridge.type_pairs import type_pair
-
-
-def _plain(*names: str) -> dict[str, Kind]:
-    return dict.fromkeys(names, PLAIN)
-
+from gz_course.sim.ros_gz_bridge.header import copy_header, fill_header, header_value, set_header_value
 
 # ROS wraps these in messages of their own.
 _TEXT = Plain(lambda text: String(data=text), lambda ros: ros.data)
 _NUMBER = Plain(lambda number: UInt32(data=number), lambda ros: ros.data)
 
-ENTITY = Fields(Entity, **_plain("id", "name"), type=ENUM)
+ENTITY = Fields(msg.Entity, **plain("id", "name"), type=ENUM)
 JOINT_WRENCH = Fields(
-    JointWrench,
+    msg.JointWrench,
     header=HEADER,
     body_1_name=_TEXT,
     body_1_id=_NUMBER,
@@ -66,7 +43,7 @@ JOINT_WRENCH = Fields(
     body_2_wrench=WRENCH,
 )
 CONTACT = Fields(
-    Contact,
+    msg.Contact,
     {"positions": "position", "normals": "normal", "depths": "depth", "wrenches": "wrench"},
     collision1=ENTITY,
     collision2=ENTITY,
@@ -76,127 +53,100 @@ CONTACT = Fields(
     wrenches=Each(JOINT_WRENCH),
 )
 TRACK_VISUAL = Fields(
-    TrackVisual,
+    msg.TrackVisual,
     {"is_static": "static"},
     header=HEADER,
-    **_plain("name", "id", "inherit_orientation", "min_dist", "max_dist", "is_static", "use_model_frame"),
+    **plain("name", "id", "inherit_orientation", "min_dist", "max_dist", "is_static", "use_model_frame", "inherit_yaw"),
     xyz=VECTOR3,
-    inherit_yaw=PLAIN,
 )
 
-add_fields(
-    "ros_gz_interfaces/msg/Altimeter",
-    "gz.msgs.Altimeter",
-    Fields(Altimeter, header=HEADER, **_plain("vertical_position", "vertical_velocity", "vertical_reference")),
+
+def _pair(name: str, part: Part, gz_name: str = "", fault: Callable[[Any], str | None] | None = None) -> None:
+    """Enter a pair whose Gazebo type has the same name, unless `gz_name` is given."""
+    message_pair(f"ros_gz_interfaces/msg/{name}", f"gz.msgs.{gz_name or name}", part, fault)
+
+
+def _fill_dataframe(gz: Any, ros: msg.Dataframe) -> None:
+    """Write bytes and addresses; Gazebo keeps the signal strength [dBm] as text in the header."""
+    fill_header(gz.header, ros.header)
+    ros.src_address, ros.dst_address = gz.src_address, gz.dst_address
+    ros.data.frombytes(gz.data)
+    try:
+        ros.rssi = float(header_value(gz.header, "rssi"))
+    except ValueError:
+        ros.rssi = 0.0
+
+
+def _copy_dataframe(ros: msg.Dataframe, gz: Any) -> None:
+    copy_header(ros.header, gz.header)
+    set_header_value(gz.header, "rssi", repr(ros.rssi))
+    gz.src_address, gz.dst_address, gz.data = ros.src_address, ros.dst_address, bytes(ros.data)
+
+
+_pair(
+    "Altimeter",
+    Fields(msg.Altimeter, header=HEADER, **plain("vertical_position", "vertical_velocity", "vertical_reference")),
 )
-add_fields("ros_gz_interfaces/msg/Contact", "gz.msgs.Contact", CONTACT)
-add_fields(
-    "ros_gz_interfaces/msg/Contacts",
-    "gz.msgs.Contacts",
-    Fields(Contacts, {"contacts": "contact"}, header=HEADER, contacts=Each(CONTACT)),
+_pair("Contact", CONTACT)
+_pair("Contacts", Fields(msg.Contacts, {"contacts": "contact"}, header=HEADER, contacts=Each(CONTACT)))
+_pair("Dataframe", Part(msg.Dataframe, _fill_dataframe, _copy_dataframe))
+_pair("Entity", ENTITY)
+_pair(
+    "EntityWrench",
+    Fields(msg.EntityWrench, header=HEADER, entity=ENTITY, wrench=WRENCH),
+    fault=finite("wrench.force", "wrench.torque"),
 )
-add_fields("ros_gz_interfaces/msg/Entity", "gz.msgs.Entity", ENTITY)
-add_fields(
-    "ros_gz_interfaces/msg/EntityWrench",
-    "gz.msgs.EntityWrench",
-    Fields(EntityWrench, header=HEADER, entity=ENTITY, wrench=WRENCH),
-    fault=lambda ros: not_finite(ros, "wrench.force", "wrench.torque"),
-)
-add_fields("ros_gz_interfaces/msg/Float32Array", "gz.msgs.Float_V", Fields(Float32Array, data=FLOATS))
-add_fields(
-    "ros_gz_interfaces/msg/GuiCamera",
-    "gz.msgs.GUICamera",
+_pair("Float32Array", Fields(msg.Float32Array, data=FLOATS), "Float_V")
+_pair(
+    "GuiCamera",
     Fields(
-        GuiCamera,
+        msg.GuiCamera,
         header=HEADER,
-        **_plain("name", "view_controller"),
+        **plain("name", "view_controller", "projection_type"),
         pose=POSE,
         track=TRACK_VISUAL,
-        projection_type=PLAIN,
     ),
+    "GUICamera",
 )
-add_fields("ros_gz_interfaces/msg/JointWrench", "gz.msgs.JointWrench", JOINT_WRENCH)
-add_fields(
-    "ros_gz_interfaces/msg/Light",
-    "gz.msgs.Light",
+_pair("JointWrench", JOINT_WRENCH)
+_pair(
+    "Light",
     Fields(
-        Light,
+        msg.Light,
         header=HEADER,
-        name=PLAIN,
         type=ENUM,
         pose=POSE,
         diffuse=COLOR,
         specular=COLOR,
         direction=VECTOR3,
-        **_plain("attenuation_constant", "attenuation_linear", "attenuation_quadratic", "range", "cast_shadows"),
-        **_plain("spot_inner_angle", "spot_outer_angle", "spot_falloff", "id", "parent_id", "intensity"),
+        **plain("name", "id", "parent_id", "intensity", "range", "cast_shadows"),
+        **plain("attenuation_constant", "attenuation_linear", "attenuation_quadratic"),
+        **plain("spot_inner_angle", "spot_outer_angle", "spot_falloff"),
     ),
 )
-add_fields(
-    "ros_gz_interfaces/msg/LogicalCameraImage",
-    "gz.msgs.LogicalCameraImage",
+_LOGICAL_MODEL = Fields(msg.LogicalCameraImageModel, name=PLAIN, pose=POSE)
+_pair("LogicalCameraImage", Fields(msg.LogicalCameraImage, header=HEADER, pose=POSE, model=Each(_LOGICAL_MODEL)))
+_pair(
+    "MaterialColor",
     Fields(
-        LogicalCameraImage,
-        header=HEADER,
-        pose=POSE,
-        model=Each(Fields(LogicalCameraImageModel, name=PLAIN, pose=POSE)),
-    ),
-)
-add_fields(
-    "ros_gz_interfaces/msg/MaterialColor",
-    "gz.msgs.MaterialColor",
-    Fields(
-        MaterialColor,
+        msg.MaterialColor,
         header=HEADER,
         entity=ENTITY,
-        ambient=COLOR,
-        diffuse=COLOR,
-        specular=COLOR,
-        emissive=COLOR,
+        **dict.fromkeys(("ambient", "diffuse", "specular", "emissive"), COLOR),
         shininess=PLAIN,
         entity_match=ENUM,
     ),
 )
-add_fields(
-    "ros_gz_interfaces/msg/SensorNoise",
-    "gz.msgs.SensorNoise",
+_pair(
+    "SensorNoise",
     Fields(
-        SensorNoise,
+        msg.SensorNoise,
         header=HEADER,
         type=ENUM,
-        **_plain("mean", "stddev", "bias_mean", "bias_stddev", "precision"),
-        **_plain("dynamic_bias_stddev", "dynamic_bias_correlation_time"),
+        **plain("mean", "stddev", "bias_mean", "bias_stddev", "precision"),
+        **plain("dynamic_bias_stddev", "dynamic_bias_correlation_time"),
     ),
 )
-add_fields("ros_gz_interfaces/msg/StringVec", "gz.msgs.StringMsg_V", Fields(StringVec, header=HEADER, data=TEXTS))
-add_fields("ros_gz_interfaces/msg/TrackVisual", "gz.msgs.TrackVisual", TRACK_VISUAL)
-add_fields(
-    "ros_gz_interfaces/msg/VideoRecord",
-    "gz.msgs.VideoRecord",
-    Fields(VideoRecord, header=HEADER, **_plain("start", "stop", "format", "save_filename")),
-)
-
-
-@type_pair("ros_gz_interfaces/msg/Dataframe", "gz.msgs.Dataframe")
-class DataframePair:
-    """Bytes from one address to another; Gazebo keeps the signal strength (dBm) as text in the header."""
-
-    @staticmethod
-    def to_ros(gz: Any) -> Dataframe:
-        """Gazebo to ROS."""
-        try:
-            rssi = float(header_value(gz.header, "rssi"))
-        except ValueError:
-            rssi = 0.0
-        ros = Dataframe(header=header_to_ros(gz.header), src_address=gz.src_address, dst_address=gz.dst_address)
-        ros.data.frombytes(gz.data)
-        ros.rssi = rssi
-        return ros
-
-    @staticmethod
-    def to_gz(ros: Dataframe) -> Any:
-        """ROS to Gazebo."""
-        gz = GzDataframe(src_address=ros.src_address, dst_address=ros.dst_address, data=bytes(ros.data))
-        header_to_gz(ros.header, gz.header)
-        set_header_value(gz.header, "rssi", repr(ros.rssi))
-        return gz
+_pair("StringVec", Fields(msg.StringVec, header=HEADER, data=TEXTS), "StringMsg_V")
+_pair("TrackVisual", TRACK_VISUAL)
+_pair("VideoRecord", Fields(msg.VideoRecord, header=HEADER, **plain("start", "stop", "format", "save_filename")))

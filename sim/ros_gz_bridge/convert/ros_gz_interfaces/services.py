@@ -1,108 +1,81 @@
-"""The services of ros_gz_interfaces: control of the world, and entities that come, go and move."""
+"""The services of ros_gz_interfaces: control of the world; spawning, deleting and moving entities.
+
+Source: ros_gz_bridge/src/service_factories/ros_gz_interfaces.cpp, https://github.com/gazebosim/ros_gz
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from ros_gz_interfaces.srv import ControlWorld, DeleteEntity, SetEntityPose, SpawnEntity
 
-from gz_course.sim.gz.msgs.entity_factory_pb2 import EntityFactory
-from gz_course.sim.gz.msgs.entity_pb2 import Entity
-from gz_course.sim.gz.msgs.pose_pb2 import Pose
-from gz_course.sim.gz.msgs.world_control_pb2 import WorldControl
-from gz_course.sim.ros_gz_bridge.convert.geometry_msgs.poses import copy_pose
-from gz_course.sim.ros_gz_bridge.convert.geometry_msgs.twists import not_finite
+from gz_course.sim.gz.msgs import message_class
+from gz_course.sim.ros_gz_bridge.convert.geometry_msgs.poses import POSE
+from gz_course.sim.ros_gz_bridge.convert.geometry_msgs.twists import finite
 from gz_course.sim.ros_gz_bridge.convert.ros_gz_interfaces.messages import ENTITY
-from gz_course.sim.ros_gz_bridge.header import stamp_to_gz
-from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError, service_types
+from gz_course.sim.ros_gz_bridge.header import copy_stamp
+from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError, add_service
 
 _SOURCES = ("sdf", "sdf_filename", "clone_name")
 
 
-@service_types("ros_gz_interfaces/srv/ControlWorld", "gz.msgs.WorldControl", "gz.msgs.Boolean")
-class ControlWorldTypes:
-    """Pause, step, reset, seed. Every field is set each time: a request that leaves ``pause`` out runs the world."""
+def _service(
+    ros_class: Any, gz_type: str, copy: Callable[[Any, Any], None], fault: Callable[[Any], str | None] | None = None
+) -> None:
+    """Enter a service whose request `copy(ros, gz)` writes and which Gazebo answers with a `gz.msgs.Boolean`."""
+    gz_class = message_class(gz_type)
 
-    @staticmethod
     def request_to_gz(ros: Any) -> Any:
-        """ROS to Gazebo."""
-        control = ros.world_control
-        gz = WorldControl(pause=control.pause, step=control.step, multi_step=control.multi_step, seed=control.seed)
-        gz.reset.all = control.reset.all
-        gz.reset.time_only = control.reset.time_only
-        gz.reset.model_only = control.reset.model_only
-        stamp_to_gz(control.run_to_sim_time, gz.run_to_sim_time)
+        gz = gz_class()
+        copy(ros, gz)
         return gz
 
-    @staticmethod
-    def reply_to_ros(gz: Any) -> Any:
-        """Gazebo to ROS."""
-        return ControlWorld.Response(success=gz.data)
+    add_service(
+        f"ros_gz_interfaces/srv/{ros_class.__name__}",
+        gz_type,
+        "gz.msgs.Boolean",
+        request_to_gz=request_to_gz,
+        reply_to_ros=lambda gz: ros_class.Response(success=gz.data),
+        fault=fault,
+    )
 
 
-@service_types("ros_gz_interfaces/srv/SpawnEntity", "gz.msgs.EntityFactory", "gz.msgs.Boolean")
-class SpawnEntityTypes:
-    """An entity from SDF text, from a file or from another entity: the first of them that is given."""
-
-    @staticmethod
-    def request_to_gz(ros: Any) -> Any:
-        """ROS to Gazebo."""
-        factory = ros.entity_factory
-        gz = EntityFactory(name=factory.name, allow_renaming=factory.allow_renaming, relative_to=factory.relative_to)
-        source = next((field for field in _SOURCES if getattr(factory, field)), None)
-        if source is None:
-            raise ConversionError(f"there is nothing to spawn: none of {', '.join(_SOURCES)} is given")
-        setattr(gz, source, getattr(factory, source))
-        copy_pose(factory.pose, gz.pose)
-        return gz
-
-    @staticmethod
-    def reply_to_ros(gz: Any) -> Any:
-        """Gazebo to ROS."""
-        return SpawnEntity.Response(success=gz.data)
-
-    @staticmethod
-    def fault(ros: Any) -> str | None:
-        """What must not reach the simulator."""
-        return not_finite(ros, "entity_factory.pose.position", "entity_factory.pose.orientation")
+def _control(ros: Any, gz: Any) -> None:
+    """Write pause, step, reset and seed. Every field is set: a request that leaves `pause` out runs the world."""
+    control = ros.world_control
+    gz.pause, gz.step, gz.multi_step, gz.seed = control.pause, control.step, control.multi_step, control.seed
+    gz.reset.all = control.reset.all
+    gz.reset.time_only = control.reset.time_only
+    gz.reset.model_only = control.reset.model_only
+    copy_stamp(control.run_to_sim_time, gz.run_to_sim_time)
 
 
-@service_types("ros_gz_interfaces/srv/DeleteEntity", "gz.msgs.Entity", "gz.msgs.Boolean")
-class DeleteEntityTypes:
-    """An entity, by id or by name and type."""
-
-    @staticmethod
-    def request_to_gz(ros: Any) -> Any:
-        """ROS to Gazebo."""
-        gz = Entity()
-        ENTITY.to_gz(ros.entity, gz)
-        return gz
-
-    @staticmethod
-    def reply_to_ros(gz: Any) -> Any:
-        """Gazebo to ROS."""
-        return DeleteEntity.Response(success=gz.data)
+def _spawn(ros: Any, gz: Any) -> None:
+    """Write an entity as SDF text, a file or the name of another entity: the first of them that is set."""
+    factory = ros.entity_factory
+    source = next((field for field in _SOURCES if getattr(factory, field)), None)
+    if source is None:
+        raise ConversionError(f"there is nothing to spawn: none of {', '.join(_SOURCES)} is given")
+    gz.name, gz.allow_renaming, gz.relative_to = factory.name, factory.allow_renaming, factory.relative_to
+    setattr(gz, source, getattr(factory, source))
+    POSE.copy(factory.pose, gz.pose)
 
 
-@service_types("ros_gz_interfaces/srv/SetEntityPose", "gz.msgs.Pose", "gz.msgs.Boolean")
-class SetEntityPoseTypes:
-    """A new pose for an entity, found by id or by name; its type does not travel."""
+def _set_pose(ros: Any, gz: Any) -> None:
+    """Write name, id and pose; the type of the entity has no field in Gazebo."""
+    if ros.entity.id >= 2**32:
+        raise ConversionError(f"the entity id {ros.entity.id} does not fit the 32 bits of gz.msgs.Pose")
+    gz.name, gz.id = ros.entity.name, ros.entity.id
+    POSE.copy(ros.pose, gz)
 
-    @staticmethod
-    def request_to_gz(ros: Any) -> Any:
-        """ROS to Gazebo."""
-        if ros.entity.id >= 2**32:
-            raise ConversionError(f"the entity id {ros.entity.id} does not fit the 32 bits of gz.msgs.Pose")
-        gz = Pose(name=ros.entity.name, id=ros.entity.id)
-        copy_pose(ros.pose, gz)
-        return gz
 
-    @staticmethod
-    def reply_to_ros(gz: Any) -> Any:
-        """Gazebo to ROS."""
-        return SetEntityPose.Response(success=gz.data)
-
-    @staticmethod
-    def fault(ros: Any) -> str | None:
-        """What must not reach the simulator."""
-        return not_finite(ros, "pose.position", "pose.orientation")
+_service(ControlWorld, "gz.msgs.WorldControl", _control)
+_service(
+    SpawnEntity,
+    "gz.msgs.EntityFactory",
+    _spawn,
+    finite("entity_factory.pose.position", "entity_factory.pose.orientation"),
+)
+_service(DeleteEntity, "gz.msgs.Entity", lambda ros, gz: ENTITY.copy(ros.entity, gz))
+_service(SetEntityPose, "gz.msgs.Pose", _set_pose, finite("pose.position", "pose.orientation"))

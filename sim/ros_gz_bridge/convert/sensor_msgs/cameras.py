@@ -1,4 +1,7 @@
-"""Image and CameraInfo. Pixels are copied in one piece, never one by one."""
+"""Image and CameraInfo. Pixels are copied in one piece.
+
+Source: sensor_msgs/msg/CameraInfo.msg and sensor_msgs/image_encodings.hpp; gz/msgs/image.proto (PixelFormatType)
+"""
 
 from __future__ import annotations
 
@@ -9,12 +12,11 @@ import numpy as np
 from sensor_msgs.msg import CameraInfo, Image
 
 from gz_course.sim.gz.msgs.camera_info_pb2 import CameraInfo as GzCameraInfo
-from gz_course.sim.gz.msgs.image_pb2 import Image as GzImage
 from gz_course.sim.gz.msgs.image_pb2 import PixelFormatType
-from gz_course.sim.ros_gz_bridge.header import fill_header, header_to_gz
-from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError, type_pair
+from gz_course.sim.ros_gz_bridge.fields import Part, message_pair
+from gz_course.sim.ros_gz_bridge.header import copy_header, fill_header
+from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError
 
-# ROS encoding -> (Gazebo pixel format, bytes of one pixel).
 ENCODINGS = {
     "mono8": ("L_INT8", 1),
     "mono16": ("L_INT16", 2),
@@ -26,55 +28,45 @@ ENCODINGS = {
     "bgr16": ("BGR_INT16", 6),
     "32FC1": ("R_FLOAT32", 4),
 }
+"""For each ROS encoding the Gazebo pixel format and the size of a pixel [byte]; `32FC1` is a depth [m]."""
 _WIDE = ("mono16", "rgb16", "bgr16", "32FC1")
 _FORMATS = {PixelFormatType.Value(name): encoding for encoding, (name, _) in ENCODINGS.items()}
+_MODELS = {
+    "plumb_bob": GzCameraInfo.Distortion.PLUMB_BOB,
+    "rational_polynomial": GzCameraInfo.Distortion.RATIONAL_POLYNOMIAL,
+    "equidistant": GzCameraInfo.Distortion.EQUIDISTANT,
+}
+_MODEL_NAMES = {number: name for name, number in _MODELS.items()}
 
 
-@type_pair("sensor_msgs/msg/Image", "gz.msgs.Image")
-class ImagePair:
-    """Pixels, row by row; a depth image is ``32FC1`` in metres. Rows keep the padding they came with."""
+def _fill_image(gz: Any, ros: Image) -> None:
+    """Write pixels row by row; rows keep the padding they came with."""
+    encoding = _FORMATS.get(gz.pixel_format_type)
+    if encoding is None:
+        number = gz.pixel_format_type
+        name = PixelFormatType.Name(number) if number in PixelFormatType.values() else f"number {number}"
+        raise ConversionError(f"the pixel format {name} has no ROS encoding (known: {', '.join(ENCODINGS)})")
+    step = gz.step or gz.width * ENCODINGS[encoding][1]
+    data = gz.data  # every access makes a copy
+    _check_pixels(gz.width, gz.height, step, len(data), encoding)
+    fill_header(gz.header, ros.header)
+    ros.height, ros.width, ros.step = gz.height, gz.width, step
+    ros.encoding = encoding
+    ros.data.frombytes(data)  # assigned, the bytes would be copied three times
 
-    @staticmethod
-    def to_ros(gz: Any) -> Image:
-        """Gazebo to ROS."""
-        encoding = _FORMATS.get(gz.pixel_format_type)
-        if encoding is None:
-            number = gz.pixel_format_type
-            name = PixelFormatType.Name(number) if number in PixelFormatType.values() else f"number {number}"
-            raise ConversionError(f"the pixel format {name} has no ROS encoding (known: {', '.join(ENCODINGS)})")
-        step = gz.step or gz.width * ENCODINGS[encoding][1]
-        data = gz.data  # every access makes a copy
-        _check_pixels(gz.width, gz.height, step, len(data), encoding)
-        ros = Image(
-            height=gz.height,
-            width=gz.width,
-            encoding=encoding,
-            is_bigendian=0,
-            step=step,
+
+def _copy_image(ros: Image, gz: Any) -> None:
+    if ros.encoding not in ENCODINGS:
+        raise ConversionError(
+            f"the encoding {ros.encoding!r} has no Gazebo pixel format (known: {', '.join(ENCODINGS)})"
         )
-        fill_header(gz.header, ros.header)
-        ros.data.frombytes(data)  # handed to the constructor, the bytes would be copied three times
-        return ros
-
-    @staticmethod
-    def to_gz(ros: Image) -> Any:
-        """ROS to Gazebo."""
-        if ros.encoding not in ENCODINGS:
-            raise ConversionError(
-                f"the encoding {ros.encoding!r} has no Gazebo pixel format (known: {', '.join(ENCODINGS)})"
-            )
-        if ros.is_bigendian and ros.encoding in _WIDE:
-            raise ConversionError(f"the numbers of a {ros.encoding} image are big-endian; Gazebo's are little-endian")
-        _check_pixels(ros.width, ros.height, ros.step, len(ros.data), ros.encoding)
-        gz = GzImage(
-            width=ros.width,
-            height=ros.height,
-            step=ros.step,
-            data=bytes(ros.data),
-            pixel_format_type=ENCODINGS[ros.encoding][0],
-        )
-        header_to_gz(ros.header, gz.header)
-        return gz
+    if ros.is_bigendian and ros.encoding in _WIDE:
+        raise ConversionError(f"the numbers of a {ros.encoding} image are big-endian; Gazebo's are little-endian")
+    _check_pixels(ros.width, ros.height, ros.step, len(ros.data), ros.encoding)
+    copy_header(ros.header, gz.header)
+    gz.width, gz.height, gz.step = ros.width, ros.height, ros.step
+    gz.data = bytes(ros.data)
+    gz.pixel_format_type = PixelFormatType.Value(ENCODINGS[ros.encoding][0])
 
 
 def _check_pixels(width: int, height: int, step: int, size: int, encoding: str) -> None:
@@ -86,56 +78,44 @@ def _check_pixels(width: int, height: int, step: int, size: int, encoding: str) 
         )
 
 
-# ROS distortion model -> Gazebo's.
-_MODELS = {
-    "plumb_bob": GzCameraInfo.Distortion.PLUMB_BOB,
-    "rational_polynomial": GzCameraInfo.Distortion.RATIONAL_POLYNOMIAL,
-    "equidistant": GzCameraInfo.Distortion.EQUIDISTANT,
-}
-_MODEL_NAMES = {number: name for name, number in _MODELS.items()}
+def _fill_info(gz: Any, ros: CameraInfo) -> None:
+    """Write size, distortion, and the row-major matrices K (3, 3), R (3, 3) and P (3, 4).
 
-
-@type_pair("sensor_msgs/msg/CameraInfo", "gz.msgs.CameraInfo")
-class CameraInfoPair:
-    """Size, distortion, and the matrices K (3x3), R (3x3) and P (3x4), row by row; binning and region stay unset.
-
-    A matrix Gazebo does not give is zero, which in ROS means an uncalibrated camera.
+    A matrix that Gazebo leaves out is zero, which in ROS means an uncalibrated camera. Binning and region stay unset.
     """
+    fill_header(gz.header, ros.header)
+    ros.width, ros.height = gz.width, gz.height
+    if gz.HasField("distortion"):
+        model = gz.distortion.model
+        if model not in _MODEL_NAMES:
+            raise ConversionError(f"the distortion model number {model} is unknown (known: {', '.join(_MODELS)})")
+        ros.distortion_model = _MODEL_NAMES[model]
+        ros.d = array("d", gz.distortion.k)
+    ros.k = _matrix("K", gz.intrinsics.k, 9)
+    ros.r = _matrix("R", gz.rectification_matrix, 9)
+    ros.p = _matrix("P", gz.projection.p, 12)
 
-    @staticmethod
-    def to_ros(gz: Any) -> CameraInfo:
-        """Gazebo to ROS."""
-        ros = CameraInfo(width=gz.width, height=gz.height)
-        fill_header(gz.header, ros.header)
-        if gz.HasField("distortion"):
-            model = gz.distortion.model
-            if model not in _MODEL_NAMES:
-                raise ConversionError(f"the distortion model number {model} is unknown (known: {', '.join(_MODELS)})")
-            ros.distortion_model = _MODEL_NAMES[model]
-            ros.d = array("d", gz.distortion.k)
-        ros.k = _matrix("K", gz.intrinsics.k, 9)
-        ros.r = _matrix("R", gz.rectification_matrix, 9)
-        ros.p = _matrix("P", gz.projection.p, 12)
-        return ros
 
-    @staticmethod
-    def to_gz(ros: CameraInfo) -> Any:
-        """ROS to Gazebo."""
-        gz = GzCameraInfo(width=ros.width, height=ros.height, rectification_matrix=ros.r)
-        header_to_gz(ros.header, gz.header)
-        if ros.distortion_model or len(ros.d):
-            if ros.distortion_model not in _MODELS:
-                raise ConversionError(
-                    f"the distortion model {ros.distortion_model!r} is not Gazebo's (known: {', '.join(_MODELS)})"
-                )
-            gz.distortion.model = _MODELS[ros.distortion_model]
-            gz.distortion.k.extend(ros.d)
-        gz.intrinsics.k.extend(ros.k)
-        gz.projection.p.extend(ros.p)
-        return gz
+def _copy_info(ros: CameraInfo, gz: Any) -> None:
+    copy_header(ros.header, gz.header)
+    gz.width, gz.height = ros.width, ros.height
+    if ros.distortion_model or len(ros.d):
+        if ros.distortion_model not in _MODELS:
+            raise ConversionError(
+                f"the distortion model {ros.distortion_model!r} is not Gazebo's (known: {', '.join(_MODELS)})"
+            )
+        gz.distortion.model = _MODELS[ros.distortion_model]
+        gz.distortion.k.extend(ros.d)
+    gz.intrinsics.k.extend(ros.k)
+    gz.rectification_matrix.extend(ros.r)
+    gz.projection.p.extend(ros.p)
 
 
 def _matrix(name: str, numbers: Any, size: int) -> Any:
     if len(numbers) not in (0, size):
         raise ConversionError(f"the matrix {name} of a camera has {size} numbers, not {len(numbers)}")
     return np.array(numbers, dtype=np.float64) if len(numbers) else np.zeros(size)
+
+
+message_pair("sensor_msgs/msg/Image", "gz.msgs.Image", Part(Image, _fill_image, _copy_image))
+message_pair("sensor_msgs/msg/CameraInfo", "gz.msgs.CameraInfo", Part(CameraInfo, _fill_info, _copy_info))

@@ -1,4 +1,7 @@
-"""LaserScan, Range and PointCloud2. Ranges and points are copied in one piece, never one by one."""
+"""LaserScan, Range and PointCloud2. Ranges and points are copied in one piece.
+
+Source: ros_gz_bridge/src/convert/sensor_msgs.cpp; sensor_msgs/msg/PointField.msg; gz/msgs/pointcloud_packed.proto
+"""
 
 from __future__ import annotations
 
@@ -8,147 +11,97 @@ from typing import Any
 import numpy as np
 from sensor_msgs.msg import LaserScan, PointCloud2, PointField, Range
 
-from gz_course.sim.gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
-from gz_course.sim.gz.msgs.pointcloud_packed_pb2 import PointCloudPacked
-from gz_course.sim.ros_gz_bridge.blank import blank
-from gz_course.sim.ros_gz_bridge.header import fill_header, fill_stamp, frame_to_ros, header_to_gz
-from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError, type_pair
+from gz_course.sim.ros_gz_bridge.fields import Part, message_pair
+from gz_course.sim.ros_gz_bridge.header import copy_header, fill_header, fill_stamp, frame_to_ros
+from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError
 
 
-@type_pair("sensor_msgs/msg/LaserScan", "gz.msgs.LaserScan")
-class LaserScanPair:
-    """Ranges in metres by angle in radians; no return is infinite on both sides.
+def _fill_scan(gz: Any, ros: LaserScan) -> None:
+    """Write the ranges [m] of the middle layer by angle [rad]; no return is infinite on both sides.
 
-    A Gazebo scan may have several layers, one above the other, where ROS has one: the middle layer is taken.
-    Its frame comes from the field ``frame``, not from the header. Times between beams are unknown, so they
-    are 0.
+    A Gazebo scan may have several layers, one above the other, where ROS has one. Its frame is in the field `frame`,
+    not in the header. The times between beams are unknown and stay 0.
     """
-
-    @staticmethod
-    def to_ros(gz: Any) -> LaserScan:
-        """Gazebo to ROS."""
-        ranges, intensities, count = gz.ranges, gz.intensities, gz.count
-        start = (gz.vertical_count // 2) * count
-        end = start + count
-        if len(ranges) < end:
-            raise ConversionError(f"the scan announces {count} beams a layer but carries {len(ranges)} ranges")
-        ros = blank(LaserScan)
-        _fill_header(gz, ros.header)
-        ros.angle_min = gz.angle_min
-        ros.angle_max = gz.angle_max
-        ros.angle_increment = gz.angle_step
-        ros.range_min = gz.range_min
-        ros.range_max = gz.range_max
-        with np.errstate(over="ignore"):  # beyond float32 is infinite, as in C
-            ros.ranges.frombytes(np.asarray(ranges, dtype=np.float32)[start:end].tobytes())
-            if len(intensities) >= end:
-                ros.intensities.frombytes(np.asarray(intensities, dtype=np.float32)[start:end].tobytes())
-        return ros
-
-    @staticmethod
-    def to_gz(ros: LaserScan) -> Any:
-        """ROS to Gazebo."""
-        gz = GzLaserScan(
-            frame=ros.header.frame_id,
-            angle_min=ros.angle_min,
-            angle_max=ros.angle_max,
-            angle_step=ros.angle_increment,
-            range_min=ros.range_min,
-            range_max=ros.range_max,
-            count=len(ros.ranges),
-            ranges=ros.ranges,
-            intensities=ros.intensities,
-        )
-        header_to_gz(ros.header, gz.header)
-        return gz
+    ranges, intensities, count = gz.ranges, gz.intensities, gz.count
+    start = (gz.vertical_count // 2) * count
+    end = start + count
+    if len(ranges) < end:
+        raise ConversionError(f"the scan announces {count} beams a layer but carries {len(ranges)} ranges")
+    _fill_frame(gz, ros)
+    ros.angle_min, ros.angle_max, ros.angle_increment = gz.angle_min, gz.angle_max, gz.angle_step
+    ros.range_min, ros.range_max = gz.range_min, gz.range_max
+    with np.errstate(over="ignore"):  # beyond float32 is infinite, as in C
+        ros.ranges.frombytes(np.asarray(ranges, dtype=np.float32)[start:end].tobytes())
+        if len(intensities) >= end:
+            ros.intensities.frombytes(np.asarray(intensities, dtype=np.float32)[start:end].tobytes())
 
 
-def _fill_header(gz: Any, header: Any) -> None:
-    fill_stamp(gz.header.stamp, header.stamp)
-    header.frame_id = frame_to_ros(gz.frame)
+def _copy_scan(ros: LaserScan, gz: Any) -> None:
+    _copy_frame(ros, gz)
+    gz.angle_min, gz.angle_max, gz.angle_step = ros.angle_min, ros.angle_max, ros.angle_increment
+    gz.range_min, gz.range_max, gz.count = ros.range_min, ros.range_max, len(ros.ranges)
+    gz.ranges.extend(ros.ranges)
+    gz.intensities.extend(ros.intensities)
 
 
-@type_pair("sensor_msgs/msg/Range", "gz.msgs.LaserScan")
-class RangePair:
-    """The single beam of a lidar as a distance; of several beams the nearest, as a real range finder answers."""
-
-    @staticmethod
-    def to_ros(gz: Any) -> Range:
-        """Gazebo to ROS."""
-        ros = Range(
-            radiation_type=Range.INFRARED,
-            field_of_view=gz.angle_max - gz.angle_min,
-            min_range=gz.range_min,
-            max_range=gz.range_max,
-            range=min((number for number in gz.ranges if not math.isnan(number)), default=math.nan),
-        )
-        _fill_header(gz, ros.header)
-        return ros
-
-    @staticmethod
-    def to_gz(ros: Range) -> Any:
-        """ROS to Gazebo: one beam, straight ahead in the middle of the field of view."""
-        gz = GzLaserScan(
-            frame=ros.header.frame_id,
-            angle_min=-ros.field_of_view / 2,
-            angle_max=ros.field_of_view / 2,
-            angle_step=ros.field_of_view,
-            range_min=ros.min_range,
-            range_max=ros.max_range,
-            count=1,
-            ranges=[ros.range],
-        )
-        header_to_gz(ros.header, gz.header)
-        return gz
+def _fill_frame(gz: Any, ros: LaserScan | Range) -> None:
+    fill_stamp(gz.header.stamp, ros.header.stamp)
+    ros.header.frame_id = frame_to_ros(gz.frame)
 
 
-@type_pair("sensor_msgs/msg/PointCloud2", "gz.msgs.PointCloudPacked")
-class PointCloud2Pair:
-    """Points as bytes, with the fields that say how to read them."""
-
-    @staticmethod
-    def to_ros(gz: Any) -> PointCloud2:
-        """Gazebo to ROS."""
-        ros = PointCloud2(
-            height=gz.height,
-            width=gz.width,
-            fields=[
-                # Gazebo counts the types of numbers from 0, ROS from 1.
-                PointField(name=field.name, offset=field.offset, datatype=field.datatype + 1, count=field.count)
-                for field in gz.field
-                if _check_type(field.name, field.datatype + 1)
-            ],
-            is_bigendian=gz.is_bigendian,
-            point_step=gz.point_step,
-            row_step=gz.row_step,
-            is_dense=gz.is_dense,
-        )
-        fill_header(gz.header, ros.header)
-        ros.data.frombytes(gz.data)  # handed to the constructor, the bytes would be copied three times
-        return ros
-
-    @staticmethod
-    def to_gz(ros: PointCloud2) -> Any:
-        """ROS to Gazebo."""
-        gz = PointCloudPacked(
-            height=ros.height,
-            width=ros.width,
-            is_bigendian=ros.is_bigendian,
-            point_step=ros.point_step,
-            row_step=ros.row_step,
-            data=bytes(ros.data),
-            is_dense=ros.is_dense,
-        )
-        header_to_gz(ros.header, gz.header)
-        for field in ros.fields:
-            _check_type(field.name, field.datatype)
-            gz.field.add(name=field.name, offset=field.offset, datatype=field.datatype - 1, count=field.count)
-        return gz
+def _copy_frame(ros: LaserScan | Range, gz: Any) -> None:
+    copy_header(ros.header, gz.header)
+    gz.frame = ros.header.frame_id
 
 
-def _check_type(field: str, datatype: int) -> bool:
+def _fill_range(gz: Any, ros: Range) -> None:
+    """Write the nearest range [m] of all beams, as a real range finder reports it."""
+    _fill_frame(gz, ros)
+    ros.radiation_type = Range.INFRARED
+    ros.field_of_view = gz.angle_max - gz.angle_min
+    ros.min_range, ros.max_range = gz.range_min, gz.range_max
+    ros.range = min((number for number in gz.ranges if not math.isnan(number)), default=math.nan)
+
+
+def _copy_range(ros: Range, gz: Any) -> None:
+    """Write one beam, straight ahead in the middle of the field of view [rad]."""
+    _copy_frame(ros, gz)
+    gz.angle_min, gz.angle_max, gz.angle_step = -ros.field_of_view / 2, ros.field_of_view / 2, ros.field_of_view
+    gz.range_min, gz.range_max, gz.count = ros.min_range, ros.max_range, 1
+    gz.ranges.append(ros.range)
+
+
+def _fill_cloud(gz: Any, ros: PointCloud2) -> None:
+    """Write points as bytes, with the fields that say how to read them; Gazebo counts types from 0, ROS from 1."""
+    fill_header(gz.header, ros.header)
+    for field in gz.field:
+        _check_type(field.name, field.datatype + 1)
+    ros.fields = [
+        PointField(name=field.name, offset=field.offset, datatype=field.datatype + 1, count=field.count)
+        for field in gz.field
+    ]
+    ros.height, ros.width, ros.point_step, ros.row_step = gz.height, gz.width, gz.point_step, gz.row_step
+    ros.is_bigendian, ros.is_dense = gz.is_bigendian, gz.is_dense
+    ros.data.frombytes(gz.data)  # assigned, the bytes would be copied three times
+
+
+def _copy_cloud(ros: PointCloud2, gz: Any) -> None:
+    copy_header(ros.header, gz.header)
+    for field in ros.fields:
+        _check_type(field.name, field.datatype)
+        gz.field.add(name=field.name, offset=field.offset, datatype=field.datatype - 1, count=field.count)
+    gz.height, gz.width, gz.point_step, gz.row_step = ros.height, ros.width, ros.point_step, ros.row_step
+    gz.is_bigendian, gz.is_dense = ros.is_bigendian, ros.is_dense
+    gz.data = bytes(ros.data)
+
+
+def _check_type(field: str, datatype: int) -> None:
     if not PointField.INT8 <= datatype <= PointField.FLOAT64:
         raise ConversionError(
             f"the field {field!r} of the points is of the unknown type number {datatype} (ROS: 1 to 8)"
         )
-    return True
+
+
+message_pair("sensor_msgs/msg/LaserScan", "gz.msgs.LaserScan", Part(LaserScan, _fill_scan, _copy_scan))
+message_pair("sensor_msgs/msg/Range", "gz.msgs.LaserScan", Part(Range, _fill_range, _copy_range))
+message_pair("sensor_msgs/msg/PointCloud2", "gz.msgs.PointCloudPacked", Part(PointCloud2, _fill_cloud, _copy_cloud))

@@ -1,4 +1,4 @@
-"""Starts the bridge between Gazebo and ROS 2 with a configuration file.
+"""The bridge between Gazebo and ROS 2 with a configuration file.
 
 `ros2 launch ros_gz_bridge ros_gz_bridge.launch.py bridge_name:=my_bridge config_file:=bridge.yaml`
 """
@@ -13,7 +13,6 @@ from launch_ros.parameter_descriptions import ParameterValue
 
 
 def generate_launch_description() -> LaunchDescription:
-    """The arguments of ros_gz_bridge's launch file, and one bridge."""
     composed = LaunchConfiguration("use_composition")
     own_container = LaunchConfiguration("create_own_container")
     bridge = ComposableNode(package="ros_gz_bridge", plugin="ros_gz_bridge::RosGzBridge")

@@ -1,4 +1,4 @@
-"""Starts Gazebo's server with a world, running: `world_sdf_file:=empty.sdf`, or its text as `world_sdf_string`."""
+"""Gazebo's server with a world, running: `world_sdf_file:=empty.sdf`, or its text as `world_sdf_string`."""
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
@@ -10,7 +10,6 @@ from launch_ros.parameter_descriptions import ParameterValue
 
 
 def generate_launch_description() -> LaunchDescription:
-    """The arguments of ros_gz_sim's launch file, and one server."""
     composed = LaunchConfiguration("use_composition")
     own_container = LaunchConfiguration("create_own_container")
     server = ComposableNode(package="ros_gz_sim", plugin="ros_gz_sim::GzServer")

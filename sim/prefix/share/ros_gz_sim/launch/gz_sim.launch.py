@@ -1,4 +1,4 @@
-"""Starts Gazebo with the words in `gz_args`, as `gz sim <gz_args>` would: `gz_args:="-r -s empty.sdf"`."""
+"""Gazebo with the arguments `gz_args`, as `gz sim <gz_args>` starts it: `gz_args:="-r -s empty.sdf"`."""
 
 import os
 import shlex
@@ -12,7 +12,6 @@ from launch.substitutions import IfElseSubstitution, LaunchConfiguration
 
 
 def generate_launch_description() -> LaunchDescription:
-    """The arguments of ros_gz_sim's launch file, and one process, `gazebo`."""
     # The `gz` of the Python that runs this launch file, whatever PATH says.
     beside = Path(sys.executable).with_name("gz")
     gz = shlex.quote(str(beside)) if os.access(beside, os.X_OK) else "gz"
@@ -33,7 +32,7 @@ def generate_launch_description() -> LaunchDescription:
             _deprecated("ign_args", "gz_args"),
             _deprecated("ign_version", "gz_version"),
             ExecuteProcess(
-                # The shell reads gz_args, then makes way with exec: else its exit code would hide Gazebo's.
+                # The shell splits gz_args and replaces itself by Gazebo, so the exit code is Gazebo's.
                 cmd=["/bin/sh", "-c", ["exec ", gz, " sim ", *words]],
                 name="gazebo",
                 output="screen",

@@ -1,4 +1,4 @@
-"""Puts a model into a running world, as `ros2 run ros_gz_sim create` does.
+"""A model created in a running world, as `ros2 run ros_gz_sim create` does.
 
 `ros2 launch ros_gz_sim gz_spawn_model.launch.py world:=empty file:=box.sdf entity_name:=box x:=1.0 z:=0.5`
 """
@@ -16,19 +16,11 @@ TEXTS = {
     "topic": "Topic that carries the text, such as /robot_description",
     "entity_name": "Name in the world; empty: the one in the file",
 }
-POSE = {
-    "x": "Position, m",
-    "y": "Position, m",
-    "z": "Position, m",
-    "R": "Roll, rad",
-    "P": "Pitch, rad",
-    "Y": "Yaw, rad",
-}
+POSE = dict.fromkeys("xyz", "Position, m") | {"R": "Roll, rad", "P": "Pitch, rad", "Y": "Yaw, rad"}
 PARAMETERS = {"model_string": "string", "entity_name": "name"}
 
 
 def generate_launch_description() -> LaunchDescription:
-    """The arguments of ros_gz_sim's launch file, and one `create`."""
     values = {PARAMETERS.get(name, name): _value(name, str) for name in TEXTS}
     values |= {name: _value(name, float) for name in POSE}
     return LaunchDescription(

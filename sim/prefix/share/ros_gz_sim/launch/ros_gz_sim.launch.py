@@ -1,4 +1,4 @@
-"""Starts Gazebo's server with a world, running, and the bridge with a configuration file."""
+"""Gazebo's server with a world, running, and the bridge with a configuration file."""
 
 from pathlib import Path
 
@@ -10,7 +10,6 @@ from launch.substitutions import LaunchConfiguration
 
 
 def generate_launch_description() -> LaunchDescription:
-    """gz_sim.launch.py and ros_gz_bridge.launch.py with one set of arguments."""
     return LaunchDescription(
         [
             DeclareLaunchArgument("world_sdf_file", default_value="empty.sdf", description="World to be simulated"),

@@ -1,4 +1,4 @@
-"""Puts a model into a running world, and starts the bridge with a configuration file for its topics."""
+"""A model created in a running world, and the bridge with a configuration file for its topics."""
 
 from pathlib import Path
 
@@ -10,7 +10,6 @@ from launch.substitutions import LaunchConfiguration
 
 
 def generate_launch_description() -> LaunchDescription:
-    """gz_spawn_model.launch.py and ros_gz_bridge.launch.py with one set of arguments."""
     return LaunchDescription(
         [
             DeclareLaunchArgument("bridge_log_level", default_value="info", description="Log level of the bridge"),

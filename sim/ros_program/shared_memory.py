@@ -1,9 +1,10 @@
-"""Room in shared memory for pictures: DDS's own is half a megabyte, and larger messages are lost in it.
+"""Fast DDS settings for programs that send images: a segment of shared memory that holds them.
 
-Fast DDS sends to nodes of the same machine through a segment of shared memory of the sender. A camera's picture does
-not fit into the one it makes by default: a best-effort subscriber then gets nothing, a reliable one only what is sent
-again, tens of milliseconds late. ``ros_program`` gives programs that send pictures a larger one; whoever receives needs
-no change. Where the user has set up DDS otherwise, that counts.
+Fast DDS sends to nodes of the same machine through a segment of shared memory of the sender, by default half a
+megabyte. A larger message does not fit: a best-effort subscriber gets nothing, a reliable one only what is sent again,
+tens of milliseconds late. Receivers need no change. Settings of the user take precedence.
+
+Source: XML profiles of Fast DDS, https://fast-dds.docs.eprosima.com/en/2.14.x/fastdds/transport/shared_memory/shared_memory.html
 """
 
 from __future__ import annotations
@@ -15,9 +16,9 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 SEGMENT_BYTES = 32 * 1024 * 1024
-"""Five pictures of 1920x1080 on their way; a segment takes up that much memory from the start."""
+"""Size of the segment [byte], enough for five images of 1920x1080; it takes up that much memory from the start."""
 _FOLDER = Path("/dev/shm")
-_SHARE = 8
+_SHARE = 8  # of the free shared memory one segment takes at most an eighth
 _SETTING = "FASTRTPS_DEFAULT_PROFILES_FILE"
 _NEWER_SETTING = "FASTDDS_DEFAULT_PROFILES_FILE"
 _FILES = ("DEFAULT_FASTRTPS_PROFILES.xml", "DEFAULT_FASTDDS_PROFILES.xml")
@@ -28,7 +29,7 @@ _PROFILE = """\
   <profiles>
     <transport_descriptors>
       <transport_descriptor>
-        <transport_id>room_for_pictures</transport_id>
+        <transport_id>segment_for_images</transport_id>
         <type>SHM</type>
         <segment_size>{size}</segment_size>
       </transport_descriptor>
@@ -37,7 +38,7 @@ _PROFILE = """\
         <type>UDPv4</type>
       </transport_descriptor>
     </transport_descriptors>
-    <participant profile_name="room_for_pictures" is_default_profile="true">
+    <participant profile_name="segment_for_images" is_default_profile="true">
       <rtps>
         <userTransports>
 {transports}
@@ -51,17 +52,17 @@ _PROFILE = """\
 
 
 @contextlib.contextmanager
-def room_for_pictures() -> Iterator[None]:
-    """Nodes that are created inside get a segment of ``SEGMENT_BYTES``, if it fits and the user has not chosen."""
+def segment_for_images() -> Iterator[None]:
+    """Give nodes that are created inside a segment of `SEGMENT_BYTES`, if it fits and the user has not set up DDS."""
     if _is_set_up(os.environ) or _free_bytes() < _SHARE * SEGMENT_BYTES:
         yield
         return
     with contextlib.ExitStack() as stack:
         try:
-            file = stack.enter_context(tempfile.NamedTemporaryFile("w", prefix="room_for_pictures-", suffix=".xml"))
+            file = stack.enter_context(tempfile.NamedTemporaryFile("w", prefix="segment_for_images-", suffix=".xml"))
             file.write(profile(os.environ))
             file.flush()
-        except OSError:  # nowhere to write: DDS's own has to do
+        except OSError:  # nowhere to write: keep the default segment
             yield
             return
         os.environ[_SETTING] = os.environ[_NEWER_SETTING] = file.name
@@ -73,19 +74,19 @@ def room_for_pictures() -> Iterator[None]:
 
 
 def profile(environment: Mapping[str, str]) -> str:
-    """The settings for Fast DDS as it reads them."""
+    """Return the XML profile for Fast DDS."""
     only_here = (
         environment.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "").upper() == "LOCALHOST"
         or environment.get("ROS_LOCALHOST_ONLY", "") == "1"
     )
-    # For nodes that stay on this machine ROS adds transports of its own, the network's with narrower bounds.
-    transports = ["room_for_pictures"] if only_here else ["room_for_pictures", "network"]
+    # For nodes that stay on this machine rmw_fastrtps adds a UDP transport of its own, bound to the loopback.
+    transports = ["segment_for_images"] if only_here else ["segment_for_images", "network"]
     lines = [f"          <transport_id>{each}</transport_id>" for each in transports]
     return _PROFILE.format(size=SEGMENT_BYTES, transports="\n".join(lines))
 
 
 def _is_set_up(environment: Mapping[str, str]) -> bool:
-    """Whether the user has chosen how DDS sends, or another middleware."""
+    """Return whether the user has set up the transports of DDS or chosen another middleware."""
     return (
         environment.get("RMW_IMPLEMENTATION", "") not in _FAST_DDS
         or any(environment.get(name) for name in (_SETTING, _NEWER_SETTING, "FASTDDS_BUILTIN_TRANSPORTS"))
@@ -96,6 +97,6 @@ def _is_set_up(environment: Mapping[str, str]) -> bool:
 def _free_bytes() -> int:
     try:
         free = os.statvfs(_FOLDER)
-    except OSError:  # no shared memory: DDS goes through the network
+    except OSError:  # no shared memory: DDS uses the network
         return 0
     return free.f_bavail * free.f_frsize

@@ -1,8 +1,8 @@
-"""A lane keeps order, holds a bounded number of messages, and lets others go on."""
+"""A worker keeps order, holds a bounded number of messages, and lets others go on."""
 
 import threading
 
-from gz_course.sim.ros_gz_bridge.lane import Lane
+from gz_course.sim.ros_gz_bridge.worker import Worker
 
 DEADLINE = 20.0
 
@@ -18,20 +18,20 @@ def test_order_bound_and_count_of_what_gave_way():
         if data == b"9":
             done.set()
 
-    lane = Lane("test", work, 3, lambda: skipped.append(1))
-    lane.put(b"0")
+    worker = Worker("test", work, 3, lambda: skipped.append(1))
+    worker.put(b"0")
     assert entered.wait(DEADLINE)
     for number in range(1, 10):
-        lane.put(str(number).encode())
+        worker.put(str(number).encode())
     assert len(skipped) == 6
     let_go.set()
     assert done.wait(DEADLINE)
     assert worked == [b"0", b"7", b"8", b"9"], "the oldest give way"
-    lane.close()
+    worker.close()
 
 
 def test_memory_is_bounded_however_deep_the_queue(monkeypatch):
-    monkeypatch.setattr("gz_course.sim.ros_gz_bridge.lane._MOST_BYTES", 1000)
+    monkeypatch.setattr("gz_course.sim.ros_gz_bridge.worker._MOST_BYTES", 1000)
     entered, let_go = threading.Event(), threading.Event()
 
     def work(data):
@@ -39,12 +39,12 @@ def test_memory_is_bounded_however_deep_the_queue(monkeypatch):
         let_go.wait(DEADLINE)
 
     skipped = []
-    lane = Lane("test", work, 100_000, lambda: skipped.append(1))
-    lane.put(b"")
+    worker = Worker("test", work, 100_000, lambda: skipped.append(1))
+    worker.put(b"")
     assert entered.wait(DEADLINE)
     for _ in range(100):
-        lane.put(bytes(100))
+        worker.put(bytes(100))
     assert len(skipped) == 90
     let_go.set()
-    lane.close()
-    assert not lane._thread.is_alive()
+    worker.close()
+    assert not worker._thread.is_alive()

@@ -1,8 +1,7 @@
-"""A thread of its own for the messages of one heavy topic, so that an image does not delay the clock.
+"""A thread for the large messages of one topic, so that an image does not delay the clock.
 
-``link.GzToRos`` puts large messages in and goes on at once to the next topic; the lane converts and publishes them in
-their order. It holds a bounded number of them: when they come faster than they can be bridged the oldest give way, as
-in a queue of DDS.
+`link.GzToRos` queues them, and the worker converts and publishes them in order. The queue is bounded: when messages
+come faster than they can be bridged the oldest are dropped, as in DDS with history KEEP_LAST.
 """
 
 from __future__ import annotations
@@ -12,17 +11,19 @@ from collections import deque
 from collections.abc import Callable
 
 HEAVY_BYTES = 64 * 1024
-"""From this size on, serialized, a message is worth a thread of its own."""
+"""Serialized size from which a message goes to a worker [byte]."""
 _MOST_BYTES = 128 * 1024 * 1024
 _AT_LEAST = 2
 _STOP_WITHIN_S = 1.0
 
 
-class Lane:
-    """Calls ``work(data)`` for everything that is put in, in one thread, in order."""
+class Worker:
+    """A thread that calls `work(data)` for everything that is put in, in order. Thread-safe.
+
+    At most `depth` messages and 128 MiB wait; `skipped()` is called for each that is dropped.
+    """
 
     def __init__(self, name: str, work: Callable[[bytes], None], depth: int, skipped: Callable[[], None]) -> None:
-        """At most ``depth`` messages and 128 MiB wait; ``skipped()`` is called for each that had to give way."""
         self._work = work
         self._depth = max(depth, _AT_LEAST)
         self._skipped = skipped
@@ -30,11 +31,11 @@ class Lane:
         self._bytes = 0
         self._open = True
         self._changed = threading.Condition()
-        self._thread = threading.Thread(target=self._run, name=f"lane {name}", daemon=True)
+        self._thread = threading.Thread(target=self._run, name=f"worker {name}", daemon=True)
         self._thread.start()
 
     def put(self, data: bytes) -> None:
-        """Queue a message; never waits."""
+        """Queue a message without waiting."""
         gone = 0
         with self._changed:
             self._waiting.append(data)
@@ -47,7 +48,7 @@ class Lane:
             self._skipped()
 
     def close(self) -> None:
-        """End the thread after the message it is at; what waits is dropped."""
+        """End the thread after the current message and drop the queued ones."""
         with self._changed:
             self._open = False
             self._waiting.clear()
