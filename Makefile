@@ -35,7 +35,7 @@ bench: .venv/with-tools
 	$(BIN)/python -m tests.bench
 
 book: .venv/with-tools
-	$(BIN)/python -m grader.book build/book
+	$(BIN)/python -m grader.tools.book build/book
 
 fuzz: .venv/with-tools
 	$(BIN)/python -m tests.fuzz.load_worlds
