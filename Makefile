@@ -35,7 +35,7 @@ bench: .venv/with-tools
 	$(BIN)/python -m gz_course.tests.bench
 
 book: .venv/with-tools
-	$(BIN)/python -m gz_course.grader.book build/book
+	$(BIN)/python -m gz_course.grader.tools.book build/book
 
 fuzz: .venv/with-tools
 	$(BIN)/python -m gz_course.tests.fuzz.load_worlds

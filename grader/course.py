@@ -5,36 +5,63 @@ Exit codes: 0 full marks or done, 1 less than full marks, 2 a usage error or an 
 
 from __future__ import annotations
 
+import ast
 import importlib
-import pkgutil
 import signal
 import sys
+from pathlib import Path
+from typing import Any
 
 import typer
+from typer.core import TyperGroup
 
 from gz_course.grader import commands
-from gz_course.grader.errors import CourseError
-from gz_course.grader.interruption import end_on
+from gz_course.grader.errors import CourseError, UsageError, nearest
+from gz_course.grader.process.interruption import end_on
+from gz_course.grader.registry import module_names
 
-app = typer.Typer(
-    name="course",
-    help="Learn how Gazebo and ROS 2 work together: run, grade and look at the exercises.",
-    no_args_is_help=True,
-    add_completion=False,
-    pretty_exceptions_enable=False,
-)
+
+class Commands(TyperGroup):
+    """The files of `commands/`: `grade_all.py` is `course grade-all`, its function `command` is what is run.
+
+    A file is imported when its command is called; a list of all shows their docstrings without importing them.
+    """
+
+    def list_commands(self, _: Any) -> list[str]:
+        return [name.replace("_", "-") for name in module_names(commands)]
+
+    def get_command(self, context: Any, name: str) -> Any:
+        if name not in (known := self.list_commands(context)):
+            raise UsageError(f"there is no command {name!r}{nearest(name, known)}; `course --help` shows them all")
+        app = typer.Typer(add_completion=False, rich_markup_mode=None)
+        app.command(name)(importlib.import_module(f"{commands.__name__}.{name.replace('-', '_')}").command)
+        return typer.main.get_command(app)
+
+    def format_commands(self, context: Any, formatter: Any) -> None:
+        folder = Path(commands.__path__[0])
+        with formatter.section("Commands"):
+            formatter.write_dl(
+                [(name, _summary(folder / f"{name.replace('-', '_')}.py")) for name in self.list_commands(context)]
+            )
+
+
+def _summary(file: Path) -> str:
+    """Return the first paragraph of the docstring of the function `command` in a file."""
+    for node in ast.parse(file.read_bytes()).body:
+        if isinstance(node, ast.FunctionDef) and node.name == "command":
+            return " ".join((ast.get_docstring(node) or "").partition("\n\n")[0].split())
+    return ""
 
 
 def main() -> None:
     """Run the `course` command. With `--debug` before the sub-command an internal error shows where it is."""
-    for module in pkgutil.iter_modules(commands.__path__):
-        importlib.import_module(f"{commands.__name__}.{module.name}").register(app)
     debug = "--debug" in sys.argv[1:2]
     if debug:
         del sys.argv[1]
     end_on(signal.SIGTERM, signal.SIGHUP)
+    text = "Learn how Gazebo and ROS 2 work together: run, grade and look at the exercises."
     try:
-        app()
+        Commands(name="course", help=text, no_args_is_help=True, rich_markup_mode=None)(prog_name="course")
     except CourseError as error:
         _say(str(error))
         sys.exit(error.exit_code)

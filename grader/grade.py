@@ -1,4 +1,4 @@
-"""Grades one submission: intake, run, record, score the recording, report. The whole life of a grade in one place."""
+"""The life of a grade in one place: intake, run, record, score the recording, report."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from typing import Any
 
 from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import Exercise, find_exercise
-from gz_course.grader.intake import take_in
-from gz_course.grader.output_lock import sole_writer
+from gz_course.grader.exercise.trial import Trial, numbered
 from gz_course.grader.printable import shown
+from gz_course.grader.process.output_lock import sole_writer
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.report.report import HostFacts, Report, TrialReport
 from gz_course.grader.report.verdicts import write_verdicts
 from gz_course.grader.score.combined import combined
 from gz_course.grader.score.score import Score, score
 from gz_course.grader.submission import Submission
-from gz_course.grader.trial import Trial, numbered
+from gz_course.grader.submission.intake import take_in
 
 LONGEST_PATH = 4096
 PACES = ("lockstep", "realtime")
@@ -94,7 +94,7 @@ def play(
 
 
 def recording_path(exercise: Exercise, trial: Trial, out: Path) -> Path:
-    """Where a trial's recording goes: `NAME.rrd`, or `NAME.TRIAL.rrd` if there are several trials."""
+    """Return where a trial's recording goes: `NAME.rrd`, or `NAME.TRIAL.rrd` if there are several trials."""
     return out / (f"{exercise.name}.rrd" if trial.place[1] == 1 else f"{exercise.name}.{trial.name}.rrd")
 
 

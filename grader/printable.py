@@ -1,4 +1,4 @@
-"""Makes foreign text fit to be shown: no control codes, no endless lines."""
+"""Foreign text made fit to be shown: no control codes, no endless lines."""
 
 from __future__ import annotations
 

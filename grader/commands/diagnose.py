@@ -6,21 +6,18 @@ import sys
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from rich.console import Console
+from rich.markup import escape
+
+from gz_course.grader.printable import shown
 
 if TYPE_CHECKING:
-    from rich.console import Console
-
-    from gz_course.grader.diagnose.live import Diagnosis
+    from gz_course.grader.tools.diagnose.live import Diagnosis
 
 LONGEST = 60.0  # s
 
 
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    app.command(name="diagnose")(diagnose_command)
-
-
-def diagnose_command(
+def command(
     seconds: Annotated[
         float, typer.Option(min=0.1, max=LONGEST, help="How long to listen to topics, after both graphs are known.")
     ] = 2.0,
@@ -30,9 +27,7 @@ def diagnose_command(
 
     Exit code 0: nothing wrong, 1: something is, 2: a usage error, 3: ROS or Gazebo's transport cannot be used.
     """
-    from rich.console import Console
-
-    from gz_course.grader.diagnose.live import diagnose
+    from gz_course.grader.tools.diagnose.live import diagnose
 
     diagnosis = diagnose(seconds)
     if json:
@@ -44,32 +39,24 @@ def diagnose_command(
 
 def print_diagnosis(diagnosis: Diagnosis, console: Console) -> None:
     """Print what was looked at, then every finding: sentence, evidence, fix."""
-    from rich.markup import escape
 
-    from gz_course.grader.printable import shown
+    def line(text: str, before: str = "") -> None:
+        console.print(before + escape(shown(text)), highlight=False, soft_wrap=True)
 
     colours = {"ERROR": "red", "WARNING": "yellow", "NOTE": "cyan"}
     ros, gz = diagnosis.system.ros, diagnosis.system.gz
     worlds = ", ".join(world.name for world in gz.worlds) or "none"
     bridges = ", ".join(f"{bridge.node} ({len(bridge.entries)})" for bridge in ros.bridges) or "none"
-    console.print(
-        escape(
-            shown(
-                f"ROS domain {ros.domain}: {_count(len(ros.nodes), 'node')}, bridges: {bridges}. "
-                f"Gazebo partition {gz.partition!r}: worlds: {worlds}."
-            )
-        ),
-        highlight=False,
-        soft_wrap=True,
+    line(
+        f"ROS domain {ros.domain}: {_count(len(ros.nodes), 'node')}, bridges: {bridges}. "
+        f"Gazebo partition {gz.partition!r}: worlds: {worlds}."
     )
     for finding in diagnosis.findings:
         word = finding.severity.name
-        console.print(
-            f"\n[{colours[word]}]{word}[/]  {escape(shown(finding.sentence))}", highlight=False, soft_wrap=True
-        )
-        for line in finding.evidence:
-            console.print(f"  seen: {escape(shown(line))}", highlight=False, soft_wrap=True)
-        console.print(f"  fix:  {escape(shown(finding.fix))}", highlight=False, soft_wrap=True)
+        line(finding.sentence, f"\n[{colours[word]}]{word}[/]  ")
+        for seen in finding.evidence:
+            line(seen, "  seen: ")
+        line(finding.fix, "  fix:  ")
     if not diagnosis.wrong:
         console.print("\nNothing is wrong." if not diagnosis.findings else "\nNothing is wrong; see the notes above.")
 

@@ -5,24 +5,18 @@ from __future__ import annotations
 from typing import Annotated
 
 import typer
+from rich.console import Console
+from rich.text import Text
+
+from gz_course.grader.exercise import find_exercise
+from gz_course.grader.exercise.solution_diff import solution_diff
+from gz_course.grader.printable import shown
 
 
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    app.command(name="diff")(diff_command)
-
-
-def diff_command(
+def command(
     exercise: Annotated[str, typer.Argument(help="Exercise, such as 03_teleop or 03.")],
 ) -> None:
     """Show what changes between starter and solution: a unified diff, coloured in a terminal."""
-    from rich.console import Console
-    from rich.text import Text
-
-    from gz_course.grader.exercise import find_exercise
-    from gz_course.grader.printable import shown
-    from gz_course.grader.solution_diff import solution_diff
-
     chosen = find_exercise(exercise)
     lines = list(solution_diff(chosen))
     if not lines:
@@ -37,7 +31,6 @@ def diff_command(
 
 
 def style_of(line: str) -> str:
-    """The colour of a line of a unified diff."""
     for start, style in (("---", "bold"), ("+++", "bold"), ("@@", "cyan"), ("+", "green"), ("-", "red")):
         if line.startswith(start):
             return style

@@ -3,29 +3,27 @@
 from __future__ import annotations
 
 import time
+from json import dumps
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from rich.console import Console
+from rich.markup import escape
 
 from gz_course.grader.errors import UsageError
 
 if TYPE_CHECKING:
-    from gz_course.grader.doctor.checkup import Finding
+    from gz_course.grader.tools.doctor.checkup import Finding
 
 STARTED = time.monotonic()
 
 
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    app.command(name="doctor")(doctor_command)
-
-
-def doctor_command(
+def command(
     json: Annotated[bool, typer.Option("--json", help="Print the findings as JSON, for programs.")] = False,
     deadline: Annotated[float, typer.Option(help="Seconds of wall time for all of it; more on a busy machine.")] = 8.0,
 ) -> None:
     """Try everything the course needs, for real. Exit code 0: all works, 1: something does not, 2: usage."""
-    from gz_course.grader.doctor.checkup import examine
+    from gz_course.grader.tools.doctor.checkup import examine
 
     if not 0 < deadline <= 3600:
         raise UsageError(f"--deadline must be a number of seconds above 0 and up to 3600, not {deadline:g}")
@@ -37,17 +35,12 @@ def doctor_command(
 
 def print_json(findings: list[Finding], works: bool) -> None:
     """Print one object: works, findings[] {check, title, status, seen, fix}, wall_seconds."""
-    from json import dumps
-
     found = [finding.as_dict() for finding in findings]
     print(dumps({"works": works, "findings": found, "wall_seconds": round(time.monotonic() - STARTED, 2)}, indent=2))
 
 
 def print_findings(findings: list[Finding]) -> None:
     """Print a line for each, with the remedy below what is not well, and a sum at the end."""
-    from rich.console import Console
-    from rich.markup import escape
-
     console = Console(highlight=False, soft_wrap=True)
     colours = {"ok": "green", "warning": "yellow", "failed": "red"}
     for finding in findings:

@@ -10,17 +10,14 @@ import typer
 
 from gz_course.grader.errors import UsageError, nearest
 from gz_course.grader.exercise import find_exercise
-from gz_course.grader.trial import chosen_trials, numbered
+from gz_course.grader.exercise.trial import chosen_trials, numbered
+from gz_course.grader.report.format import with_report_files
 
 STARTED = time.monotonic()
 
 
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    app.command(name="grade")(grade_command)
-
-
-def grade_command(
+@with_report_files
+def command(
     exercise: Annotated[str, typer.Argument(help="Exercise, such as 03_teleop or 03.")],
     submission: Annotated[
         Path | None,
@@ -47,10 +44,8 @@ def grade_command(
     out: Annotated[
         Path | None, typer.Option(help="Folder for the recordings. Default: runs/EXERCISE, with best.json.")
     ] = None,
-    json: Annotated[Path | None, typer.Option(help="Write the report as JSON to this file.")] = None,
-    html: Annotated[Path | None, typer.Option(help="Write the report as one HTML page, with plots.")] = None,
-    gradescope: Annotated[Path | None, typer.Option(help="Write the report as Gradescope's results.json.")] = None,
-    junit: Annotated[Path | None, typer.Option(help="Write the report as JUnit XML.")] = None,
+    *,
+    reports: dict[str, Path],
 ) -> None:
     """Grade one submission. Exit code 0: full marks, 1: less, 2: nothing to grade, 3: the grader's fault."""
     from gz_course.grader.run.sandbox import choose, enter_early
@@ -69,7 +64,7 @@ def grade_command(
     own = out is None  # a folder for recordings alone belongs to whoever named it
     out = out or RUNS / chosen.name
     asked = numbered(chosen_trials(chosen, trials))
-    outputs = Outputs(json, html, gradescope, junit)
+    outputs = Outputs(reports)
     graded = submission or chosen.starter
     outputs.check([recording_path(chosen, trial, out) for trial in asked], [graded, graded / chosen.file])
     if own:

@@ -9,25 +9,20 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+from rich.console import Console
+from rich.markup import escape
 
 from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import find_exercise
+from gz_course.grader.report.format import with_report_flags
 
 if TYPE_CHECKING:
-    from rich.console import Console
-
     from gz_course.grader.whole_class.class_run import ClassRun
     from gz_course.grader.whole_class.found import Found
 
-REPORTS = ("html", "gradescope", "junit")
 
-
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    app.command(name="grade-all")(grade_all_command)
-
-
-def grade_all_command(
+@with_report_flags
+def command(
     exercise: Annotated[str, typer.Argument(help="Exercise, such as 03_teleop or 03.")],
     submissions: Annotated[
         Path, typer.Argument(metavar="DIR_OR_ZIP", help="A folder, file or archive for each student, or a zip of them.")
@@ -41,13 +36,10 @@ def grade_all_command(
     trials: Annotated[str, typer.Option(help="As for course grade: public, hidden, all, or a file.")] = "public",
     sandbox: Annotated[str, typer.Option(help="As for course grade: auto, A, B, C or D.")] = "auto",
     demand: Annotated[str | None, typer.Option(help="As for course grade: the least level, such as B.")] = None,
-    html: Annotated[bool, typer.Option("--html", help="Also write each report as a page.")] = False,
-    gradescope: Annotated[bool, typer.Option("--gradescope", help="Also write each results.json.")] = False,
-    junit: Annotated[bool, typer.Option("--junit", help="Also write each report as JUnit XML.")] = False,
+    *,
+    reports: dict[str, bool],
 ) -> None:
     """Grade a class. Exit code 0: all are graded, 2: usage, 3: some could not be, for reasons that are not theirs."""
-    from rich.console import Console
-
     from gz_course.grader.whole_class.class_run import ClassRun
     from gz_course.grader.whole_class.found import find_submissions
 
@@ -56,8 +48,7 @@ def grade_all_command(
     chosen = find_exercise(exercise)
     _check_places(submissions, out)
     console = Console(stderr=True)
-    wanted = tuple(name for name, asked in zip(REPORTS, (html, gradescope, junit), strict=True) if asked)
-    run = ClassRun(chosen, out, seed, trials, wanted, sandbox, demand)
+    run = ClassRun(chosen, out, seed, trials, tuple(reports), sandbox, demand)
     with ExitStack() as stack:
         found, left_out = find_submissions(submissions, chosen, stack)
         if left_out:
@@ -69,7 +60,7 @@ def grade_all_command(
 
 
 def _check_places(submissions: Path, out: Path) -> None:
-    """What is written must not lie among what is read, or a second run would grade the first one's files."""
+    """Raise UsageError if `out` lies among the submissions: a second run would grade the reports of the first."""
     if not submissions.exists():
         raise UsageError(f"there is no {submissions}; give a folder or a zip with the submissions")
     source, target = submissions.resolve(), out.resolve()
@@ -112,15 +103,11 @@ def _line(result: dict[str, Any], most: float) -> str:
 
 
 def _cut(student: str) -> str:
-    from rich.markup import escape
-
     return escape(student if len(student) <= 30 else f"{student[:29]}…")
 
 
 def _print_summary(results: list[dict[str, Any]], failed: list[dict[str, Any]], most: float, out: Path) -> None:
     from statistics import fmean, median
-
-    from rich.console import Console
 
     from gz_course.grader.whole_class.gradebook import GRADEBOOK
 

@@ -3,25 +3,19 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
 
 from gz_course.grader.errors import UsageError
-
-if TYPE_CHECKING:
-    from rich.console import Console
-    from rich.table import Table
-
-    from gz_course.grader.exercise import CheckSpec, Exercise
+from gz_course.grader.exercise import CheckSpec, Exercise, course_root, exercise_names, find_exercise
+from gz_course.grader.report.best import RUNS, best_scores
 
 
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    app.command(name="list")(list_command)
-
-
-def list_command(
+def command(
     exercise: Annotated[str | None, typer.Argument(help="Show what this exercise asks for and its rubric.")] = None,
     runs: Annotated[
         Path | None,
@@ -29,11 +23,6 @@ def list_command(
     ] = None,
 ) -> None:
     """List the exercises with points, best score so far and the file each asks for, or show the rubric of one."""
-    from rich.console import Console
-
-    from gz_course.grader.exercise import course_root, exercise_names, find_exercise
-    from gz_course.grader.report.best import RUNS, best_scores
-
     if runs is not None and not runs.is_dir():
         raise UsageError(
             f"there is no folder {runs} with runs; leave --runs out, or give one that `course grade` wrote"
@@ -57,8 +46,6 @@ def list_command(
 
 def print_rubric(exercise: Exercise, console: Console, best: str) -> None:
     """Print what an exercise asks for, the best score so far and a line for each check, as its manifest says them."""
-    from rich.markup import escape
-
     summary = "\n\n".join(" ".join(part.split()) for part in exercise.summary.split("\n\n"))
     console.print(f"[bold]{exercise.name}[/bold]  {escape(exercise.title)}\n\n{escape(summary)}\n")
     console.print(f"file: {escape(exercise.file)}", highlight=False)
@@ -74,7 +61,7 @@ def print_rubric(exercise: Exercise, console: Console, best: str) -> None:
 
 
 def _gates(exercise: Exercise, check: CheckSpec) -> list[str]:
-    """What must be so for a check to count, in words; a manifest that is wrong here is told when it is scored."""
+    """Return in words what must hold for a check to count; a wrong manifest is reported when it is scored, not here."""
     titles = {each.id: each.title for each in exercise.checks}
     given = check.parameters.get("gate", [])
     gates = [gate for gate in (given if isinstance(given, list) else [given]) if isinstance(gate, dict)]
@@ -91,8 +78,6 @@ def _gates(exercise: Exercise, check: CheckSpec) -> list[str]:
 
 def plain_table(*headings: str) -> Table:
     """Return a table without lines."""
-    from rich.table import Table
-
     table = Table(show_edge=False, box=None, padding=(0, 2, 0, 0))
     for heading in headings:
         table.add_column(heading, overflow="fold")

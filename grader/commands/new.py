@@ -6,19 +6,14 @@ from typing import Annotated
 
 import typer
 
-
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    app.command(name="new")(new_command)
+from gz_course.grader.exercise import course_root
+from gz_course.grader.exercise.scaffold.exercise import scaffold
 
 
-def new_command(
+def command(
     name: Annotated[str, typer.Argument(help="Two digits and words, such as 06_wall_follower.")],
 ) -> None:
     """Begin an exercise: write both halves of one that works, to be changed into yours."""
-    from gz_course.grader.exercise import course_root
-    from gz_course.grader.scaffold.exercise import scaffold
-
     root = course_root()
     for path in scaffold(name, root):
         print(path.relative_to(root))

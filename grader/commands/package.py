@@ -7,13 +7,11 @@ from typing import Annotated
 
 import typer
 
-
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    app.command(name="package")(package_command)
+from gz_course.grader.exercise import find_exercise
+from gz_course.grader.package.gradescope import package
 
 
-def package_command(
+def command(
     exercise: Annotated[str, typer.Argument(help="Exercise, such as 03_teleop or 03.")],
     out: Annotated[Path, typer.Option(help="The zip to write.")],
     trials: Annotated[
@@ -22,9 +20,6 @@ def package_command(
     demand: Annotated[str | None, typer.Option(help="The least sandbox level, as for course grade.")] = None,
 ) -> None:
     """Package an exercise as a Gradescope autograder: setup.sh, run_autograder, the course, the hidden trials."""
-    from gz_course.grader.exercise import find_exercise
-    from gz_course.grader.package.gradescope import package
-
     names = package(find_exercise(exercise), out, trials, demand)
     size = out.stat().st_size
     print(f"{out}: {len(names)} files, {size / 1e6:.1f} MB. Upload it as the autograder of a programming assignment.")

@@ -7,19 +7,14 @@ from typing import Annotated
 
 import typer
 
-
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    app.command(name="release")(release_command)
+from gz_course.grader.exercise import course_root
+from gz_course.grader.release.student_copy import release
 
 
-def release_command(
+def command(
     folder: Annotated[Path, typer.Argument(metavar="DIR", help="A folder that is new or empty.")],
 ) -> None:
     """Write what students get: exercises, chapters and the programs, with a README of their own; no solutions."""
-    from gz_course.grader.exercise import course_root
-    from gz_course.grader.release.student_copy import release
-
     names = release(course_root(), folder)
     files = sum(path.is_file() for path in folder.rglob("*"))
     print(f"{folder}: {', '.join(names)}; {files} files, without solutions. Its README.md tells students how to begin.")

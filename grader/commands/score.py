@@ -7,27 +7,23 @@ from typing import Annotated
 
 import typer
 
-
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    app.command(name="score")(score_command)
+from gz_course.grader.report.format import with_report_files
 
 
-def score_command(
+@with_report_files
+def command(
     recordings: Annotated[
         list[Path], typer.Argument(metavar="RECORDING...", help="The .rrd files a grading wrote, or their folder.")
     ],
-    json: Annotated[Path | None, typer.Option(help="Write the report as JSON to this file.")] = None,
-    html: Annotated[Path | None, typer.Option(help="Write the report as one HTML page, with plots.")] = None,
-    gradescope: Annotated[Path | None, typer.Option(help="Write the report as Gradescope's results.json.")] = None,
-    junit: Annotated[Path | None, typer.Option(help="Write the report as JUnit XML.")] = None,
+    *,
+    reports: dict[str, Path],
 ) -> None:
     """Score recordings again; nothing is run. Exit codes as for `course grade`."""
     from gz_course.grader.grade import grade_again, recordings_in
     from gz_course.grader.report.outputs import Outputs
     from gz_course.grader.report.terminal import print_report
 
-    outputs = Outputs(json, html, gradescope, junit)
+    outputs = Outputs(reports)
     outputs.check(inputs=[path for given in recordings for path in recordings_in(given)])
     report = grade_again(recordings)
     try:

@@ -9,12 +9,7 @@ from typing import Annotated
 import typer
 
 
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    app.command(name="show")(show_command)
-
-
-def show_command(recording: Annotated[Path, typer.Argument(help="The .rrd file a grading wrote.")]) -> None:
+def command(recording: Annotated[Path, typer.Argument(help="The .rrd file a grading wrote.")]) -> None:
     """Open a recording in the Rerun viewer; it ends when its window is closed."""
     import rerun_cli
 

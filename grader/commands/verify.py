@@ -7,22 +7,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
 
 from gz_course.grader.errors import ManifestError, UsageError, nearest
 from gz_course.grader.exercise import course_root, exercise_names, find_exercise
 
 if TYPE_CHECKING:
-    from rich.console import Console
-
     from gz_course.grader.verify.proof import Verification
 
 
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    app.command(name="verify")(verify_command)
-
-
-def verify_command(
+def command(
     exercise: Annotated[str | None, typer.Argument(help="Exercise; all of them if left out.")] = None,
     out: Annotated[Path | None, typer.Option(help="Keep the recordings in this folder.")] = None,
     jobs: Annotated[int, typer.Option(min=1, help="Grade so many variants at once. Default: one for each core.")] = len(
@@ -31,12 +27,10 @@ def verify_command(
     mutants: Annotated[bool, typer.Option(help="Also spoil each solution in one place at a time.")] = True,
 ) -> None:
     """Prove that solutions earn full marks, starters nothing, and rejected variants lose what they declare."""
+    from gz_course.grader.process.temporary_folder import TemporaryFolder, sweep
     from gz_course.grader.run.sandbox import choose, enter_early
-    from gz_course.grader.temporary_folder import TemporaryFolder, sweep
 
     enter_early(choose())  # before there are threads
-
-    from rich.console import Console
 
     from gz_course.grader.verify import orphans
     from gz_course.grader.verify.jobs import pool
@@ -68,9 +62,7 @@ def verify_command(
 
 
 def print_last(result: Verification, console: Console) -> None:
-    """Print what became of the variant or mutant graded last."""
-    from rich.markup import escape
-
+    """Print the verdict on the variant or mutant graded last."""
     name = result.exercise.name
     if not result.mutants:
         proof = result.proofs[-1]
@@ -84,8 +76,6 @@ def print_last(result: Verification, console: Console) -> None:
 
 def print_matrix(result: Verification, console: Console) -> None:
     """Print which variant fails which check, and by how many each check is failed."""
-    from rich.table import Table
-
     checks = result.exercise.checks
     table = Table(title=f"{result.exercise.name}: x = fails", box=None, padding=(0, 2, 0, 0), title_justify="left")
     table.add_column("variant", no_wrap=True, min_width=max(len(proof.variant.name) for proof in result.proofs))
@@ -110,9 +100,7 @@ def print_matrix(result: Verification, console: Console) -> None:
 
 
 def print_mutants(result: Verification, console: Console) -> None:
-    """Print the mutants that nobody noticed, with their places."""
-    from rich.markup import escape
-
+    """Print the mutants that no check failed, with file and line."""
     if not result.mutants:
         return
     dead = len(result.mutants) - len(result.survivors)
@@ -132,9 +120,6 @@ def print_mutants(result: Verification, console: Console) -> None:
 
 
 def print_faults(result: Verification, console: Console) -> None:
-    """Print everything that is wrong."""
-    from rich.markup import escape
-
     for fault in result.faults:
         console.print(f"[red]WRONG[/red]  {result.exercise.name}: {escape(fault)}", highlight=False)
     for proof in result.proofs:

@@ -10,9 +10,9 @@ import warnings
 from typing import TYPE_CHECKING
 
 from gz_course.grader.kinds.kind import Cast, Kind
+from gz_course.grader.lint.wall_clock import wall_clock
+from gz_course.grader.lint.whole_numbers import float_fields, whole_numbers
 from gz_course.grader.printable import shown
-from gz_course.grader.wall_clock import wall_clock
-from gz_course.grader.whole_numbers import float_fields, whole_numbers
 
 if TYPE_CHECKING:
     from gz_course.grader.exercise import Exercise

@@ -1,1 +1,1 @@
-"""Packages an exercise for services that grade by themselves: `gradescope.py` and the programs it puts in."""
+"""Packages of an exercise for other services: `gradescope.py`, and the programs that go into its zip."""

@@ -1,4 +1,4 @@
-"""Makes the zip that Gradescope builds an autograder from: the course's programs, one exercise, its hidden trials.
+"""The zip that Gradescope builds an autograder from: the course's programs, one exercise, its hidden trials.
 
 `setup.sh` installs the course when the autograder is built, `run_autograder` grades one submission and always leaves
 a `results.json`. Both look for everything below `/autograder`, or below AUTOGRADER_ROOT. Solutions are not part of it.
@@ -12,12 +12,12 @@ import stat
 import zipfile
 from pathlib import Path
 
-from gz_course.grader.bundle import bundle
 from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import Exercise
-from gz_course.grader.intake import is_junk
+from gz_course.grader.exercise.bundle import bundle
+from gz_course.grader.exercise.trial import TRIALS, chosen_trials
 from gz_course.grader.run.sandbox import level_module
-from gz_course.grader.trial import TRIALS, chosen_trials
+from gz_course.grader.submission.intake import is_junk
 
 HERE = Path(__file__).parent
 CHECKOUT = Path(__file__).parents[2]

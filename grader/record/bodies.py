@@ -1,4 +1,4 @@
-"""Reads the things of the world back from a recording: what they look like from above, and where they were when.
+"""The bodies of the world, read back from a recording: their outline from above and their pose over time.
 
 Called by reports, which draw them. The inverse of `scene.py`; shapes are given as the convex hull of their footprint.
 """
@@ -29,7 +29,7 @@ class Body:
 
     @property
     def moves(self) -> bool:
-        """Whether it belongs to a model that was followed through time."""
+        """Whether it belongs to a model whose pose was recorded over time."""
         return any(len(poses.times) > 1 for poses in self.chain)
 
     def at(self, time_ns: int) -> np.ndarray:
@@ -114,7 +114,7 @@ def _sphere() -> np.ndarray:
 
 
 def _is_ground(corners: np.ndarray) -> bool:
-    """Whether it is so flat and wide that everything stands on it."""
+    """Tell whether a shape is as flat and wide as a floor."""
     size = np.ptp(corners, axis=0)
     return bool(size[2] <= FLAT and min(size[:2]) > 1.0)
 
@@ -126,7 +126,7 @@ def _rgba(shape: str, facts: dict) -> tuple[int, int, int, int]:
 
 
 def _rotation(quaternion: np.ndarray) -> np.ndarray:
-    """Rotation matrix (3, 3) of a unit quaternion x, y, z, w."""
+    """Return the rotation matrix (3, 3) of a unit quaternion x, y, z, w."""
     x, y, z, w = (float(v) for v in quaternion)
     return np.array(
         [

@@ -1,4 +1,4 @@
-"""Turns a ROS message into rows of the recording, whatever its type.
+"""The rows of a recording that a ROS message of any type becomes.
 
 Every numeric field becomes a signal named after it: `topics/cmd_vel/linear/x`. Lists of numbers become one list a
 row, texts a line whenever they change, and pictures a JPEG now and then. Knows ROS messages only by their own

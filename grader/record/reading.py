@@ -1,4 +1,4 @@
-"""Reads a recording back: the only thing that scoring and reports ever look at.
+"""A recording, read back: the only input of scoring and reports.
 
 Works on a finished `.rrd` and on one that is still being written (after `Recorder.flush`).
 """
@@ -88,7 +88,7 @@ class Recording:
             self._rows.setdefault(key, []).append((times, batch.column(name)))
 
     def _column(self, entity: str, component: str) -> tuple[np.ndarray, list[np.ndarray]]:
-        """All rows of a component sorted by time: times [ns] and one numpy array per row."""
+        """Return all rows of a component sorted by time: times [ns] and one numpy array per row."""
         parts = self._rows.get((entity, component), [])
         if not parts:
             return np.empty(0, dtype=np.int64), []
@@ -98,7 +98,7 @@ class Recording:
         return times[order], [rows[i] for i in order]
 
     def signals(self) -> list[str]:
-        """Names of all signals (single numbers over time)."""
+        """Return the names of all signals (single numbers over time)."""
         return sorted(
             entity
             for (entity, component), parts in self._rows.items()
@@ -106,7 +106,6 @@ class Recording:
         )
 
     def has(self, name: str) -> bool:
-        """Whether the signal was recorded at all."""
         return (name, "Scalars:scalars") in self._rows
 
     def signal(self, name: str) -> Signal:
@@ -127,7 +126,7 @@ class Recording:
 
     @property
     def node_log(self) -> str:
-        """The log of the program that was run: the exercise's own node if it plays in it, else the student's."""
+        """Entity of the log of the program that was run: the exercise's own node if it runs, else the student's."""
         return GIVEN_LOG if (GIVEN_LOG, "TextLog:text") in self._rows else STUDENT_LOG
 
     def lines(self, entity: str) -> list[Line]:
@@ -155,7 +154,7 @@ class Recording:
         return {name: value[0] if value and len(value) == 1 else value for name, value in values.items()}
 
     def entities(self, below: str, component: str = "") -> list[str]:
-        """Names of all entities below one, such as `world`, that hold a component whose name begins so."""
+        """Return the names of all entities below one, such as `world`, that have a component whose name begins so."""
         held = [*self._rows, *((entity, name) for entity, names in self._static.items() for name in names)]
         return sorted({e for e, name in held if e.startswith(f"{below}/") and name.startswith(component)})
 

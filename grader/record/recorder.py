@@ -1,4 +1,4 @@
-"""Writes the recording of a run: numbers, poses, scans, log lines, on the one timeline `sim_time`.
+"""The writer of a run's recording: numbers, poses, scans, log lines, on the one timeline `sim_time`.
 
 Rows are collected and sent in blocks at fixed simulated times, and what is logged one by one is flushed at once.
 Nothing waits for a tick of the wall clock: the same run gives the same chunks in the same order, and
@@ -109,7 +109,7 @@ class Recorder:
             self.text(entity, text)
 
     def wants_picture(self, entity: str) -> bool:
-        """Whether the last picture of this entity is old enough for another."""
+        """Tell whether the last picture of this entity is old enough for another to be recorded."""
         return self.now_ns - self._pictured.get(entity, -PICTURE_NS) >= PICTURE_NS
 
     def picture(self, entity: str, jpeg: bytes) -> None:
@@ -209,7 +209,7 @@ class Recorder:
             raise
 
     def close(self) -> None:
-        """Finish the file and give it its name."""
+        """Finish the file and rename it from `.part` to its name."""
         self.flush()
         self.stream.disconnect()
         self.part.rename(self.path)

@@ -1,4 +1,4 @@
-"""Puts the world into the recording: its shapes once, then poses, truth and what the lidar sees, tick by tick."""
+"""The world in the recording: its shapes once, then poses, truth and lidar scans tick by tick."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Makes the students' copy of the course: everything they work with, nothing that gives a solution away.
+"""The students' copy of the course: everything they work with, nothing that gives a solution away.
 
 Copied are named folders and files, so what is not named cannot slip in: neither `solutions/` nor `tests/` (whose
 submissions solve exercises, too), nor recordings and caches. A starter that somebody has solved in place is refused.
@@ -23,7 +23,7 @@ FILES = ("pyproject.toml", "constraints.txt", "LICENSE", ".gitignore")
 # For authors. The scaffold of an exercise holds a solution of it.
 AUTHORS_ONLY = (
     "chapters/README.md",
-    "grader/scaffold",
+    "grader/exercise/scaffold",
     "grader/release",
     "grader/package",
     "grader/commands/new.py",
@@ -67,7 +67,10 @@ def release(root: Path, target: Path) -> list[str]:
 
 
 def _usable(target: Path, sources: list[Path]) -> Path:
-    """The target as a full path. Raises UsageError unless it is new or an empty folder, outside of what is copied."""
+    """Return the full path of the target.
+
+    Raises UsageError unless it is new or an empty folder, outside of what is copied.
+    """
     full = target.resolve()
     for source in sources:
         if full.is_relative_to(source.resolve()):
@@ -99,7 +102,7 @@ def _fill(copy: Path, root: Path, code: Path, exercises: list[Exercise]) -> None
 
 
 def _files(folder: Path) -> Iterator[Path]:
-    """The files of a folder, without hidden ones and traces of work. Raises ManifestError for a link out of it."""
+    """Return the files of a folder, without hidden ones and leftovers. Raises ManifestError for a link out of it."""
     for path in sorted(folder.rglob("*")):
         inside = path.relative_to(folder)
         parents = [inside, *inside.parents][:-1]
@@ -112,7 +115,7 @@ def _files(folder: Path) -> Iterator[Path]:
 
 
 def _private_files(exercise: Exercise) -> list[tuple[Path, frozenset[str]]]:
-    """The solution and the accepted variants of an exercise with their lines."""
+    """Return the solution and the accepted variants of an exercise with their lines."""
     folder = exercise.twin
     found = [folder / exercise.file, *sorted(folder.glob(f"accepted/*/{exercise.file}"))]
     return [(path, lines) for path in found if path.is_file() and (lines := _lines(path))]
@@ -127,7 +130,7 @@ def _refuse_a_solution(path: Path, inside: Path, private: list[tuple[Path, froze
 
 
 def _lines(path: Path) -> frozenset[str]:
-    """The lines of a text, or of a notebook's cells; indentation, comments and empty lines do not count."""
+    """Return the lines of a text or of a notebook's cells, without indentation, comments and empty lines."""
     text = path.read_text(encoding="utf-8", errors="replace")
     if path.suffix == ".ipynb":
         with contextlib.suppress(ValueError, TypeError, AttributeError, KeyError):  # no notebook: a text like any other
@@ -137,7 +140,7 @@ def _lines(path: Path) -> frozenset[str]:
 
 
 def readme(copy: Path, exercises: list[Exercise]) -> str:
-    """The students' README: what is in this copy, and how to work with it."""
+    """Return the students' README: the exercises in this copy and how to work with them."""
     rows = [f"| `{e.name}` | {e.title} | `exercises/{e.name}/{e.file}` | {e.max_score:g} |" for e in exercises]
     table = "\n".join(["| exercise | task | file you edit | points |", "|---|---|---|---|", *rows])
     text = README.read_text(encoding="utf-8").replace("@EXERCISES@", table).replace("@FIRST@", exercises[0].name)

@@ -76,7 +76,7 @@ def keep_best(report: Report, folder: Path) -> None:
 
 
 def _files_below(folder: Path) -> Iterator[Path]:
-    """The JSON files below a folder, in no order; symbolic links to folders are not followed."""
+    """Return the JSON files below a folder, in no order; symbolic links to folders are not followed."""
     for base, _, names in os.walk(folder):
         yield from (Path(base, name) for name in names if name.endswith(".json"))
 

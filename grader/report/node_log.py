@@ -1,11 +1,15 @@
-"""What the node said, and whose node it was, shortened to how it began and ended. Every report reads it here."""
+"""The log of the node, shortened to its beginning and end, as every report shows it."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from gz_course.grader.printable import shown
-from gz_course.grader.record.reading import GIVEN_LOG, Recording
+
+if TYPE_CHECKING:
+    from gz_course.grader.record.reading import Recording
+    from gz_course.grader.report.report import Report
 
 FIRST, LAST = 40, 80  # lines that are kept from the beginning and from the end
 
@@ -34,8 +38,17 @@ class NodeLog:
         return "\n".join(lines)
 
 
+def log_of(report: Report, first: int = FIRST, last: int = LAST) -> NodeLog:
+    """Return the log of the trial a report shows. Raises UsageError if its recording is unreadable."""
+    from gz_course.grader.record.reading import Recording
+
+    return node_log(Recording(report.shown_trial.recording), first, last)
+
+
 def node_log(recording: Recording, first: int = FIRST, last: int = LAST) -> NodeLog:
     """Return the first and last lines of what the node's process, or those of a launch file, printed and logged."""
+    from gz_course.grader.record.reading import GIVEN_LOG
+
     log, facts = recording.node_log, recording.facts()
     every = [(line.time_ns / 1e9, line.level, shown(line.text).rstrip()) for line in recording.lines(log)]
     dropped = int(facts.get("lines_dropped") or 0)

@@ -1,31 +1,26 @@
-"""The files a report is written to: which formats there are, that their targets can be written, and the writing.
+"""The files a report is written to: that they can be written, and the writing.
 
-Called by `course grade` before the run (`check`) and by it and `course score` after it (`write`). A format is imported
-only when somebody asks for it.
+Called by `course grade` before the run (`check`) and by it and `course score` after it (`write`).
 """
 
 from __future__ import annotations
 
 import errno
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from gz_course.grader.errors import UsageError
 from gz_course.grader.printable import shown
+from gz_course.grader.report.format import formats
 from gz_course.grader.report.report import Report
-
-FORMATS = ("json", "html", "gradescope", "junit")
 
 
 @dataclass(frozen=True)
 class Outputs:
-    """Where the reports go, by format; None: that one is not wanted."""
+    """Where the reports that are wanted go, by format."""
 
-    json: Path | None = None
-    html: Path | None = None
-    gradescope: Path | None = None
-    junit: Path | None = None
+    files: dict[str, Path] = field(default_factory=dict)
 
     def check(self, others: Iterable[Path] = (), inputs: Iterable[Path] = ()) -> None:
         """Find out before anything runs whether every file can be written, and `others` such as recordings with them.
@@ -34,7 +29,7 @@ class Outputs:
         """
         seen: dict[Path, str] = {path.resolve(): "a recording" for path in others}
         read = [path for path in inputs if path.is_file()]
-        for name, path in self._wanted():
+        for name, path in self.files.items():
             place = path.resolve()
             if place in seen and not _is_stream(path):
                 raise UsageError(
@@ -43,41 +38,18 @@ class Outputs:
             seen[place] = f"the report of --{name}"
             if any(path.exists() and path.samefile(other) for other in read):
                 raise UsageError(f"--{name} {_named(path)} would overwrite what is graded; give another file")
-        for path in (*others, *(path for _, path in self._wanted())):
+        for path in (*others, *self.files.values()):
             check_writable(path)
 
     def write(self, report: Report) -> None:
         """Write every report that is wanted. Raises UsageError if one cannot be written."""
-        for name, path in self._wanted():
-            text = as_text(report, name)
+        for name, path in self.files.items():
+            text = formats()[name].as_text(report)
             check_writable(path)
             try:
                 path.write_bytes(text.encode(errors="replace"))
             except OSError as error:
                 raise UsageError(f"cannot write {_named(path)}: {error.strerror}") from None
-
-    def _wanted(self) -> Iterator[tuple[str, Path]]:
-        for name in FORMATS:
-            if (path := getattr(self, name)) is not None:
-                yield name, path
-
-
-def as_text(report: Report, name: str) -> str:
-    """Return a report in one of FORMATS. Raises UsageError if a recording it needs cannot be read."""
-    match name:
-        case "html":
-            from gz_course.grader.report.html.page import as_html
-
-            return as_html(report)
-        case "gradescope":
-            from gz_course.grader.report.gradescope import as_gradescope
-
-            return as_gradescope(report)
-        case "junit":
-            from gz_course.grader.report.junit import as_junit
-
-            return as_junit(report)
-    return report.as_json()
 
 
 def check_writable(path: Path) -> None:
@@ -96,7 +68,7 @@ def check_writable(path: Path) -> None:
 
 
 def _is_stream(path: Path) -> bool:
-    """Whether it is no file that could be overwritten, but a terminal, a pipe or /dev/null."""
+    """Tell whether nothing is overwritten there: a terminal, a pipe or /dev/null."""
     return path.exists() and not path.is_file()
 
 

@@ -8,10 +8,12 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gz_course.grader.printable import storable
-from gz_course.grader.score.score import CheckResult, Score
+
+if TYPE_CHECKING:
+    from gz_course.grader.score.score import CheckResult, Score
 
 # What each outcome means, in a sentence.
 OUTCOMES = {
@@ -91,7 +93,7 @@ class Report:
         return [*lines, ("hint", check.spec.hint)] if self.measured and not finding.passed else lines
 
     def as_json(self) -> str:
-        """Return the report as JSON text; see README for the keys."""
+        """Return the report as JSON text; see README.md for the keys."""
         return json.dumps(storable(self.as_dict()), indent=2, allow_nan=False) + "\n"
 
     def as_dict(self) -> dict[str, Any]:

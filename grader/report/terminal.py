@@ -17,8 +17,7 @@ from rich.table import Table
 from rich.text import Text
 
 from gz_course.grader.printable import shown
-from gz_course.grader.record.reading import Recording
-from gz_course.grader.report.node_log import node_log
+from gz_course.grader.report.node_log import log_of
 from gz_course.grader.report.report import Report, points
 from gz_course.grader.score.score import CheckResult
 
@@ -110,7 +109,7 @@ def _print_check(check: CheckResult, report: Report, console: Console) -> None:
 
 
 def _print_last_lines(report: Report, console: Console) -> None:
-    said = node_log(Recording(report.shown_trial.recording), 0, LAST_LINES)
+    said = log_of(report, 0, LAST_LINES)
     if said.last or said.first:
         console.print(_text("\n", f"What {said.who} said last:"))
     for _, _, text in said.first + said.last:

@@ -1,4 +1,4 @@
-"""Writes what scoring found into the recording: a lane for each check, the bands, the result."""
+"""The verdicts in the recording: a lane for each check, the bands, the result."""
 
 from __future__ import annotations
 

@@ -13,13 +13,13 @@ from pathlib import Path
 from typing import Any
 
 from gz_course.grader.kinds.kind import Cast
+from gz_course.grader.process.temporary_folder import TemporaryFolder
 from gz_course.grader.record.recorder import Recorder
 from gz_course.grader.record.scene import Scene
 from gz_course.grader.run.lockstep import LockStep
 from gz_course.grader.run.real_time import RealTime
 from gz_course.grader.run.served import Served
 from gz_course.grader.run.stage import Stage
-from gz_course.grader.temporary_folder import TemporaryFolder
 
 SIMULATOR_PATIENCE = 5.0  # [s] of wall time, once nobody is starting up, for a simulator to be started
 START_UP = 20.0  # [s] of wall time more than a single node gets

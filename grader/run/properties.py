@@ -7,10 +7,10 @@ from importlib.metadata import version
 from typing import Any
 
 from gz_course.grader.exercise import Exercise
+from gz_course.grader.exercise.trial import Trial
 from gz_course.grader.printable import shown
 from gz_course.grader.record.recorder import Recorder
 from gz_course.grader.submission import Submission
-from gz_course.grader.trial import Trial
 
 PACKAGES = {"mujoco": "mujoco", "rclpy": "ros-jazzy-rclpy", "rerun": "rerun-sdk", "course": "gz-ros2-course"}
 

@@ -14,16 +14,16 @@ from typing import TYPE_CHECKING
 
 from gz_course.grader.errors import ManifestError
 from gz_course.grader.exercise import MANIFEST, Exercise
+from gz_course.grader.exercise.trial import Trial
 from gz_course.grader.kinds.kind import find_kind
 from gz_course.grader.printable import shown
+from gz_course.grader.process.temporary_folder import sweep
 from gz_course.grader.run.box.course_box.hooks import SERVE
 from gz_course.grader.run.box.course_box.watch import HOLD, RELIABLE
 from gz_course.grader.run.domain import Domain
 from gz_course.grader.run.sandbox import AUTO, Sandbox
 from gz_course.grader.run.student import Student, launch_command, node_command
 from gz_course.grader.submission import Submission
-from gz_course.grader.temporary_folder import sweep
-from gz_course.grader.trial import Trial
 from gz_course.sim.ros_gz_bridge.qos_profile import reliable
 
 if TYPE_CHECKING:

@@ -14,6 +14,7 @@ from typing import Any
 
 from gz_course.grader.errors import InfrastructureError
 from gz_course.grader.exercise import Exercise
+from gz_course.grader.exercise.trial import ScriptedCommand, Trial
 from gz_course.grader.kinds.kind import Cast
 from gz_course.grader.record.messages import record_message
 from gz_course.grader.record.reading import GIVEN_LOG, STUDENT_LOG
@@ -25,7 +26,6 @@ from gz_course.grader.run.lockstep import LockStep
 from gz_course.grader.run.real_time import RealTime
 from gz_course.grader.run.student import Student
 from gz_course.grader.run.trial_world import load_trial_world
-from gz_course.grader.trial import ScriptedCommand, Trial
 from gz_course.sim.gz.msgs.twist_pb2 import Twist
 from gz_course.sim.gz.sim.errors import SimError
 from gz_course.sim.gz.sim.server import Server

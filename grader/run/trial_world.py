@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from gz_course.grader.errors import ManifestError, nearest
 from gz_course.grader.exercise import MANIFEST, Exercise
-from gz_course.grader.trial import Trial
+from gz_course.grader.exercise.trial import Trial
 from gz_course.sim.gz.sim.errors import Diagnostics, SimError
 from gz_course.sim.gz.sim.pose import Pose
 from gz_course.sim.gz.sim.sdf.reader import read_world_file

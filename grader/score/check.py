@@ -12,8 +12,6 @@ earns nothing, and so that quality counts only after success. One gate, or a lis
 
 from __future__ import annotations
 
-import importlib
-import pkgutil
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
@@ -21,8 +19,9 @@ from pathlib import Path
 
 from gz_course.grader.errors import ManifestError, nearest
 from gz_course.grader.exercise import CheckSpec
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
-from gz_course.grader.table import Table
+from gz_course.grader.registry import modules
 
 
 @dataclass(frozen=True)
@@ -74,8 +73,7 @@ def check_kinds() -> dict[str, Kind]:
     """Return every kind there is, by name."""
     from gz_course.grader.score import checks
 
-    for module in pkgutil.iter_modules(checks.__path__):
-        importlib.import_module(f"{checks.__name__}.{module.name}")
+    modules(checks)
     return dict(_kinds)
 
 
@@ -132,7 +130,7 @@ def perform(
 
 
 def _closed(gate: Table, recording: Recording, finding_of: Callable[[str], Finding] | None) -> str:
-    """Return what to say because a gate is closed, or an empty string if it is open."""
+    """Return why a gate is closed, or an empty string if it is open."""
     if gate.has("check"):
         other, otherwise = gate.text("check"), gate.text("otherwise")
         gate.end()

@@ -1,6 +1,6 @@
-"""Puts the scores of several trials together: what counts is the weakest of them.
+"""The score of several trials: the weakest of each check counts.
 
-A check passes only if it passes in every trial; what is shown of it is what the first trial found in which it failed.
+A check passes only if it passes in every trial; the report shows the finding of the first trial in which it failed.
 Called by `grader/grade.py` after every trial was scored, also from recordings.
 """
 

@@ -1,4 +1,4 @@
-"""Events: the first moment at which something is so. Checks of order and of "from then on" are made of them.
+"""Events: the first moment at which a condition holds. Checks of order and of "from then on" are made of them.
 
 An author writes one of these tables (`name` says in the report what it is; `after` [s] leaves out what came before):
 
@@ -16,9 +16,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.steps import Condition
-from gz_course.grader.table import Table
 
 # What the console format of the sandbox puts before a logger's message; a printed line lacks it.
 LOGGED = re.compile(r"^\[[A-Z]+\] \[[^\]]*\]: ")

@@ -1,4 +1,4 @@
-"""What a recording says of both graphs: which bridges stood between them, and which way messages went.
+"""The two graphs as a recording has them: the bridges between them, and which way messages went.
 
 Read by the checks on tables and bridges (`checks/table_*.py`, `checks/bridge*.py`) from the facts that a run with the
 exercise's own node leaves (`run/graphs.py`).
@@ -41,7 +41,7 @@ class Bridged:
 
     @property
     def place(self) -> str:
-        """Where it is written, in words."""
+        """Return in words where it is written."""
         file, _, line = self.source.rpartition(":")
         return f"{file}, line {line}" if file else self.source
 

@@ -1,4 +1,4 @@
-"""What checks ask about a run whose submission was a launch file: its arguments, and what it started.
+"""Facts about a run whose submission was a launch file: its arguments, and what it started.
 
 The facts come from `grader/run/launch_stage.py`.
 """
@@ -30,12 +30,12 @@ class Death:
 
     @property
     def words(self) -> str:
-        """What it said, as the end of a sentence; empty if it said nothing."""
+        """Return its output as the end of a sentence; empty if it printed nothing."""
         return f"; it said: {shown(self.said, 300)}" if self.said else ""
 
 
 def launch_facts(recording: Recording) -> dict[str, Any]:
-    """What is known about the launch; empty if the submission was none, or never ran."""
+    """Return what is known about the launch; empty if the submission was none, or never ran."""
     found: dict[str, Any] = recording.facts().get("launch", {})
     return found
 
@@ -49,12 +49,12 @@ def argument(recording: Recording, name: str, default: str) -> tuple[str, str]:
 
 
 def ran(recording: Recording) -> list[dict[str, Any]]:
-    """The simulators that ran."""
+    """Return the simulators that ran."""
     return [each for each in launch_facts(recording).get("simulators", []) if each["ran"]]
 
 
 def complaint(recording: Recording, program: str) -> str:
-    """The first thing a program of Gazebo said it could not do; empty if it did not complain."""
+    """Return the first complaint a program of Gazebo printed; empty if there is none."""
     for line in recording.lines("log/student"):
         if (match := SAID.match(line.text)) and match.group(1) == program:
             return shown(match.group(2), 300)
@@ -73,7 +73,7 @@ def deaths(recording: Recording) -> Iterator[Death]:
 
 
 def launch_fault(recording: Recording) -> str:
-    """One sentence on why the launch as a whole could not do its work; empty if it could."""
+    """Return one sentence on why the launch as a whole could not work; empty if it could."""
     facts = launch_facts(recording)
     if error := facts.get("error", ""):
         return "The launch failed: " + shown(PLACE.sub(r"\1, line \2: ", error), 400)

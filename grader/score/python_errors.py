@@ -1,4 +1,4 @@
-"""What some errors of Python and rclpy mean whose own words do not say what to change; used by `diagnosis.py`.
+"""Explanations of errors of Python and rclpy whose own text does not say what to change; used by `diagnosis.py`.
 
 Only errors whose cause is certain stand here: a sentence that guesses wrong is worse than none.
 """

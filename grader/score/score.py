@@ -1,4 +1,4 @@
-"""Scores a recording against an exercise's manifest: a pure function of the two."""
+"""The score of a recording by an exercise's manifest: a pure function of the two."""
 
 from __future__ import annotations
 
@@ -67,7 +67,10 @@ def score(recording: Recording, exercise: Exercise) -> Score:
 
 
 def truth_sha256(recording: Recording, robot: str) -> str:
-    """SHA-256 over the truth trajectory: times (int64, ns), then positions and quaternions (float64), little-endian."""
+    """Return the SHA-256 of the true trajectory.
+
+    Little-endian: times [ns] (int64), then positions [m] and quaternions (float64).
+    """
     digest = hashlib.sha256()
     for name in TRUTH:
         signal = recording.signal(f"truth/{robot}/{name}")

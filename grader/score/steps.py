@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
-from gz_course.grader.table import Table
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class Condition:
         return condition
 
     def __str__(self) -> str:
-        """The condition in words."""
+        """Return the condition in words."""
         if np.isinf(self.high):
             return f"{self.name} at least {self.low:g}{self.unit}"
         if np.isinf(self.low):
@@ -51,7 +51,7 @@ class Condition:
 def fulfilled(
     recording: Recording, conditions: list[Condition], start: float, end: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """When do all conditions hold at once between `start` and `end` [s]?
+    """Find out when, between `start` and `end` [s], all conditions hold at once.
 
     Returns the edges [s], shape (n + 1,), of n intervals and whether the conditions hold in each, shape (n,). Before
     its first sample and after the end of the simulation a signal fulfils nothing.
@@ -92,7 +92,7 @@ def how_many(least: float, most: float) -> str:
 
 
 def value_at(recording: Recording, name: str, time: float) -> float | None:
-    """Value of a signal at a time [s]: that of the last sample before it; None before the first."""
+    """Return a signal's value at a time [s]: that of the last sample before it; None before the first."""
     signal = recording.signal(name)
     index = int(np.searchsorted(signal.times, round(time * 1e9), side="right")) - 1
     return float(signal.values[index]) if index >= 0 else None

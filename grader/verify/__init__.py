@@ -4,6 +4,6 @@
 the solution in one place at a time, `jobs.py` grades in several processes.
 """
 
-from gz_course.grader.verify.declared import FEWEST_ACCEPTED, FEWEST_REJECTED, Variant, orphans, twin, variants
+from gz_course.grader.verify.declared import FEWEST_ACCEPTED, FEWEST_REJECTED, Variant, orphans, variants
 
-__all__ = ["FEWEST_ACCEPTED", "FEWEST_REJECTED", "Variant", "orphans", "twin", "variants"]
+__all__ = ["FEWEST_ACCEPTED", "FEWEST_REJECTED", "Variant", "orphans", "variants"]

@@ -1,7 +1,7 @@
 """What the private half of an exercise declares: its variants, what they must lose, which mutants change nothing.
 
 The private half is the exercise's twin in `solutions/`: the solved file, `accepted/STYLE/`, `rejected/FAULT/`,
-`trials.toml` (hidden parameters, see `grader/trial.py`) and `expect.toml`:
+`trials.toml` (hidden parameters, see `grader/exercise/trial.py`) and `expect.toml`:
 
     [rejected.never_stops]
     fails = ["five_seconds", "stops"]        # exactly these checks
@@ -21,8 +21,8 @@ from pathlib import Path
 
 from gz_course.grader.errors import ManifestError, nearest
 from gz_course.grader.exercise import Exercise
-from gz_course.grader.table import Table
-from gz_course.grader.trial import chosen_trials
+from gz_course.grader.exercise.toml_table import Table
+from gz_course.grader.exercise.trial import chosen_trials
 
 FEWEST_ACCEPTED = 2
 FEWEST_REJECTED = 6
@@ -41,11 +41,6 @@ class Variant:
     fails: frozenset[str]
     words: tuple[str, ...] = ()
     trial: str | None = None
-
-
-def twin(exercise: Exercise) -> Path:
-    """Return the folder with an exercise's private half."""
-    return exercise.twin
 
 
 def variants(exercise: Exercise) -> list[Variant]:

@@ -1,6 +1,6 @@
-"""Grades in several processes at once, each of them used again and again; results come in the order asked for.
+"""A pool of processes that grade at the same time; results come in the order asked for.
 
-A worker's life is tied to ours: it ends when we do, and what it runs ends with it. One job at a time needs no worker.
+A worker ends when its parent does, and what it runs ends with it. One job at a time needs no worker.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ from typing import Protocol
 
 from gz_course.grader.errors import InfrastructureError
 from gz_course.grader.exercise import Exercise
+from gz_course.grader.exercise.trial import Trial
 from gz_course.grader.grade import grade
-from gz_course.grader.interruption import end_on
+from gz_course.grader.process.interruption import end_on
+from gz_course.grader.process.temporary_folder import TemporaryFolder
 from gz_course.grader.report.report import Report
-from gz_course.grader.temporary_folder import TemporaryFolder
-from gz_course.grader.trial import Trial
 
 PR_SET_PDEATHSIG = 1
 ATTEMPTS = 3  # at a grading that fails by a fault of the machine
@@ -125,7 +125,7 @@ def pool(count: int) -> Iterator[Pool]:
 
 
 def _begin(parent: int, folder: str) -> None:
-    """A worker's first act: to end with its parent, and in order."""
+    """Make a worker end with its parent, and in order."""
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
     if os.getppid() != parent:
         sys.exit(3)

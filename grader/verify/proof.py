@@ -1,4 +1,4 @@
-"""Grades everything an exercise declares and compares: `course verify` prints what comes out.
+"""The proof of an exercise: everything it declares is graded and compared; `course verify` prints the result.
 
 Solution and accepted variants earn full marks in every trial, the starter nothing in any; each rejected variant loses
 exactly what it declares, in the trials in which it declares it, and is told why. A check that no rejected variant fails
@@ -13,9 +13,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from gz_course.grader.exercise import Exercise
+from gz_course.grader.exercise.trial import chosen_trials
 from gz_course.grader.report.report import Report
 from gz_course.grader.score.score import Score
-from gz_course.grader.trial import chosen_trials
 from gz_course.grader.verify.declared import FEWEST_ACCEPTED, FEWEST_REJECTED, Variant, equivalent_mutants, variants
 from gz_course.grader.verify.jobs import Job, Pool
 from gz_course.grader.verify.mutants import MOST, Mutant, choose, mutants_of
@@ -61,7 +61,7 @@ class Verification:
         return [proof.mutant for proof in self.mutants if not proof.failed]
 
     def killed_by(self, check: str) -> tuple[int, int]:
-        """How many rejected variants and how many mutants fail a check."""
+        """Return how many rejected variants and how many mutants fail a check."""
         rejected = [proof for proof in self.proofs if proof.variant.name.startswith(REJECTED)]
         return sum(check in proof.failed for proof in rejected), sum(check in m.failed for m in self.mutants)
 
@@ -101,7 +101,7 @@ def verify(exercise: Exercise, out: Path, pool: Pool, most_mutants: int = MOST) 
 
 
 def _mutants(exercise: Exercise, result: Verification, most: int) -> list[Mutant]:
-    """Choose the mutants of the solution; one that is declared to be right but does not exist is a fault."""
+    """Choose the mutants of the solution; one declared equivalent that does not exist is a fault."""
     if not most:
         return []
     found = mutants_of(exercise.file, (exercise.twin / exercise.file).read_bytes())
@@ -138,7 +138,7 @@ def judge(exercise: Exercise, variant: Variant, report: Report) -> Proof:
 
 
 def _trials(exercise: Exercise, variant: Variant, report: Report) -> Iterator[str]:
-    """Whether the right trials found the variant out. Students practise with the public ones alone."""
+    """Yield the faults of the trials: a variant must fail in the declared ones. Students have the public ones only."""
     public = {trial.name for trial in exercise.trials}
     by_name = {trial.name: failed_in(trial.score) for trial in report.trials}
     in_public = frozenset().union(*(failed for name, failed in by_name.items() if name in public))

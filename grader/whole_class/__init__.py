@@ -1,1 +1,1 @@
-"""Grades a class: find the submissions, grade each in a process of its own, keep a journal, write the gradebook."""
+"""A class: find the submissions, grade each in a process of its own, keep a journal, write the gradebook."""

@@ -1,8 +1,8 @@
 """A class from first to last: read a submission, grade it unless the journal has it, keep what came out, go on.
 
 `commands/grade_all.py` calls `ClassRun.grade`, with threads here or Dask's workers to grade in; the gradebook follows
-from the journal. What fails for reasons of ours is tried again and in the end listed, never scored; what a student lost
-is never tried again.
+from the journal. A failure of the machine or the grader is tried again and in the end listed, never scored; a
+student's own failure is final.
 """
 
 from __future__ import annotations
@@ -21,14 +21,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from gz_course.grader import bundle
 from gz_course.grader.errors import InfrastructureError, RefusedError, UnreadableError, UsageError
-from gz_course.grader.exercise import Exercise
-from gz_course.grader.intake import Selection
+from gz_course.grader.exercise import Exercise, bundle
+from gz_course.grader.exercise.trial import chosen_trials
 from gz_course.grader.printable import shown
+from gz_course.grader.process.temporary_folder import TemporaryFolder, sweep
 from gz_course.grader.run.sandbox import choose
-from gz_course.grader.temporary_folder import TemporaryFolder, sweep
-from gz_course.grader.trial import chosen_trials
+from gz_course.grader.submission.intake import Selection
 from gz_course.grader.whole_class.dask_cluster import dask_executor
 from gz_course.grader.whole_class.found import Found
 from gz_course.grader.whole_class.gradebook import GRADEBOOK, as_csv, write_gradebook
@@ -127,7 +126,7 @@ class ClassRun:
             raise InfrastructureError(f"no more gradings can be started: {told}; the same command goes on") from None
 
     def _open(self) -> Journal:
-        """The folder of the class, made if need be, and its journal."""
+        """Make the folder of the class if need be, and open its journal."""
         try:
             self.out.mkdir(parents=True, exist_ok=True)
             strangers = any(self.out.iterdir()) and not (self.out / JOURNAL).exists()
@@ -141,7 +140,7 @@ class ClassRun:
         return journal
 
     def _here(self, jobs: int, stack: ExitStack) -> tuple[Executor, int, Callable[[], bool]]:
-        """Threads of this process, each of which waits for one grading."""
+        """Return threads of this process, each of which waits for one grading."""
         level = choose(self.sandbox, self.demand)  # once, so that all submissions get the same
         try:
             folder = stack.enter_context(TemporaryFolder("course-class-"))
@@ -155,9 +154,9 @@ class ClassRun:
         return executor, jobs, lambda: False
 
     def _prepare(self, found: Found, journal: Journal) -> tuple[Result, Job | None, bool]:
-        """Read a submission: its result if there is nothing to grade any more, else a blank one and the job.
+        """Read a submission and return its result, and its job if it is to be graded.
 
-        And whether the result is new; if not, an earlier run had graded it.
+        The third value tells whether the result is new; if not, an earlier run had graded it.
         """
         result = self._blank(found)
         chosen: Selection | None = None
@@ -200,7 +199,7 @@ class ClassRun:
         }
 
     def _unread(self, result: Result) -> bytes:
-        """The JSON report on a submission that could not even be taken in."""
+        """Return the JSON report on a submission that could not be read."""
         report = {
             "exercise": self.exercise.name,
             "submission": result["submission"],
@@ -214,7 +213,7 @@ class ClassRun:
         return (json.dumps(report, indent=2) + "\n").encode()
 
     def _watch(self, graded: Graded, attempt: int) -> None:
-        """Stop early where nothing can be graded at all, instead of trying everybody three times."""
+        """Raise InfrastructureError where nothing can be graded at all, instead of trying every student three times."""
         if graded.report is not None:
             self._hopeless = -1
         elif self._hopeless >= 0 and attempt == 1:
@@ -253,7 +252,7 @@ class ClassRun:
 
 
 def _outcome(future: Future[Graded]) -> Graded:
-    """What a grading came to, also if it never came back."""
+    """Return the outcome of a grading, also of one whose worker died."""
     try:
         return future.result()
     except CancelledError:
@@ -263,7 +262,7 @@ def _outcome(future: Future[Graded]) -> Graded:
 
 
 def folder_name(student: str) -> str:
-    """A name for a student's folder that is safe everywhere, the same every time, and nobody else's."""
+    """Return a name for a student's folder that is safe on every file system, stable and unique."""
     safe = re.sub(r"[^\w.,()@ -]", "_", student).strip(" .").lstrip("-@").replace("..", "_")
     while len(safe.encode()) > LONGEST_FOLDER:
         safe = safe[:-1]

@@ -1,4 +1,4 @@
-"""The same job list on more than one machine: Dask's workers grade, its scheduler hands out. None of it is ours.
+"""A class on more than one machine: Dask's scheduler hands the jobs to Dask's workers, which grade.
 
 Workers need the course installed, in the same version; nothing else is shared, submissions go there and recordings
 come back as bytes. Used by `class_run.py` for `--dask`.
@@ -12,7 +12,7 @@ from concurrent.futures import Executor
 
 from gz_course.grader.errors import UsageError
 from gz_course.grader.printable import shown
-from gz_course.grader.temporary_folder import TemporaryFolder
+from gz_course.grader.process.temporary_folder import TemporaryFolder
 from gz_course.grader.whole_class.versions import versions
 
 CONNECT = 15.0  # [s] to reach a scheduler
@@ -71,7 +71,7 @@ def _worker_versions() -> dict[str, str]:
 
 
 def _check_versions(of_workers: dict[str, object]) -> None:
-    """Equal submissions must get equal scores wherever they are graded. Raises UsageError if a worker differs."""
+    """Raise UsageError if a worker has other versions: equal submissions must get equal scores everywhere."""
     ours = versions()
     for worker, theirs in sorted(of_workers.items()):
         if not isinstance(theirs, dict):

@@ -1,4 +1,4 @@
-"""Finds the submissions of a class in a folder or a zip, as learning platforms hand them out, and whose they are.
+"""The submissions of a class in a folder or a zip as learning platforms export them, and their students.
 
 One folder, file or archive a student; the names that Canvas, Moodle, Blackboard and Gradescope give are understood.
 Files of one student that lie side by side belong together. Nothing is read before `Found.read` is called, so that one
@@ -17,7 +17,11 @@ from typing import Any, NamedTuple
 
 import yaml
 
-from gz_course.grader.archive import (
+from gz_course.grader.errors import RefusedError, UsageError
+from gz_course.grader.exercise import Exercise
+from gz_course.grader.kinds.kind import find_kind
+from gz_course.grader.printable import shown
+from gz_course.grader.submission.archive import (
     LONGEST_PART,
     Member,
     Tree,
@@ -27,11 +31,7 @@ from gz_course.grader.archive import (
     zip_folders,
     zip_members,
 )
-from gz_course.grader.errors import RefusedError, UsageError
-from gz_course.grader.exercise import Exercise
-from gz_course.grader.intake import JUNK, Selection, folder_member, folder_tree, is_junk, select
-from gz_course.grader.kinds.kind import find_kind
-from gz_course.grader.printable import shown
+from gz_course.grader.submission.intake import JUNK, Selection, folder_member, folder_tree, is_junk, select
 
 METADATA = "submission_metadata.yml"  # Gradescope's, beside the folders of an export
 LARGEST_METADATA = 4 << 20  # [bytes]
@@ -127,7 +127,7 @@ def _named(groups: dict[_Owner, _Group], exercise: Exercise) -> list[Found]:
 
 
 def _label(name: str) -> str:
-    """A name as it is shown: foreign bytes and control codes replaced, not too long."""
+    """Return a name fit to be shown: foreign bytes and control codes replaced, not too long."""
     clean = name.encode("utf-8", "surrogateescape").decode("utf-8", "replace")
     return shown(clean, 120).strip() or "(no name)"
 
@@ -151,7 +151,7 @@ Top = dict[str, "Callable[[], Tree] | Member"]  # name -> a folder's tree when a
 
 
 def _folder_top(path: Path) -> tuple[Top, list[str]]:
-    """The things at the top of a folder, and the names of the folders in it and in its only folder."""
+    """Return the entries at the top of a folder, and the names of the folders in it and in its only folder."""
     top: Top = {}
     for each in path.iterdir():
         if _is_trace(each.name, folder=each.is_dir()):
@@ -167,7 +167,7 @@ def _folder_top(path: Path) -> tuple[Top, list[str]]:
 
 
 def _zip_top(path: Path, stack: ExitStack) -> tuple[Top, list[str]]:
-    """The things at the top of a zip, and the names of its folders, empty ones too.
+    """Return the entries at the top of a zip, and the names of its folders, empty ones too.
 
     A member with an unsafe name is its owner's fault, not the class's.
     """
@@ -201,7 +201,7 @@ def _zip_top(path: Path, stack: ExitStack) -> tuple[Top, list[str]]:
 
 
 def _safe(raw: str) -> str:
-    """The name of a folder; empty if it leads out of the archive."""
+    """Return the name of a folder; empty if it leads out of the archive."""
     try:
         return plain_name(raw.replace("\\", "/").removeprefix("./"), "")
     except RefusedError:
@@ -209,7 +209,7 @@ def _safe(raw: str) -> str:
 
 
 def _is_trace(name: str, *, folder: bool) -> bool:
-    """Whether a thing at the top is what a system or a tool leaves behind; hidden folders may be more than that."""
+    """Tell whether an entry at the top is left behind by a system or a tool; hidden folders may be more than that."""
     return name in JUNK or name == ".git" or (name.startswith(".") and not folder)
 
 
@@ -218,7 +218,7 @@ def _refuse(error: RefusedError) -> Tree:
 
 
 def _unwrapped(top: Top, folders: list[str], exercise: Exercise) -> Top:
-    """What is in the only folder of `top`, if that folder holds a class and not one student's work.
+    """Return the entries of the only folder of `top`, if that folder holds a class and not one student's work.
 
     Who handed in an empty folder, of whom `folders` alone knows, is of that class, too.
     """
@@ -253,7 +253,7 @@ def _unwrapped(top: Top, folders: list[str], exercise: Exercise) -> Top:
 
 
 def _owner(name: str, *, folder: bool, names: dict[str, _Owner]) -> tuple[_Owner, str, str]:
-    """Whose the thing called `name` is, what its owner called it, and when it was handed in (as the name tells)."""
+    """Return the student of the entry called `name`, the student's own name for it, and when it was handed in."""
     if name in names:
         return names[name], name, ""
     if match := MOODLE.fullmatch(name):
@@ -268,7 +268,7 @@ def _owner(name: str, *, folder: bool, names: dict[str, _Owner]) -> tuple[_Owner
 
 
 def _gradescope_names(member: object) -> dict[str, _Owner]:
-    """Who handed in what, from a Gradescope export; without it the folders' names stand for the students."""
+    """Return who handed in what, from a Gradescope export; without it the folders' names stand for the students."""
     if not isinstance(member, Member):
         return {}
     try:

@@ -38,7 +38,10 @@ def as_csv(exercise: Exercise, results: Iterable[dict[str, Any]]) -> str:
 
 
 def cell(value: object) -> str:
-    """A value as a cell that no spreadsheet takes for a formula: numbers as they are, None empty, text guarded."""
+    """Return a value as a cell no spreadsheet takes for a formula: numbers as they are, None empty, text guarded.
+
+    Source: OWASP, "CSV Injection".
+    """
     if value is None:
         return ""
     if isinstance(value, int | float) and not isinstance(value, bool):

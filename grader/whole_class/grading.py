@@ -1,7 +1,7 @@
-"""Grades one submission of a class: a fresh `course grade` in a process group and a folder of its own, with a deadline.
+"""The grading of one submission of a class: a `course grade` in a process group and a folder of its own, by a deadline.
 
-`grade_one` gets bytes and gives bytes, so that it works the same in a thread here and on a Dask worker that shares no
-files with us. Whatever goes wrong around the grading is a fault of ours, told in `Graded.fault`, never a score.
+`grade_one` takes bytes and returns bytes, and so works the same in a thread here and on a Dask worker that shares no
+files with this machine. A failure of the machine or the grader is named in `Graded.fault` and is never a score.
 """
 
 from __future__ import annotations
@@ -21,9 +21,10 @@ from typing import Any
 
 import psutil
 
-from gz_course.grader import bundle
+from gz_course.grader.exercise import bundle
 from gz_course.grader.printable import shown
-from gz_course.grader.temporary_folder import TemporaryFolder, sweep
+from gz_course.grader.process.temporary_folder import TemporaryFolder, sweep
+from gz_course.grader.report.format import formats
 
 PR_SET_CHILD_SUBREAPER = 36
 LARGEST_FILE = 256 << 20  # [bytes] of a recording or report that is brought back
@@ -82,7 +83,7 @@ class _Running:
             return process
 
     def ended(self, process: subprocess.Popen[bytes]) -> None:
-        """Forget a process, and kill what it left behind: orphans come to us, in other sessions than ours."""
+        """Forget a process, and kill the orphans it left in other sessions, which are now children of this process."""
         with self._lock:
             self._processes.discard(process)
             running = {each.pid for each in self._processes}
@@ -108,7 +109,7 @@ RUNNING = _Running()
 
 @contextlib.contextmanager
 def gradings_end_here() -> Iterator[None]:
-    """On the way out every grading of this process is ended, and none that was asked for begins."""
+    """End every grading of this process when the block is left, and begin none afterwards."""
     RUNNING.begin()
     try:
         yield
@@ -151,7 +152,7 @@ def _grade(setup: Setup, job: Job, folder: Path) -> Graded:
     ]
     command += ["--submission", str(given), "--out", RECORDINGS, "--json", REPORT, *setup.options]
     for name in setup.reports:
-        command += [f"--{name}", _report_name(name)]
+        command += [f"--{name}", formats()[name].file]
     with (folder / "stderr").open("w+b") as errors:
         process = RUNNING.start(
             command,
@@ -194,13 +195,9 @@ def end(process: subprocess.Popen[bytes]) -> None:
     process.wait()
 
 
-def _report_name(name: str) -> str:
-    return {"html": "report.html", "gradescope": "results.json", "junit": "junit.xml"}[name]
-
-
 def _bring_back(setup: Setup, job: Job, folder: Path) -> Graded:
     """Read report and recordings. Our temporary folder is nobody's business: paths are made relative to it."""
-    paths = [folder / REPORT, *(folder / _report_name(name) for name in setup.reports)]
+    paths = [folder / REPORT, *(folder / formats()[name].file for name in setup.reports)]
     paths += sorted((folder / RECORDINGS).glob("*.rrd"))
     files: dict[str, bytes] = {}
     for path in paths:

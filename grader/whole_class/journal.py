@@ -1,7 +1,7 @@
 """The journal of a class: one line for each submission that is done, on disk before the next thing happens.
 
-It is only ever appended to. Whoever kills the run loses what was not finished, and nothing else: the next run reads the
-journal, cuts off a line that was torn, and grades what is missing. The gradebook is written from it alone.
+It is only ever appended to. A run that is killed loses what was not finished, and nothing else: the next run reads the
+journal, cuts off an incomplete last line, and grades what is missing. The gradebook is written from it alone.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Which versions grade: part of a job's key, and what Dask's workers must have in common with us."""
+"""Versions of everything that grades: part of a job's key, and the same on every worker of Dask."""
 
 from __future__ import annotations
 

@@ -15,7 +15,9 @@ from gz_course.tests.bench.row import Row
 ROOT = Path(__file__).parents[2]
 LONGEST_RUN = 90  # [s] of one chapter
 LONGEST_OF_ALL = 360  # [s] of all chapters together
-EMPTY = "from gz_course.grader.playground import Playground\nimport matplotlib.pyplot as plt\nPlayground().close()"
+EMPTY = (
+    "from gz_course.grader.tools.playground import Playground\nimport matplotlib.pyplot as plt\nPlayground().close()"
+)
 
 
 def seconds(notebook: nbformat.NotebookNode, folder: Path) -> float:

@@ -25,7 +25,7 @@ FEWEST_PREDICTIONS = 4
 FEWEST_PICTURES = 3
 PREDICTION, DESCRIPTION, CHECK = "> **Predict.**", "**In the picture:**", "## Check my work"
 # What of the course's own code a student may meet: everything else stands in the notebook.
-OF_THE_COURSE = {"gz_course.grader.playground", "gz_course.grader.record.reading"}
+OF_THE_COURSE = {"gz_course.grader.tools.playground", "gz_course.grader.record.reading"}
 PR_SET_CHILD_SUBREAPER = 36
 
 each_notebook = pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from gz_course.grader import archive, intake
+from gz_course.grader.submission import archive, intake
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "learning_platforms.md").read_text()

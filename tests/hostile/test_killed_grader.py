@@ -9,8 +9,8 @@ import sys
 import psutil
 import pytest
 
+from gz_course.grader.process.temporary_folder import sweep
 from gz_course.grader.run.sandbox.probe import try_level
-from gz_course.grader.temporary_folder import sweep
 
 DEADLINE = 30.0
 # Leaves the process group, hears no signal, does not die with its parent.

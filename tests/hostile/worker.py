@@ -10,15 +10,15 @@ import sys
 import time
 from pathlib import Path
 
-from grader.run.sandbox import enter_early
+from gz_course.grader.run.sandbox import enter_early
 
 LEVEL = sys.argv[1]
 enter_early(LEVEL)
 
-from grader.exercise import find_exercise  # noqa: E402
-from grader.grade import grade  # noqa: E402
-from grader.record.reading import Recording  # noqa: E402
-from grader.run.sandbox.watch import descendants  # noqa: E402
+from gz_course.grader.exercise import find_exercise  # noqa: E402
+from gz_course.grader.grade import grade  # noqa: E402
+from gz_course.grader.record.reading import Recording  # noqa: E402
+from gz_course.grader.run.sandbox.watch import descendants  # noqa: E402
 
 EXERCISE = find_exercise("03_teleop")
 

@@ -1,4 +1,4 @@
-"""Draws the world as it was at one moment, seen from above, as SVG: obstacles, robot, its path so far, what it sees.
+"""The world at one moment, drawn from above as SVG: obstacles, robot, its path so far, what it sees.
 
 Called by `page.py`. The x axis points right and the y axis up, as on a map.
 """
@@ -51,7 +51,7 @@ class Map:
         self._view = self._look()
 
     def __bool__(self) -> bool:
-        """Whether there is anything to draw."""
+        """Tell whether there is anything to draw."""
         return bool(len(self._x) or self._standing or self._moving)
 
     def draw(self, time_s: float, width: int, alt: str, *, whole_path: bool = False) -> Markup:
@@ -142,7 +142,7 @@ class Map:
 
 
 def _pixels(value: float) -> float:
-    """A place on the picture, or far outside of it; a robot may have been thrown anywhere."""
+    """Clip a coordinate to the picture and its surroundings: a robot may have been thrown anywhere."""
     return min(max(value, -FAR), FAR) if math.isfinite(value) else FAR
 
 

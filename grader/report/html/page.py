@@ -1,6 +1,6 @@
-"""Puts the HTML report together: `as_html(report)` reads the recordings of its trials and fills `page.html.jinja`.
+"""The HTML report: `as_html(report)` reads the recordings of its trials and fills `page.html.jinja`.
 
-Called by `grader.report.outputs` only when somebody asks for the page. A pure function of report and recordings: the
+Imported by `grader/report/formats/html.py` when the page is written. A pure function of report and recordings: the
 page made from a recording that is scored again differs from the first in host facts only.
 """
 
@@ -134,7 +134,7 @@ def _template() -> Any:
 
 
 def _plain(value: Any) -> Any:
-    """Foreign text on one line and not endless; what we drew ourselves stays."""
+    """Return foreign text on one line and shortened; markup of our own stays as it is."""
     return value if isinstance(value, Markup) or not isinstance(value, str) else shown(value, LONGEST)
 
 

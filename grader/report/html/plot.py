@@ -1,4 +1,4 @@
-"""Draws signals over simulated time as SVG: step lines, the band where they are wanted, the moment of the verdict.
+"""Plots of signals over simulated time as SVG: step lines, the band where they are wanted, the moment of the verdict.
 
 Called by `page.py`; the result is markup for inside an HTML page, whose style sheet gives the classes their colours.
 Lines differ in dashes as well as in colour.

@@ -1,4 +1,4 @@
-"""Chooses what is plotted: for each check the signals it looked at, and for the run commands beside the truth.
+"""The choice of what is plotted: for each check its signals, and for the run the commands beside the truth.
 
 Called by `page.py`. A check's signals are those of its bands; without bands they are those
 its manifest names.
@@ -124,7 +124,7 @@ def _curve(recording: Recording, name: str, title: str) -> Curve:
 
 
 def _name(signal: str, parameters: dict[str, Any], recording: Recording) -> str:
-    """What people call a signal: as the manifest says, else as the recording does."""
+    """Return the name of a signal for people: as in the manifest, else as in the recording."""
     for table in (parameters, *(t for t in parameters.get("conditions", []) if isinstance(t, dict))):
         if table.get("signal") == signal and "name" in table:
             return f"{table['name']} [{table['unit']}]" if "unit" in table else str(table["name"])
@@ -132,7 +132,7 @@ def _name(signal: str, parameters: dict[str, Any], recording: Recording) -> str:
 
 
 def _texts(value: Any) -> Iterator[str]:
-    """Every text in a manifest's parameters, however deep."""
+    """Yield every text in a manifest's parameters, at any depth."""
     if isinstance(value, str):
         yield value
     elif isinstance(value, dict):
@@ -144,5 +144,5 @@ def _texts(value: Any) -> Iterator[str]:
 
 
 def _end(recording: Recording) -> float:
-    """Where the time axis ends [s]: the duration the exercise asked for."""
+    """Return the end of the time axis [s]: the duration the exercise asked for."""
     return float(recording.properties("run").get("duration") or 1.0)

@@ -15,6 +15,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from gz_course.grader.errors import InfrastructureError
+from gz_course.grader.process.temporary_folder import TemporaryFolder
 from gz_course.grader.run.inside import seccomp
 from gz_course.grader.run.sandbox.boxed import Boxed
 from gz_course.grader.run.sandbox.environment import box_environment, student_environment
@@ -31,7 +32,6 @@ from gz_course.grader.run.sandbox.order import (
 )
 from gz_course.grader.run.sandbox.view import DOOR, HOME, SUBMISSION, TMP_FILES, TMP_SIZE, view
 from gz_course.grader.run.sandbox.watch import Watch, descendants
-from gz_course.grader.temporary_folder import TemporaryFolder
 
 PR_SET_CHILD_SUBREAPER = 36
 WITHOUT_NETWORK = "C"  # the best level for a process that cannot enter a private network (any more)

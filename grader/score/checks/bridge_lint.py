@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from pathlib import PurePath
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.graphs import bridges
-from gz_course.grader.table import Table
 
 
 @check_kind("bridge_lint")

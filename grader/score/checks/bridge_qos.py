@@ -9,10 +9,10 @@ at_least = 10             # messages that must have gone through, so that nothin
 
 from __future__ import annotations
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.graphs import bridges
-from gz_course.grader.table import Table
 
 
 @check_kind("bridge_qos")

@@ -16,11 +16,11 @@ from __future__ import annotations
 
 from typing import Any
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.graphs import WAYS, Bridged, bridges, did_you_mean
 from gz_course.grader.score.launched import deaths
-from gz_course.grader.table import Table
 
 KEYS = ("ros_topic", "ros_type", "gz_topic", "gz_type", "direction")
 CLOCK = "/clock"
@@ -56,7 +56,7 @@ def bridged(recording: Recording, parameters: Table) -> Finding:
 
 
 def _not_there(wanted: dict[str, str], made: list[Bridged]) -> str:
-    """Why nothing is bridged to that ROS topic."""
+    """Return why no bridge leads to that ROS topic."""
     ros, gz = wanted["ros_topic"], wanted["gz_topic"]
     for bridge in made:
         if (bridge.ros_topic, bridge.gz_topic) == (gz, ros):
@@ -68,7 +68,7 @@ def _not_there(wanted: dict[str, str], made: list[Bridged]) -> str:
 
 
 def _fault(bridge: Bridged, wanted: dict[str, str], same: list[str], facts: dict[str, Any]) -> str:
-    """What is wrong with a bridge to the right ROS topic; empty if nothing is."""
+    """Return what is wrong with a bridge to the right ROS topic; empty if nothing is."""
     if bridge.gz_topic not in same:
         return f"{bridge.place}: {_wrong_gz_topic(bridge, wanted, facts.get('gz_topics', {}))}"
     if bridge.ros_type != wanted["ros_type"]:
@@ -98,7 +98,7 @@ def _why(wanted: dict[str, str]) -> str:
 
 
 def _too_few(expected: str, bridge: Bridged, went: int, made: list[Bridged]) -> Finding:
-    """Nothing or too little went through, although all is written as it should be."""
+    """Return why too few messages passed a bridge that is configured correctly."""
     clock = any(b.ros_topic == CLOCK and b.to_ros for b in made)
     if bridge.direction == "ROS_TO_GZ" and not clock:
         measured = f"{went} messages went through: the node waits for {CLOCK}, which does not arrive"
@@ -107,7 +107,7 @@ def _too_few(expected: str, bridge: Bridged, went: int, made: list[Bridged]) -> 
 
 
 def _mixed(wanted: dict[str, str], same: list[str], made: list[Bridged]) -> str:
-    """Which other bridge brings messages of another topic to the same place; empty if none does."""
+    """Return which other bridge publishes messages of another topic to the same one; empty if none does."""
     ros, gz = wanted["ros_topic"], wanted["gz_topic"]
     for bridge in made:
         if (
@@ -123,7 +123,7 @@ def _mixed(wanted: dict[str, str], same: list[str], made: list[Bridged]) -> str:
 
 
 def _deaf(bridge: Bridged, facts: dict[str, Any]) -> str:
-    """Why the node that listens to it hears nothing all the same; empty if it does."""
+    """Return why the node that subscribes to it receives nothing; empty if it does."""
     offer = bridge.publisher_qos
     for end in facts.get("endpoints", []):
         if (end["kind"], end["topic"]) != ("subscription", bridge.ros_topic) or offer is None:

@@ -13,10 +13,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Band, Finding, check_kind
 from gz_course.grader.score.steps import how_many, told, window_of
-from gz_course.grader.table import Table
 
 
 @check_kind("count")

@@ -17,10 +17,10 @@ from __future__ import annotations
 
 import math
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Band, Finding, check_kind
 from gz_course.grader.score.steps import told, value_at
-from gz_course.grader.table import Table
 
 AXES = "xyz"
 

@@ -5,15 +5,15 @@ kind = "launched_end"
 
 from __future__ import annotations
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.launched import launch_facts
-from gz_course.grader.table import Table
 
 
 @check_kind("launched_end")
 def launched_end(recording: Recording, parameters: Table) -> Finding:
-    """Pass if the launch ends by itself with exit code 0, had to force nobody, and leaves nothing behind."""
+    """Pass if the launch ends by itself with exit code 0, without a SIGKILL, and leaves no process behind."""
     expected = "after Ctrl-C everything ends by itself"
     facts = launch_facts(recording)
     if not facts.get("running"):

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from difflib import get_close_matches
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.launched import deaths, launch_facts
-from gz_course.grader.table import Table
 
 _OTHERS = ("gz", "parameter_bridge", "create")  # processes that are no node of the student's
 

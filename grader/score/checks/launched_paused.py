@@ -7,10 +7,10 @@ default = false
 
 from __future__ import annotations
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.launched import argument, ran
-from gz_course.grader.table import Table
 
 
 @check_kind("launched_paused")

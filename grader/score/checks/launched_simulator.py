@@ -5,10 +5,10 @@ kind = "launched_simulator"
 
 from __future__ import annotations
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.launched import complaint, launch_facts, ran
-from gz_course.grader.table import Table
 
 
 @check_kind("launched_simulator")

@@ -12,12 +12,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.events import texts as texts_of
 from gz_course.grader.score.steps import told
-from gz_course.grader.table import Table
 
 LONGEST_QUOTE = 60  # characters of a message's text that are told
 

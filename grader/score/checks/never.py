@@ -9,10 +9,10 @@ Doing nothing does nothing forbidden: give such a check a gate.
 
 from __future__ import annotations
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Band, Finding, check_kind
 from gz_course.grader.score.steps import Condition, fulfilled, shown_at, window_of
-from gz_course.grader.table import Table
 
 
 @check_kind("never")

@@ -12,11 +12,11 @@ What counts is the first time each of them happens. Two at the same moment are i
 
 from __future__ import annotations
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.events import Event
 from gz_course.grader.score.steps import told
-from gz_course.grader.table import Table
 
 
 @check_kind("order")

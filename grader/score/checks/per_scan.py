@@ -20,11 +20,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.events import log_lines
-from gz_course.grader.table import Table
 
 LONGEST_LINE = 120  # [characters] of a line that is quoted
 
@@ -104,13 +104,13 @@ def per_scan(recording: Recording, parameters: Table) -> Finding:
 
 
 def _messages(recording: Recording, name: str) -> list[tuple[float, float]]:
-    """All answers given as messages: (time [s], value), in order."""
+    """Return all answers given as messages: (time [s], value), in order."""
     signal = recording.signal(name)
     return list(zip((signal.times / 1e9).tolist(), signal.values.tolist(), strict=True))
 
 
 def _log_answers(recording: Recording, pattern: re.Pattern[str]) -> tuple[list[tuple[float, float]], int, str]:
-    """All answers given in the log, how many were printed instead of logged, and the first line without an answer."""
+    """Return all answers in the log, the number printed instead of logged, and the first line without an answer."""
     answers, printed, other = [], 0, ""
     for at, text, logged in log_lines(recording):
         if match := pattern.search(text):

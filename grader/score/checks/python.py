@@ -24,9 +24,9 @@ from pathlib import Path
 from typing import Any
 
 from gz_course.grader.errors import ManifestError, nearest
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
-from gz_course.grader.table import Table
 
 
 @check_kind("python")
@@ -56,7 +56,7 @@ def python(recording: Recording, parameters: Table) -> Finding:
 
 
 def _place(error: Exception, path: Path) -> str:
-    """The author's file and the line in it that an error comes from."""
+    """Return the author's file and the line in it that an error comes from."""
     lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(path)]
     line = lines[-1] if lines else getattr(error, "lineno", None)
     return f"{path}, line {line}" if line else str(path)

@@ -9,11 +9,11 @@ An event is a signal in its band, a message (saying something), or a line of the
 
 from __future__ import annotations
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Band, Finding, check_kind
 from gz_course.grader.score.events import Event
 from gz_course.grader.score.steps import told, window_of
-from gz_course.grader.table import Table
 
 
 @check_kind("reaches")
@@ -35,7 +35,7 @@ def reaches(recording: Recording, parameters: Table) -> Finding:
 
 
 def _nearest(recording: Recording, event: Event) -> str:
-    """How near a signal came to its band."""
+    """Return in words how near a signal came to its band."""
     if (condition := event.condition) is None:
         return ""
     values = recording.signal(condition.signal).values

@@ -11,10 +11,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Band, Finding, check_kind
 from gz_course.grader.score.steps import Condition, fulfilled, shown_at, told
-from gz_course.grader.table import Table
 
 STILL = 0.5  # [s] before the end: a command this late means that they never ceased
 
@@ -39,7 +39,7 @@ def stays_in_band(recording: Recording, parameters: Table) -> Finding:
 
 
 def _last_command(recording: Recording, command: str | None, end: float) -> str:
-    """What the signal behind it said last: nothing any more, or still the same?"""
+    """Return in words what the command behind a signal was at the end: its last value and when it came."""
     signal = recording.signal(command) if command else None
     if not signal:
         return ""

@@ -12,10 +12,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.graphs import WAYS, Link, did_you_mean, links
-from gz_course.grader.table import Table
 
 WORDS = {
     "ros_type": "the ROS type",

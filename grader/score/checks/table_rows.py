@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from collections import Counter
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.diagnosis import OWN_TOPICS
 from gz_course.grader.score.graphs import did_you_mean, links
-from gz_course.grader.table import Table
 
 
 @check_kind("table_rows")
@@ -37,7 +37,7 @@ def table_rows(recording: Recording, parameters: Table) -> Finding:
 
 
 def _why(topic: str, times: int, wanted: list[str], facts: dict) -> str:
-    """What is wrong with a row for this topic."""
+    """Return what is wrong with a row for this topic."""
     if topic in wanted:
         return f"{topic} has {times} rows; one is enough"
     ros, gz = facts.get("ros_topics", {}), facts.get("gz_topics", {})

@@ -15,12 +15,12 @@ import re
 
 import numpy as np
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.events import log_lines, texts
 from gz_course.grader.score.steps import how_many, told, window_of
-from gz_course.grader.table import Table
 
 LONGEST_QUOTE = 80  # characters of what was said that are told
 

@@ -11,10 +11,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Band, Finding, check_kind
 from gz_course.grader.score.steps import Condition, fulfilled, told
-from gz_course.grader.table import Table
 
 
 @check_kind("time_in_band")
@@ -41,7 +41,7 @@ def time_in_band(recording: Recording, parameters: Table) -> Finding:
 
 
 def _was_right(recording: Recording, conditions: list[Condition]) -> bool:
-    """Was every signal in its band at some time, if only for a moment between two samples?"""
+    """Tell whether every signal was in its band at some time, if only between two samples."""
     values = [recording.signal(c.signal).values for c in conditions]
     return all(bool(np.any((v >= c.low) & (v <= c.high))) for c, v in zip(conditions, values, strict=True))
 

@@ -14,11 +14,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Band, Finding, check_kind
 from gz_course.grader.score.events import Event
 from gz_course.grader.score.steps import Condition, fulfilled, shown_at
-from gz_course.grader.table import Table
 
 
 @check_kind("within")

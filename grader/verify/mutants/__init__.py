@@ -1,4 +1,4 @@
-"""Mutants of a solution: the same file, spoilt in one place. What the checks do not notice they do not check.
+"""Mutants of a solution: the same file with one planted defect. A defect that no check notices is not tested for.
 
 `python.py` and `yaml.py` know the places; a file is mutated by what its name ends in. `proof.py` grades what is chosen
 here.

@@ -1,6 +1,6 @@
 """Mutants of a Python file, each a student's mistake: a sign, a number, a name, QoS, a condition, a forgotten line.
 
-The file is not written anew from its syntax tree: only the spoilt place changes, so that a line stays where it was.
+Only the mutated place of the text changes; the file is not regenerated from its syntax tree, so lines stay put.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Mutants of a YAML file: a name, a type, a direction, a number, a switch, an entry or a key forgotten.
 
-As in `python.py`, only the spoilt place changes.
+As in `python.py`, only the mutated place changes.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class _Marks:
         return self._text.mutant(operator, begin.line + 1, first, last, now)
 
     def before_line(self, mark: yaml.Mark) -> int:
-        """The index at which the line of a mark begins."""
+        """Return the index at which the line of a mark begins."""
         return self._whole.rfind("\n", 0, mark.index) + 1
 
 
@@ -52,7 +52,7 @@ def _within(marks: _Marks, node: yaml.Node) -> Iterator[Mutant]:
 
 
 def _forgotten_item(marks: _Marks, node: yaml.SequenceNode, item: yaml.Node) -> Mutant:
-    """One entry of a list is left out: `null` in the place of the last of two entries would be another fault."""
+    """Leave one entry of a list out: `null` in the place of the last of two entries would be another fault."""
     place = node.value.index(item)
     begin = item.start_mark
     # An entry begins with the dash before it, and ends where the next one's line begins.

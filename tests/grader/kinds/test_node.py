@@ -1,8 +1,8 @@
 """`kind = "node"`: what is known of a file before it runs goes into the facts of its run."""
 
 from gz_course.grader.exercise import find_exercise
-from gz_course.grader.intake import take_in
 from gz_course.grader.kinds.node import cast
+from gz_course.grader.submission.intake import take_in
 
 
 def test_suspicious_places_of_the_file_become_facts(root, tmp_path):

@@ -10,10 +10,10 @@ import psutil
 import pytest
 
 from gz_course.grader.exercise import find_exercise
+from gz_course.grader.exercise.trial import Trial
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.run.session import run
 from gz_course.grader.submission import Submission
-from gz_course.grader.trial import Trial
 
 ROOT = Path(__file__).parents[3]
 HEAD = """

@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Signal
 from gz_course.grader.score.steps import Condition, fulfilled, value_at
-from gz_course.grader.table import Table
 
 
 def read(raw):

@@ -5,11 +5,11 @@ from pathlib import Path
 import pytest
 
 from gz_course.grader.exercise import CheckSpec, find_exercise
+from gz_course.grader.exercise.trial import Trial
 from gz_course.grader.report.report import Report, TrialReport
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.combined import combined
 from gz_course.grader.score.score import CheckResult, Score
-from gz_course.grader.trial import Trial
 from gz_course.grader.verify.declared import Variant
 from gz_course.grader.verify.mutants import Mutant
 from gz_course.grader.verify.proof import MutantProof, Verification, judge

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gz_course.grader.errors import InfrastructureError, RefusedError, UnreadableError, UsageError
-from gz_course.grader.intake import Selection
+from gz_course.grader.submission.intake import Selection
 from gz_course.grader.whole_class import class_run
 from gz_course.grader.whole_class.class_run import ClassRun, folder_name
 from gz_course.grader.whole_class.found import Found

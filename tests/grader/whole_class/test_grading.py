@@ -16,7 +16,7 @@ ENDLESS = 600  # [s] of an exercise that nobody waits for
 GRADE_ONE = """
 import json, sys
 from pathlib import Path
-from gz_course.grader import bundle
+from gz_course.grader.exercise import bundle
 from gz_course.grader.exercise import load_exercise
 from gz_course.grader.whole_class.grading import Job, Setup, grade_one
 folder, submission, deadline, options = json.loads(sys.argv[1])

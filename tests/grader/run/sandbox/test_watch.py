@@ -10,9 +10,9 @@ from functools import partial
 import psutil
 import pytest
 
+from gz_course.grader.process.temporary_folder import remove
 from gz_course.grader.run.sandbox import watch as module
 from gz_course.grader.run.sandbox.watch import DISK, MEMORY, PROCESSES, Watch, descendants
-from gz_course.grader.temporary_folder import remove
 
 DEADLINE = 20.0
 FAMILY = """

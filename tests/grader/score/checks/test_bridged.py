@@ -3,10 +3,10 @@
 import pytest
 
 from gz_course.grader.errors import ManifestError
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.score.checks.bridge_lint import bridge_lint
 from gz_course.grader.score.checks.bridge_qos import bridge_qos
 from gz_course.grader.score.checks.bridged import bridged
-from gz_course.grader.table import Table
 
 RELIABLE = {"reliability": "RELIABLE", "durability": "VOLATILE", "depth": 10}
 SCAN = {

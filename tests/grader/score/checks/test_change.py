@@ -2,8 +2,8 @@
 
 import pytest
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.score.checks.change import change as kind
-from gz_course.grader.table import Table
 
 
 def change(recording, parameters):

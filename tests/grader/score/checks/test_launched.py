@@ -4,10 +4,10 @@ import json
 
 import pytest
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.score.check import check_kinds
 from gz_course.grader.score.diagnosis import diagnose, outcome_of
 from gz_course.grader.score.launched import deaths, launch_fault
-from gz_course.grader.table import Table
 
 SIMULATOR = {"given": "a.sdf", "world": "a.sdf", "error": "", "paused": False, "iterations": 0, "ran": True}
 GOOD = {

@@ -3,10 +3,10 @@
 import pytest
 
 from gz_course.grader.errors import ManifestError
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.record.recorder import Recorder
 from gz_course.grader.score.checks.messages import messages as kind
-from gz_course.grader.table import Table
 
 ONCE = {"topic": "hello", "count": [1, 1]}
 

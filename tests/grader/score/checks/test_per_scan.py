@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.score.checks.per_scan import per_scan as kind
 from gz_course.grader.score.checks.per_scan import scans
-from gz_course.grader.table import Table
 
 
 def per_scan(recording, parameters):

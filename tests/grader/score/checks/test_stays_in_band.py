@@ -2,8 +2,8 @@
 
 import pytest
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.score.checks.stays_in_band import stays_in_band as kind
-from gz_course.grader.table import Table
 
 
 def stays_in_band(recording, parameters):

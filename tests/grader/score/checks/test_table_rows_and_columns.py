@@ -2,9 +2,9 @@
 
 import pytest
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.score.checks.table_column import table_column
 from gz_course.grader.score.checks.table_rows import table_rows
-from gz_course.grader.table import Table
 
 BRIDGE = {"publisher_qos": None, "subscription_qos": None, "source": "bridge.yaml:1"}
 FACTS = {

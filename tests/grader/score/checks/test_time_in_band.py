@@ -2,8 +2,8 @@
 
 import pytest
 
+from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.score.checks.time_in_band import time_in_band as kind
-from gz_course.grader.table import Table
 
 
 def time_in_band(recording, parameters):

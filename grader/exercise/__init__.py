@@ -1,0 +1,13 @@
+"""Exercises: what an author writes down (`exercise`, `trial`, read by `toml_table`), and what is made of it."""
+
+from gz_course.grader.exercise.exercise import (
+    MANIFEST,
+    CheckSpec,
+    Exercise,
+    course_root,
+    exercise_names,
+    find_exercise,
+    load_exercise,
+)
+
+__all__ = ["MANIFEST", "CheckSpec", "Exercise", "course_root", "exercise_names", "find_exercise", "load_exercise"]

@@ -1,0 +1,72 @@
+"""The files of one exercise that grading needs, in memory: its public half and the hidden trials.
+
+A class is graded from first to last by the exercise as it was when the run began, on this machine or another
+(`whole_class/`), and a package for another service holds these files (`package/`). Solutions are never among them: what
+is not there cannot be read.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+
+from gz_course.grader.errors import ManifestError
+from gz_course.grader.exercise import Exercise
+from gz_course.grader.exercise.trial import TRIALS, load_trials
+from gz_course.grader.submission.intake import is_junk
+
+SOLVED = {"accepted", "rejected", "expect.toml"}  # of the private half: what solves the exercise, or says how
+TRACES = (".rrd", ".part", ".pyc", ".orig", ".bak", "~")
+
+
+def bundle(exercise: Exercise, trials: str = "public") -> tuple[dict[str, bytes], str]:
+    """Return the files of an exercise below a course's root, and which trials to ask for among them.
+
+    `trials` is as for `course grade`: a file comes along as the hidden trials. Raises UsageError if there is no such
+    file, ManifestError if a file cannot be read.
+    """
+    files = _files(exercise.folder, f"exercises/{exercise.name}", set())
+    private = f"solutions/{exercise.name}"
+    if trials in ("hidden", "all") and exercise.twin.is_dir():
+        files |= _files(exercise.twin, private, SOLVED | {exercise.file})
+    if trials not in ("public", "hidden", "all"):
+        path = Path(trials)
+        worlds = {Path(trial.world) for trial in load_trials(path) if trial.world is not None}
+        for each in (path, *sorted(world for world in worlds if world.is_file())):
+            files[f"{private}/{TRIALS if each == path else each.relative_to(path.parent).as_posix()}"] = _read(each)
+        trials = "hidden"
+    return files, trials
+
+
+def digest(files: dict[str, bytes]) -> str:
+    """Return the SHA-256 of names and contents of files, whatever their order."""
+    total = hashlib.sha256()
+    for name, data in sorted(files.items()):
+        for part in (name.encode("utf-8", "surrogateescape"), data):
+            total.update(len(part).to_bytes(8, "big") + part)
+    return total.hexdigest()
+
+
+def write(files: dict[str, bytes], folder: Path) -> None:
+    for name, data in files.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(data)
+
+
+def _files(folder: Path, inside: str, without: set[str]) -> dict[str, bytes]:
+    found: dict[str, bytes] = {}
+    for path in sorted(folder.rglob("*")):
+        parts = path.relative_to(folder).parts
+        if parts[0] in without or any(is_junk(part) for part in parts) or path.name.endswith(TRACES):
+            continue
+        if path.is_file():
+            found["/".join((inside, *parts))] = _read(path)
+    return found
+
+
+def _read(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise ManifestError(f"{path} cannot be read: {error.strerror}") from None

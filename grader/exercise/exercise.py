@@ -1,0 +1,162 @@
+"""An exercise as its folder describes it: files, world, bridge, observed topics, script, checks, points, hints.
+
+`exercises/NN_name/exercise.toml` is the only place these are written down. Exercises exist by being there: a folder
+with a manifest is an exercise, its name is the folder's.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from gz_course.grader.errors import ManifestError, UsageError, nearest
+from gz_course.grader.exercise.toml_table import Table
+from gz_course.grader.exercise.trial import PUBLIC, ScriptedCommand, Trial, read_trials
+from gz_course.grader.kinds.kind import find_kind, kind_names
+
+MANIFEST = "exercise.toml"
+
+
+@dataclass(frozen=True)
+class CheckSpec:
+    """One line of the rubric: a kind of check with its parameters, worth `points`."""
+
+    id: str
+    title: str
+    points: float
+    kind: str
+    hint: str
+    parameters: dict[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Exercise:
+    """One exercise, read from its manifest."""
+
+    name: str
+    folder: Path
+    title: str
+    summary: str
+    kind: str  # of submission: a file in `kinds/`
+    file: str  # the file a submission consists of
+    world: str
+    robot: str
+    duration: float  # [s] simulated
+    tick: float  # [s] simulated time between two /clock messages
+    bridge: Path | None  # what stands between simulator and ROS; None if that is part of the submission
+    observe: dict[str, str]  # ROS topics the student is to publish on -> type
+    script: tuple[ScriptedCommand, ...]
+    checks: tuple[CheckSpec, ...]
+    trials: tuple[Trial, ...] = (PUBLIC,)  # those everybody may know; one without parameters if none is given
+
+    @property
+    def twin(self) -> Path:
+        """The folder with its private half, which a student's copy lacks."""
+        return self.folder.parents[1] / "solutions" / self.name
+
+    @property
+    def manifest_sha256(self) -> str:
+        """SHA-256 of the manifest and of the files its `python` checks name; a recording keeps that of its run."""
+        files = {str(c.parameters.get("function")).partition(":")[0] for c in self.checks if c.kind == "python"}
+        paths = [self.folder / MANIFEST, *(self.folder / name for name in sorted(files))]
+        return hashlib.sha256(b"".join(path.read_bytes() for path in paths if path.is_file())).hexdigest()
+
+    @property
+    def max_score(self) -> float:
+        return sum(check.points for check in self.checks)
+
+    @property
+    def starter(self) -> Path:
+        """The file students begin with and edit."""
+        return self.folder / self.file
+
+
+def course_root() -> Path:
+    """Return the folder that holds `exercises/`: COURSE_ROOT, else the nearest above here, else the repository."""
+    if given := os.environ.get("COURSE_ROOT"):
+        return Path(given)
+    here = Path.cwd()
+    for folder in (here, *here.parents):
+        if any((folder / "exercises").glob(f"*/{MANIFEST}")):
+            return folder
+    return Path(__file__).parents[2]
+
+
+def exercise_names(root: Path) -> list[str]:
+    """Return the names of all exercises below a course folder, in order."""
+    return sorted(path.parent.name for path in (root / "exercises").glob(f"*/{MANIFEST}"))
+
+
+def find_exercise(name: str, root: Path | None = None) -> Exercise:
+    """Return an exercise by its name, its number, or an unambiguous beginning of its name such as `03_tel`.
+
+    Raises UsageError naming the nearest if there is none, ManifestError if its manifest is wrong.
+    """
+    root = root or course_root()
+    names = exercise_names(root)
+    if not names:
+        raise UsageError(f"there are no exercises in {root / 'exercises'}; COURSE_ROOT must name a course's folder")
+    begin = f"{int(name):02d}_" if name.isascii() and name.isdigit() and len(name) < 3 else name
+    matches = [n for n in names if n == name] or [n for n in names if name and n.startswith(begin)]
+    if len(matches) != 1:
+        if meant := [part for part in Path(name).parts if part in names]:
+            raise UsageError(
+                f"{name!r} is a path (did you mean {meant[-1]}?): first comes an exercise's name; what is to be "
+                "graded, if not the file in its folder, is given with --submission"
+            )
+        reason = "several exercises begin with" if len(matches) > 1 else "no exercise is called"
+        raise UsageError(f"{reason} {name!r}{nearest(name, matches or names)}; `course list` shows them all")
+    return load_exercise(root / "exercises" / matches[0])
+
+
+def load_exercise(folder: Path) -> Exercise:
+    """Read and check a manifest. Raises ManifestError with the file and what is wrong."""
+    path = folder / MANIFEST
+    manifest = Table.load(path)
+    run = manifest.table("run")
+    kind = manifest.choice("kind", kind_names()) if manifest.has("kind") else "node"
+    exercise = Exercise(
+        name=folder.name,
+        folder=folder,
+        title=manifest.text("title"),
+        summary=manifest.text("summary").strip(),
+        kind=kind,
+        file=manifest.text("file"),
+        world=run.text("world"),
+        robot=run.text("robot"),
+        duration=run.number("duration", above=0),
+        tick=run.number("tick", 0.01, above=0),
+        bridge=None if find_kind(kind).brings_bridge else folder / run.text("bridge"),
+        observe=_observed(run.table("observe", {})),
+        script=tuple(map(ScriptedCommand.read, manifest.tables("script", []))),
+        checks=tuple(_check(path, check) for check in manifest.tables("check")),
+        trials=read_trials(manifest.tables("trial", []), path) or (PUBLIC,),
+    )
+    if Path(exercise.file).name != exercise.file:
+        manifest.refuse("file", "the name of a file, without folders")
+    for table in (run, manifest):
+        table.end()
+    ids = [check.id for check in exercise.checks]
+    if twice := {i for i in ids if ids.count(i) > 1}:
+        raise ManifestError(f"{path}: check id {sorted(twice)[0]!r} is used twice")
+    return exercise
+
+
+def _observed(table: Table) -> dict[str, str]:
+    return {topic: table.text(topic) for topic in table.names()}
+
+
+def _check(path: Path, table: Table) -> CheckSpec:
+    id = table.text("id")
+    table.where = f"{path}: check {id!r}"
+    return CheckSpec(
+        id=id,
+        title=table.text("title"),
+        points=table.number("points", above=0),
+        kind=table.text("kind"),
+        hint=table.text("hint"),
+        parameters=table.rest(),
+    )

@@ -1,0 +1,181 @@
+"""A trial: the parameters of one run. Same submission, same trial: same run.
+
+Public trials stand in the manifest as `[[trial]]`; an instructor's hidden ones in `solutions/NN_name/trials.toml`, with
+the same keys, all optional but the name:
+
+    [[trial]]
+    name = "north"                          # part of the recording's file name
+    seed = 7                                # of sensor noise and of the scripted speeds
+    world = "maze.sdf"                      # instead of the exercise's; a file beside this one, or a world's name
+    duration = 10.0                         # [s] instead of the exercise's
+    tick = 0.25                             # [s] between two /clock messages, instead of the exercise's
+    poses = { robot = [-2, 1, 0, 0, 0, 1.57] }      # where models stand: x y z [m], roll pitch yaw [rad]
+    parameters = { speed = 0.4 }            # free: for the kind of submission (launch arguments) and `python` checks
+
+    [[trial.script]]                        # instead of the exercise's
+    at = 0.5
+    topic = "/model/robot/cmd_vel"
+    linear_x = 0.3
+    angular_z = 0.25
+
+They are parameters, never code. `exercise.py` reads the public ones, `commands/grade.py` the others; `grade.py` runs
+one after another.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import random
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from gz_course.grader.errors import ManifestError, UsageError
+from gz_course.grader.exercise.toml_table import Table
+
+if TYPE_CHECKING:
+    from gz_course.grader.exercise import Exercise
+
+TRIALS = "trials.toml"
+SCRIPT_SPREAD = 0.2  # a scripted speed is varied by at most this fraction
+NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,59}")
+
+
+@dataclass(frozen=True)
+class ScriptedCommand:
+    """A velocity the grader itself commands during a run, before the noise of the trial's seed."""
+
+    at: float  # [s] simulated
+    topic: str  # Gazebo topic of a Twist
+    linear_x: float  # [m/s]
+    angular_z: float  # [rad/s]
+
+    @staticmethod
+    def read(table: Table) -> ScriptedCommand:
+        """Read one `[[script]]` table."""
+        command = ScriptedCommand(
+            table.number("at"), table.text("topic"), table.number("linear_x"), table.number("angular_z")
+        )
+        table.end()
+        return command
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One run's parameters. `seed` feeds the simulator's sensor noise and varies the scripted commands.
+
+    None stands for what the exercise says. `poses` are x, y, z [m], roll, pitch, yaw [rad] in the world's frame, by
+    model. `place` says which of how many trials of one grading it is, `source` in which file it stands.
+    """
+
+    name: str
+    seed: int
+    world: str | None = None
+    duration: float | None = None  # [s] simulated
+    poses: dict[str, tuple[float, ...]] = field(default_factory=dict)
+    script: tuple[ScriptedCommand, ...] | None = None
+    parameters: dict[str, Any] = field(default_factory=dict)
+    place: tuple[int, int] = (1, 1)
+    tick: float | None = None  # [s] simulated time between two /clock messages
+    source: Path | None = field(default=None, compare=False)
+
+    def vary(self, command: ScriptedCommand) -> ScriptedCommand:
+        """Return the command with its speeds scaled by factors drawn from this trial's seed."""
+        draw = random.Random(f"{self.seed} {command.at} {command.topic}")
+        return dataclasses.replace(
+            command,
+            linear_x=command.linear_x * draw.uniform(1 - SCRIPT_SPREAD, 1 + SCRIPT_SPREAD),
+            angular_z=command.angular_z * draw.uniform(1 - SCRIPT_SPREAD, 1 + SCRIPT_SPREAD),
+        )
+
+    def applied_to(self, exercise: Exercise) -> Exercise:
+        """Return the exercise as it is run in this trial."""
+        return dataclasses.replace(
+            exercise,
+            world=exercise.world if self.world is None else self.world,
+            duration=exercise.duration if self.duration is None else self.duration,
+            tick=exercise.tick if self.tick is None else self.tick,
+            script=exercise.script if self.script is None else self.script,
+        )
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return what a recording keeps of the trial, so that checks can ask for the parameters of their run."""
+        return {"poses": {name: list(pose) for name, pose in self.poses.items()}, "parameters": self.parameters}
+
+
+PUBLIC = Trial("public", 0)
+
+
+def numbered(trials: tuple[Trial, ...], seed: int = 0) -> tuple[Trial, ...]:
+    """Return the trials of one grading, each with its place; `seed` is added to the seed of each."""
+    return tuple(
+        dataclasses.replace(trial, seed=trial.seed + seed, place=(number, len(trials)))
+        for number, trial in enumerate(trials, 1)
+    )
+
+
+def read_trials(tables: list[Table], where: Path) -> tuple[Trial, ...]:
+    """Read the `[[trial]]` tables of the file `where`. Raises ManifestError for what is wrong in them."""
+    trials = tuple(_read(table, where) for table in tables)
+    check_names(trials, str(where))
+    return trials
+
+
+def load_trials(path: Path) -> tuple[Trial, ...]:
+    """Read a `trials.toml`. Raises UsageError if there is no such file, ManifestError for what is wrong in it."""
+    if not path.is_file():
+        raise UsageError(f"there is no file {path} with hidden trials; give another, or leave --trials out")
+    table = Table.load(path)
+    trials = read_trials(table.tables("trial"), path)
+    table.end()
+    return trials
+
+
+def chosen_trials(exercise: Exercise, choice: str) -> tuple[Trial, ...]:
+    """Return the trials an instructor asks for: `public`, `hidden`, `all` (both), or those of a file.
+
+    Raises UsageError if there is no such file.
+    """
+    if choice == "public":
+        return exercise.trials
+    if choice == "hidden":
+        return load_trials(exercise.twin / TRIALS)
+    if choice != "all":
+        return load_trials(Path(choice))
+    hidden = exercise.twin / TRIALS
+    every = exercise.trials + (load_trials(hidden) if hidden.is_file() else ())
+    check_names(every, str(hidden))
+    return every
+
+
+def check_names(trials: tuple[Trial, ...], where: str) -> None:
+    """Raise ManifestError if two trials of one grading have the same name."""
+    names = [trial.name for trial in trials]
+    for name in names:
+        if names.count(name) > 1:
+            raise ManifestError(f"{where}: two trials are called {name!r}; each needs a name of its own")
+
+
+def _read(table: Table, where: Path) -> Trial:
+    name = table.text("name")
+    if not NAME.fullmatch(name):
+        table.refuse("name", "letters, digits, _ and - only, because it becomes part of a file's name")
+    table.where = f"{where}: trial {name!r}"
+    poses = table.table("poses", {})
+    world = table.text("world") if table.has("world") else None
+    if world is not None and (where.parent / world).is_file():
+        world = str(where.parent / world)
+    trial = Trial(
+        name=name,
+        seed=table.integer("seed", 0),
+        world=world,
+        duration=table.number("duration", above=0) if table.has("duration") else None,
+        tick=table.number("tick", above=0) if table.has("tick") else None,
+        poses={model: tuple(poses.numbers(model, [6])) for model in poses.names()},
+        script=tuple(map(ScriptedCommand.read, table.tables("script", []))) if table.has("script") else None,
+        parameters=table.free("parameters"),
+        source=where,
+    )
+    table.end()
+    return trial

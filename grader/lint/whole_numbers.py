@@ -1,0 +1,120 @@
+"""The places where a Python file assigns a whole number or a text to a floating-point field of a message.
+
+rclpy does not convert it, and without ROS_PYTHON_CHECK_FIELDS=1 it does not complain either: `twist.linear.x = 1` is
+sent as 0, and so is "0.5". Kinds of submissions that are Python put what is found into the facts of a run; the
+diagnosis speaks of it if a check failed (`grader/score/score.py`).
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+from gz_course.grader.errors import ManifestError
+
+MOST = 5  # places that are told
+FLOATS = frozenset({"float", "double"})
+
+
+def float_fields(ros_types: Iterable[str]) -> dict[str, set[str]]:
+    """Return the fields of message types that hold one floating-point number, as `linear.x`, and by their owners.
+
+    Keys are a message's own name and those of its parts: {"Twist": {"linear.x", ...}, "Vector3": {"x", "y", "z"}}.
+    A type that is not installed has none.
+    """
+    from gz_course.grader.run.ears import message_class
+
+    found: dict[str, set[str]] = {}
+    for name in ros_types:
+        try:
+            _walk(message_class(name), found)
+        except ManifestError:
+            continue  # said where the bridge is made
+    return found
+
+
+def _walk(message: Any, found: dict[str, set[str]]) -> set[str]:
+    from gz_course.grader.run.ears import message_class
+
+    paths = set()
+    for field, kind in message.get_fields_and_field_types().items():
+        if kind in FLOATS:
+            paths.add(field)
+        elif "/" in kind and not kind.endswith("]") and not kind.startswith("sequence<"):
+            package, _, name = kind.partition("/")
+            paths |= {f"{field}.{path}" for path in _walk(message_class(f"{package}/msg/{name}"), found)}
+    found[message.__name__] = paths
+    return paths
+
+
+def whole_numbers(content: bytes, fields: dict[str, set[str]]) -> list[dict[str, Any]]:
+    """Return `line`, `field` and the `value` as written, for each such place; nothing if the file is no Python.
+
+    `fields` is what `float_fields` returns. A zero does no harm and is not told.
+    """
+    try:
+        tree = ast.parse(content)
+        return sorted(_places(tree, fields), key=lambda place: place["line"])[:MOST]
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return []
+
+
+def _places(tree: ast.Module, fields: dict[str, set[str]]) -> Iterator[dict[str, Any]]:
+    known = _constants(tree)
+    # A field named only `data` belongs to whole numbers or texts, too, if the file uses such a message.
+    others = any(
+        isinstance(n, ast.alias) and n.name.startswith(("Int", "UInt", "Bool", "String")) for n in ast.walk(tree)
+    )
+    paths = {path for owner in fields.values() for path in owner if "." in path or (len(owner) == 1 and not others)}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Assign | ast.AnnAssign):
+            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+            for target in targets:
+                if isinstance(target, ast.Attribute) and node.value is not None and _whole(node.value, known):
+                    written = ast.unparse(target)
+                    if any(written.endswith(f".{path}") for path in paths if "." in path or _is_message(target, path)):
+                        yield {"line": node.lineno, "field": written, "value": ast.unparse(node.value)}
+        elif isinstance(node, ast.Call):
+            owner = ast.unparse(node.func).rpartition(".")[2]
+            for word in node.keywords:
+                if word.arg in fields.get(owner, ()) and _whole(word.value, known):
+                    yield {"line": word.value.lineno, "field": f"{owner}.{word.arg}", "value": ast.unparse(word.value)}
+
+
+def _is_message(target: ast.Attribute, path: str) -> bool:
+    """Tell whether the owner of the field may be a message; the attributes of `self` are those of the node."""
+    return target.attr == path and not (isinstance(target.value, ast.Name) and target.value.id == "self")
+
+
+def _constants(tree: ast.Module) -> set[str]:
+    """Return the names and attributes that are only ever assigned whole numbers other than zero."""
+    whole: dict[str, bool] = {}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Assign):
+            for target in node.targets:
+                name = ast.unparse(target)
+                whole[name] = whole.get(name, True) and _whole(node.value, set())
+        elif isinstance(node, ast.AugAssign | ast.AnnAssign | ast.For | ast.NamedExpr):
+            whole[ast.unparse(node.target)] = False
+        elif isinstance(node, ast.arg):
+            whole[node.arg] = False
+    return {name for name, always in whole.items() if always}
+
+
+def _whole(node: ast.expr, known: set[str]) -> bool:
+    """Tell whether the value, or one branch of it, is certainly a whole number other than zero, or a text."""
+    match node:
+        case ast.Constant(value=value):
+            return (type(value) is int and value != 0) or isinstance(value, str)
+        case ast.UnaryOp(op=ast.USub() | ast.UAdd(), operand=operand):
+            return _whole(operand, known)
+        case ast.BinOp(op=ast.Add() | ast.Sub() | ast.Mult(), left=left, right=right):
+            return _whole(left, known) and _whole(right, known)
+        case ast.IfExp(body=body, orelse=orelse):
+            return _whole(body, known) or _whole(orelse, known)
+        case ast.Call(func=ast.Name(id="int"), args=[_]) | ast.Call(func=ast.Name(id="round"), args=[_], keywords=[]):
+            return True
+        case ast.Name() | ast.Attribute():
+            return ast.unparse(node) in known
+    return False

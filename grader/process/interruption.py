@@ -1,0 +1,42 @@
+"""Orderly end of a process on a signal, even one that arrives where Python drops exceptions, such as a `__del__`."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import threading
+from typing import NoReturn
+
+AGAIN = 0.02  # [s] until a signal that was dropped is sent once more
+
+
+def end_on(*numbers: signal.Signals) -> None:
+    """Leave on these signals as after Ctrl-C, with exit code 128 + number; all that is open is closed on the way.
+
+    A SIGHUP that is ignored already stays so: that is what `nohup` promises.
+    """
+    for number in numbers:
+        if number != signal.SIGHUP or signal.getsignal(number) is not signal.SIG_IGN:
+            signal.signal(number, _stop)
+    sys.unraisablehook = _unraisable
+
+
+def _stop(number: int, _: object) -> NoReturn:
+    sys.exit(128 + number)
+
+
+def _unraisable(dropped: sys.UnraisableHookArgs) -> None:
+    error = dropped.exc_value
+    if isinstance(error, KeyboardInterrupt):
+        _send_again(signal.SIGINT)
+    elif isinstance(error, SystemExit) and isinstance(error.code, int) and error.code > 128:
+        _send_again(error.code - 128)
+    else:
+        sys.__unraisablehook__(dropped)
+
+
+def _send_again(number: int) -> None:
+    timer = threading.Timer(AGAIN, os.kill, (os.getpid(), number))
+    timer.daemon = True
+    timer.start()

@@ -1,0 +1,78 @@
+"""What a report format is, and the options that the formats in `formats/` give to the commands that write reports."""
+
+from __future__ import annotations
+
+import functools
+import inspect
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from gz_course.grader.registry import in_order, modules
+
+if TYPE_CHECKING:
+    from gz_course.grader.report.report import Report
+
+
+@dataclass(frozen=True)
+class Format:
+    """A format of reports.
+
+    `as_text` raises UsageError if a recording it needs cannot be read. `file` is the name of the report in a student's
+    folder of a class. `help` describes the option of `course grade` and `course score`, `class_help` that of
+    `course grade-all`; None: it has none. `before` names formats whose options and reports come later.
+    """
+
+    as_text: Callable[[Report], str]
+    file: str
+    help: str
+    class_help: str | None = None
+    before: tuple[str, ...] = ()
+
+
+@functools.cache
+def formats() -> dict[str, Format]:
+    """Return every format, by name."""
+    from gz_course.grader.report import formats
+
+    found: dict[str, Format] = {name: module.FORMAT for name, module in modules(formats).items()}
+    return {name: found[name] for name in in_order({name: each.before for name, each in found.items()})}
+
+
+def with_report_files(command: Callable[..., None]) -> Callable[..., None]:
+    """Replace the parameter `reports` of a command by an option for each format, which names a file.
+
+    `reports` is then a dict of the files that are wanted, by format.
+    """
+    return _with_options(command, Path | None, None, {name: each.help for name, each in formats().items()})
+
+
+def with_report_flags(command: Callable[..., None]) -> Callable[..., None]:
+    """Replace the parameter `reports` of a command for a class by a flag for each format that has one.
+
+    `reports` is then a dict of True for those that are wanted, by format.
+    """
+    helps = {name: each.class_help for name, each in formats().items() if each.class_help}
+    return _with_options(command, bool, False, helps)
+
+
+def _with_options(command: Callable[..., None], kind: Any, default: Any, helps: dict[str, str]) -> Callable[..., None]:
+    """Return the command with a signature, which typer reads, that has options in the place of `reports`."""
+    import typer
+
+    @functools.wraps(command)
+    def with_options(**values: Any) -> None:
+        asked = {name: values.pop(name) for name in helps}
+        command(**values, reports={name: value for name, value in asked.items() if value})
+
+    signature = inspect.signature(command, eval_str=True)
+    parameters = [each for name, each in signature.parameters.items() if name != "reports"]
+    for name, text in helps.items():
+        annotation: Any = Annotated[kind, typer.Option(f"--{name}", help=text)]
+        parameters.append(
+            inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
+        )
+    with_options.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]
+    with_options.__annotations__ = {each.name: each.annotation for each in parameters}
+    return with_options

@@ -1,0 +1,75 @@
+"""The report as Gradescope reads it: `results.json`, one test for each check.
+
+All text is declared as plain text, so that nothing a student wrote is ever taken for markup. `execution_time` is a fact
+about the machine and missing when a recording was scored again.
+"""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+from gz_course.grader.printable import storable
+from gz_course.grader.report.format import Format
+from gz_course.grader.report.node_log import log_of
+from gz_course.grader.report.report import OUTCOMES, Report, points
+
+if TYPE_CHECKING:
+    from gz_course.grader.score.score import CheckResult
+
+LINES = 20  # of the node's log, from its end, below the verdict
+
+TEXT = {"output_format": "text", "test_output_format": "text", "test_name_format": "text"}
+
+
+def as_gradescope(report: Report) -> str:
+    """Return the report as the text of a Gradescope `results.json`. Raises UsageError if a recording is unreadable."""
+    return json.dumps(storable(as_dict(report)), indent=2, allow_nan=False) + "\n"
+
+
+def as_dict(report: Report) -> dict[str, Any]:
+    data = report.as_dict()
+    results: dict[str, Any] = {
+        "score": data["score"],
+        "output": _output(report),
+        **TEXT,
+        "visibility": "visible",
+        "stdout_visibility": "hidden",  # it says the same once more
+        "tests": [_test(number, check, report) for number, check in enumerate(report.score.checks, start=1)],
+        "extra_data": {key: data[key] for key in ("exercise", "outcome", "truth_sha256", "versions")}
+        | {"trials": [{key: trial[key] for key in trial if key != "recording"} for trial in data["trials"]]},
+    }
+    if report.host is not None:
+        results["execution_time"] = data["wall_seconds"]
+        results["extra_data"] |= {key: data[key] for key in ("sandbox", "pace")}
+    return results
+
+
+def _test(number: int, check: CheckResult, report: Report) -> dict[str, Any]:
+    return {
+        "number": str(number),
+        "name": check.spec.title,
+        "score": check.points,
+        "max_score": check.spec.points,
+        "status": "passed" if check.finding.passed else "failed",
+        "output": "\n".join(f"{name}: {value}" for name, value in report.told(check)),
+        "extra_data": {"id": check.spec.id},
+    }
+
+
+def _output(report: Report) -> str:
+    """Return the diagnosis and, unless all is well, how the node's log ends."""
+    verdict = f"{points(report.score.points)} of {points(report.max_score)} points. "
+    lines = [report.score.diagnosis, verdict + OUTCOMES.get(report.score.outcome, report.score.outcome), *report.notes]
+    if not report.full_marks:
+        said = log_of(report, 0, LINES)
+        lines += ["", f"What {said.who} said last:", said.as_text() or "nothing"]
+    return "\n".join(line for n, line in enumerate(lines) if line or n)
+
+
+FORMAT = Format(
+    as_text=as_gradescope,
+    file="results.json",
+    help="Write the report as Gradescope's results.json.",
+    class_help="Also write each results.json.",
+)

@@ -1,0 +1,240 @@
+"""Intake of a submission: the file asked for is found and read, with what lies beside it, before anything is run.
+
+A submission is a file, a folder or an archive (`archive.py`); all it consists of is read into memory once. What cannot
+be read is a usage error (exit 2). What can be read but can never run is the student's error: it is graded with no
+points, and the report names the line.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import stat
+from functools import partial
+from pathlib import Path, PurePosixPath
+from typing import NamedTuple
+
+from gz_course.grader.errors import RefusedError, UnreadableError, UsageError, nearest
+from gz_course.grader.exercise import Exercise
+from gz_course.grader.kinds.kind import find_kind
+from gz_course.grader.printable import shown
+from gz_course.grader.submission import Submission
+from gz_course.grader.submission.archive import (
+    LARGEST_ARCHIVE,
+    LONGEST_NAME,
+    MOST_MEMBERS,
+    Member,
+    Tree,
+    damaged,
+    is_archive,
+    open_archive,
+)
+
+LARGEST = 1 << 20  # [bytes] of a submitted file
+LARGEST_FOLDER = 16 << 20  # [bytes] of all files of a submitted folder
+MOST_FILES = 200  # of a submitted folder
+# Traces of editors, systems and tools, which nobody means to hand in. So are hidden files and folders.
+JUNK = {"__pycache__", "__MACOSX", "Thumbs.db", "desktop.ini"}
+# Python files of these names stand in for others wherever their folder is looked into first: they stay out of the box.
+STAND_INS = {"conftest", "sitecustomize", "usercustomize", "numpy", "rclpy"}
+
+
+class Selection(NamedTuple):
+    """What of a folder or an archive is the submission: everything below `base`; `main` is the file asked for."""
+
+    base: str
+    main: str
+    files: dict[str, bytes]
+
+
+def take_in(exercise: Exercise, path: Path | None) -> Submission:
+    """Find and read the submission at `path`: the file itself, or a folder or archive with it; None: the student's own.
+
+    A folder or an archive comes with everything in it, a file alone. Raises UsageError if there is nothing to read,
+    RefusedError if it is not to be read.
+    """
+    path, main, files = read_submission(exercise, path if path is not None else exercise.folder)
+    fault = find_kind(exercise.kind).fault(main, files[main])
+    return Submission(path.resolve(), main, hashlib.sha256(files[main]).hexdigest(), fault, files)
+
+
+def read_submission(exercise: Exercise, path: Path) -> tuple[Path, str, dict[str, bytes]]:
+    """Read a submission without looking into its files: where it lies, the name of the file asked for, all files."""
+    if not _is_utf8(str(path)):
+        raise UsageError(f"{shown(str(path))!r}: a file name must be UTF-8, or ROS cannot start the file; rename it")
+    if _is_folder(path):
+        chosen = select(folder_tree(path), exercise, str(path))
+        return path / chosen.base / chosen.main, chosen.main, chosen.files
+    suffixes = find_kind(exercise.kind).suffixes
+    archive = is_archive(path.name) and not path.name.endswith(suffixes)
+    data = _read(path, exercise.file, suffixes, LARGEST_ARCHIVE if archive else LARGEST)
+    if not archive:
+        return path, path.name, {path.name: data}
+    chosen = select(open_archive(path.name, data), exercise, str(path))
+    return path, chosen.main, chosen.files
+
+
+def folder_tree(folder: Path) -> Tree:
+    """Return the regular files below a folder. Symbolic links and junk are left out; no link is followed.
+
+    Raises RefusedError if there are too many to look at, or too deep.
+    """
+    tree: Tree = {}
+    seen = 0
+
+    def unreadable(error: OSError) -> None:
+        if isinstance(error, FileNotFoundError) and folder.exists():
+            return  # a folder in it that went away meanwhile
+        raise UnreadableError(f"{shown(str(error.filename), 200)} cannot be read: {error.strerror}")
+
+    for parent, folders, names in os.walk(folder, onerror=unreadable):
+        folders[:] = sorted(name for name in folders if not is_junk(name))
+        seen += len(folders) + len(names)
+        if seen > MOST_MEMBERS:
+            raise RefusedError(f"{folder} is too large: it holds more than {MOST_MEMBERS} files")
+        below = parent[len(str(folder)) + 1 :]
+        if len(os.fsencode(below)) > LONGEST_NAME:  # before paths come to their end, or Python to its own
+            raise RefusedError(f"{folder} holds folders in folders too deep: {shown(below, 60)!r}")
+        for name in sorted(names):
+            path = Path(parent, name)
+            inside = path.relative_to(folder).as_posix()
+            if is_junk(name) or not _is_utf8(inside):
+                continue
+            member = folder_member(path)
+            if member is not None and member.refusal is None:
+                tree[inside] = member
+    return tree
+
+
+def folder_member(path: Path) -> Member | None:
+    """Return a file as a member of its folder; None if it is gone. What is no regular file has a refusal."""
+    try:
+        status = path.lstat()
+    except OSError:
+        return None
+    refusal = None
+    if not stat.S_ISREG(status.st_mode):
+        refusal = "is a link" if stat.S_ISLNK(status.st_mode) else "is a device or a pipe"
+    return Member(status.st_size, partial(_read, path, path.name, ()), refusal)
+
+
+def is_junk(name: str) -> bool:
+    """Tell whether a file or folder of this name is left behind by a tool and not handed in."""
+    return name.startswith(".") or name in JUNK
+
+
+def select(tree: Tree, exercise: Exercise, where: str, *, nested: bool = False) -> Selection:
+    """Find in a folder or archive the file an exercise asks for and read it, with all that lies beside and below it.
+
+    It may lie anywhere if it is there only once. A file that is the only one of its kind is the one meant, whatever it
+    is called, and a single archive is looked into. Raises UsageError if it is not there, RefusedError if something is
+    not to be read.
+    """
+    tree = {n: m for n, m in tree.items() if not any(map(is_junk, PurePosixPath(n).parts)) and _is_utf8(n)}
+    for name, member in sorted(tree.items()):
+        if member.refusal:
+            raise RefusedError(f"{where} holds {shown(name)!r}, which {member.refusal}; send plain files")
+    archives = [name for name in tree if is_archive(name)]
+    if len(archives) == 1 and not nested and not _named(tree, exercise.file):
+        data = _content(tree[archives[0]], archives[0], where, LARGEST_ARCHIVE)
+        archive = open_archive(PurePosixPath(archives[0]).name, data)
+        return select(archive, exercise, f"{where}: {shown(archives[0])}", nested=True)
+    main = _main(tree, exercise, where)
+    base = str(PurePosixPath(main).parent)
+    inside = {name if base == "." else name[len(base) + 1 :]: name for name in tree if base in (".", *_above(name))}
+    chosen = {short: name for short, name in inside.items() if name == main or not _stands_in(short)}
+    if len(chosen) > MOST_FILES or sum(tree[name].size for name in chosen.values()) > LARGEST_FOLDER:
+        raise RefusedError(
+            f"{where} is too large: at most {MOST_FILES} files and {LARGEST_FOLDER} bytes are accepted in a folder"
+        )
+    if both := [name for short, name in chosen.items() if any(parent in chosen for parent in _above(short))]:
+        raise RefusedError(f"{where} holds {shown(min(both))!r} below a file, where no file can be")
+    files = {short: _content(tree[name], name, where, LARGEST) for short, name in sorted(chosen.items())}
+    if sum(map(len, files.values())) > LARGEST_FOLDER:
+        raise RefusedError(f"{where} is too large: at most {LARGEST_FOLDER} bytes are accepted in a folder")
+    return Selection(base, PurePosixPath(main).name, files)
+
+
+def _named(tree: Tree, wanted: str) -> list[str]:
+    return sorted(name for name in tree if PurePosixPath(name).name == wanted)
+
+
+def _main(tree: Tree, exercise: Exercise, where: str) -> str:
+    """Return the name in `tree` of the file asked for."""
+    wanted = exercise.file
+    if wanted in tree:
+        return wanted
+    found = _named(tree, wanted)
+    of_course = [name for name in found if name.endswith(f"exercises/{exercise.name}/{wanted}")]  # a student's copy
+    for candidates in (of_course, found):
+        if len(candidates) == 1:
+            return candidates[0]
+    if found:
+        raise UsageError(f"{where} holds {wanted} {len(found)} times: {shown(', '.join(found))}; keep one")
+    suffixes = find_kind(exercise.kind).suffixes
+    names = [name for name in tree if name.endswith(suffixes)]
+    if len(names) == 1:
+        return names[0]
+    near = nearest(wanted, [shown(PurePosixPath(name).name) for name in names])
+    raise UsageError(f"{where} holds no {wanted}, the file {exercise.name} asks for{near}")
+
+
+def _above(name: str) -> list[str]:
+    return [str(parent) for parent in PurePosixPath(name).parents][:-1]
+
+
+def _stands_in(name: str) -> bool:
+    return any(part.partition(".")[0] in STAND_INS for part in PurePosixPath(name).parts)
+
+
+def _content(member: Member, name: str, where: str, largest: int) -> bytes:
+    """Read a file completely. Raises RefusedError if it is larger than `largest` bytes, or than it claims."""
+    if member.size > largest:
+        raise RefusedError(f"{where}: {shown(name)} has {member.size} bytes; at most {largest} are accepted")
+    try:
+        data = member.read(largest + 1)
+    except UsageError:
+        raise
+    except Exception as error:  # what the readers raise when somebody has damaged an archive on purpose is not listed
+        raise damaged(f"{where}: {shown(name)}", error) from None
+    if len(data) > largest:
+        raise RefusedError(f"{where}: {shown(name)} has more than {largest} bytes")
+    return data
+
+
+def _read(path: Path, wanted: str, suffixes: tuple[str, ...], largest: int) -> bytes:
+    try:
+        status = path.stat()
+        if not stat.S_ISREG(status.st_mode):
+            raise UsageError(f"{path} is not a regular file; give the {wanted} to grade or its folder")
+        if status.st_size > largest:
+            raise RefusedError(f"{path} has {status.st_size} bytes; at most {largest} are accepted")
+        with path.open("rb") as stream:
+            return stream.read(largest + 1)
+    except FileNotFoundError:
+        raise UsageError(f"there is no file {path}{nearest(path.name, _files(path.parent, suffixes))}") from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise UnreadableError(f"{str(path)[:200]!r} cannot be read: {reason}") from None
+
+
+def _is_utf8(name: str) -> bool:
+    try:
+        name.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
+
+
+def _is_folder(path: Path) -> bool:
+    try:
+        return path.is_dir()
+    except (OSError, ValueError):
+        return False
+
+
+def _files(folder: Path, suffixes: tuple[str, ...]) -> list[str]:
+    try:
+        return [p.name for p in folder.iterdir() if p.name.endswith(suffixes) and p.is_file()]
+    except OSError:
+        return []

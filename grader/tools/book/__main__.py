@@ -1,0 +1,65 @@
+"""`python -m grader.tools.book FOLDER` writes the book of the course: a front page with the map, and a page a chapter.
+
+Chapters are run in a copy, so nothing in the course's own folders changes. Exit code 1 if a chapter does not run.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+import sys
+import tempfile
+from pathlib import Path
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup, escape
+
+from gz_course.grader.errors import CourseError
+from gz_course.grader.exercise import course_root
+from gz_course.grader.tools.book.chapter import page, run
+from gz_course.grader.tools.book.objectives import lessons
+
+USAGE = "usage: python -m grader.tools.book FOLDER"
+TRACES = ("runs", ".ipynb_checkpoints", "__pycache__")  # of somebody at work, not part of the course
+
+
+def main() -> int:
+    """Write the book; return the exit code."""
+    if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
+        print(USAGE, file=sys.stderr)
+        return 2
+    try:
+        write(course_root(), Path(sys.argv[1]))
+    except CourseError as error:
+        print(f"book: {error}", file=sys.stderr)
+        return 1
+    except OSError as error:
+        print(f"book: cannot write {error.filename}: {error.strerror}", file=sys.stderr)
+        return 2
+    return 0
+
+
+def write(root: Path, out: Path) -> None:
+    """Run all chapters of the course at `root` and write the pages into the folder `out`."""
+    out.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix="book-") as folder:
+        copy = Path(folder)
+        for half in ("chapters", "exercises"):
+            shutil.copytree(root / half, copy / half, ignore=shutil.ignore_patterns(*TRACES))
+        for lesson in lessons(copy):
+            print(f"running {lesson.chapter.name}", flush=True)
+            (out / f"{lesson.chapter.name}.html").write_text(page(lesson.chapter, run(lesson.chapter)))
+    (out / "index.html").write_text(front(root))
+    print(f"{out / 'index.html'} is the front page")
+
+
+def front(root: Path) -> str:
+    """Return the front page: every chapter with its objectives, its exercise, the checks and what proves them."""
+    loader = FileSystemLoader(Path(__file__).parent)
+    environment = Environment(loader=loader, autoescape=True, undefined=StrictUndefined)
+    environment.filters["code"] = lambda text: Markup(re.sub("`([^`]*)`", r"<code>\1</code>", str(escape(text))))
+    return environment.get_template("front.html").render(lessons=lessons(root))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,217 @@
+"""What was observed of a live system: both graphs, the bridges between them, and what was heard for a moment.
+
+Filled by `ros_side` and `gz_side`, read by the files in `looks/`. Names are full names. A bridge's own endpoints are
+kept apart from those of others: a bridge connects topics, it does not use them.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import Any
+
+from gz_course.grader.tools.diagnose.world_text import WorldText
+from gz_course.sim.gz.transport import MessagePublisher, ServicePublisher
+from gz_course.sim.ros_gz_bridge.entry import BridgeEntry
+
+OTHER_TYPE = 0.8
+"""How much alike a name must be to be meant although its type differs."""
+
+INFRASTRUCTURE = frozenset({"/rosout", "/parameter_events", "/clock", "/tf", "/tf_static", "/robot_description"})
+"""ROS topics that many nodes have, used or not."""
+
+
+@dataclass(frozen=True)
+class RosEndpoint:
+    """One publisher or subscription of a ROS node; `qos` is an rclpy QoSProfile."""
+
+    topic: str
+    type: str
+    node: str
+    publishes: bool
+    qos: Any
+
+
+@dataclass(frozen=True)
+class RosNode:
+    """A node and what it said of itself: `answers` None if it has no parameter services to be asked over."""
+
+    name: str
+    answers: bool | None
+    use_sim_time: bool | None = None
+
+
+@dataclass(frozen=True)
+class HeardMessage:
+    """A message, when it came (monotonic s), and the latest ROS clock known then (ns)."""
+
+    arrival: float
+    clock_ns: int | None
+    message: Any
+
+
+@dataclass
+class Heard:
+    """What came on one ROS topic: how many, and the first few. `full`: there may have been more."""
+
+    topic: str
+    type: str
+    count: int = 0
+    full: bool = False
+    messages: list[HeardMessage] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class RunningBridge:
+    """A bridge that runs. `certain` is False where its entries were guessed from its endpoints."""
+
+    node: str
+    entries: tuple[BridgeEntry, ...]
+    certain: bool = True
+
+
+@dataclass
+class RosSide:
+    """The ROS graph of one domain. `clock` holds (arrival in monotonic s, time in ns) of each `/clock` message."""
+
+    domain: int = 0
+    nodes: list[RosNode] = field(default_factory=list)
+    endpoints: list[RosEndpoint] = field(default_factory=list)
+    bridges: list[RunningBridge] = field(default_factory=list)
+    heard: dict[str, Heard] = field(default_factory=dict)
+    clock: list[tuple[float, int]] = field(default_factory=list)
+    frames: set[str] = field(default_factory=set)
+    """Frames named on /tf and /tf_static."""
+    seconds: float = 0.0
+    """How long was listened."""
+
+
+@dataclass
+class Drive:
+    """A drive system of a model: what it was told and what it did while it was listened to.
+
+    `commands` are arrivals (monotonic s), `speeds` (arrival, m/s, rad/s) from its odometry.
+    """
+
+    model: str
+    system: str
+    command_topic: str
+    odometry_topic: str
+    commands: list[float] = field(default_factory=list)
+    speeds: list[tuple[float, float, float]] = field(default_factory=list)
+
+
+@dataclass
+class GzWorld:
+    """A world in the partition: who serves it, its statistics (gz.msgs.WorldStatistics), its SDF if it gave it."""
+
+    name: str
+    servers: set[tuple[str, str]] = field(default_factory=set)
+    """(process, node) of every server of this name."""
+    statistics: list[Any] = field(default_factory=list)
+    text: WorldText | None = None
+    drives: list[Drive] = field(default_factory=list)
+
+
+@dataclass
+class GzSide:
+    """The Gazebo graph of one partition, and which worlds there are in other ones (partition -> names)."""
+
+    partition: str = ""
+    publishers: list[MessagePublisher] = field(default_factory=list)
+    subscribers: list[MessagePublisher] = field(default_factory=list)
+    services: list[ServicePublisher] = field(default_factory=list)
+    worlds: list[GzWorld] = field(default_factory=list)
+    elsewhere: dict[str, set[str]] = field(default_factory=dict)
+    seconds: float = 0.0
+
+
+@dataclass(frozen=True)
+class StoppedProcess:
+    """A process that was stopped by a signal, with its command line."""
+
+    pid: int
+    command: str
+
+
+@dataclass
+class System:
+    """Both sides at one moment, and the processes that would be there if they were not stopped."""
+
+    ros: RosSide
+    gz: GzSide
+    stopped: list[StoppedProcess] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self._bridge_nodes = {bridge.node for bridge in self.ros.bridges}
+        self._gz_bridge_nodes = {node for bridge in self.ros.bridges for node in self._gz_nodes_of(bridge)}
+
+    def entries(self) -> list[tuple[RunningBridge, BridgeEntry]]:
+        """Return every entry of every bridge, with its bridge."""
+        return [(bridge, entry) for bridge in self.ros.bridges for entry in bridge.entries]
+
+    def is_bridge(self, node: str) -> bool:
+        return node in self._bridge_nodes
+
+    def ros_ends(self, topic: str, *, publish: bool) -> list[RosEndpoint]:
+        """Return the publishers (or subscriptions) of a ROS topic, those of bridges among them."""
+        return [end for end in self.ros.endpoints if end.topic == topic and end.publishes == publish]
+
+    def ros_users(self, topic: str, *, publish: bool) -> list[RosEndpoint]:
+        """Return the publishers (or subscriptions) of a ROS topic that are no bridge's."""
+        return [end for end in self.ros_ends(topic, publish=publish) if not self.is_bridge(end.node)]
+
+    def gz_users(self, topic: str, *, publish: bool) -> list[MessagePublisher]:
+        """Return the publishers (or subscribers) of a Gazebo topic that are no bridge's."""
+        ends = self.gz.publishers if publish else self.gz.subscribers
+        return [end for end in ends if end.topic == topic and end.n_uuid not in self._gz_bridge_nodes]
+
+    def gz_topics(self, *, publish: bool) -> dict[str, set[str]]:
+        """Return the types of each Gazebo topic that others than bridges publish (or subscribe to), by topic."""
+        found: dict[str, set[str]] = {}
+        for end in self.gz.publishers if publish else self.gz.subscribers:
+            if end.n_uuid not in self._gz_bridge_nodes:
+                found.setdefault(end.topic, set()).add(end.msg_type_name)
+        return found
+
+    def _gz_nodes_of(self, bridge: RunningBridge) -> set[str]:
+        """Return the Gazebo nodes with exactly the endpoints of a bridge: Gazebo's graph has no names of nodes."""
+        sends = {entry.gz_topic for entry in bridge.entries if entry.direction.to_gz}
+        takes = {entry.gz_topic for entry in bridge.entries if entry.direction.to_ros}
+        always = {entry.gz_topic for entry in bridge.entries if entry.direction.to_ros and not entry.lazy}
+        published: dict[str, set[str]] = {}
+        subscribed: dict[str, set[str]] = {}
+        for ends, table in ((self.gz.publishers, published), (self.gz.subscribers, subscribed)):
+            for end in ends:
+                table.setdefault(end.n_uuid, set()).add(end.topic)
+        return {
+            node
+            for node in {*published, *subscribed}
+            if published.get(node, set()) == sends and always <= subscribed.get(node, set()) <= takes
+        }
+
+
+def names(words: Iterable[str]) -> str:
+    """Return `a`, `a and b`, `a, b and c`; sorted, each once."""
+    each = sorted(set(words))
+    return each[0] if len(each) == 1 else f"{', '.join(each[:-1])} and {each[-1]}" if each else "nobody"
+
+
+def users(ends: Iterable[RosEndpoint], verb: str) -> str:
+    """Return the nodes of endpoints and a verb, given in the plural: `/a publishes`, `/a and /b publish`."""
+    nodes = {end.node for end in ends}
+    singular = f"{verb}es" if verb.endswith("sh") else f"{verb}s"
+    return f"{names(nodes)} {verb if len(nodes) > 1 else singular}"
+
+
+def nearest_topic(name: str, known: Iterable[str], cutoff: float = 0.6) -> str:
+    """Return the known topic that was probably meant: one that ends alike, or is spelled alike; empty if there is none.
+
+    `cutoff` says how much alike, from 0 to 1: ask for more where the types differ.
+    """
+    others = sorted(set(known) - {name})
+    tail = name.rpartition("/")[2]
+    alike = [other for other in others if other.rpartition("/")[2] == tail] or others
+    close = difflib.get_close_matches(name, alike, n=1, cutoff=0.0 if alike is not others else cutoff)
+    return close[0] if close else ""

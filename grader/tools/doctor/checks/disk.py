@@ -1,0 +1,40 @@
+"""Is there room for recordings and temporary files, and may they be written?"""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+from pathlib import Path
+
+from gz_course.grader.tools.doctor.probe import Probes
+from gz_course.grader.tools.doctor.verdict import Verdict, failed, fine, warning
+
+TITLE = "disk space and temporary folder"
+LEAST, COMFORTABLE = 200 << 20, 1 << 30  # [bytes] free: a class of recordings is some hundred MB
+
+
+def examine(probes: Probes) -> Verdict:
+    """Look at the temporary folder and the folder recordings go to (the current one)."""
+    seen = {}
+    for folder in (Path(tempfile.gettempdir()), Path.cwd()):
+        try:
+            with tempfile.TemporaryFile(dir=folder) as stream:
+                stream.write(b"x")
+                stream.flush()
+            seen[folder] = shutil.disk_usage(folder).free
+        except OSError as error:
+            return failed(
+                f"{folder} cannot be written: {error.strerror}", "go to a folder of yours, or set TMPDIR to one"
+            )
+    return judge(seen)
+
+
+def judge(free: dict[Path, int]) -> Verdict:
+    """Return the verdict on so many free bytes in each folder."""
+    folder = min(free, key=lambda each: free[each])
+    shown = f"{free[folder] / (1 << 30):.1f} GB free in {folder}"
+    if free[folder] < LEAST:
+        return failed(shown, "make room: old recordings in runs/ can go, `rm -r runs`")
+    if free[folder] < COMFORTABLE:
+        return warning(shown, "make room before grading a class: old recordings in runs/ can go")
+    return fine(shown)

@@ -1,0 +1,51 @@
+"""Asks every question of `checks/` at the same time and collects the answers.
+
+Called by the command `course doctor`, which prints them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict, dataclass
+from types import ModuleType
+from typing import Any
+
+from gz_course.grader.registry import modules
+from gz_course.grader.tools.doctor import checks
+from gz_course.grader.tools.doctor.probe import ProbeError, Probes
+from gz_course.grader.tools.doctor.verdict import Verdict, failed
+
+AT_ONCE = 4  # questions; most of them wait for a process
+
+
+@dataclass(frozen=True)
+class Finding:
+    """The answer to one question: `check` is the name of its file, `title` what it is about."""
+
+    check: str
+    title: str
+    verdict: Verdict
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return check, title, status (ok, warning, failed), seen and fix."""
+        return {"check": self.check, "title": self.title, **asdict(self.verdict)}
+
+
+def examine(deadline: float, asked: Sequence[ModuleType] | None = None) -> list[Finding]:
+    """Ask everything (or what is given); nothing takes longer than `deadline` [s], and nothing is left running."""
+    asked = list(modules(checks).values()) if asked is None else asked
+    with ThreadPoolExecutor(AT_ONCE) as pool, Probes(deadline) as probes:
+        answers = [pool.submit(_answer, module, probes) for module in asked]
+        return [answer.result() for answer in answers]
+
+
+def _answer(module: ModuleType, probes: Probes) -> Finding:
+    try:
+        verdict: Verdict = module.examine(probes)
+    except ProbeError as error:
+        verdict = failed(str(error), "mend what it names; `course doctor` tries the same again")
+    except Exception as error:  # a question that breaks must not silence the others
+        told = f"{type(error).__name__}: {error}"
+        verdict = failed(f"this check itself broke: {told}", "tell the course's maintainers, with this line")
+    return Finding(module.__name__.rpartition(".")[2], module.TITLE, verdict)

@@ -1,0 +1,156 @@
+"""Small Python programs in processes of their own, for what may hang or crash whoever tries it.
+
+All end at one deadline at the latest. Each sets an alarm of its own, in case this process is killed.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Mapping
+from types import TracebackType
+from typing import IO
+
+from gz_course.grader.process.temporary_folder import TemporaryFolder
+
+GRACE = 0.3  # [s] between SIGINT, SIGTERM and SIGKILL
+_ALARM = "import signal; signal.alarm({seconds})\n"
+
+
+class ProbeError(Exception):
+    """A probe did not do what it was to do; the text is the last line it complained with."""
+
+
+class Probe:
+    """One running program; its standard input stays open until `result()` or `stop()`."""
+
+    def __init__(self, code: str, arguments: tuple[str, ...], environment: Mapping[str, str], probes: Probes) -> None:
+        """Allow all probes together `deadline` [s]."""
+        self._probes = probes
+        # Files, not pipes: a child that outlives the program would keep a pipe open, and us waiting.
+        self._output, self._errors = (tempfile.TemporaryFile(dir=probes.folder) for _ in range(2))  # noqa: SIM115
+        alarm = _ALARM.format(seconds=int(probes.seconds_left + 2))
+        try:
+            self._process = subprocess.Popen(
+                [sys.executable, "-c", alarm + code, *arguments],
+                cwd=probes.folder,  # what lies where we were called (somebody's rclpy.py) is not ours to import
+                env=dict(environment),
+                stdin=subprocess.PIPE,
+                stdout=self._output,
+                stderr=self._errors,
+                start_new_session=True,
+            )
+        except OSError:
+            self._output.close()
+            self._errors.close()
+            raise
+
+    def result(self) -> str:
+        """Wait for its end; what it printed. Raises ProbeError if it failed or took too long."""
+        try:
+            self._close_input()
+            self._process.wait(max(0.0, self._probes.seconds_left))
+        except subprocess.TimeoutExpired:
+            raise ProbeError(f"no answer within {self._probes.deadline:g} s") from None
+        else:
+            output, errors = _text(self._output), _text(self._errors)
+        finally:
+            self.stop()
+        code = self._process.returncode
+        if code:
+            told = [line.strip() for line in errors.splitlines() if line.strip()]
+            how = f"ended by {_signal_name(-code)}" if code < 0 else f"ended with exit code {code}"
+            raise ProbeError(told[-1] if told and code > 0 else how)
+        return output.strip()
+
+    def stop(self) -> None:
+        """End it, first politely. Its output is thrown away."""
+        for number in (signal.SIGINT, signal.SIGTERM):
+            if self._process.poll() is None:
+                self._kill(number)
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    self._process.wait(GRACE)
+        self._kill(signal.SIGKILL)  # whatever it started and did not end
+        self._process.wait()
+        self._close_input()
+        self._output.close()
+        self._errors.close()
+
+    def _close_input(self) -> None:
+        if self._process.stdin is not None:
+            with contextlib.suppress(OSError):
+                self._process.stdin.close()
+
+    def _kill(self, number: signal.Signals) -> None:
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.killpg(self._process.pid, number)
+
+
+def _text(stream: IO[bytes]) -> str:
+    stream.seek(0)
+    return stream.read().decode(errors="replace")
+
+
+def _signal_name(number: int) -> str:
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return f"signal {number}"
+
+
+class Probes:
+    """Starts probes in a folder of their own, and ends them all; a context manager, usable from many threads."""
+
+    def __init__(self, deadline: float) -> None:
+        """Allow all probes together `deadline` [s]."""
+        self.deadline = deadline
+        self._end = time.monotonic() + deadline
+        self._temporary = TemporaryFolder("course-doctor-")
+        self.folder = self._temporary.path
+        self._lock = threading.Lock()
+        self._started: list[Probe] = []
+        self._open = True
+
+    @property
+    def seconds_left(self) -> float:
+        """Return the time until the deadline [s]; negative after it."""
+        return self._end - time.monotonic()
+
+    def start(self, code: str, *arguments: str, environment: Mapping[str, str] | None = None) -> Probe:
+        """Start Python code; `environment` is added to this process's own. Raises ProbeError if that is impossible."""
+        with self._lock:
+            if not self._open or self.seconds_left <= 0:
+                raise ProbeError(f"no answer within {self.deadline:g} s")
+            try:
+                probe = Probe(code, arguments, os.environ | dict(environment or {}), self)
+            except OSError as error:
+                raise ProbeError(f"Python does not start: {error}") from None
+            self._started.append(probe)
+            return probe
+
+    def run(self, code: str, *arguments: str, environment: Mapping[str, str] | None = None) -> str:
+        """Run Python code to its end; what it printed. Raises ProbeError if it failed or took too long."""
+        return self.start(code, *arguments, environment=environment).result()
+
+    def close(self) -> None:
+        """End every probe, and remove the folder."""
+        with self._lock:
+            self._open = False
+            started, self._started = self._started, []
+        for probe in started:
+            probe.stop()
+        self._temporary.close()
+
+    def __enter__(self) -> Probes:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()

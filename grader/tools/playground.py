@@ -1,0 +1,236 @@
+"""A place to try things: commands such as `gz sim` and `parameter_bridge` run beside a notebook, and end with it.
+
+    room = Playground()
+    room.start("gz sim lidar_room.sdf -r -s")
+    bridge = room.start("ros2 run ros_gz_bridge parameter_bridge --ros-args -p config_file:=bridge.yaml")
+    bridge.wait_for("ready")
+    print(room)                             # what runs
+    !ros2 topic list                        # a notebook's own way to run a command and wait for its end
+    room.close()
+
+Programs are started as a terminal would start them: ordinary processes that meet each other, and your node, over DDS
+and Gazebo's transport. A playground adds three things: a ROS domain and a Gazebo partition nobody else on
+this machine uses, a place where the output is kept, and an end: with `close()`, at the end of a `with` block, or
+with the notebook's kernel, whichever comes first.
+
+A notebook's cell may be run again at any time, so doing a thing twice does no harm: a new playground closes the one
+before it, and a command that is started again ends its first run.
+"""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import os
+import shlex
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+from types import TracebackType
+
+from gz_course.grader.errors import UsageError, nearest
+from gz_course.grader.printable import shown
+from gz_course.grader.process.temporary_folder import TemporaryFolder, sweep
+from gz_course.grader.run.domain import Domain
+from gz_course.grader.run.sandbox import ros_environment
+
+GRACE = 3.0  # [s] between SIGINT, SIGTERM and SIGKILL
+LONGEST_COMMAND = 100  # [characters] of a command in the list of what runs
+LOOK_AGAIN = 0.02  # [s] how often the output of a program is looked at
+# Becomes the command after asking Linux (prctl 1, PR_SET_PDEATHSIG) for a SIGTERM when the process that started it
+# is gone: a kernel that is killed cannot clean up. Run without site packages, so it takes only milliseconds.
+_LAUNCHER = """
+import ctypes, os, signal, sys
+signal.signal(signal.SIGINT, signal.SIG_DFL)
+ctypes.CDLL(None).prctl(1, signal.SIGTERM)
+if os.getppid() == int(sys.argv[1]):
+    os.execv(sys.argv[2], sys.argv[3:])
+"""
+
+
+class Program:
+    """A command that was started: `pid`, `exit_code` (None while it runs) and its `output` so far."""
+
+    def __init__(self, command: str, executable: str, words: list[str], log: Path) -> None:
+        """Start `words` in a process group of its own, with everything it prints going to the file `log`."""
+        self.command = command
+        self._log = log
+        self._text: str | None = None
+        with log.open("wb") as sink:
+            self._process = subprocess.Popen(
+                [sys.executable, "-I", "-S", "-c", _LAUNCHER, str(os.getpid()), executable, *words],
+                stdin=subprocess.DEVNULL,
+                stdout=sink,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+            )
+
+    @property
+    def pid(self) -> int:
+        """Number of the process, and of its process group."""
+        return self._process.pid
+
+    @property
+    def exit_code(self) -> int | None:
+        """None while it runs; minus the signal's number if a signal ended it."""
+        return self._process.poll()
+
+    @property
+    def output(self) -> str:
+        """What it has printed so far, stdout and stderr as they came."""
+        return self._log.read_text(errors="replace") if self._text is None else self._text
+
+    def wait_for(self, text: str, deadline: float = 30.0) -> str:
+        """Wait until it has printed `text`; return its output so far.
+
+        Raises TimeoutError, with the output, if it does not within `deadline` seconds of your watch or has ended.
+        """
+        end = time.monotonic() + deadline
+        pause = threading.Event()
+        while True:
+            ended = self.exit_code is not None  # asked first: what it prints before it ends is in the output
+            if text in (output := self.output):
+                return output
+            if ended or time.monotonic() > end:
+                reason = "has ended and" if ended else f"has, within {deadline:g} s,"
+                raise TimeoutError(f"{self.command} {reason} not printed {text!r}, but:\n{output}")
+            pause.wait(LOOK_AGAIN)
+
+    def stop(self) -> int:
+        """End it as Ctrl-C would (SIGINT), more firmly if it does not listen; return its exit code."""
+        if self._text is None:
+            for escalation in (signal.SIGINT, signal.SIGTERM):
+                self._signal(escalation)
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    self._process.wait(GRACE)
+                    break
+            self._signal(signal.SIGKILL)  # whatever it started and did not end
+            self._process.wait()
+            self._text = self.output
+        return int(self._process.returncode)
+
+    def _signal(self, number: signal.Signals) -> None:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(self.pid, number)
+
+    def __repr__(self) -> str:
+        state = "running" if self.exit_code is None else f"ended with exit code {self.exit_code}"
+        return f"<{self.command}: process {self.pid}, {state}>"
+
+
+class Playground:
+    """Own ROS domain, own Gazebo partition, and the programs started in them; also a context manager.
+
+    While it is open, `os.environ` holds what a node of this process needs to be in the same domain and partition:
+    make one before `rclpy.init()`. As it can hold that once only, a new playground closes the one before it. The
+    course's commands are put on the PATH and stay there. Use it from the main thread, where a notebook's cells run:
+    Linux ends the programs when the thread that started them does.
+    """
+
+    _opened: Playground | None = None
+
+    def __init__(self) -> None:
+        """Reserve the domain. Raises InfrastructureError if none is free."""
+        if Playground._opened is not None:
+            Playground._opened.close()
+        _put_on_path(Path(sys.executable).parent)
+        self._domain = Domain()
+        sweep()  # what playgrounds left whose notebook was killed
+        self._temporary = TemporaryFolder("playground-")
+        self._folder = self._temporary.path
+        self.programs: list[Program] = []
+        self.environment = ros_environment(self._domain.id, self._folder / "ros_log") | {
+            "GZ_IP": "127.0.0.1",
+            "GZ_PARTITION": f"playground-{self._domain.id}",
+            "PYTHONUNBUFFERED": "1",
+        }
+        self._before = {name: os.environ.get(name) for name in self.environment}
+        os.environ.update(self.environment)
+        self._open = True
+        Playground._opened = self
+        atexit.register(self.close)
+
+    @property
+    def domain(self) -> int:
+        """The number of its ROS domain (ROS_DOMAIN_ID)."""
+        return self._domain.id
+
+    @property
+    def partition(self) -> str:
+        """The name of its Gazebo partition (GZ_PARTITION)."""
+        return self.environment["GZ_PARTITION"]
+
+    @property
+    def running(self) -> list[Program]:
+        """The programs that have not ended yet."""
+        return [program for program in self.programs if program.exit_code is None]
+
+    def start(self, command: str, instead_of: str | None = None) -> Program:
+        """Start a command as a terminal would, without waiting for it.
+
+        The words are split and unquoted as in a shell, but there are no shell features such as pipes. What is running
+        and begins with `instead_of` (the command itself if left out) is stopped before: `instead_of="gz sim"` leaves
+        one simulator only. Raises UsageError if there is no such command.
+        """
+        if not self._open:
+            raise UsageError("this playground is closed; make a new one with Playground()")
+        words = shlex.split(command)
+        if not words:
+            raise UsageError("which command? For example: gz sim lidar_room.sdf -r -s")
+        executable = shutil.which(words[0])
+        if executable is None:
+            known = [path.name for path in Path(sys.executable).parent.iterdir()]
+            raise UsageError(f"there is no command {words[0]!r}{nearest(words[0], known)}")
+        for before in self.running:
+            if before.command.startswith(command if instead_of is None else instead_of):
+                before.stop()
+        program = Program(command, executable, words, self._folder / f"{len(self.programs)}.log")
+        self.programs.append(program)
+        return program
+
+    def report(self) -> str:
+        """Return what runs, what has ended, and what each program has printed: to be read when nothing arrives."""
+        return "\n".join(f"{program!r}\n{program.output}" for program in self.programs)
+
+    def close(self) -> None:
+        """End every program, last started first, and give domain and environment back. Closing twice does nothing."""
+        if not self._open:
+            return
+        self._open = False
+        Playground._opened = None
+        atexit.unregister(self.close)
+        try:
+            for program in reversed(self.programs):
+                program.stop()
+        finally:
+            for name, value in self._before.items():
+                if value is None:
+                    os.environ.pop(name, None)
+                else:
+                    os.environ[name] = value
+            self._domain.release()
+            self._temporary.close()
+
+    def __repr__(self) -> str:
+        if not self._open:
+            return "<playground: closed, nothing is running>"
+        lines = [f"  process {p.pid}  {shown(p.command, LONGEST_COMMAND)}" for p in self.running] or ["  nothing"]
+        return "\n".join([f"running with ROS_DOMAIN_ID={self.domain}, GZ_PARTITION={self.partition}:", *lines])
+
+    def __enter__(self) -> Playground:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+
+def _put_on_path(folder: Path) -> None:
+    """Let commands in a folder be found first: those of this course, whether or not its environment is activated."""
+    path = [part for part in os.environ.get("PATH", os.defpath).split(os.pathsep) if part != str(folder)]
+    os.environ["PATH"] = os.pathsep.join([str(folder), *path])

@@ -1,0 +1,107 @@
+"""The book of a small course: chapters run in a copy, pages load nothing, the front page maps checks to variants."""
+
+import re
+import shutil
+import subprocess
+import sys
+
+import nbformat
+import pytest
+
+from gz_course.grader.tools.book.chapter import chapters
+from gz_course.grader.tools.book.objectives import lessons
+
+NAME = "03_teleop"
+HEAD = """\
+# 3. Driving <fast>
+
+**Objectives.** After this chapter you can
+
+- say `Twist`
+  in two lines;
+- stop.
+
+It takes a minute.
+"""
+
+
+@pytest.fixture
+def course(tmp_path, root):
+    """A course with one exercise and a chapter whose notebook holds the given cell."""
+
+    def write(cell, private=True):
+        folder = tmp_path / "course"
+        shutil.copytree(root / "exercises" / NAME, folder / "exercises" / NAME)
+        if private:
+            shutil.copytree(root / "solutions" / NAME, folder / "solutions" / NAME)
+        notebook = nbformat.v4.new_notebook()
+        notebook.cells = [nbformat.v4.new_markdown_cell(HEAD), nbformat.v4.new_code_cell(cell)]
+        (folder / "chapters" / NAME).mkdir(parents=True)
+        nbformat.write(notebook, folder / "chapters" / NAME / f"{NAME}.ipynb")
+        return folder
+
+    return write
+
+
+def book(course, out):
+    return subprocess.run(
+        [sys.executable, "-m", "gz_course.grader.tools.book", str(out)],
+        cwd=course,
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+
+
+def test_the_head_of_a_notebook_is_read(course):
+    (chapter,) = chapters(course("1 + 1"))
+    assert (chapter.name, chapter.title) == (NAME, "3. Driving <fast>")
+    assert chapter.objectives == ("say `Twist` in two lines", "stop")
+
+
+def test_every_check_is_mapped_to_the_variants_that_must_lose_it(course):
+    (lesson,) = lessons(course("1 + 1"))
+    assert lesson.exercise.name == NAME
+    proven = {each.check.id: each.rejected for each in lesson.proven}
+    assert set(proven) == {check.id for check in lesson.exercise.checks}
+    assert "never_stops" in proven["stops"] and "never_stops" not in proven["turns_left"]
+    assert all(proven.values())
+
+
+def test_the_book_is_written_and_the_course_left_as_it_is(course, tmp_path):
+    folder = course("from pathlib import Path\nPath('left.txt').write_text('x')\nprint(6 * 7)")
+    before = sorted(folder.rglob("*"))
+    done = book(folder, tmp_path / "out")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert sorted(folder.rglob("*")) == before
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [f"{NAME}.html", "index.html"]
+    page, front = ((tmp_path / "out" / name).read_text() for name in (f"{NAME}.html", "index.html"))
+    assert re.search(r"<pre>42\n?</pre>", page)
+    for text in (page, front):
+        assert "<script" not in text
+        assert re.findall(r'(?:src|href)="(?!#|data:)([^"]*)"', text) in ([], [f"{NAME}.html"])
+    assert "Driving &lt;fast&gt;" in front and "say <code>Twist</code> in two lines" in front
+    assert "<code>never_stops</code>" in front
+
+
+def test_a_students_copy_has_a_book_without_variants(course, tmp_path):
+    done = book(course("1", private=False), tmp_path / "out")
+    assert (done.returncode, done.stderr) == (0, "")
+    front = (tmp_path / "out" / "index.html").read_text()
+    assert "rejected" not in front and "Stops and stays stopped" in front
+
+
+def test_a_chapter_that_does_not_run_is_named_with_its_error(course, tmp_path):
+    done = book(course("raise ValueError('no robot')"), tmp_path / "out")
+    assert done.returncode == 1
+    assert f"book: {NAME}.ipynb does not run to its end" in done.stderr and "no robot" in done.stderr
+    assert "\x1b" not in done.stderr and "grader/book" not in done.stderr
+    assert not (tmp_path / "out" / "index.html").exists()
+
+
+@pytest.mark.parametrize("words", [[], ["a", "b"], ["--help"]])
+def test_without_a_folder_it_says_how_it_is_used(words):
+    done = subprocess.run(
+        [sys.executable, "-m", "gz_course.grader.tools.book", *words], capture_output=True, text=True, timeout=60
+    )
+    assert done.returncode == 2 and done.stderr.startswith("usage: ")

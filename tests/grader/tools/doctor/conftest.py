@@ -1,0 +1,23 @@
+"""Probes for a test: processes and folder are gone when it ends."""
+
+import psutil
+import pytest
+
+from gz_course.grader.tools.doctor.probe import Probes
+
+
+@pytest.fixture
+def probes_with():
+    """`probes_with(seconds)` makes probes; afterwards nothing that they started may be left."""
+    made = []
+
+    def make(deadline=60.0):
+        made.append(Probes(deadline))
+        return made[-1]
+
+    yield make
+    before = [probe._process.pid for probes in made for probe in probes._started]
+    for probes in made:
+        probes.close()
+    assert [pid for pid in before if psutil.pid_exists(pid)] == []
+    assert [probes.folder for probes in made if probes.folder.exists()] == []
