@@ -76,7 +76,7 @@ class Scene:
     def __init__(self, recorder: Recorder, world: World) -> None:
         self._recorder = recorder
         self._world = world
-        self._models = world.model_names()
+        self._models = world.truth.model_names()
         self._links: dict[tuple[str, str], str] = {}
         self._ticks = 0
         self._yaw = dict.fromkeys(self._models, 0.0)
@@ -84,7 +84,7 @@ class Scene:
         self._last: dict[str, tuple[float, float, float]] = {}
         self._path: dict[str, list[tuple[float, float, float]]] = {name: [] for name in self._models}
         recorder.static("/world", rr.ViewCoordinates.RIGHT_HAND_Z_UP)
-        for visual in world.geometry():
+        for visual in world.truth.geometry():
             entity = f"/world/{visual.model}/{visual.link}/{visual.name}"
             if visual.triangles is None:
                 archetype = shape(visual.kind, [float(s) for s in visual.size], visual.rgba)
@@ -97,10 +97,12 @@ class Scene:
             self._links[(visual.model, visual.link)] = f"/world/{visual.model}/{visual.link}"
         for (model, link), entity in self._links.items():
             if model not in self._models:
-                recorder.static(f"/world/{model}", transform(world.pose(model)))
-                recorder.static(entity, transform(world.pose(model).inverse() * world.link_pose(model, link)))
+                recorder.static(f"/world/{model}", transform(world.truth.pose(model)))
+                recorder.static(
+                    entity, transform(world.truth.pose(model).inverse() * world.truth.link_pose(model, link))
+                )
         self._lidars: dict[str, str] = {}  # Gazebo topic -> entity
-        for sensor in (s for system in world.systems for s in getattr(system, "sensors", ())):
+        for sensor in world.systems.sensors():
             at = sensor.description
             entity = f"/world/{at.model}/{at.link}/{at.name}"
             self._lidars[sensor.topic] = f"{entity}/scan"
@@ -111,7 +113,7 @@ class Scene:
         """Log truth and poses at the recorder's present time."""
         recorder, world = self._recorder, self._world
         for model in self._models:
-            pose, velocity = world.pose(model), world.velocity(model)
+            pose, velocity = world.truth.pose(model), world.truth.velocity(model)
             x, y, z = (float(v) for v in pose.position)
             qw, qx, qy, qz = (float(v) for v in pose.quaternion)
             yaw = math.atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz))
@@ -143,7 +145,7 @@ class Scene:
         if self._ticks % LINK_TICKS == 0:
             for (model, link), entity in self._links.items():
                 if model in self._models:
-                    pose = world.pose(model).inverse() * world.link_pose(model, link)
+                    pose = world.truth.pose(model).inverse() * world.truth.link_pose(model, link)
                     recorder.pose(entity, pose.position, pose.quaternion)
         self._ticks += 1
 

@@ -14,7 +14,7 @@ from collections.abc import Callable
 from google.protobuf.message import Message
 
 from gz_course.sim.gz.sim.errors import nearest
-from gz_course.sim.gz.sim.systems.topics import valid_topic
+from gz_course.sim.gz.sim.plugins.topics import valid_topic
 from gz_course.sim.gz.transport import Node
 from gz_course.sim.ros_gz_sim.flags import Flag
 from gz_course.sim.ros_program.errors import Failure, UsageError

@@ -41,10 +41,10 @@ def rows() -> Iterator[Row]:
     spawns, removes = [], []
     for number in range(RUNS):
         start = time.perf_counter()
-        name = world.spawn(text, name="second", pose=Pose((1.0 + number * 0.1, -2.0, 0.0)))
+        name = world.editor.spawn(text, name="second", pose=Pose((1.0 + number * 0.1, -2.0, 0.0)))
         spawns.append(time.perf_counter() - start)
         start = time.perf_counter()
-        world.remove(name)
+        world.editor.remove(name)
         removes.append(time.perf_counter() - start)
     start = time.perf_counter()
     World.load("lidar_room.sdf")

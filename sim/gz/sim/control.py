@@ -3,6 +3,8 @@
 `Server.run` asks `Control` before every batch whether, and how far, time may go on. Requests come through
 `World.requests`, so all of this happens in the stepping thread. The rules are Gazebo's: every request says whether the
 world is paused afterwards; steps are only counted for one that is; a reset rewinds and does not pause.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/SimulationRunner.cc
 """
 
 from __future__ import annotations
@@ -22,7 +24,7 @@ class Control:
     """Whether time goes on, and when it is to stop by itself."""
 
     def __init__(self, world: World, on_rewind: Callable[[], None]) -> None:
-        """Not paused; `on_rewind()` is called after time was set back."""
+        """Begin unpaused; `on_rewind()` is called after time was set back."""
         self._world = world
         self._on_rewind = on_rewind
         self.paused = False

@@ -1,8 +1,7 @@
 """The numbers of a world's entities, as Gazebo's messages carry them (`Pose.id`, `Entity.id`, `Model.id`).
 
-The world is 1; every model, link, visual, collision, sensor, joint and light gets the next number when it comes, in
-the order of the file, and keeps it. A number is never given twice, also not after its entity was removed, until the
-world is reset and counts anew.
+The world is 1; every model, link, visual, collision, sensor, joint and light gets the next number in the order of the
+file, and keeps it. A number is not used again, even after its entity was removed, until the world is reset.
 `World` keeps the one instance of a world; UserCommands, SceneBroadcaster and PosePublisher ask it.
 """
 
@@ -50,7 +49,7 @@ class Entities:
             self._add("joint", (joint.name,))
 
     def add_model(self, model: Model) -> int:
-        """Number a model that came, with everything in it; return the model's number."""
+        """Number a new model with everything in it; return the model's number."""
         number = self._add("model", (model.name,))
         for nested in model.nested:
             self._add("model", (model.name, nested.name))
@@ -65,11 +64,11 @@ class Entities:
         return number
 
     def add_light(self, light: Light) -> int:
-        """Number a light of the world that came."""
+        """Number a new light of the world."""
         return self._add("light", (light.name,))
 
     def remove(self, kind: str, name: str) -> list[int]:
-        """Forget a model (with everything in it) or a light of the world; return the numbers that went."""
+        """Forget a model (with everything in it) or a light of the world; return their numbers."""
         below = kind == "model"
         gone = [
             each

@@ -1,7 +1,9 @@
 """The magnetic field of the earth by latitude and longitude: the World Magnetic Model at its epoch 2025.0.
 
-The magnetometer asks for it when the world lies somewhere on the earth. Gauss coefficients to degree 8 (public domain,
-NOAA and British Geological Survey); what is left out is below half a degree and 0.25 uT.
+The magnetometer asks for it when the world lies on the earth. The Gauss coefficients go to degree 8; the higher degrees
+would change less than half a degree and 0.25 uT.
+
+Source: NOAA and British Geological Survey, World Magnetic Model 2025 (public domain)
 """
 
 from __future__ import annotations
@@ -10,7 +12,7 @@ import functools
 import math
 
 REFERENCE_RADIUS = 6371200.0
-"""Radius (m) of the sphere the coefficients belong to."""
+"""Radius [m] of the sphere the coefficients belong to."""
 _DEGREE = 8
 # Cosine and sine coefficients (nT): degree 1 orders 0 and 1, degree 2 orders 0 to 2, ...
 _COSINE = (

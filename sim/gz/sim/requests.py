@@ -1,4 +1,4 @@
-"""What other threads want done to a world: it waits here until the stepping thread is between two steps.
+"""The queue of what other threads want done to a world; it is done between two steps.
 
 Service callbacks run in the threads of the transport; nothing but the stepping thread may touch a world. They
 hand their work to `Requests.call` or `put`; `World.step` and the paused `Server` call `serve`. Whoever is the
@@ -47,7 +47,7 @@ class Request:
 
 
 class Requests:
-    """The work that waits for one world."""
+    """The queue of one world. Thread-safe, except for what is said to belong to the stepping thread."""
 
     def __init__(self) -> None:
         self.waiting: deque[Request] = deque()
@@ -59,7 +59,7 @@ class Requests:
         self._inside = False
 
     def __bool__(self) -> bool:
-        """Whether something waits."""
+        """Return whether something waits."""
         return bool(self.waiting)
 
     def own(self) -> None:
@@ -70,11 +70,11 @@ class Requests:
                 self._owner = caller
 
     def enter_step(self) -> None:
-        """The calling thread, which owns the world, is inside a step from now on."""
+        """Note that the calling thread, which owns the world, is inside a step."""
         self._inside = True
 
     def leave_step(self) -> None:
-        """The step is over."""
+        """Note that the step is over."""
         self._inside = False
 
     def refuse_inside_step(self, what: str) -> None:

@@ -19,13 +19,13 @@ from gz_course.sim.gz.sim.sdf.resources import find_model
 from gz_course.sim.gz.sim.sdf.writer import pose_element, to_xml
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
 _FRAMES_CHANGED = (1, 7)
 _ROOTS = ("model", "light", "include")
 
 
-def generate_world(world: World, *, expand_includes: bool = False) -> str:
+def generate_world(world: WorldAccess, *, expand_includes: bool = False) -> str:
     """Return the SDF text of a world as it is at this moment.
 
     With `expand_includes` the content of included models is written out, where it follows the same SDF version as
@@ -35,7 +35,7 @@ def generate_world(world: World, *, expand_includes: bool = False) -> str:
 
 
 class _Generator:
-    def __init__(self, world: World, expand: bool) -> None:
+    def __init__(self, world: WorldAccess, expand: bool) -> None:
         self._world = world
         self._expand = expand
         self._version = world.description.version
@@ -79,7 +79,7 @@ class _Generator:
         return made
 
     def _model(self, model: Model, source: Element) -> Element:
-        pose = self._world.pose(model.name)
+        pose = self._world.truth.pose(model.name)
         if source.tag == "include" and (not self._expand or model.version != self._version):
             made = _placed(_copy(source), pose, self._version)
             made.children = [child for child in made.children if child.tag not in ("name", "placement_frame")]
@@ -116,7 +116,7 @@ class _Generator:
 
 
 def _came_from(element: Element, name: str, child: Element) -> bool:
-    """Whether a model or light is what this child of `<world>` brought."""
+    """Return whether a model or light is what this child of `<world>` brought."""
     if child.tag != "include":
         return element is child
     if child.attributes.get("merge", "false").lower() in ("true", "1"):

@@ -1,8 +1,8 @@
-"""A world on the wire: publishes its clock and statistics, and runs it against the wall clock when asked to.
+"""The server of a world: publishes its clock and statistics, and runs it against the wall clock.
 
 `gz sim` and launch files use `run`; a grader that owns the time uses `step`. Topics, as in Gazebo: `/clock`
 and `/world/W/clock` (gz.msgs.Clock), `/stats` and `/world/W/stats` (gz.msgs.WorldStatistics) at 10 Hz. Services
-are in `world_services`; who asks for something is answered between two steps, also while the world is paused.
+are in `world_services`; requests are answered between two steps, also while the world is paused.
 
 The clock is published after every call of `step`, and by `run` every 5 ms of simulated time (every step when steps are
 longer), at most. Gazebo publishes it at every step; at steps of 1 ms that costs each rclpy node a third of a core
@@ -56,7 +56,7 @@ class Server:
 
     @property
     def paused(self) -> bool:
-        """Whether time stands still in `run`; `step` goes on regardless."""
+        """Return whether time stands still in `run`; `step` goes on regardless."""
         return self.control.paused
 
     @paused.setter

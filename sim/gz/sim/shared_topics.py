@@ -1,8 +1,7 @@
-"""Says so when two robots or sensors of a world publish or listen on one topic: their data mix, or one command moves
-both, and no program complains.
+"""Warnings of topics that two robots or sensors of a world share: their data mix, or one command moves both.
 
-The system manager tells who talks on which node each time systems were connected; what is found becomes a warning that
-names both. Sharing that is meant stays silent: transforms name what they are about, the joints of one model may follow
+`RunningSystems` calls `SharedTopics.check` each time systems were connected; a warning names both. Sharing that is
+meant stays silent: transforms name what they are about, the joints of one model may follow
 one command, and a TriggeredPublisher stands between others by its nature.
 """
 

@@ -1,9 +1,11 @@
-"""Where on a planet the world lies: `<spherical_coordinates>` of SDF, and the way from metres to latitude and
-longitude.
+"""The place of a world on a planet: `<spherical_coordinates>` of SDF, and metres from and to latitude and longitude.
 
 `gz.sim.sdf.reader` reads it into the world's description; NavSat, Magnetometer and the IMU ask it. The world's axes
-are east, north, up at the origin, turned by `heading_deg` about up. All on an ellipsoid: planet-centred (ECEF)
-coordinates in between, formulas as in https://gssc.esa.int/navipedia (ellipsoidal and Cartesian coordinates, ENU).
+are east, north, up at the origin, turned by `heading_deg` about up. The conversion on
+the ellipsoid goes through planet-centred (ECEF) coordinates.
+
+Source: https://gssc.esa.int/navipedia, "Ellipsoidal and Cartesian Coordinates Conversion" and "Transformations between
+ECEF and ENU coordinates"
 """
 
 from __future__ import annotations
@@ -42,7 +44,7 @@ class SphericalCoordinates:
 
     @classmethod
     def from_sdf(cls, element: Element | None, diagnostics: Diagnostics) -> SphericalCoordinates | None:
-        """Read `<spherical_coordinates>`; None when there is none. Raises `SdfError` for an unknown surface, axes
+        """Read `<spherical_coordinates>`; return None if there is none. Raises `SdfError` for an unknown surface, axes
         that are not positive and angles that are not finite.
         """
         if element is None:

@@ -2,6 +2,8 @@
 
 Written by the LogRecord system, read by `gz log`. Tables: `message_types` (name), `topics` (name, message_type_id),
 `messages` (time_recv in ns of simulated time, topic_id, message), `migrations` (to_version).
+
+Source: https://github.com/gazebosim/gz-transport/tree/gz-transport13/log/sql
 """
 
 from __future__ import annotations

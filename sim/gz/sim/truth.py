@@ -1,7 +1,7 @@
-"""Where everything in a world really is: the questions a `World` answers, a part of it in a file of its own.
+"""The true state of a world: poses and velocities by name, the visible shapes, the addresses of joints.
 
-Graders, systems and sensors ask for poses and velocities by name. MuJoCo's arrays lag one step behind after a step;
-`refresh` brings them up to the present.
+`World.truth` is asked by graders, systems and sensors. MuJoCo's world poses lag one step behind after a step; `refresh`
+brings them up to the present.
 """
 
 from __future__ import annotations
@@ -20,9 +20,7 @@ from gz_course.sim.gz.sim.visuals import VisualShape, visual_shapes
 
 @dataclass(frozen=True, slots=True)
 class JointAddress:
-    """Where a joint lives in MuJoCo's arrays: `position` in qpos, `velocity` in qvel, `control` in ctrl (-1:
-    no servo).
-    """
+    """The indices of a joint: `position` in qpos, `velocity` in qvel, `control` in ctrl (-1 without a servo)."""
 
     position: int
     velocity: int
@@ -30,55 +28,53 @@ class JointAddress:
 
 
 class Truth:
-    """The methods of World that change nothing."""
+    """The poses and velocities of one world; every question is answered from the present state.
 
-    description: WorldDescription
+    Raises `SimError` with the nearest name for a model or link that is not there.
+    """
+
     model: mujoco.MjModel
     data: mujoco.MjData
-    iterations: int
-    _models: dict[str, Model]
-    _refreshed: int
-    """The iteration `refresh` was last called in; -1 after the state was changed otherwise than by a step."""
 
-    @property
-    def name(self) -> str:
-        """The world's name in its SDF file."""
-        return self.description.name
-
-    def _find_canonical_links(self) -> None:
-        """Look up, per moving model, the body of its canonical link, and the model frame seen from it."""
+    def __init__(self, description: WorldDescription) -> None:
+        self._description = description
         self._canonical: dict[str, tuple[int, Pose]] = {}
-        for model in self.description.models:
-            canonical = model.link(model.canonical_link)
-            if canonical is None or model.static:
+        self.models = {model.name: model for model in description.models}
+        """The models by name; the editor keeps it in step with the description."""
+        self.stale = True
+        """Whether MuJoCo's world poses may lag behind; set by whoever changes the state."""
+
+    def bind(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        """Answer from a model that was just built: look up, per moving model, the body of its canonical link and the
+        model's frame seen from it.
+        """
+        self.model, self.data, self.stale = model, data, True
+        self._canonical.clear()
+        for each in self._description.models:
+            canonical = each.link(each.canonical_link)
+            if canonical is None or each.static:
                 continue
-            body = mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_BODY, scoped(model, canonical.name))
+            body = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, scoped(each, canonical.name))
             if body >= 0:
-                self._canonical[model.name] = (body, canonical.pose.inverse())
+                self._canonical[each.name] = (body, canonical.pose.inverse())
 
     def refresh(self) -> None:
-        """Bring MuJoCo's world poses (`data.xpos`, `site_xpos`, ...) up to the present; a step leaves them
-        one step behind.
-        """
-        if self._refreshed != self.iterations:
+        """Bring MuJoCo's world poses (`data.xpos`, `site_xpos`, ...) up to the present; a step leaves them behind."""
+        if self.stale:
             mujoco.mj_kinematics(self.model, self.data)
-            self._refreshed = self.iterations
+            self.stale = False
 
     def model_names(self, *, static: bool = False) -> list[str]:
-        """Return the names of the models that can move, in file order; with `static` those that cannot come
-        after.
-        """
-        moving = [model.name for model in self.description.models if not model.static]
-        return moving + [model.name for model in self.description.models if model.static] if static else moving
+        """Return the names of the models that can move, in file order; with `static` the others follow."""
+        moving = [model.name for model in self._description.models if not model.static]
+        return moving + [model.name for model in self._description.models if model.static] if static else moving
 
     def pose(self, model: str) -> Pose:
-        """Return where the frame of a model, or of a model in it (`arm::hand`), is now, in the world frame; raise
-        `SimError` for an unknown model.
-        """
+        """Return the pose of a model, or of a model nested in it (`arm::hand`), in the world frame."""
         owner, _, inner = model.partition("::")
-        if inner and owner in self._models:
-            return self._nested_pose(self._models[owner], inner)
-        found = self._model(model)
+        if inner and owner in self.models:
+            return self._nested_pose(self.models[owner], inner)
+        found = self.find_model(model)
         if model not in self._canonical:
             return found.pose
         body, link_model = self._canonical[model]
@@ -86,17 +82,13 @@ class Truth:
         return Pose(self.data.xpos[body], self.data.xquat[body]) * link_model
 
     def link_pose(self, model: str, link: str) -> Pose:
-        """Return where a link's frame is now, in the world frame; raise `SimError` for an unknown model or
-        link.
-        """
-        found = self._model(model)
-        return self._link_pose(found, self._link(found, link))
+        """Return the pose of a link in the world frame."""
+        found = self.find_model(model)
+        return self._link_pose(found, self.find_link(found, link))
 
     def velocity(self, model: str) -> Velocity:
-        """Return the velocity of the model's frame (m/s, rad/s, world axes); raise `SimError` for an unknown
-        model.
-        """
-        self._model(model)
+        """Return the linear [m/s] and angular [rad/s] velocity of a model's frame, along the world's axes."""
+        self.find_model(model)
         if model not in self._canonical:
             return Velocity(np.zeros(3), np.zeros(3))
         self.refresh()
@@ -113,10 +105,10 @@ class Truth:
 
     def geometry(self) -> list[VisualShape]:
         """Return every visible shape of the world, fixed to its link."""
-        return visual_shapes(self.description)
+        return visual_shapes(self._description)
 
     def joint_address(self, model: Model, joint: str) -> JointAddress:
-        """Return where a joint (scoped name) of a moving model lives in MuJoCo's arrays."""
+        """Return the address of a joint (scoped name) of a moving model."""
         name = scoped(model, joint)
         found = self.model.joint(name)
         control = mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_ACTUATOR, name)
@@ -132,15 +124,17 @@ class Truth:
             return self.pose(model.name) * nested.pose
         return self._link_pose(model, canonical) * canonical.pose.inverse() * nested.pose
 
-    def _model(self, name: str) -> Model:
-        found = self._models.get(name)
+    def find_model(self, name: str) -> Model:
+        """Return a model of the world."""
+        found = self.models.get(name)
         if found is None:
-            hint = nearest(name, self._models, listing="its models are")
-            raise SimError(f"world '{self.name}' has no model '{name}'; {hint}")
+            hint = nearest(name, self.models, listing="its models are")
+            raise SimError(f"world '{self._description.name}' has no model '{name}'; {hint}")
         return found
 
     @staticmethod
-    def _link(model: Model, name: str) -> Link:
+    def find_link(model: Model, name: str) -> Link:
+        """Return a link of a model by its scoped name."""
         found = model.link(name)
         if found is None:
             hint = nearest(name, [each.name for each in model.links], listing="its links are")
@@ -149,7 +143,7 @@ class Truth:
 
     def _link_pose(self, model: Model, link: Link) -> Pose:
         body = mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_BODY, scoped(model, link.name))
-        if body < 0:  # held by the world
+        if body < 0:  # static, or welded to the world
             return model.pose * link.pose
         self.refresh()
         return Pose(self.data.xpos[body], self.data.xquat[body])

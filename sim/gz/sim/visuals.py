@@ -1,6 +1,6 @@
 """What a world looks like: every `<visual>` as a plain shape, for recordings and viewers.
 
-`World.geometry()` lists these once; where their links are at any moment is `World.link_pose()`.
+`Truth.geometry` lists these once; `Truth.link_pose` tells where their links are.
 """
 
 from __future__ import annotations

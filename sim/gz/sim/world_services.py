@@ -3,6 +3,8 @@
 `/world/W/control`, `/world/W/control/state`, `/world/W/generate_world_sdf`, `/gazebo/worlds`,
 `/gazebo/resource_paths/get|add|resolve`, `/gazebo/starting_world` and `/server_control`. Callbacks run in the
 transport's threads; what touches the world goes through `World.requests`.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/ServerPrivate.cc
 """
 
 from __future__ import annotations

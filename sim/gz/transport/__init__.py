@@ -1,8 +1,8 @@
 """Topics and services of Gazebo (gz.transport), in one process or between many.
 
 The names and signatures are those of the official Python binding, so code moves to a full Gazebo by changing the
-import; what is ours alone (`Scope` for a whole node, `wait_for_subscribers`, `advertise_service`, `close`) is said
-where it is defined.
+import. What the binding lacks (`Scope` for a whole node, `wait_for_subscribers`, `advertise_service`, `close`) is
+marked where it is defined.
 """
 
 from gz_course.sim.gz.transport.message_info import MessageInfo, MessagePublisher, ServicePublisher

@@ -14,13 +14,13 @@ _NUMERIC = re.compile(r"tcp://(\d{1,3}(?:\.\d{1,3}){3}):(\d{1,5})", re.ASCII)
 
 
 def is_loopback(ip: str) -> bool:
-    """Whether an IPv4 address is one of 127.0.0.0/8."""
+    """Return whether an IPv4 address is one of 127.0.0.0/8."""
     return ip.startswith("127.")
 
 
 @functools.lru_cache(maxsize=1024)
 def is_of_this_machine(ip: str) -> bool:
-    """Whether an IPv4 address belongs to this machine."""
+    """Return whether an IPv4 address belongs to this machine."""
     if is_loopback(ip):
         return True
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
@@ -32,12 +32,12 @@ def is_of_this_machine(ip: str) -> bool:
 
 
 def within_reach(ip: str, own_ip: str) -> bool:
-    """Whether a process that uses `own_ip` deals with a process at `ip`: from 127.0.0.1, with this machine only."""
+    """Return whether a process at `own_ip` deals with one at `ip`: from 127.0.0.1, with this machine only."""
     return not is_loopback(own_ip) or is_of_this_machine(ip)
 
 
 def is_usable(address: str, own_ip: str) -> bool:
-    """Whether an address such as `tcp://127.0.0.1:37011` may be connected to."""
+    """Return whether an address such as `tcp://127.0.0.1:37011` may be connected to."""
     found = _NUMERIC.fullmatch(address)
     if found is None or not 0 < int(found.group(2)) < 65536:
         return False

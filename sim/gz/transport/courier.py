@@ -29,7 +29,7 @@ class Letter:
     """Something to be sent to the first of several targets that can be reached."""
 
     def __init__(self, targets: Callable[[], Iterable[Target]], deadline: float, on_sent: Callable[[], None]) -> None:
-        """`targets()` is asked at each attempt; after `deadline` (monotonic seconds) there is none."""
+        """`targets()` is asked at each attempt; after `deadline` (monotonic clock [s]) there is none."""
         self.targets = targets
         self.deadline = deadline
         self.on_sent = on_sent
@@ -52,7 +52,7 @@ class Courier:
         self._socket.setsockopt(zmq.RECONNECT_IVL_MAX, _RECONNECT_MOST_MS)
 
     def send(self, letter: Letter) -> None:
-        """Sends now, or as soon as a target can be reached."""
+        """Send now, or as soon as a target can be reached."""
         if self._attempt(letter):
             letter.on_sent()
             return
@@ -62,7 +62,7 @@ class Courier:
         self._wake()
 
     def retry(self) -> bool:
-        """Tries what waits again, drops what is too late; whether something still waits. I/O thread only."""
+        """Send what waits, drop what is too late; return whether something still waits. I/O thread only."""
         if not self._waiting:
             return False
         with self._lock:
@@ -79,7 +79,7 @@ class Courier:
             return bool(self._waiting)
 
     def withdraw(self, letter: Letter) -> None:
-        """Does not try this one again."""
+        """Give a letter up."""
         with self._lock, contextlib.suppress(ValueError):
             self._waiting.remove(letter)
 
@@ -110,7 +110,7 @@ class Courier:
         return True
 
     def leave(self, address: str) -> None:
-        """The process at `address` is gone."""
+        """Disconnect from a process that is gone."""
         with self._lock:
             if address in self._connected and not self._socket.closed:
                 self._leave(address)
@@ -121,6 +121,6 @@ class Courier:
             self._socket.disconnect(address)
 
     def close(self) -> None:
-        """Closes the socket; what is under way is still sent for a moment."""
+        """Close the socket; what is under way is still sent for a moment."""
         with self._lock:
             self._socket.close()

@@ -1,8 +1,9 @@
-"""The datagrams by which processes find one another: two bytes of length, then a gz.msgs.Discovery.
+"""The datagrams by which processes find one another: a length of two bytes (little-endian), then a gz.msgs.Discovery.
 
-Between the UDP socket and discovery.py. Everything that is not exactly a datagram of this protocol version is
-dropped here, so that nothing malformed gets any further. Format: gz-transport's discovery protocol, version
-10.
+Between the UDP socket and discovery.py. Whatever is not a datagram of this protocol version is dropped here.
+
+Source: https://github.com/gazebosim/gz-transport/blob/gz-transport13/include/gz/transport/Discovery.hh
+Source: https://github.com/gazebosim/gz-msgs/blob/gz-msgs10/proto/gz/msgs/discovery.proto
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ _LENGTH_BYTES = 2
 
 
 def encode(message: Discovery) -> bytes:
-    """The datagram of a message. Raises ValueError when it would be longer than 65535 bytes."""
+    """Return the datagram of a message. Raises ValueError if it would be longer than 65535 bytes."""
     body = message.SerializeToString()
     size = len(body) + _LENGTH_BYTES
     if size > MAX_DATAGRAM_BYTES:
@@ -30,7 +31,7 @@ def encode(message: Discovery) -> bytes:
 
 
 def decode(data: bytes) -> Discovery | None:
-    """The message in a datagram; None when the datagram is not one of this protocol and version."""
+    """Return the message in a datagram, or None if the datagram is not one of this protocol and version."""
     if len(data) < _LENGTH_BYTES or int.from_bytes(data[:_LENGTH_BYTES], "little") != len(data) - _LENGTH_BYTES:
         return None
     try:

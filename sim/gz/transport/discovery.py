@@ -1,8 +1,10 @@
-"""Finds the publishers (or services) of other processes by multicast, and announces our own.
+"""Discovery by multicast: finds the publishers (or services) of other processes, and announces our own.
 
 One DiscoveryChannel is one UDP port: heartbeats, announcements, questions ("who has this topic?") and
 farewells. It runs inside the I/O thread; sending and looking things up is allowed from every thread. What is
-special to topics is in topic_discovery.py. Protocol and times: gz-transport's discovery protocol, version 10.
+special to topics is in topic_discovery.py.
+
+Source: https://github.com/gazebosim/gz-transport/blob/gz-transport13/include/gz/transport/Discovery.hh
 """
 
 from __future__ import annotations
@@ -23,11 +25,11 @@ from gz_course.sim.gz.transport.options import Scope
 HEARTBEAT_S = 1.0
 SILENCE_LIMIT_S = 3.0
 COMPLETE_AFTER_S = HEARTBEAT_S + 0.1
-"""After so long every other process has sent a heartbeat, so the list of what there is, is complete."""
+"""By then every other process has sent a heartbeat, so the list is complete."""
 _RECEIVE_BUFFER_BYTES = 1 << 20
 _MOST_AT_ONCE = 1000
 _MOST_PROCESSES, _MOST_TOPICS, _MOST_OF_ONE_TOPIC = 2000, 20_000, 1000
-"""More than any real network has; a flood of invented ones must not eat up the memory."""
+"""More than any real network has; a flood of invented ones must not fill the memory."""
 _CHECK_EVERY_S = 0.1
 
 RecordKey = tuple[str, str, str]
@@ -46,7 +48,7 @@ class DiscoveryChannel:
         on_advertise: Callable[[Discovery.Publisher, bool], None],
         on_gone: Callable[[list[Discovery.Publisher]], None],
     ) -> None:
-        """Opens the sockets.
+        """Open the sockets.
 
         `own(topic)` gives what this process offers on a topic (None: on all); `on_advertise(record, is_new)`
         and `on_gone(records)` are called in the thread that calls receive() and tick().
@@ -97,43 +99,43 @@ class DiscoveryChannel:
         return f"{seen} ({error.strerror}): is GZ_IP an address of this machine, and its network up?"
 
     def fileno(self) -> int:
-        """The descriptor that becomes readable when datagrams wait."""
+        """Return the descriptor that becomes readable when datagrams wait."""
         return self._socket.fileno()
 
     # ---- what the other processes offer
 
     def known(self, topic: str) -> list[Discovery.Publisher]:
-        """What other processes offer on a topic (fully qualified)."""
+        """Return what other processes offer on a topic (fully qualified)."""
         with self._lock:
             return list(self._records.get(topic, {}).values())
 
     def all_known(self) -> list[Discovery.Publisher]:
-        """Everything other processes offer."""
+        """Return everything other processes offer."""
         with self._lock:
             return [record for group in self._records.values() for record in group.values()]
 
     def seconds_until_complete(self) -> float:
-        """How long until all_known() is complete; 0 when it is."""
+        """Return the time [s] until all_known() is complete, 0 if it is."""
         return max(0.0, self._started + COMPLETE_AFTER_S - time.monotonic())
 
     # ---- sending
 
     def advertise(self, record: Discovery.Publisher) -> None:
-        """Tells everybody about something of ours."""
+        """Announce a publisher or service of this process."""
         self.send(Discovery.ADVERTISE, record)
 
     def unadvertise(self, record: Discovery.Publisher) -> None:
-        """Tells everybody that something of ours is gone."""
+        """Announce that a publisher or service of this process is gone."""
         self.send(Discovery.UNADVERTISE, record)
 
     def ask(self, topic: str) -> None:
-        """Asks who offers a topic; whoever does, advertises it again."""
+        """Ask who offers a topic; those who do advertise it again."""
         message = self._message(Discovery.SUBSCRIBE)
         message.sub.topic = topic
         self._send(message)
 
     def send(self, kind: int, record: Discovery.Publisher) -> None:
-        """Sends a message of the given Discovery.Type about a record."""
+        """Send a message of the given Discovery.Type about a record."""
         message = self._message(kind)
         message.pub.CopyFrom(record)
         self._send(message)
@@ -160,7 +162,7 @@ class DiscoveryChannel:
     # ---- receiving and the clock (one thread only)
 
     def receive(self) -> None:
-        """Takes the datagrams that wait, up to a limit, so that a flood of them does not starve the data."""
+        """Take the datagrams that wait, up to a limit, so that a flood of them does not starve the data."""
         for _ in range(_MOST_AT_ONCE):
             try:
                 data, source = self._socket.recvfrom(datagram.MAX_DATAGRAM_BYTES)
@@ -179,7 +181,7 @@ class DiscoveryChannel:
             self.handle(message, source[0])
 
     def handle(self, message: Discovery, source_ip: str) -> None:
-        """Acts on one message of another process."""
+        """Act on one message of another process."""
         kind = message.type
         if kind == Discovery.SUBSCRIBE:
             for record in self._own(message.sub.topic):
@@ -195,7 +197,7 @@ class DiscoveryChannel:
                 self.handle_other(message)
 
     def handle_other(self, message: Discovery) -> None:
-        """Acts on a message that only one kind of channel knows; the plain channel ignores it."""
+        """Act on a message that only one kind of channel knows; the plain channel ignores it."""
 
     def _acceptable(self, message: Discovery, source_ip: str) -> bool:
         record = message.pub
@@ -235,7 +237,7 @@ class DiscoveryChannel:
         self._forget(lambda each: each.process_uuid == process_uuid, list(self._records))
 
     def forget_subscribers_of(self, process_uuid: str) -> None:
-        """Drops what else is known of a process that is gone; the plain channel knows nothing else."""
+        """Drop what else is known of a process that is gone; the plain channel knows nothing else."""
 
     def _forget(self, condition: Callable[[Discovery.Publisher], bool], topics: list[str]) -> None:
         gone: list[Discovery.Publisher] = []
@@ -250,7 +252,7 @@ class DiscoveryChannel:
             self._on_gone(gone)
 
     def tick(self) -> float:
-        """Sends the heartbeat when due, drops silent processes; seconds until it wants to be called."""
+        """Send the heartbeat when due, drop silent processes; return the time [s] until the next call is due."""
         now = time.monotonic()
         if now >= self._next_heartbeat:
             self._next_heartbeat = now + HEARTBEAT_S
@@ -270,13 +272,13 @@ class DiscoveryChannel:
     # ---- the end
 
     def say_farewell(self) -> None:
-        """Takes back everything of ours and says goodbye, so nobody has to wait for our silence."""
+        """Unadvertise everything and say BYE, so that nobody has to wait for the silence limit."""
         for record in self._own(None):
             self.unadvertise(record)
         self._send_about_process(Discovery.BYE)
 
     def close(self) -> None:
-        """Closes the socket without a word; see say_farewell()."""
+        """Close the socket without telling anybody; see say_farewell()."""
         self._open = False
         with contextlib.suppress(OSError):
             self._socket.close()

@@ -1,4 +1,4 @@
-"""Receives the messages of other processes and calls the callbacks, in one thread, in the order of arrival.
+"""The thread that receives messages of other processes and calls the callbacks, in the order of arrival.
 
 Between the receiving socket and the subscriptions. It is a thread of its own so that a callback may take its
 time, and may itself advertise, subscribe or wait, without stopping discovery; and it reads the socket itself, so
@@ -34,18 +34,17 @@ class Dispatcher:
         self._thread = threading.Thread(target=self._run, name="gz-transport-callbacks", daemon=True)
 
     def start(self) -> None:
-        """Starts the thread."""
         self._thread.start()
 
     def wake(self) -> None:
-        """Makes the thread look at the socket: whoever else used it may have taken its signal."""
+        """Make the thread look at the socket: whoever else used it may have taken its signal."""
         try:
             self._wake_sender.send(b"!")
         except OSError:  # full: it will wake up anyway; closed: it has stopped
             return
 
     def stop(self, timeout: float) -> bool:
-        """Ends the thread after the callback it is in; waits at most `timeout` seconds; whether it has ended."""
+        """End the thread after the callback it is in; wait at most `timeout` [s]; return whether it has ended."""
         self._open = False
         self.wake()
         if self._thread is not threading.current_thread():
@@ -53,7 +52,6 @@ class Dispatcher:
         return not self._thread.is_alive()
 
     def close(self) -> None:
-        """Lets go of the descriptors."""
         self._wake_sender.close()
         self._wake_receiver.close()
 

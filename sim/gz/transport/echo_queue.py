@@ -36,7 +36,7 @@ class EchoQueue:
     """Subscribes to a topic, to messages of every type, for as long as it is entered."""
 
     def __init__(self, node: Node, topic: str) -> None:
-        """Subscribes. Raises ValueError when the topic name breaks a rule."""
+        """Subscribe. Raises ValueError if the topic name breaks a rule."""
         self._node, self._topic = node, topic
         self._queue: queue.Queue[Arrival] = queue.Queue(_WAITING)
         self._ended = threading.Event()
@@ -50,7 +50,7 @@ class EchoQueue:
             self._queue.put(Arrival(data, info.type, time.monotonic_ns()))
 
     def next(self, deadline: float) -> Arrival | None:
-        """The next message; None at the deadline (time.monotonic() seconds), or earlier to look at reader_gone()."""
+        """Return the next message; None at the deadline (time.monotonic() [s]), or earlier to look at reader_gone()."""
         wait = min(deadline - time.monotonic(), _LOOK_AT_READER_S)
         try:
             return self._queue.get(timeout=wait) if wait > 0 else self._queue.get_nowait()
@@ -58,7 +58,7 @@ class EchoQueue:
             return None
 
     def reader_gone(self) -> bool:
-        """Whether standard output is a pipe that nobody reads any more."""
+        """Return whether standard output is a pipe that nobody reads any more."""
         return bool(self._stdout.poll(0))
 
     def __enter__(self) -> EchoQueue:

@@ -1,8 +1,11 @@
-"""What the environment variables of gz-transport say, with the defaults of this course.
+"""The environment variables of gz-transport, with the defaults of this course.
 
 Read once for each node (partition) and once for each process (addresses and ports). One default differs from
 gz-transport's: without GZ_IP everything stays on 127.0.0.1, so nobody's robot is driven from the next desk.
 To reach other machines, set GZ_IP to the address of this one.
+
+Source: https://github.com/gazebosim/gz-transport/blob/gz-transport13/src/NodeShared.cc
+Source: https://github.com/gazebosim/gz-transport/blob/gz-transport13/src/NodeOptions.cc
 """
 
 from __future__ import annotations
@@ -30,7 +33,7 @@ _NOT_IMPLEMENTED = (
 
 
 def complain(sentence: str) -> None:
-    """Prints one line on stderr: the way this package speaks when there is nobody to raise an error to."""
+    """Print one line on stderr: the way this package speaks when there is nobody to raise an error to."""
     print(f"[gz.transport] {sentence}", file=sys.stderr, flush=True)
 
 
@@ -68,7 +71,7 @@ class NetworkSettings:
 
     @classmethod
     def from_environment(cls, environment: Mapping[str, str] | None = None) -> NetworkSettings:
-        """The settings; a value that cannot be used is reported on stderr and its default taken, as in gz."""
+        """Return the settings; a value that cannot be used is reported on stderr and its default taken, as in gz."""
         environment = os.environ if environment is None else environment
         for name in _NOT_IMPLEMENTED:
             if environment.get(name, "") not in ("", "0"):

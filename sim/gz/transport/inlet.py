@@ -59,16 +59,16 @@ class Inlet:
             yield
 
     def was_used(self) -> bool:
-        """Whether the socket was used since the last call, other than by receive(), which must then look again."""
+        """Return whether the socket was used, other than by receive(), which must then look again; and forget it."""
         used, self._was_used = self._was_used, False
         return used
 
     def fileno(self) -> int:
-        """Becomes readable when receive() may have something."""
+        """Return the descriptor that becomes readable when receive() may have something."""
         return self._descriptor
 
     def listen(self, name: str, address: str) -> bool:
-        """Receives a topic from the process at `address`; False when the address cannot be used."""
+        """Receive a topic from the process at `address`; return False if the address cannot be used."""
         self._leaving.pop(address, None)
         if name not in self._filters:
             with self._using():
@@ -94,19 +94,19 @@ class Inlet:
         return True
 
     def ignore(self, name: str) -> None:
-        """No longer receives a topic."""
+        """Stop receiving a topic."""
         if name in self._filters:
             self._filters.remove(name)
             with self._using():
                 self.socket.setsockopt(zmq.UNSUBSCRIBE, name.encode())
 
     def leave_soon(self, address: str) -> None:
-        """The process at `address` is gone: disconnect, but not before its last messages are read."""
+        """Disconnect from a process that is gone, but not before its last messages are read."""
         if address in self._connected:
             self._leaving.setdefault(address, time.monotonic() + LEAVE_AFTER_S)
 
     def leave_due(self) -> None:
-        """Disconnects from the addresses whose time has come."""
+        """Disconnect from the addresses whose time has come."""
         if not self._leaving:
             return
         now = time.monotonic()
@@ -118,7 +118,7 @@ class Inlet:
                 self.socket.disconnect(address)
 
     def receive(self) -> Arrival | None:
-        """The next message, None when there is none. Does not wait."""
+        """Return the next message, or None if there is none; never waits."""
         receive, more = self.socket.recv, self.socket.getsockopt
         while True:
             with self._lock:
@@ -132,5 +132,4 @@ class Inlet:
                 return Arrival(frames[0], frames[2], frames[3])
 
     def close(self) -> None:
-        """Closes the socket."""
         self.socket.close()

@@ -48,7 +48,7 @@ class MessagePublisher:
 
     @property
     def options(self) -> AdvertiseMessageOptions:
-        """What it was advertised with, as far as others are told."""
+        """Return what it was advertised with, as far as others are told."""
         return AdvertiseMessageOptions(self.scope, self.msgs_per_sec)
 
 
@@ -75,5 +75,5 @@ class ServicePublisher:
 
     @property
     def options(self) -> AdvertiseServiceOptions:
-        """What it was advertised with, as far as others are told."""
+        """Return what it was advertised with, as far as others are told."""
         return AdvertiseServiceOptions(self.scope)

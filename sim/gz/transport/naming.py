@@ -1,7 +1,9 @@
-"""The rules for names of topics, services, namespaces and partitions, and the one form they have on the wire.
+"""The rules for names of topics, services, namespaces and partitions, and their form on the wire.
 
 Every name a user gives passes through here before anything else happens: `cmd_vel` in namespace `robot1` and
-partition `class` becomes `@/class@/robot1/cmd_vel`. Rules and limits: the naming rules of gz-transport.
+partition `class` becomes `@/class@/robot1/cmd_vel`.
+
+Source: https://github.com/gazebosim/gz-transport/blob/gz-transport13/src/TopicUtils.cc
 """
 
 from __future__ import annotations
@@ -11,7 +13,7 @@ _FORBIDDEN = {"~": "'~'", " ": "a space", "@": "'@'", "//": "'//'", ":=": "':='"
 
 
 def broken_rule(name: str, *, may_be_empty: bool) -> str | None:
-    """The rule that `name` breaks, as half a sentence ("must not contain '//'"), or None when it is valid."""
+    """Return the rule that `name` breaks, as half a sentence ("must not contain '//'"), or None when it is valid."""
     if not name and not may_be_empty:
         return "must not be empty"
     if name == "/":
@@ -29,22 +31,22 @@ def broken_rule(name: str, *, may_be_empty: bool) -> str | None:
 
 
 def is_valid_topic(name: str) -> bool:
-    """Whether `name` may be the name of a topic or service."""
+    """Return whether `name` may be the name of a topic or service."""
     return broken_rule(name, may_be_empty=False) is None
 
 
 def is_valid_namespace(name: str) -> bool:
-    """Whether `name` may be a namespace; empty is valid."""
+    """Return whether `name` may be a namespace; empty is valid."""
     return broken_rule(name, may_be_empty=True) is None
 
 
 def is_valid_partition(name: str) -> bool:
-    """Whether `name` may be a partition; empty is valid."""
+    """Return whether `name` may be a partition; empty is valid."""
     return broken_rule(name, may_be_empty=True) is None
 
 
 def check(name: str, what: str, *, may_be_empty: bool = False) -> str:
-    """Returns `name`, or raises ValueError with the rule it breaks; `what` is "topic", "partition", ..."""
+    """Return `name`, or raise ValueError with the rule it breaks; `what` is "topic", "partition", ..."""
     rule = broken_rule(name, may_be_empty=may_be_empty)
     if rule is None:
         return name
@@ -55,7 +57,7 @@ def check(name: str, what: str, *, may_be_empty: bool = False) -> str:
 
 
 def as_valid_topic(name: str) -> str:
-    """The valid topic name nearest to `name`, or an empty string when there is none.
+    """Return the valid topic name nearest to `name`, or an empty string when there is none.
 
     Spaces become underscores; `@`, `~`, `:=` and `//` are dropped.
     """
@@ -66,7 +68,7 @@ def as_valid_topic(name: str) -> str:
 
 
 def fully_qualified(partition: str, namespace: str, topic: str, what: str = "topic") -> str:
-    """The name on the wire: `@/partition@/namespace/topic`.
+    """Return the name on the wire: `@/partition@/namespace/topic`.
 
     A topic that starts with `/` is absolute and ignores the namespace; `what` is what errors call the topic. Raises
     ValueError when a part breaks a rule or the whole is longer than 65535 bytes.
@@ -93,8 +95,13 @@ def fully_qualified(partition: str, namespace: str, topic: str, what: str = "top
     return name
 
 
+def partition_prefix(partition: str) -> str:
+    """Return what every fully qualified name of a partition begins with: `@/partition@`."""
+    return fully_qualified(partition, "", "/any").removesuffix("/any")
+
+
 def split(name: str) -> tuple[str, str]:
-    """(partition without its leading slash, topic) of a fully qualified name; ValueError when it is none."""
+    """Return (partition without its leading slash, topic) of a fully qualified name; raise ValueError if it is none."""
     first, last = name.find("@"), name.rfind("@")
     if first != 0 or last == first or not name[last + 1 :]:
         raise ValueError(f"{name[:200]!r} is not a fully qualified name: expected '@/partition@/topic'.")

@@ -1,4 +1,4 @@
-"""The place of this process among the others: everything that reaches beyond the process goes through here.
+"""The network of this process: everything that reaches other processes goes through here.
 
 Created when the first node that is not PROCESS-only needs it. One I/O thread owns discovery and the receiving
 socket; publishers send through the outlet from their own threads. A process that is forked gets a network of
@@ -46,7 +46,7 @@ class Network:
     """Sockets and threads of one process."""
 
     def __init__(self, settings: NetworkSettings) -> None:
-        """Opens the sockets and starts the threads. Raises OSError when the network cannot be used."""
+        """Open the sockets and start the threads. Raises OSError if the network cannot be used."""
         self.process_uuid = str(uuid.uuid4())
         self._open = True
         self._settings = settings
@@ -95,32 +95,32 @@ class Network:
     # ---- called from any thread
 
     def send(self, name: bytes, data: bytes, type_name: bytes) -> None:
-        """Sends a message to the processes that have subscribed to the fully qualified topic."""
+        """Send a message to the processes that have subscribed to the fully qualified topic."""
         self._outlet.send(name, data, type_name)
 
     def advertise(self, publisher: Publisher) -> None:
-        """Tells the others about a publisher."""
+        """Tell the others about a publisher."""
         self._discovery.advertise(self._record(publisher))
 
     def unadvertise(self, publisher: Publisher) -> None:
-        """Tells the others that a publisher is gone."""
+        """Tell the others that a publisher is gone."""
         self._discovery.unadvertise(self._record(publisher))
 
     def subscribe(self, subscription: Subscription) -> None:
-        """Connects a subscription to the publishers of its topic, now and later."""
+        """Connect a subscription to the publishers of its topic, now and later."""
         self._do(lambda: self._connect_known(subscription))
 
     def unsubscribe(self, subscription: Subscription) -> None:
-        """Tells the publishers that a subscription, no longer in the switchboard, has ended."""
+        """Tell the publishers that a subscription, no longer in the switchboard, has ended."""
         self._do(lambda: self._disconnect(subscription))
 
     def listening_processes(self, name: str, type_name: str) -> int:
-        """How many other processes would receive a message of this topic and type that is sent now."""
+        """Return how many other processes would receive a message of this topic and type that is sent now."""
         announced = self._discovery.subscriber_processes(name, type_name)
         return min(announced, self._outlet.listeners(name.encode())) if announced else 0
 
     def services(self) -> ServiceNetwork:
-        """The half of the network that serves services; opened by the first call. OSError when it cannot be."""
+        """Return the half of the network for services, opened by the first call. Raises OSError if it cannot be."""
         with self._services_lock:
             if self._services is None:
                 from gz_course.sim.gz.transport.service_network import ServiceNetwork  # many processes never need it
@@ -130,13 +130,13 @@ class Network:
             return self._services
 
     def known_publishers(self, name: str) -> list[MessagePublisher]:
-        """Publishers of other processes on a fully qualified topic, as far as known now."""
+        """Return publishers of other processes on a fully qualified topic, as far as known now."""
         return [info for _, info in _listed(list(self._discovery.known(name)))]
 
     def known_elsewhere(
         self,
     ) -> tuple[list[tuple[str, MessagePublisher]], list[tuple[str, MessagePublisher]]]:
-        """(publishers, subscribers) of all other processes and partitions, with fully qualified names.
+        """Return (publishers, subscribers) of all other processes and partitions, with fully qualified names.
 
         Waits until the others had time to answer: about one second for the first call of a process.
         """
@@ -147,7 +147,7 @@ class Network:
         return _listed(self._discovery.all_known()), _listed(self._discovery.subscribers())
 
     def close(self) -> None:
-        """Says goodbye to the others, stops the threads and closes the sockets."""
+        """Tell the others, stop the threads and close the sockets."""
         if not self._open:
             return
         self._discovery.say_farewell()
@@ -171,7 +171,7 @@ class Network:
         self._wake_receiver.close()
 
     def abandon_after_fork(self) -> None:
-        """In a forked child: lets go of what belongs to the parent, without a word to anybody."""
+        """Close, in a forked child, the copies of what belongs to the parent, and tell nobody."""
         self._open = False
         self._discovery.close()
         if self._services:
@@ -250,7 +250,7 @@ class Network:
                 self._tell(record, node, again=is_new)
 
     def _tell(self, record: Discovery.Publisher, node_uuid: str, again: bool = True) -> None:
-        """Tells a publisher that a node listens; repeated every second, since datagrams can be lost."""
+        """Tell a publisher that a node listens; repeated every second, since datagrams can be lost."""
         key = (record.topic, record.process_uuid, record.node_uuid, node_uuid)
         now = time.monotonic()
         if again or now - self._told.get(key, 0.0) > 0.9 * HEARTBEAT_S:
@@ -316,9 +316,9 @@ _creation = threading.Lock()
 
 
 def joined() -> Network:
-    """The network of this process; created by the first call.
+    """Return the network of this process; created by the first call.
 
-    Raises OSError when not even 127.0.0.1 can be used.
+    Raises OSError if not even 127.0.0.1 can be used.
     """
     return _network or _create()
 

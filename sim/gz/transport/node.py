@@ -1,7 +1,7 @@
-"""The door to all topics and services: a node advertises, subscribes, and lists what there is.
+"""A node: the entry to all topics and services. It advertises, subscribes, calls, and lists what there is.
 
 A node turns names into fully qualified ones, keeps its publishers and subscriptions, and registers them in
-the switchboard of the process and, unless its scope is PROCESS, with the network.
+the switchboard of the process and, unless its scope is PROCESS, with the network. Its services are in `NodeServices`.
 """
 
 from __future__ import annotations
@@ -15,58 +15,63 @@ from typing import Any
 from google.protobuf.message import Message
 
 from gz_course.sim.gz.transport import naming
-from gz_course.sim.gz.transport.message_info import MessageInfo, MessagePublisher
-from gz_course.sim.gz.transport.options import AdvertiseMessageOptions, NodeOptions, Scope, SubscribeOptions
+from gz_course.sim.gz.transport.message_info import MessageInfo, MessagePublisher, ServicePublisher
+from gz_course.sim.gz.transport.node_services import NodeServices
+from gz_course.sim.gz.transport.options import (
+    AdvertiseMessageOptions,
+    AdvertiseServiceOptions,
+    NodeOptions,
+    Scope,
+    SubscribeOptions,
+)
 from gz_course.sim.gz.transport.publisher import Publisher
-from gz_course.sim.gz.transport.service_calls import ServiceCalls
+from gz_course.sim.gz.transport.reach import network_for
+from gz_course.sim.gz.transport.service import CallResult
 from gz_course.sim.gz.transport.subscription import GENERIC_TYPE, Subscription
 from gz_course.sim.gz.transport.switchboard import SWITCHBOARD
 from gz_course.sim.gz.transport.type_name import for_fortress, type_name
 
+DEFAULT_TIMEOUT_MS = 1000
 
-class Node(ServiceCalls):
+
+class Node:
     """A participant in the topics and services of its partition. Use it in a `with` statement, or close() it."""
 
     def __init__(self, options: NodeOptions | None = None) -> None:
-        """Nothing happens on the network before the first advertise, subscribe or list."""
+        """Join no network yet: that happens at the first advertise, subscribe, call or list."""
         self._options = (options or NodeOptions()).copy()
         self._uuid = str(uuid.uuid4())
+        self._services = NodeServices(self._options, self._uuid)
         self._publishers: list[Publisher] = []
         self._subscriptions: list[Subscription] = []
         self._open = True
 
     @property
     def options(self) -> NodeOptions:
-        """The options of the node (a copy)."""
+        """Return a copy of the node's options."""
         return self._options.copy()
 
     def advertise(
         self, topic: str, message_type: type[Message] | str, options: AdvertiseMessageOptions | None = None
     ) -> Publisher:
-        """A publisher on `topic`; `message_type` is a message class, or a type name for publish_raw().
+        """Return a publisher on `topic`; `message_type` is a message class, or a type name for publish_raw().
 
-        Raises ValueError when the topic name breaks a rule (it is quoted) or this node advertises it already.
+        Raises ValueError if the topic name breaks a rule or this node advertises it already.
         """
         self._check_open()
         options = options or AdvertiseMessageOptions()
         scope = min(self._options.scope, options.scope)
-        joined = None
-        if scope != Scope.PROCESS:
-            from gz_course.sim.gz.transport import network
-
-            joined = network.joined
         publisher = Publisher(
-            self._qualified(topic),
+            self._options.qualified(topic),
             for_fortress(type_name(message_type)) if options.fortress else type_name(message_type),
             self._uuid,
             scope,
             options,
-            joined,
         )
         SWITCHBOARD.add_publisher(publisher)
         self._publishers = [*(each for each in self._publishers if each.valid()), publisher]
-        if joined is not None:
-            joined().advertise(publisher)
+        if network := network_for(scope):
+            network.advertise(publisher)
         return publisher
 
     def subscribe(
@@ -76,11 +81,11 @@ class Node(ServiceCalls):
         callback: Callable[[Any], Any],
         options: SubscribeOptions | None = None,
     ) -> bool:
-        """Calls `callback(message)` for every message of this type on `topic`. Type first, then topic.
+        """Call `callback(message)` for every message of this type on `topic`. Type first, then topic.
 
         Messages of this process arrive in the publisher's thread, others in one dispatcher thread, so a
-        callback that hears both may run in two threads at a time. Messages of another type are not delivered.
-        Raises ValueError when the topic name breaks a rule, TypeError for a wrong kind of argument.
+        callback may run in two threads at a time. Messages of another type are not delivered.
+        Raises ValueError if the topic name breaks a rule, TypeError for a wrong kind of argument.
         """
         if not (isinstance(message_type, type) and issubclass(message_type, Message)):
             raise TypeError(
@@ -96,7 +101,7 @@ class Node(ServiceCalls):
         message_type: str = GENERIC_TYPE,
         options: SubscribeOptions | None = None,
     ) -> bool:
-        """Calls `callback(data, info)` with the serialized message; without a type name, for every type."""
+        """Call `callback(data, info)` with each serialized message; without a type name, of every type."""
         return self._subscribe(topic, type_name(message_type), callback, options, None)
 
     def _subscribe(
@@ -111,7 +116,7 @@ class Node(ServiceCalls):
         if not callable(callback):
             raise TypeError(f"The callback for topic {topic!r} cannot be called: it is {callback!r}.")
         subscription = Subscription(
-            self._qualified(topic),
+            self._options.qualified(topic),
             kind,
             self._uuid,
             self._options.scope,
@@ -121,15 +126,13 @@ class Node(ServiceCalls):
         )
         SWITCHBOARD.add_subscription(subscription)
         self._subscriptions.append(subscription)
-        if subscription.scope != Scope.PROCESS:
-            from gz_course.sim.gz.transport import network
-
-            network.joined().subscribe(subscription)
+        if network := network_for(subscription.scope):
+            network.subscribe(subscription)
         return True
 
     def unsubscribe(self, topic: str) -> bool:
-        """Ends all subscriptions of this node to `topic`; False when there were none."""
-        name = self._qualified(topic)
+        """End all subscriptions of this node to `topic`; return False if there were none."""
+        name = self._options.qualified(topic)
         ended = [each for each in self._subscriptions if each.name == name]
         for each in ended:
             self._end(each)
@@ -139,109 +142,177 @@ class Node(ServiceCalls):
         with contextlib.suppress(ValueError):  # another thread ended it at the same moment
             self._subscriptions.remove(subscription)
         SWITCHBOARD.remove_subscription(subscription)
-        if subscription.scope != Scope.PROCESS:
-            from gz_course.sim.gz.transport import network
-
-            network.joined().unsubscribe(subscription)
+        if network := network_for(subscription.scope):
+            network.unsubscribe(subscription)
 
     def advertised_topics(self) -> list[str]:
-        """The topics this node publishes on, sorted, without partition."""
+        """Return the topics this node publishes on, sorted, without partition."""
         return sorted({each.topic for each in self._publishers if each.valid()})
 
     def subscribed_topics(self) -> list[str]:
-        """The topics this node listens to, sorted, without partition."""
+        """Return the topics this node listens to, sorted, without partition."""
         return sorted({naming.split(each.name)[1] for each in self._subscriptions})
 
     def endpoints(self) -> tuple[list[tuple[str, str]], list[tuple[str, str]]]:
-        """(what this node publishes, what it listens to), each as (topic, type name), in the order in which they came.
-        (Our addition.)
+        """Return what this node publishes and what it listens to, each a list of (topic, type name), oldest first.
+
+        Not in the official binding.
         """
         published = [(each.topic, each.type_name) for each in self._publishers if each.valid()]
         return published, [(naming.split(each.name)[1], each.type_name) for each in self._subscriptions]
 
     def topic_list(self) -> list[str]:
-        """All topics of the partition, sorted; those with publishers first, then those with subscribers only.
+        """Return all topics of the partition, sorted: those with publishers first, then those with subscribers only.
 
-        The first call in a process waits until every other process had the time to announce itself (about one
-        second). A node with scope PROCESS answers at once, for its own process.
+        The first call in a process waits about one second, so that every other process can announce itself. A node
+        with scope PROCESS answers at once, for its own process.
         """
         published, subscribed = self.publishers_and_subscribers()
         first = {each.topic for each in published}
         return sorted(first) + sorted({each.topic for each in subscribed} - first)
 
     def topic_info(self, topic: str) -> tuple[list[MessagePublisher], list[MessagePublisher]]:
-        """(publishers, subscribers) of a topic; waits like topic_list()."""
-        plain = naming.split(self._qualified(topic))[1]
+        """Return the publishers and the subscribers of a topic; waits like topic_list()."""
+        plain = naming.split(self._options.qualified(topic))[1]
         published, subscribed = self.publishers_and_subscribers()
         return [each for each in published if each.topic == plain], [each for each in subscribed if each.topic == plain]
 
     def known_publishers(self, topic: str) -> list[MessagePublisher]:
-        """The publishers of a topic that this process knows of already; never waits, may lack a new one.
+        """Return the publishers of a topic that this process knows of; never waits, so a new one may be missing.
 
-        One of a process that was killed goes from the list within about three seconds. (Our addition.)
+        A publisher of a killed process leaves the list within about three seconds. Not in the official binding.
         """
-        name = self._qualified(topic)
+        name = self._options.qualified(topic)
         found = [
             MessagePublisher(each.topic, "", each.type_name, "", each.node_uuid, each.scope)
             for each in SWITCHBOARD.all_publishers()
             if each.name == name
         ]
-        if self._options.scope != Scope.PROCESS:
-            from gz_course.sim.gz.transport import network
-
-            found += network.joined().known_publishers(name)
+        if network := network_for(self._options.scope):
+            found += network.known_publishers(name)
         return found
 
     def publishers_and_subscribers(self) -> tuple[list[MessagePublisher], list[MessagePublisher]]:
-        """(publishers, subscribers) of all topics of the partition; waits like topic_list(). (Our addition.)"""
-        process, address = "", ""
-        named_published: list[tuple[str, MessagePublisher]] = []
-        named_subscribed: list[tuple[str, MessagePublisher]] = []
-        if self._options.scope != Scope.PROCESS:
-            from gz_course.sim.gz.transport import network
+        """Return the publishers and the subscribers of all topics of the partition; waits like topic_list().
 
-            joined = network.joined()
-            process, address = joined.process_uuid, joined.address
-            named_published, named_subscribed = joined.known_elsewhere()
-        for publisher in SWITCHBOARD.all_publishers():
-            reachable = address if publisher.scope != Scope.PROCESS else ""
-            named_published.append(
-                (
-                    publisher.name,
-                    MessagePublisher(
-                        publisher.topic,
-                        reachable,
-                        publisher.type_name,
-                        process,
-                        publisher.node_uuid,
-                        publisher.scope,
-                    ),
-                )
-            )
-        for each in SWITCHBOARD.all_subscriptions():
+        Not in the official binding.
+        """
+        process, address = "", ""
+        published: list[tuple[str, MessagePublisher]] = []
+        subscribed: list[tuple[str, MessagePublisher]] = []
+        if network := network_for(self._options.scope):
+            process, address = network.process_uuid, network.address
+            published, subscribed = network.known_elsewhere()
+
+        def named(each: Publisher | Subscription) -> tuple[str, MessagePublisher]:
             reachable = address if each.scope != Scope.PROCESS else ""
             topic = naming.split(each.name)[1]
-            named_subscribed.append(
-                (
-                    each.name,
-                    MessagePublisher(topic, reachable, each.type_name, process, each.node_uuid, each.scope),
-                )
-            )
-        own = naming.fully_qualified(self._options.partition, "", "/any").removesuffix("/any")
+            return each.name, MessagePublisher(topic, reachable, each.type_name, process, each.node_uuid, each.scope)
+
+        published += map(named, SWITCHBOARD.all_publishers())
+        subscribed += map(named, SWITCHBOARD.all_subscriptions())
+        own = naming.partition_prefix(self._options.partition)
         return (
-            [info for name, info in named_published if name.startswith(own)],
-            [info for name, info in named_subscribed if name.startswith(own)],
+            [info for name, info in published if name.startswith(own)],
+            [info for name, info in subscribed if name.startswith(own)],
         )
 
+    def advertise_service(
+        self,
+        service: str,
+        request_type: type[Message] | str,
+        response_type: type[Message] | str,
+        callback: Callable[[Any], Any],
+        options: AdvertiseServiceOptions | None = None,
+    ) -> bool:
+        """Offer a service: `callback(request)` returns the response, or (bool, response), False for a failure.
+
+        With gz.msgs.Empty as response type requests are one-way and nothing is returned. Requests of other
+        processes come one at a time, in a thread of their own; those of this process in the requester's thread.
+        An exception is reported on stderr and to the requester, as a failure. Raises ValueError if the name breaks a
+        rule or this node offers the service already, TypeError for arguments of the wrong kind.
+        Not in the official binding, which cannot offer services.
+        """
+        self._check_open()
+        self._services.advertise(service, request_type, response_type, callback, options or AdvertiseServiceOptions())
+        return True
+
+    def unadvertise_service(self, service: str) -> bool:
+        """Withdraw a service of this node; return False if it offers none of that name."""
+        return self._services.unadvertise(service)
+
+    def advertised_services(self) -> list[str]:
+        """Return the services this node offers, sorted, without partition."""
+        return self._services.names()
+
+    def request(
+        self,
+        service: str,
+        request: Message | None,
+        request_type: type[Message],
+        response_type: type[Message],
+        timeout_ms: int = DEFAULT_TIMEOUT_MS,
+    ) -> tuple[bool, Any]:
+        """Call a service; return whether it succeeded, and the response.
+
+        After a failure, or without an answer within `timeout_ms`, the response is an empty message. A service without
+        arguments takes None (or a message) of type gz.msgs.Empty. With gz.msgs.Empty as response type the call
+        is one-way: True as soon as it is sent. Providers with other types are not asked, as in Gazebo.
+        """
+        if request is None:
+            request = request_type()
+        if not isinstance(request, request_type):
+            raise TypeError(
+                f"The request to service {service!r} is a {type(request).__name__}, "
+                f"but the request type was given as {type_name(request_type)}."
+            )
+        outcome = self.call_raw(
+            service, request.SerializeToString(), type_name(request_type), type_name(response_type), timeout_ms
+        )
+        response = response_type()
+        if outcome.result:
+            response.ParseFromString(outcome.response)
+        return outcome.result, response
+
+    def request_raw(
+        self, service: str, request: bytes, request_type: str, response_type: str, timeout_ms: int = DEFAULT_TIMEOUT_MS
+    ) -> tuple[bool, bytes]:
+        """Call a service like request(), with serialized messages and names of types."""
+        outcome = self.call_raw(service, request, request_type, response_type, timeout_ms)
+        return outcome.result, outcome.response
+
+    def call_raw(
+        self, service: str, request: bytes, request_type: str, response_type: str, timeout_ms: int = DEFAULT_TIMEOUT_MS
+    ) -> CallResult:
+        """Call a service like request_raw(), and tell a provider that failed from one that did not answer.
+
+        Not in the official binding.
+        """
+        self._check_open()
+        return self._services.call(service, request, request_type, response_type, timeout_ms)
+
+    def service_list(self) -> list[str]:
+        """Return all services of the partition, sorted; waits like topic_list()."""
+        return sorted({each.topic for each in self.service_publishers()})
+
+    def service_info(self, service: str) -> list[ServicePublisher]:
+        """Return the providers of a service; waits like topic_list()."""
+        plain = naming.split(self._options.qualified(service, "service"))[1]
+        return [each for each in self.service_publishers() if each.topic == plain]
+
+    def service_publishers(self) -> list[ServicePublisher]:
+        """Return the providers of all services; waits like topic_list(). Not in the official binding."""
+        return self._services.publishers()
+
     def close(self) -> None:
-        """Closes all publishers and ends all subscriptions and services of this node. Closing twice does nothing."""
+        """Close all publishers and end all subscriptions and services of this node. Closing twice does nothing."""
         self._open = False
         for publisher in self._publishers:
             publisher.close()
         self._publishers.clear()
         for subscription in list(self._subscriptions):
             self._end(subscription)
-        self._end_services()
+        self._services.close()
 
     def __enter__(self) -> Node:
         return self

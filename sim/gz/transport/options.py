@@ -1,7 +1,6 @@
-"""How a node, a publisher or a subscription shall behave: the option objects of gz-transport.
+"""The option objects of gz-transport for nodes, publishers, services and subscriptions.
 
-They are given to Node(), Node.advertise() and Node.subscribe(), and only hold values; what a value does is
-described here and done in node.py, publisher.py and subscription.py.
+They only hold values; node.py, publisher.py and subscription.py act on them.
 """
 
 from __future__ import annotations
@@ -55,10 +54,10 @@ class _Options:
 
 
 class AdvertiseOptions(_Options):
-    """What publishers and services have in common: a scope and, our addition, whether Fortress understands them."""
+    """Options of publishers and services: a scope, and (not in the official binding) `fortress`."""
 
     def __init__(self, scope: Scope | AdvertiseOptions = Scope.ALL, fortress: bool = False) -> None:
-        """Takes the values, or other options to copy.
+        """Take the values, or other options to copy.
 
         With `fortress` the types are announced as `ignition.msgs.X`, which is what Fortress calls them; its tools
         and bridges then understand them, and newer ones do not.
@@ -69,7 +68,7 @@ class AdvertiseOptions(_Options):
 
     @property
     def scope(self) -> Scope:
-        """How far it reaches: this process, this machine, or all."""
+        """Return how far it reaches: this process, this machine, or all."""
         return self._scope
 
     @scope.setter
@@ -95,7 +94,7 @@ class AdvertiseMessageOptions(AdvertiseOptions):
 
     @property
     def msgs_per_sec(self) -> int:
-        """The most messages per second that are sent; the rest is dropped. UNTHROTTLED for no limit."""
+        """Return the most messages per second that are sent; the rest is dropped. UNTHROTTLED for no limit."""
         return self._msgs_per_sec
 
     @msgs_per_sec.setter
@@ -104,7 +103,6 @@ class AdvertiseMessageOptions(AdvertiseOptions):
 
     @property
     def throttled(self) -> bool:
-        """Whether there is a limit."""
         return self._msgs_per_sec != UNTHROTTLED
 
 
@@ -112,7 +110,6 @@ class SubscribeOptions(_Options):
     """Options of a subscription: the most messages per second it takes, and whether it hears its own node."""
 
     def __init__(self, msgs_per_sec: int | SubscribeOptions = UNTHROTTLED, ignore_local_messages: bool = False) -> None:
-        """Takes the values, or other options to copy."""
         if isinstance(msgs_per_sec, SubscribeOptions):
             vars(self).update(vars(msgs_per_sec))
             return
@@ -121,7 +118,7 @@ class SubscribeOptions(_Options):
 
     @property
     def msgs_per_sec(self) -> int:
-        """The most messages per second for the callback; the rest is dropped. UNTHROTTLED for no limit."""
+        """Return the most messages per second for the callback; the rest is dropped. UNTHROTTLED for no limit."""
         return self._msgs_per_sec
 
     @msgs_per_sec.setter
@@ -130,12 +127,11 @@ class SubscribeOptions(_Options):
 
     @property
     def throttled(self) -> bool:
-        """Whether there is a limit."""
         return self._msgs_per_sec != UNTHROTTLED
 
 
 class NodeOptions(_Options):
-    """Options of a node: partition, namespace, topic remappings and, our addition, a scope.
+    """Options of a node: partition, namespace, topic remappings and a scope, which the official binding does not have.
 
     With `scope=Scope.PROCESS` the node uses no socket and no thread: it talks with the nodes of its own
     process only, and nothing from outside reaches it. Raises ValueError with the broken rule for invalid
@@ -145,7 +141,6 @@ class NodeOptions(_Options):
     def __init__(
         self, partition: str | NodeOptions | None = None, namespace: str = "", scope: Scope = Scope.ALL
     ) -> None:
-        """Takes the values, or other options to copy."""
         if isinstance(partition, NodeOptions):
             vars(self).update(vars(partition.__copy__()))
             return
@@ -165,7 +160,7 @@ class NodeOptions(_Options):
 
     @property
     def namespace(self) -> str:
-        """What stands before every topic that does not start with `/`."""
+        """Return what stands before every topic that does not start with `/`."""
         return self._namespace
 
     @namespace.setter
@@ -173,7 +168,7 @@ class NodeOptions(_Options):
         self._namespace = naming.check(namespace, "namespace", may_be_empty=True)
 
     def add_topic_remap(self, from_topic: str, to_topic: str) -> bool:
-        """From now on `from_topic` means `to_topic`; False when `from_topic` was remapped before."""
+        """Let `from_topic` mean `to_topic`; return False if `from_topic` was remapped before."""
         naming.check(from_topic, "topic")
         naming.check(to_topic, "topic")
         if from_topic in self._remappings:
@@ -182,13 +177,17 @@ class NodeOptions(_Options):
         return True
 
     def topic_remap(self, from_topic: str) -> tuple[bool, str]:
-        """(True, what `from_topic` means in this node), or (False, "") when it was not remapped."""
+        """Return (True, what `from_topic` means in this node), or (False, "") when it was not remapped."""
         return from_topic in self._remappings, self._remappings.get(from_topic, "")
 
     def renamed(self, topic: str) -> str:
-        """The topic that `topic` means in this node: another one when remapped, otherwise itself."""
+        """Return the topic that `topic` means in this node: another one when remapped, otherwise itself."""
         return self._remappings.get(topic, topic)
 
+    def qualified(self, topic: str, what: str = "topic") -> str:
+        """Return the fully qualified name of a topic or service of the node; raise ValueError if a rule is broken."""
+        return naming.fully_qualified(self.partition, self.namespace, self.renamed(topic), what)
+
     def copy(self) -> NodeOptions:
-        """An independent copy, so a node does not change when its options object is used again."""
+        """Return an independent copy, so a node does not change when its options object is used again."""
         return self.__copy__()

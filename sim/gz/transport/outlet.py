@@ -3,6 +3,8 @@
 Publishers call send() from any thread; the I/O thread calls take_notices() when the descriptor is readable.
 It is an XPUB socket: it tells which topics the connected processes have subscribed to, so that a publisher
 can know when its first message will arrive. Frames of a message: topic, our address, bytes, type name.
+
+Source: https://github.com/gazebosim/gz-transport/blob/gz-transport13/src/NodeShared.cc (NodeShared::Publish)
 """
 
 from __future__ import annotations
@@ -26,7 +28,7 @@ class Outlet:
         high_water_mark: int,
         on_change: Callable[[], None],
     ) -> None:
-        """Binds a free port of `ip`; `on_change()` is called, with no lock held, when listeners change."""
+        """Bind a free port of `ip`; `on_change()` is called, with no lock held, when listeners change."""
         self._on_change = on_change
         self._lock = threading.Lock()
         self._listeners: dict[bytes, int] = {}
@@ -41,15 +43,15 @@ class Outlet:
         self._descriptor = int(self._socket.getsockopt(zmq.FD))
 
     def fileno(self) -> int:
-        """Becomes readable when the socket has something to say."""
+        """Return the descriptor that becomes readable when take_notices() may have something."""
         return self._descriptor
 
     def listeners(self, name: bytes) -> int:
-        """How many processes have subscribed to this fully qualified topic."""
+        """Return how many processes have subscribed to this fully qualified topic."""
         return self._listeners.get(name, 0)
 
     def send(self, name: bytes, data: bytes, type_name: bytes) -> None:
-        """Sends to the processes that have subscribed; never waits: who is too slow misses some."""
+        """Send to the processes that have subscribed; never waits, so a slow process misses messages."""
         if not self._listeners.get(name):
             return
         with self._lock:
@@ -66,7 +68,7 @@ class Outlet:
             self._on_change()
 
     def take_notices(self) -> None:
-        """Counts the subscriptions that came and went."""
+        """Count the subscriptions that came and went."""
         with self._lock:
             changed = not self._socket.closed and self._drain()
         if changed:
@@ -87,6 +89,6 @@ class Outlet:
         return changed
 
     def close(self) -> None:
-        """Closes the socket; messages under way are still sent for a moment."""
+        """Close the socket; messages under way are still sent for a moment."""
         with self._lock:
             self._socket.close()

@@ -1,7 +1,7 @@
-"""Sends messages on one topic.
+"""A publisher: sends messages on one topic.
 
-Start of the data path: publish() serializes once, hands the bytes to the network (when somebody outside
-listens) and to every subscription of this process, in the caller's thread, before it returns.
+The start of the data path: publish() serializes once and hands the bytes to the network, if another process listens,
+and to every subscription of this process, in the caller's thread, before it returns.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 class Publisher:
-    """What Node.advertise() returns. Closed with close() or together with its node."""
+    """The result of Node.advertise(); closed with close() or together with its node."""
 
     def __init__(
         self,
@@ -33,13 +33,13 @@ class Publisher:
         node_uuid: str,
         scope: Scope,
         options: AdvertiseMessageOptions,
-        joined: Callable[[], Network] | None,
     ) -> None:
-        """`name` is fully qualified; `joined` gives the network, None for a publisher of this process only.
+        """`name` is fully qualified. Use Node.advertise() instead of calling this."""
+        self._joined: Callable[[], Network] | None = None  # None: no other process is reached
+        if scope != Scope.PROCESS:
+            from gz_course.sim.gz.transport import network
 
-        Use Node.advertise() instead of calling this.
-        """
-        self._joined = joined
+            self._joined = network.joined
         self.name = name
         self.type_name = type_name
         self.node_uuid = node_uuid
@@ -53,14 +53,14 @@ class Publisher:
         self._open = True
 
     def valid(self) -> bool:
-        """Whether it can publish: True until it is closed."""
+        """Return whether it can publish: True until it is closed."""
         return self._open
 
     def publish(self, message: Message) -> bool:
-        """Sends a message; same-process callbacks have run when this returns.
+        """Send a message; same-process callbacks have run when this returns.
 
-        True also when nobody listens or the message was dropped by a rate limit. False, with a line on
-        stderr, when the message has another type than advertised, and when the publisher is closed.
+        Return True also if nobody listens or a rate limit dropped the message; False, with a line on stderr, if the
+        message has another type than advertised, and False if the publisher is closed.
         """
         if type(message) is self._message_class:
             return self._send(message.SerializeToString())
@@ -74,7 +74,7 @@ class Publisher:
         return self.publish_raw(message.SerializeToString(), message.DESCRIPTOR.full_name)
 
     def publish_raw(self, data: bytes, type_name: str) -> bool:
-        """Sends a message that is serialized already; otherwise as publish()."""
+        """Send a message that is serialized already; otherwise like publish()."""
         if not self._open:
             return False
         if type_name != self.type_name:
@@ -102,24 +102,24 @@ class Publisher:
         return True
 
     def has_connections(self) -> bool:
-        """Whether somebody listens: a subscription here, or another process, with a matching type."""
+        """Return whether a subscription of this or another process with a matching type listens."""
         return self._connections() > 0
 
     def wait_for_subscribers(self, count: int = 1, timeout: float = 5.0) -> bool:
-        """Waits until `count` subscribers would receive the next message; False after `timeout` seconds.
+        """Wait until `count` subscribers would receive the next message; return False after `timeout` [s].
 
         Each subscription of this process counts as one and each other process as one. After True the next
-        message is not lost, which a publisher that starts to send at once cannot know. (Our addition.)
+        message is not lost. Not in the official binding.
         """
         self._connections()  # a forked child joins the network here, which the wait below must not do
         return SWITCHBOARD.wait_for(lambda: self._connections() >= count, timeout)
 
     def throttled_update_ready(self) -> bool:
-        """Whether a message published now would pass the rate limit."""
+        """Return whether a message published now would pass the rate limit."""
         return self._throttle.ready()
 
     def close(self) -> None:
-        """Stops publishing and tells the other processes. Closing twice does nothing."""
+        """Stop publishing and tell the other processes. Closing twice does nothing."""
         if not self._open:
             return
         self._open = False

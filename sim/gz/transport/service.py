@@ -1,6 +1,6 @@
-"""One service of this process: its types, and how its callback is called.
+"""A service of this process: its types, and how its callback is called.
 
-End of the path of a request. It comes from a requester of the same process (in the requester's thread) or from
+The end of the path of a request, which comes from a requester of the same process (in the requester's thread) or from
 the service threads (from other processes). Whatever the callback does, there is an outcome: an exception or a
 wrong return value is one line on stderr and a failed call for the requester.
 """
@@ -65,15 +65,15 @@ class Service:
 
     @property
     def one_way(self) -> bool:
-        """Whether requesters get no response."""
+        """Return whether requesters get no response."""
         return is_one_way(self.response_type)
 
     def matches(self, request_type: str, response_type: str) -> bool:
-        """Whether a request with these types is for this service."""
+        """Return whether a request with these types is for this service."""
         return same_types(self.request_type, self.response_type, request_type, response_type)
 
     def answer(self, data: bytes) -> CallResult:
-        """Calls the callback with the request; never raises an Exception."""
+        """Call the callback with the request; never raise an Exception."""
         try:
             request = self._request_class.FromString(data)
         except DecodeError:
@@ -107,10 +107,10 @@ class Service:
 
 
 def is_one_way(response_type: str) -> bool:
-    """Whether this type of response means that there is no response."""
+    """Return whether this type of response means that there is no response."""
     return canonical_name(response_type) == EMPTY_TYPE
 
 
 def same_types(request: str, response: str, other_request: str, other_response: str) -> bool:
-    """Whether two pairs of type names mean the same, `ignition.msgs.X` being `gz.msgs.X`."""
+    """Return whether two pairs of type names mean the same, `ignition.msgs.X` being `gz.msgs.X`."""
     return same_type(request, other_request) and same_type(response, other_response)

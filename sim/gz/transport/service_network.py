@@ -28,7 +28,7 @@ from gz_course.sim.gz.transport.service_threads import ServiceThreads, while_wai
 from gz_course.sim.gz.transport.switchboard import SWITCHBOARD
 
 RESPONSE_DEADLINE_S = 5.0
-"""So long a response is tried to be delivered to a requester that cannot be reached."""
+"""How long delivery to a requester that cannot be reached is tried."""
 _MOST_AT_ONCE = 100
 _REQUEST_FRAMES, _RESPONSE_FRAMES = 9, 6
 _LARGEST_FRAME = 1 << 30
@@ -59,7 +59,7 @@ class ServiceNetwork:
         process_uuid: str,
         wake: Callable[[], None],
     ) -> None:
-        """Opens the sockets. Raises OSError when the network cannot be used."""
+        """Open the sockets. Raises OSError if the network cannot be used."""
         self._process_uuid = process_uuid
         self._ip = settings.ip
         self._pending: dict[bytes, _Pending] = {}
@@ -80,17 +80,17 @@ class ServiceNetwork:
     # ---- called from any thread
 
     def advertise(self, service: Service) -> None:
-        """Tells the others about a service."""
+        """Tell the others about a service."""
         self.discovery.advertise(self._record(service))
 
     def unadvertise(self, service: Service) -> None:
-        """Tells the others that a service is gone."""
+        """Tell the others that a service is gone."""
         self.discovery.unadvertise(self._record(service))
 
     def request(
         self, name: str, node_uuid: str, data: bytes, request_type: str, response_type: str, timeout_s: float
     ) -> CallResult:
-        """Calls a service of another process; waits for the response, at most `timeout_s` seconds."""
+        """Call a service of another process and wait at most `timeout_s` for the response."""
         pending = _Pending(name, node_uuid)
         one_way = is_one_way(response_type)
         deadline = time.monotonic() + timeout_s
@@ -111,7 +111,7 @@ class ServiceNetwork:
         return pending.outcome
 
     def providers(self, name: str, request_type: str, response_type: str) -> list[Discovery.Publisher]:
-        """The providers of a service in other processes, with matching types."""
+        """Return the providers of a service in other processes, with matching types."""
         return [
             record
             for record in self.discovery.known(name)
@@ -135,7 +135,7 @@ class ServiceNetwork:
             yield record.address, record.srv_pub.socket_id.encode(), frames
 
     def known_elsewhere(self) -> list[tuple[str, ServicePublisher]]:
-        """The services of all other processes and partitions, with fully qualified names.
+        """Return the services of all other processes and partitions, with fully qualified names.
 
         Waits until the others had time to announce them: about one second for the first call of a process.
         """
@@ -145,13 +145,12 @@ class ServiceNetwork:
     # ---- the I/O thread
 
     def sources(self) -> Iterable[tuple[zmq.Socket[bytes] | int, int]]:
-        """What to poll, and for what."""
+        """Yield what to poll, and for which events."""
         yield self.discovery.fileno(), zmq.POLLIN
         yield self.receiver, zmq.POLLIN
         yield self.replier, 0 if self._threads.full() else zmq.POLLIN
 
     def take(self, ready: dict[object, int]) -> None:
-        """Handles what has arrived."""
         if self.discovery.fileno() in ready:
             self.discovery.receive()
         if self.receiver in ready:
@@ -162,7 +161,7 @@ class ServiceNetwork:
                 self._take_request(frames)
 
     def tick(self) -> float:
-        """Does what is due, tries again to send what could not be sent; seconds until it wants to be called."""
+        """Send what is due and what could not be sent before; return the time [s] until the next call is due."""
         wait_s = self.discovery.tick()
         return min(wait_s, RETRY_S) if self._courier.retry() else wait_s
 
@@ -226,11 +225,10 @@ class ServiceNetwork:
     # ---- the end
 
     def stop_threads(self) -> None:
-        """No more callbacks."""
         self._threads.stop()
 
     def close(self) -> None:
-        """Closes the sockets; the I/O thread must have ended."""
+        """Close the sockets; the I/O thread must have ended."""
         self.discovery.close()
         self._courier.close()
         self.replier.close()
@@ -249,7 +247,7 @@ def _receiving_socket(
 
 
 def _waiting(router: zmq.Socket[bytes], length: int) -> Iterator[list[bytes]]:
-    """The messages of so many frames that wait, up to a limit; others are dropped."""
+    """Yield the waiting messages of `length` frames, up to a limit; drop others."""
     for _ in range(_MOST_AT_ONCE):
         try:
             frames: list[bytes] = router.recv_multipart(zmq.NOBLOCK)

@@ -1,4 +1,4 @@
-"""Runs service callbacks for requests of other processes, one at a time.
+"""The threads that run service callbacks for requests of other processes, one at a time.
 
 Between the I/O thread and the services. There is more than one thread only while a callback waits for the
 response to a request of its own: then the next one takes its turn, so that two processes may call one another
@@ -34,13 +34,13 @@ class ServiceThreads:
         self._open = True
 
     def put(self, work: Callable[[], None]) -> None:
-        """Queues work; the first call starts the first thread."""
+        """Queue work; the first call starts the first thread."""
         self._queue.put(work)
         if not self._all:
             self._start_one()
 
     def full(self) -> bool:
-        """Whether no more should be put in."""
+        """Return whether no more should be put in."""
         if self._queue.qsize() < _MOST_QUEUED:
             return False
         self._was_full = True
@@ -76,7 +76,7 @@ class ServiceThreads:
                 self._on_room()
 
     def stop(self) -> None:
-        """Ends the threads after the callbacks they are in."""
+        """End the threads after the callbacks they are in."""
         self._open = False
         self._queue.put(None)
 
@@ -94,7 +94,7 @@ class ServiceThreads:
 
 @contextlib.contextmanager
 def while_waiting() -> Iterator[None]:
-    """Around every wait for a response: inside a service callback it lets the next callback run meanwhile."""
+    """Let the next service callback run while this one waits for a response."""
     threads: ServiceThreads | None = getattr(_own, "threads", None)
     if threads is None:
         yield

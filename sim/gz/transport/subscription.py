@@ -1,6 +1,6 @@
-"""One callback on one topic: which messages it takes, and how it is called.
+"""A subscription: which messages its callback takes, and how it is called.
 
-End of the data path. Messages come from publishers of the same process (in the publisher's thread, before
+The end of the data path. Messages come from publishers of the same process (in the publisher's thread, before
 publish() returns) or from the dispatcher thread (from other processes). The callback always gets its own
 copy.
 """
@@ -52,11 +52,11 @@ class Subscription:
         self._message_type = message_type
 
     def accepts(self, type_name: str) -> bool:
-        """Whether messages of this type are for this subscription."""
+        """Return whether messages of this type are for this subscription."""
         return self.type_name in (type_name, GENERIC_TYPE) or same_type(self.type_name, type_name)
 
     def deliver(self, data: bytes, info: MessageInfo, from_node: str | None = None) -> None:
-        """Calls the callback with a fresh copy, unless type, options or broken bytes forbid it.
+        """Call the callback with a fresh copy, unless type, options or broken bytes forbid it.
 
         An exception of the callback becomes one line on stderr. `from_node` is the publishing node, if it is
         one of this process.
@@ -82,7 +82,7 @@ class Subscription:
 
 
 def one_line(error: Exception) -> str:
-    """What a callback raised, and the place in the user's file where: `raised KeyError: 'x' (robot.py:12)`."""
+    """Return what a callback raised, and where in the user's file: `raised KeyError: 'x' (robot.py:12)`."""
     frames = traceback.extract_tb(sys.exc_info()[2])
     own = Path(__file__).parent
     places = [frame for frame in frames if Path(frame.filename).parent != own] or list(frames)

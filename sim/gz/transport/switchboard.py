@@ -1,4 +1,4 @@
-"""Who publishes and who listens in this process: the one table both delivery paths look at.
+"""The table of who publishes and who listens in this process; both delivery paths look at it.
 
 Same-process messages go publisher -> switchboard -> callback without leaving the thread; the network looks
 here for what to advertise and whom to hand what arrives. Readers take immutable tuples and need no lock.
@@ -30,39 +30,39 @@ class Switchboard:
         self._services: dict[str, tuple[Service, ...]] = {}
 
     def subscriptions(self, name: str) -> tuple[Subscription, ...]:
-        """The subscriptions of a topic, oldest first."""
+        """Return the subscriptions of a topic, oldest first."""
         return self._subscriptions.get(name, ())
 
     def publishers(self, name: str) -> tuple[Publisher, ...]:
-        """The publishers of a topic, oldest first."""
+        """Return the publishers of a topic, oldest first."""
         return self._publishers.get(name, ())
 
     def all_subscriptions(self) -> list[Subscription]:
-        """Every subscription of the process."""
+        """Return every subscription of the process."""
         with self._changed:
             return [each for group in self._subscriptions.values() for each in group]
 
     def all_publishers(self) -> list[Publisher]:
-        """Every publisher of the process."""
+        """Return every publisher of the process."""
         with self._changed:
             return [each for group in self._publishers.values() for each in group]
 
     def networked_subscriptions(self, name: str) -> tuple[Subscription, ...]:
-        """The subscriptions of a topic that may hear other processes."""
+        """Return the subscriptions of a topic that may hear other processes."""
         return self._networked.get(name, ())
 
     def networked_publishers(self, name: str) -> tuple[Publisher, ...]:
-        """The publishers of a topic that other processes may know of."""
+        """Return the publishers of a topic that other processes may know of."""
         return tuple(each for each in self.publishers(name) if each.scope != Scope.PROCESS)
 
     def add_subscription(self, subscription: Subscription) -> None:
-        """From now on messages of its topic reach it."""
+        """Deliver the messages of its topic to a subscription from now on."""
         with self._changed:
             self._set_subscriptions(subscription.name, (*self.subscriptions(subscription.name), subscription))
             self._changed.notify_all()
 
     def remove_subscription(self, subscription: Subscription) -> None:
-        """No message reaches it any more, not even one that is under way."""
+        """Deliver nothing to a subscription any more, not even messages that are under way."""
         subscription.active = False
         with self._changed:
             group = self.subscriptions(subscription.name)
@@ -78,7 +78,7 @@ class Switchboard:
                 table.pop(name, None)
 
     def add_publisher(self, publisher: Publisher) -> None:
-        """Makes a publisher known; ValueError when its node already has one on this topic."""
+        """Add a publisher; raise ValueError if its node already has one on this topic."""
         with self._changed:
             group = self._publishers.get(publisher.name, ())
             if any(each.node_uuid == publisher.node_uuid for each in group):
@@ -89,7 +89,6 @@ class Switchboard:
             self._publishers[publisher.name] = (*group, publisher)
 
     def remove_publisher(self, publisher: Publisher) -> None:
-        """Forgets a publisher."""
         with self._changed:
             group = self._publishers.get(publisher.name, ())
             rest = tuple(each for each in group if each is not publisher)
@@ -99,16 +98,16 @@ class Switchboard:
                 self._publishers.pop(publisher.name, None)
 
     def services(self, name: str) -> tuple[Service, ...]:
-        """The services of a name, oldest first."""
+        """Return the services of a name, oldest first."""
         return self._services.get(name, ())
 
     def all_services(self) -> list[Service]:
-        """Every service of the process."""
+        """Return every service of the process."""
         with self._changed:
             return [each for group in self._services.values() for each in group]
 
     def add_service(self, service: Service) -> None:
-        """Makes a service known; ValueError when its node already offers one of this name."""
+        """Add a service; raise ValueError if its node already offers one of this name."""
         with self._changed:
             group = self._services.get(service.name, ())
             if any(each.node_uuid == service.node_uuid for each in group):
@@ -119,7 +118,6 @@ class Switchboard:
             self._services[service.name] = (*group, service)
 
     def remove_service(self, service: Service) -> None:
-        """Forgets a service."""
         with self._changed:
             rest = tuple(each for each in self._services.get(service.name, ()) if each is not service)
             if rest:
@@ -128,25 +126,24 @@ class Switchboard:
                 self._services.pop(service.name, None)
 
     def notify(self) -> None:
-        """Wakes everybody in wait_for(): something outside this table changed."""
+        """Wake everybody in wait_for(): something outside this table changed."""
         with self._changed:
             self._changed.notify_all()
 
     def wait_for(self, condition: Callable[[], bool], timeout: float) -> bool:
-        """Waits until `condition()` holds, at most `timeout` seconds; whether it holds."""
+        """Wait until `condition()` holds, at most `timeout` seconds; return whether it holds."""
         with self._changed:
             return self._changed.wait_for(condition, timeout)
 
     def hold_for_fork(self) -> None:
-        """Keeps other threads from changing the table while the process is being copied."""
+        """Keep other threads from changing the table while the process is being copied."""
         self._changed.acquire()
 
     def release_after_fork(self) -> None:
-        """The parent goes on."""
         self._changed.release()
 
     def renew_after_fork(self) -> None:
-        """The child goes on with the same table and a lock of its own."""
+        """Give the child, which keeps the table, a lock of its own."""
         self._changed = threading.Condition(threading.Lock())
 
 

@@ -1,6 +1,6 @@
-"""Lets at most so many messages per second through.
+"""A rate limit in messages per second.
 
-Sits before sending in a publisher and before the callback in a subscription. Measured on the monotonic clock
+It sits before sending in a publisher and before the callback in a subscription. Measured on the monotonic clock
 of the machine, as in gz-transport; simulated time plays no part.
 """
 
@@ -21,11 +21,11 @@ class Throttle:
         self._lock = threading.Lock()
 
     def ready(self) -> bool:
-        """Whether a message would pass now."""
+        """Return whether a message would pass now."""
         return not self._period_ns or time.monotonic_ns() >= self._next_ns
 
     def passes(self) -> bool:
-        """Whether this message passes; if it does, the waiting time starts anew."""
+        """Return whether this message passes; if it does, the waiting time starts anew."""
         if not self._period_ns:
             return True
         with self._lock:

@@ -2,6 +2,8 @@
 
 Subscribers tell a publisher that they have connected (NEW_CONNECTION) and that they left (END_CONNECTION),
 and answer the question who subscribes to what (SUBSCRIBERS_REQ), which only lists need.
+
+Source: https://github.com/gazebosim/gz-transport/blob/gz-transport13/src/NodeShared.cc (NewConnection, EndConnection)
 """
 
 from __future__ import annotations
@@ -38,7 +40,7 @@ class TopicDiscovery(DiscoveryChannel):
         on_gone: Callable[[list[Discovery.Publisher]], None],
         on_subscribers: Callable[[], None],
     ) -> None:
-        """As DiscoveryChannel; `on_subscribers()` is called when subscribers of ours came or went."""
+        """See DiscoveryChannel; `on_subscribers()` is called when subscribers of ours came or went."""
         super().__init__(process_uuid, settings, settings.message_port, own, on_advertise, on_gone)
         self._own_subscriptions = own_subscriptions
         self._own_address = own_address
@@ -48,7 +50,7 @@ class TopicDiscovery(DiscoveryChannel):
         self._listed: dict[str, dict[SubscriberKey, Discovery.Publisher]] = {}
 
     def subscriber_processes(self, topic: str, type_name: str) -> int:
-        """How many other processes have said that they listen to our publisher of this topic and type."""
+        """Return how many other processes have said that they listen to our publisher of this topic and type."""
         with self._table_lock:
             group = self._connected.get(topic, {})
             return len(
@@ -56,17 +58,17 @@ class TopicDiscovery(DiscoveryChannel):
             )
 
     def ask_for_subscribers(self) -> None:
-        """Starts collecting who subscribes to what; the answers show up in subscribers()."""
+        """Start collecting who subscribes to what; the answers show up in subscribers()."""
         with self._table_lock:
             self._listed.clear()
         self._send_about_process(Discovery.SUBSCRIBERS_REQ)
 
     def wait_for_answers(self) -> None:
-        """Waits until lists of publishers and subscribers are as complete as the protocol allows."""
+        """Wait until lists of publishers and subscribers are as complete as the protocol allows."""
         time.sleep(max(ANSWER_TIME_S, self.seconds_until_complete()))
 
     def subscribers(self) -> list[Discovery.Publisher]:
-        """The subscribers of other processes, as far as they answered or are connected to us."""
+        """Return the subscribers of other processes, as far as they answered or are connected to us."""
         with self._table_lock:
             found = {(topic, *key): record for topic, group in self._listed.items() for key, record in group.items()}
             for topic, group in self._connected.items():
@@ -77,7 +79,7 @@ class TopicDiscovery(DiscoveryChannel):
         return list(found.values())
 
     def send_new_connection(self, publisher: Discovery.Publisher, node_uuid: str) -> None:
-        """Tells the process of a publisher that this node now listens to it."""
+        """Tell the process of a publisher that this node now listens to it."""
         record = Discovery.Publisher()
         record.CopyFrom(publisher)
         record.process_uuid = self.process_uuid
@@ -86,7 +88,7 @@ class TopicDiscovery(DiscoveryChannel):
         self.send(Discovery.NEW_CONNECTION, record)
 
     def send_end_connection(self, topic: str, node_uuid: str) -> None:
-        """Tells the publishers of a topic that this node listens no longer."""
+        """Tell the publishers of a topic that this node listens no longer."""
         processes = {record.process_uuid for record in self.known(topic)}
         for process_uuid in [*sorted(processes), ""]:
             record = self._about_subscriber(topic, node_uuid, GENERIC_TYPE)
@@ -105,7 +107,7 @@ class TopicDiscovery(DiscoveryChannel):
         return record
 
     def handle(self, message: Discovery, source_ip: str) -> None:
-        """As DiscoveryChannel; the question for subscribers has no topic and is answered here."""
+        """Act on one message; answer the question for subscribers, which has no topic."""
         if message.type == Discovery.SUBSCRIBERS_REQ:
             for each in self._own_subscriptions():
                 self.send(
@@ -116,7 +118,7 @@ class TopicDiscovery(DiscoveryChannel):
             super().handle(message, source_ip)
 
     def handle_other(self, message: Discovery) -> None:
-        """Keeps the tables of subscribers up to date."""
+        """Keep the tables of subscribers up to date."""
         record, key = message.pub, (message.pub.process_uuid, message.pub.node_uuid)
         if message.type == Discovery.SUBSCRIBERS_REP:
             with self._table_lock:
@@ -132,7 +134,7 @@ class TopicDiscovery(DiscoveryChannel):
             self._on_subscribers()
 
     def forget_subscribers_of(self, process_uuid: str) -> None:
-        """Drops the subscribers of a process that is gone."""
+        """Drop the subscribers of a process that is gone."""
         tables: tuple[dict[str, dict[SubscriberKey, Any]], ...] = (self._connected, self._listed)
         with self._table_lock:
             for table in tables:

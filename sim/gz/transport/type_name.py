@@ -8,7 +8,7 @@ _PACKAGE, _FORTRESS_PACKAGE = "gz.msgs.", "ignition.msgs."
 
 
 def type_name(message_type: type[Message] | str) -> str:
-    """The name of a message class; a name is returned as it is. Raises TypeError for anything else."""
+    """Return the name of a message class; a name is returned as it is. Raises TypeError for anything else."""
     if isinstance(message_type, str):
         return message_type
     if isinstance(message_type, type) and issubclass(message_type, Message):
@@ -20,5 +20,5 @@ def type_name(message_type: type[Message] | str) -> str:
 
 
 def for_fortress(name: str) -> str:
-    """The name of the type in Fortress: `ignition.msgs.Twist`."""
+    """Return the name of the type in Fortress: `ignition.msgs.Twist`."""
     return _FORTRESS_PACKAGE + name.removeprefix(_PACKAGE) if name.startswith(_PACKAGE) else name

@@ -164,9 +164,9 @@ def test_models_stand_where_the_trial_puts_them(root):
     wall = (0.0, -2.0, 0.4, 0.0, 0.0, 0.0)
     world = load_trial_world(exercise, Trial("moved", 0, poses={"robot": pose, "wall_south": wall}), None)
     try:
-        assert tuple(world.pose("robot").position) == pose[:3]
-        assert world.pose("robot").yaw() == pytest.approx(0.7)
-        assert tuple(world.pose("wall_south").position) == wall[:3]
+        assert tuple(world.truth.pose("robot").position) == pose[:3]
+        assert world.truth.pose("robot").yaw() == pytest.approx(0.7)
+        assert tuple(world.truth.pose("wall_south").position) == wall[:3]
     finally:
         world.close()
 

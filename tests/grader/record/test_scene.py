@@ -22,7 +22,7 @@ def columns(archetype) -> dict[str, list]:
 @pytest.mark.parametrize(("facets", "corners"), [(scene.FACETS, 3 * 64), (10, 34)])
 def test_a_cone_is_a_mesh_of_its_colour(monkeypatch: pytest.MonkeyPatch, facets: int, corners: int) -> None:
     monkeypatch.setattr(scene, "FACETS", facets)
-    (shape,) = World.from_string(CONE).geometry()
+    (shape,) = World.from_string(CONE).truth.geometry()
     found = columns(scene.surface(shape.vertices, shape.triangles, shape.rgba))
     named = {key.rsplit(":", 1)[-1]: value for key, value in found.items()}
     positions = np.array(next(v for k, v in named.items() if k == "vertex_positions").to_pylist())

@@ -60,7 +60,7 @@ def test_every_link_is_where_mujoco_has_it(seed):
     kinematics = Kinematics.from_urdf(ARM)
     positions = {name: chance.uniform(-2.5, 2.5) for name in kinematics.moving}
     world = World.from_string("<sdf version='1.9'><world name='w'/></sdf>")
-    world.spawn(ARM)
+    world.editor.spawn(ARM)
     for name, position in positions.items():
         number = mujoco.mj_name2id(world.model, mujoco.mjtObj.mjOBJ_JOINT, f"arm::{name}")
         assert number >= 0

@@ -13,8 +13,8 @@ def look(system: System) -> Iterator[Finding]:
     for world in system.gz.worlds:
         if world.text is None or not world.text.sensors:
             continue
-        from gz_course.sim.gz.sim.sensors.registry import sensor_types
-        from gz_course.sim.gz.sim.systems.registry import systems
+        from gz_course.sim.gz.sim.plugins.sensor import sensor_types
+        from gz_course.sim.gz.sim.plugins.system import systems
 
         types = sensor_types()
         needed: dict[str, list[str]] = {}

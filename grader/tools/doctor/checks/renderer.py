@@ -6,7 +6,7 @@ from gz_course.grader.tools.doctor.probe import ProbeError, Probes
 from gz_course.grader.tools.doctor.verdict import Verdict, fine, warning
 
 TITLE = "renderer of cameras"
-_CODE = "from gz_course.sim.gz.sim.sensors.renderer import gl_backend; print(gl_backend() or '')"
+_CODE = "from gz_course.sim.gz.sim.rendering.renderer import gl_backend; print(gl_backend() or '')"
 _FIX = (
     "nothing to do for the exercises; for `--render-engine mujoco` install EGL (Debian: libegl1 libgl1-mesa-dri) "
     "or OSMesa (libosmesa6)"

@@ -13,7 +13,7 @@ import threading
 from typing import Any
 
 from gz_course.sim.gz.command_line import Parser, nearest
-from gz_course.sim.gz.sim.systems.topics import valid_topic
+from gz_course.sim.gz.sim.plugins.topics import valid_topic
 from gz_course.sim.gz.transport.node import Node
 
 _TIMEOUT_MS = 5000

@@ -1,6 +1,8 @@
 """Which collisions touch after a step, where, and how hard: MuJoCo's contacts by the names of SDF.
 
 Used by the contact sensor and by TouchPlugin.
+
+Source: https://mujoco.readthedocs.io/en/stable/computation/index.html (contact)
 """
 
 from __future__ import annotations
@@ -16,7 +18,7 @@ from gz_course.sim.gz.sim.physics.builder import COLLISION_GROUP
 from gz_course.sim.gz.sim.pose import Vector
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
 CollisionPath = tuple[str, str, str]
 """Model, link and collision; the names of nested models' links are scoped."""
@@ -39,7 +41,7 @@ class ContactPoint:
 class CollisionGeoms:
     """Which MuJoCo geoms each `<collision>` became. Bound to one MuJoCo model: make a new one after every rebuild."""
 
-    def __init__(self, world: World) -> None:
+    def __init__(self, world: WorldAccess) -> None:
         known: dict[str, CollisionPath] = {}
         for model in world.description.models:
             for link in model.links:
@@ -61,7 +63,7 @@ class CollisionGeoms:
         return self._geoms.get(path, [])
 
 
-def touching(world: World, geoms: Collection[int]) -> Iterator[tuple[int, int, int]]:
+def touching(world: WorldAccess, geoms: Collection[int]) -> Iterator[tuple[int, int, int]]:
     """Yield (contact, geom, other) for every contact of one of `geoms`, in MuJoCo's order; both ways round when
     both are among `geoms`.
     """
@@ -76,7 +78,7 @@ def touching(world: World, geoms: Collection[int]) -> Iterator[tuple[int, int, i
             yield index, second, first
 
 
-def contact_points(world: World, geoms: Collection[int]) -> Iterator[ContactPoint]:
+def contact_points(world: WorldAccess, geoms: Collection[int]) -> Iterator[ContactPoint]:
     """Yield every contact of one of `geoms` of the last step, seen from that geom."""
     contacts, force = world.data.contact, np.zeros(6)
     for index, geom, other in touching(world, geoms):

@@ -3,6 +3,8 @@
 A system says in `System.servos` which joints it wants; the builder adds the actuators with `add_servo`; the system
 finds its `Drive` with `find_drive` each time it is bound. There are two families: servos hold a velocity
 (`WHEEL`, `VELOCITY`), motors push with a force (`FORCE`, `APPLIED`).
+
+Source: https://mujoco.readthedocs.io/en/stable/computation/index.html (actuation model)
 """
 
 from __future__ import annotations
@@ -51,7 +53,7 @@ class JointServo:
 
     @property
     def actuator(self) -> str:
-        """The scoped name of its actuator; wishes of the same name share one."""
+        """Return the scoped name of its actuator; wishes of the same name share one."""
         return axis_name(self.joint, self.axis) + _SUFFIX[self.kind]
 
 

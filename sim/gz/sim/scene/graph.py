@@ -20,7 +20,7 @@ from gz_course.sim.gz.sim.pose import IDENTITY, Pose
 from gz_course.sim.gz.sim.sdf.description import Model
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
 Array = NDArray[np.float64]
 KINDS = ("model", "link", "visual", "light")
@@ -64,7 +64,7 @@ class SceneGraph:
     `movers` are the models and links whose pose in their parent changes, parents first; `poses` tells where they are.
     """
 
-    def __init__(self, world: World, models: Iterable[Model] | None = None) -> None:
+    def __init__(self, world: WorldAccess, models: Iterable[Model] | None = None) -> None:
         """Build the graph of the whole world, or of `models` (with the world above them)."""
         self._world = world
         description, entities = world.description, world.entities
@@ -93,7 +93,7 @@ class SceneGraph:
     def poses(self) -> tuple[Array, Array]:
         """Return where the movers are now in their parents' frames: positions (n, 3), unit quaternions wxyz (n, 4)."""
         world = self._world
-        world.refresh()
+        world.truth.refresh()
         data = world.data
         positions, quaternions = _chain(
             data.xpos[self._body_ids], data.xquat[self._body_ids], self._positions, self._quaternions

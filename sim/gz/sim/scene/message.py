@@ -24,10 +24,10 @@ from gz_course.sim.gz.sim.scene.shapes import fill_geometry, fill_material, fill
 from gz_course.sim.gz.sim.sdf.description import Axis, Inertial, Joint, Light, Model
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
 
-def scene_message(world: World, graph: SceneGraph | None = None, only: Iterable[int] | None = None) -> Scene:
+def scene_message(world: WorldAccess, graph: SceneGraph | None = None, only: Iterable[int] | None = None) -> Scene:
     """Return the scene of a world as it is now.
 
     `graph` is the world's scene graph, when there is one already; `only` are the numbers of the models and lights of
@@ -41,7 +41,7 @@ def scene_message(world: World, graph: SceneGraph | None = None, only: Iterable[
 class _SceneWriter:
     """Writes the vertices of one graph; `_writers` holds the method of each kind."""
 
-    def __init__(self, world: World, graph: SceneGraph) -> None:
+    def __init__(self, world: WorldAccess, graph: SceneGraph) -> None:
         self._world = world
         self._graph = graph
         self._topics = _sensor_topics(world)
@@ -210,7 +210,6 @@ def _fill_axis(message: Any, axis: Axis, frame: Pose) -> None:
     message.damping, message.friction = axis.damping, axis.friction
 
 
-def _sensor_topics(world: World) -> dict[int, str]:
+def _sensor_topics(world: WorldAccess) -> dict[int, str]:
     """Return the topics of the sensors that run, by the identity of their descriptions."""
-    running = (getattr(system, "sensors", ()) for system in world.systems)
-    return {id(sensor.description): sensor.topic for sensors in running for sensor in sensors}
+    return {id(sensor.description): sensor.topic for sensor in world.systems.sensors()}

@@ -10,10 +10,10 @@ from typing import Any
 
 from gz_course.sim.gz.msgs.image_pb2 import PixelFormatType
 from gz_course.sim.gz.msgs.sensor_noise_pb2 import SensorNoise
+from gz_course.sim.gz.sim.plugins.noise import Noise
 from gz_course.sim.gz.sim.scene.fields import set_vector
 from gz_course.sim.gz.sim.sdf.description import Sensor
 from gz_course.sim.gz.sim.sdf.element import Element
-from gz_course.sim.gz.sim.sensors.noise import Noise
 
 _NO_ELEMENT = Element("none")
 _PIXEL_FORMATS = {"R8G8B8": "RGB_INT8", "B8G8R8": "BGR_INT8", "L8": "L_INT8", "L16": "L_INT16"}

@@ -99,7 +99,7 @@ def transparency(visual: Visual) -> float:
 
 
 def fill_material(visual: Visual) -> Material | None:
-    """Return what a visual looks like, None when nothing was said about it.
+    """Return what a visual looks like, or None if nothing was said about it.
 
     Diffuse is the colour the visual has now; where the SDF gives no other, ambient is the same.
     """

@@ -21,7 +21,7 @@ from gz_course.sim.gz.sim.scene.message import scene_message
 from gz_course.sim.gz.sim.sdf.description import Model
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
 JOINT_TYPES = (
     "invalid",
@@ -54,7 +54,7 @@ def component_type(name: str) -> int:
     return fnv_1a(f"gz_sim_components.{name}")
 
 
-def full_state(world: World, graph: SceneGraph) -> SerializedStateMap:
+def full_state(world: WorldAccess, graph: SceneGraph) -> SerializedStateMap:
     """Return every entity of the world with its components, as they are now."""
     message = SerializedStateMap(has_one_time_component_changes=True)
     set_stamp(message.header, world.sim_time_ns)
@@ -65,7 +65,7 @@ def full_state(world: World, graph: SceneGraph) -> SerializedStateMap:
     return message
 
 
-def pose_state(world: World, graph: SceneGraph) -> SerializedStateMap:
+def pose_state(world: WorldAccess, graph: SceneGraph) -> SerializedStateMap:
     """Return the poses of what can move, as they are now."""
     message = SerializedStateMap()
     set_stamp(message.header, world.sim_time_ns)
@@ -97,7 +97,7 @@ def _parts_by_number(scene: Any) -> dict[int, Any]:
     return found
 
 
-def _components(vertex: Vertex, part: Any, world: World) -> Components:
+def _components(vertex: Vertex, part: Any, world: WorldAccess) -> Components:
     """Yield the components of one entity; `part` is its message of the scene."""
     yield vertex.kind.capitalize(), b"" if vertex.kind != "light" else part.SerializeToString()
     yield "Name", vertex.name.encode()
@@ -112,7 +112,7 @@ def _components(vertex: Vertex, part: Any, world: World) -> Components:
         yield from special(vertex, part, world)
 
 
-def _model(vertex: Vertex, part: Any, world: World) -> Components:
+def _model(vertex: Vertex, part: Any, world: WorldAccess) -> Components:
     yield "Static", _text(vertex.static)
     top = vertex
     while top.parent is not None and top.parent.kind == "model":
@@ -122,13 +122,13 @@ def _model(vertex: Vertex, part: Any, world: World) -> Components:
         yield "SelfCollide", _text(part.self_collide)
 
 
-def _link(vertex: Vertex, part: Any, world: World) -> Components:
+def _link(vertex: Vertex, part: Any, world: WorldAccess) -> Components:
     if part.canonical:
         yield "CanonicalLink", b""
     yield "Inertial", part.inertial.SerializeToString()
 
 
-def _visual(vertex: Vertex, part: Any, world: World) -> Components:
+def _visual(vertex: Vertex, part: Any, world: WorldAccess) -> Components:
     yield "Geometry", part.geometry.SerializeToString()
     if part.HasField("material"):
         yield "Material", part.material.SerializeToString()
@@ -136,11 +136,11 @@ def _visual(vertex: Vertex, part: Any, world: World) -> Components:
     yield "Transparency", _text(part.transparency)
 
 
-def _collision(vertex: Vertex, part: Any, world: World) -> Components:
+def _collision(vertex: Vertex, part: Any, world: WorldAccess) -> Components:
     yield "Geometry", part.geometry.SerializeToString()
 
 
-def _joint(vertex: Vertex, part: Any, world: World) -> Components:
+def _joint(vertex: Vertex, part: Any, world: WorldAccess) -> Components:
     yield "JointType", _text(JOINT_TYPES.index(vertex.described.kind))
     yield "ParentLinkName", part.parent.encode()
     yield "ChildLinkName", part.child.encode()
@@ -149,16 +149,16 @@ def _joint(vertex: Vertex, part: Any, world: World) -> Components:
             yield name, getattr(part, field).SerializeToString()
 
 
-def _sensor(vertex: Vertex, part: Any, world: World) -> Components:
+def _sensor(vertex: Vertex, part: Any, world: WorldAccess) -> Components:
     if part.topic:
         yield "SensorTopic", part.topic.encode()
 
 
-def _light(vertex: Vertex, part: Any, world: World) -> Components:
+def _light(vertex: Vertex, part: Any, world: WorldAccess) -> Components:
     yield "LightType", vertex.described.kind.encode()
 
 
-_SPECIAL: dict[str, Callable[[Vertex, Any, World], Components]] = {
+_SPECIAL: dict[str, Callable[[Vertex, Any, WorldAccess], Components]] = {
     "model": _model,
     "link": _link,
     "visual": _visual,

@@ -1,3 +1,1 @@
-"""The sensors: one file per sensor type, found by scanning this folder; the systems of `gz.sim.systems` run
-them.
-"""
+"""The sensors: one file per sensor type, found by a scan of this folder, with the plugin that runs it if it has one."""

@@ -1,7 +1,10 @@
 """Air pressure at the height of the sensor, as `gz.msgs.FluidPressure`.
 
-The AirPressure system runs it. The atmosphere is the International Standard Atmosphere, with sea level at the
-world's zero height; neither `<atmosphere>` nor the elevation of `<spherical_coordinates>` changes it, as in Gazebo.
+The atmosphere is the International Standard Atmosphere, with sea level at the world's zero height; neither
+`<atmosphere>` nor the elevation of `<spherical_coordinates>` changes it, as in Gazebo.
+
+Source: U.S. Standard Atmosphere, 1976 (NOAA-S/T 76-1562)
+Source: https://github.com/gazebosim/gz-sensors/blob/gz-sensors8/src/AirPressureSensor.cc
 """
 
 from __future__ import annotations
@@ -12,37 +15,38 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gz_course.sim.gz.sim.plugins.noise import Noise
+from gz_course.sim.gz.sim.plugins.sensor import sensor_type
+from gz_course.sim.gz.sim.plugins.sensor_system import sensor_system
+from gz_course.sim.gz.sim.plugins.site_sensor import SiteSensor, noise_at
 from gz_course.sim.gz.sim.sdf.description import Sensor
 from gz_course.sim.gz.sim.sdf.element import Element
-from gz_course.sim.gz.sim.sensors.noise import Noise
-from gz_course.sim.gz.sim.sensors.registry import sensor_type
-from gz_course.sim.gz.sim.sensors.site_sensor import SiteSensor, noise_at
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
 SEA_LEVEL_PRESSURE = 101325.0
-"""Pa."""
+"""[Pa]"""
 SEA_LEVEL_TEMPERATURE = 288.15
-"""K."""
+"""[K]"""
 LAPSE_RATE = 0.0065
-"""How much colder the air gets with height (K/m)."""
+"""[K/m]"""
 EARTH_RADIUS = 6356766.0
-"""The radius (m) that geopotential height is defined with."""
+"""Radius [m] of the geopotential height."""
 EXPONENT = 9.80665 * 28.9644 / (8314.32 * LAPSE_RATE)
-"""g M / (R L): gravity, molar mass of air (kg/kmol), gas constant (J/(kmol K)); U.S. Standard Atmosphere 1976."""
+"""g M / (R L): gravity, molar mass of air [kg/kmol], gas constant [J/(kmol K)], lapse rate."""
 HIGHEST = 44_000.0
-"""Where the formula of the troposphere comes to an end (m): no air is left there."""
+"""Height [m] at which the formula of the troposphere ends: no air is left there."""
 
 
 def standard_temperature(height: float) -> float:
-    """Return the temperature (K) of the standard atmosphere at a height (m)."""
+    """Return the temperature [K] of the standard atmosphere at a height [m]."""
     height = min(height, HIGHEST)
     return SEA_LEVEL_TEMPERATURE - LAPSE_RATE * EARTH_RADIUS * height / (EARTH_RADIUS + height)
 
 
 def standard_pressure(height: float) -> float:
-    """Return the pressure (Pa) of the standard atmosphere at a height (m)."""
+    """Return the pressure [Pa] of the standard atmosphere at a height [m]."""
     return SEA_LEVEL_PRESSURE * float(math.pow(standard_temperature(height) / SEA_LEVEL_TEMPERATURE, EXPONENT))
 
 
@@ -50,11 +54,11 @@ def standard_pressure(height: float) -> float:
 class AirPressure(SiteSensor):
     """A barometer."""
 
-    runs_in = "AirPressure"
+    runs_in = sensor_system("AirPressure", "gz-sim-air-pressure-system")
     suffix = "air_pressure"
     message_type = "gz.msgs.FluidPressure"
 
-    def __init__(self, world: World, description: Sensor) -> None:
+    def __init__(self, world: WorldAccess, description: Sensor) -> None:
         """Read `<air_pressure>`; its `<reference_altitude>` has no effect, as in Gazebo, and is warned about."""
         super().__init__(world, description)
         altitude = description.element.find("air_pressure/reference_altitude")
@@ -65,11 +69,10 @@ class AirPressure(SiteSensor):
         self._variance = math.sqrt(noise_at(description.element, "air_pressure/pressure").stddev)
 
     def read_noises(self, element: Element) -> Sequence[tuple[str, Noise]]:
-        """Return the noise of the pressure (Pa)."""
+        """Return the noise of the pressure [Pa]."""
         return [("pressure", noise_at(element, "air_pressure/pressure"))]
 
     def fill(self, message: Any) -> None:
-        """Measure."""
         pressure = standard_pressure(float(self.motion.position()[2]))
         message.pressure = float(self.noise.apply(np.array((pressure,)))[0])
         message.variance = self._variance

@@ -1,6 +1,8 @@
 """Air speed (a pitot tube): the dynamic pressure of the air that comes from ahead, as `gz.msgs.AirSpeed`.
 
 The AirSpeed system runs it. The air stands still: wind is not simulated.
+
+Source: https://github.com/gazebosim/gz-sensors/blob/gz-sensors8/src/AirSpeedSensor.cc
 """
 
 from __future__ import annotations
@@ -11,11 +13,12 @@ from typing import Any
 
 import numpy as np
 
+from gz_course.sim.gz.sim.plugins.noise import Noise
+from gz_course.sim.gz.sim.plugins.sensor import sensor_type
+from gz_course.sim.gz.sim.plugins.sensor_system import sensor_system
+from gz_course.sim.gz.sim.plugins.site_sensor import SiteSensor, noise_at
 from gz_course.sim.gz.sim.sdf.element import Element
 from gz_course.sim.gz.sim.sensors.air_pressure import HIGHEST, LAPSE_RATE, SEA_LEVEL_TEMPERATURE
-from gz_course.sim.gz.sim.sensors.noise import Noise
-from gz_course.sim.gz.sim.sensors.registry import sensor_type
-from gz_course.sim.gz.sim.sensors.site_sensor import SiteSensor, noise_at
 
 SEA_LEVEL_DENSITY = 1.225
 """kg/m^3."""
@@ -27,7 +30,7 @@ DENSITY_EXPONENT = 4.256
 class AirSpeed(SiteSensor):
     """Measures along the sensor's x axis."""
 
-    runs_in = "AirSpeed"
+    runs_in = sensor_system("AirSpeed", "gz-sim-air-speed-system")
     suffix = "air_speed"
     message_type = "gz.msgs.AirSpeed"
 

@@ -1,6 +1,8 @@
 """Altimeter: height above where the sensor stood at the start, and vertical speed, as `gz.msgs.Altimeter`.
 
 The Altimeter system runs it.
+
+Source: https://github.com/gazebosim/gz-sensors/blob/gz-sensors8/src/AltimeterSensor.cc
 """
 
 from __future__ import annotations
@@ -10,24 +12,25 @@ from typing import Any
 
 import numpy as np
 
+from gz_course.sim.gz.sim.plugins.noise import Noise
+from gz_course.sim.gz.sim.plugins.sensor import sensor_type
+from gz_course.sim.gz.sim.plugins.sensor_system import sensor_system
+from gz_course.sim.gz.sim.plugins.site_sensor import SiteSensor, noise_at
 from gz_course.sim.gz.sim.sdf.element import Element
-from gz_course.sim.gz.sim.sensors.noise import Noise
-from gz_course.sim.gz.sim.sensors.registry import sensor_type
-from gz_course.sim.gz.sim.sensors.site_sensor import SiteSensor, noise_at
 
 
 @sensor_type("altimeter")
 class Altimeter(SiteSensor):
     """Measures along the world's z axis."""
 
-    runs_in = "Altimeter"
+    runs_in = sensor_system("Altimeter", "gz-sim-altimeter-system")
     suffix = "altimeter"
     message_type = "gz.msgs.Altimeter"
     reference = 0.0
-    """Height (m) of the sensor in the world at the start; positions are relative to it."""
+    """Height [m] of the sensor in the world at the start; positions are relative to it."""
 
     def read_noises(self, element: Element) -> Sequence[tuple[str, Noise]]:
-        """Return the noises of the position (m) and of the velocity (m/s)."""
+        """Return the noises of the position [m] and of the velocity [m/s]."""
         return [(tag, noise_at(element, f"altimeter/{tag}")) for tag in ("vertical_position", "vertical_velocity")]
 
     def start(self) -> None:
@@ -36,7 +39,6 @@ class Altimeter(SiteSensor):
         self.reference = float(self.motion.position()[2])
 
     def fill(self, message: Any) -> None:
-        """Measure."""
         linear, _ = self.motion.velocity(local=False)
         measured = np.array((self.motion.position()[2] - self.reference, linear[2]))
         message.vertical_position, message.vertical_velocity = self.noise.apply(measured).tolist()

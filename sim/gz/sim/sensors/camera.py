@@ -12,13 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gz_course.sim.gz.sim.errors import nearest
+from gz_course.sim.gz.sim.plugins.sensor import sensor_type
+from gz_course.sim.gz.sim.rendering.camera_sensor import CameraSensor
+from gz_course.sim.gz.sim.rendering.renderer import renderer_for
 from gz_course.sim.gz.sim.sdf.description import Sensor
-from gz_course.sim.gz.sim.sensors.camera_sensor import CameraSensor
-from gz_course.sim.gz.sim.sensors.registry import sensor_type
-from gz_course.sim.gz.sim.sensors.renderer import renderer_for
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
 FORMATS = {
     "R8G8B8": "RGB_INT8",
@@ -64,7 +64,7 @@ class Camera(CameraSensor):
 
     wanted: ClassVar = {"": "Image"}
 
-    def __init__(self, world: World, description: Sensor) -> None:
+    def __init__(self, world: WorldAccess, description: Sensor) -> None:
         super().__init__(world, description)
         image = self.camera.find("image")
         stated = image.text_of("format", "R8G8B8") if image is not None else "R8G8B8"
@@ -77,11 +77,9 @@ class Camera(CameraSensor):
         self._renderer = renderer_for(self)
 
     def topic_suffix(self) -> str:
-        """Gazebo's last part of a camera topic."""
         return "image"
 
     def bind(self) -> None:
-        """Take over what is visible."""
         super().bind()
         self._renderer.bind()
 
@@ -93,5 +91,4 @@ class Camera(CameraSensor):
         return encode(colours, self.pinhole.height, self.pinhole.width, self.format)
 
     def look(self, now_ns: int) -> None:
-        """Publish the image."""
         self.publish_image("", self.image(), self.format, now_ns)

@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 from gz_course.sim.gz.sim.errors import nearest
 from gz_course.sim.gz.sim.physics.contacts import CollisionGeoms, CollisionPath, ContactPoint, contact_points
+from gz_course.sim.gz.sim.plugins.sensor import SensorBase, sensor_type
+from gz_course.sim.gz.sim.plugins.sensor_system import sensor_system
+from gz_course.sim.gz.sim.plugins.topics import valid_topic
 from gz_course.sim.gz.sim.sdf.description import Sensor
-from gz_course.sim.gz.sim.sensors.registry import SensorBase, sensor_type
-from gz_course.sim.gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
 
 NO_TOPIC = "__default_topic__"
@@ -25,9 +26,9 @@ NO_TOPIC = "__default_topic__"
 class Contact(SensorBase):
     """Publishes one `Contact` for each pair of collisions that touch, with all their points."""
 
-    runs_in = "Contact"
+    runs_in = sensor_system("Contact", "gz-sim-contact-system")
 
-    def __init__(self, world: World, description: Sensor) -> None:
+    def __init__(self, world: WorldAccess, description: Sensor) -> None:
         """Read `<contact>`; raise `SdfError` without one. A collision that is not there, and a topic at the wrong
         place, are warned about.
         """
@@ -67,11 +68,9 @@ class Contact(SensorBase):
         self._feeling = {geom for path in self.collisions for geom in self._geoms.of(path)}
 
     def topic_suffix(self) -> str:
-        """Return the last part of the default topic."""
         return "contact"
 
     def connect(self, node: Node) -> None:
-        """Advertise the contacts."""
         from gz_course.sim.gz.msgs.contacts_pb2 import Contacts
 
         self._type = Contacts
@@ -81,7 +80,6 @@ class Contact(SensorBase):
         """Offer nothing: a contact sensor has no rate."""
 
     def has_connections(self) -> bool:
-        """Tell whether anybody listens."""
         return self._publisher is not None and self._publisher.has_connections()
 
     def update(self, now_ns: int) -> None:

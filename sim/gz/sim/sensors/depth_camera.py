@@ -11,16 +11,16 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from gz_course.sim.gz.sim.plugins.sensor import sensor_type
+from gz_course.sim.gz.sim.rendering.camera_sensor import CameraSensor
+from gz_course.sim.gz.sim.rendering.point_cloud import COLOURED, pack_rgb
+from gz_course.sim.gz.sim.rendering.ray_caster import Hits
+from gz_course.sim.gz.sim.rendering.shading import Shader
 from gz_course.sim.gz.sim.sdf.description import Sensor
 from gz_course.sim.gz.sim.sensors.camera import to_bytes
-from gz_course.sim.gz.sim.sensors.camera_sensor import CameraSensor
-from gz_course.sim.gz.sim.sensors.point_cloud import COLOURED, pack_rgb
-from gz_course.sim.gz.sim.sensors.ray_caster import Hits
-from gz_course.sim.gz.sim.sensors.registry import sensor_type
-from gz_course.sim.gz.sim.sensors.shading import Shader
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
 
 class DepthSensing(CameraSensor):
@@ -28,14 +28,13 @@ class DepthSensing(CameraSensor):
 
     near_hides = False
 
-    def __init__(self, world: World, description: Sensor) -> None:
+    def __init__(self, world: WorldAccess, description: Sensor) -> None:
         super().__init__(world, description)
         self.shader = Shader(world)
         left, up = self.pinhole.slopes()
         self._slopes = np.stack((np.ones_like(left), left, up))
 
     def bind(self) -> None:
-        """Take over what is visible."""
         super().bind()
         self.shader.bind()
 
@@ -65,11 +64,9 @@ class DepthCamera(DepthSensing):
     wanted: ClassVar = {"": "Image", "/points": "PointCloudPacked"}
 
     def topic_suffix(self) -> str:
-        """Gazebo's last part of a depth camera's topic."""
         return "depth_image"
 
     def look(self, now_ns: int) -> None:
-        """Publish depth image and points."""
         coloured = self.listened("/points")
         hits = self.cast(normals=coloured)
         depth = self.depths(hits)

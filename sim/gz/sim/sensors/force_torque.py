@@ -2,6 +2,8 @@
 
 The ForceTorque system runs it. `<frame>` says along whose axes (parent, child or sensor), `<measure_direction>` who
 pushes whom; the torque is about the sensor's own position.
+
+Source: https://github.com/gazebosim/gz-sensors/blob/gz-sensors8/src/ForceTorqueSensor.cc
 """
 
 from __future__ import annotations
@@ -15,15 +17,16 @@ import numpy as np
 from gz_course.sim.gz.sim.errors import nearest
 from gz_course.sim.gz.sim.physics.builder import scoped
 from gz_course.sim.gz.sim.physics.motion import start_of_step
+from gz_course.sim.gz.sim.plugins.noise import Noise
+from gz_course.sim.gz.sim.plugins.sensor import sensor_type
+from gz_course.sim.gz.sim.plugins.sensor_system import sensor_system
+from gz_course.sim.gz.sim.plugins.site_sensor import SiteSensor, noise_at
 from gz_course.sim.gz.sim.pose import Vector
 from gz_course.sim.gz.sim.sdf.description import Joint, Model, Sensor
 from gz_course.sim.gz.sim.sdf.element import Element
-from gz_course.sim.gz.sim.sensors.noise import Noise
-from gz_course.sim.gz.sim.sensors.registry import sensor_type
-from gz_course.sim.gz.sim.sensors.site_sensor import SiteSensor, noise_at
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
 
 FRAMES = ("child", "parent", "sensor")
@@ -35,11 +38,11 @@ DIRECTIONS = ("child_to_parent", "parent_to_child")
 class ForceTorque(SiteSensor):
     """Measures what a joint of any type, also a fixed one, transmits."""
 
-    runs_in = "ForceTorque"
+    runs_in = sensor_system("ForceTorque", "gz-sim-forcetorque-system")
     suffix = "forcetorque"
     message_type = "gz.msgs.Wrench"
 
-    def __init__(self, world: World, description: Sensor) -> None:
+    def __init__(self, world: WorldAccess, description: Sensor) -> None:
         """Read `<force_torque>`; raise `SdfError` for a frame or direction that is not known. A sensor that does
         not stand in a joint is warned about and stays silent.
         """
@@ -52,12 +55,11 @@ class ForceTorque(SiteSensor):
             world.diagnostics.warn(element.where, text + f"stands in link '{description.link}'")
 
     def read_noises(self, element: Element) -> Sequence[tuple[str, Noise]]:
-        """Return the noises of the force (N), then of the torque (N m), x y z each."""
+        """Return the noises of the force [N], then of the torque [N m], x y z each."""
         names = [f"{kind}/{axis}" for kind in ("force", "torque") for axis in "xyz"]
         return [(name, noise_at(element, f"force_torque/{name}")) for name in names]
 
     def connect(self, node: Node) -> None:
-        """Advertise the wrench."""
         if self.description.joint:
             super().connect(node)
 
@@ -90,7 +92,7 @@ class ForceTorque(SiteSensor):
         return body == self._child
 
     def wrench(self) -> tuple[Vector, Vector]:
-        """Return the force (N) and the torque (N m, about the sensor) of the parent on the child during the last
+        """Return the force [N] and the torque (N m, about the sensor) of the parent on the child during the last
         step, along the axes that are asked for.
         """
         if self._child <= 0:
@@ -102,7 +104,7 @@ class ForceTorque(SiteSensor):
             return force @ turn, torque @ turn
 
     def _in_world(self) -> tuple[Vector, Vector]:
-        """MuJoCo's `cfrc_int` of the child: its inertial forces, less what pushes it from outside."""
+        """Return MuJoCo's `cfrc_int` of the child: its inertial forces, less what pushes it from outside."""
         model, data, child = self.world.model, self.world.data, self._child
         here = self.motion.position()
         moment, force = data.cfrc_int[child][:3].copy(), data.cfrc_int[child][3:].copy()
@@ -115,7 +117,6 @@ class ForceTorque(SiteSensor):
         return force, moment
 
     def fill(self, message: Any) -> None:
-        """Measure."""
         sign = 1.0 if self.direction == "parent_to_child" else -1.0
         measured = self.noise.apply(np.concatenate(self.wrench()) * sign).tolist()
         into, about = message.force, message.torque

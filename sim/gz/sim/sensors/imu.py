@@ -3,6 +3,8 @@
 The Imu system runs it. The acceleration is the specific force: 9.8 m/s^2 upwards when standing still, zero in free
 fall. The orientation is seen from where the sensor stood at the start, unless `<orientation_reference_frame>` names
 another frame.
+
+Source: https://github.com/gazebosim/gz-sensors/blob/gz-sensors8/src/ImuSensor.cc
 """
 
 from __future__ import annotations
@@ -15,15 +17,16 @@ import mujoco
 import numpy as np
 
 from gz_course.sim.gz.sim.errors import SimError, nearest
+from gz_course.sim.gz.sim.plugins.noise import Noise
+from gz_course.sim.gz.sim.plugins.sensor import sensor_type
+from gz_course.sim.gz.sim.plugins.sensor_system import sensor_system
+from gz_course.sim.gz.sim.plugins.site_sensor import SiteSensor, noise_at
 from gz_course.sim.gz.sim.pose import Vector, multiply, quaternion_from_rpy, rotate
 from gz_course.sim.gz.sim.sdf.description import Sensor
 from gz_course.sim.gz.sim.sdf.element import Element
-from gz_course.sim.gz.sim.sensors.noise import Noise
-from gz_course.sim.gz.sim.sensors.registry import sensor_type
-from gz_course.sim.gz.sim.sensors.site_sensor import SiteSensor, noise_at
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
 _FROM_ENU = {
     "ENU": (0.0, 0.0, 0.0),
@@ -39,11 +42,11 @@ _AXES = [f"{group}/{axis}" for group in ("angular_velocity", "linear_acceleratio
 class Imu(SiteSensor):
     """An inertial measurement unit."""
 
-    runs_in = "Imu"
+    runs_in = sensor_system("Imu", "gz-sim-imu-system")
     suffix = "imu"
     message_type = "gz.msgs.IMU"
 
-    def __init__(self, world: World, description: Sensor) -> None:
+    def __init__(self, world: WorldAccess, description: Sensor) -> None:
         """Read `<imu>`; an unknown localization is warned about, and the initial orientation is used instead."""
         super().__init__(world, description)
         element = description.element
@@ -59,7 +62,7 @@ class Imu(SiteSensor):
         """The frame the orientation is seen from: its quaternion (wxyz) in the world."""
 
     def read_noises(self, element: Element) -> Sequence[tuple[str, Noise]]:
-        """Return the noises of the angular velocity (rad/s), then of the acceleration (m/s^2), x y z each."""
+        """Return the noises of the angular velocity [rad/s], then of the acceleration [m/s^2], x y z each."""
         return [(axis, noise_at(element, f"imu/{axis}")) for axis in _AXES]
 
     def start(self) -> None:
@@ -69,7 +72,6 @@ class Imu(SiteSensor):
         self.reference = self.motion.quaternion() if found is None else found
 
     def fill(self, message: Any) -> None:
-        """Measure."""
         message.entity_name = self.scoped_name
         _, angular = self.motion.velocity(local=True)
         measured = self.noise.apply(np.concatenate((angular, self.motion.specific_force()))).tolist()
@@ -134,7 +136,7 @@ class Imu(SiteSensor):
             return quaternion_from_rpy(0.0, 0.0, 0.0) if name else unnamed
         model, _, link = name.partition("::")
         try:
-            return self.world.link_pose(model, link).quaternion
+            return self.world.truth.link_pose(model, link).quaternion
         except SimError:
             links = [f"{each.name}::{part.name}" for each in self.world.description.models for part in each.links]
             hint = nearest(name, ["world", *links], listing="frames are")

@@ -4,6 +4,8 @@
 physics step, when due and listened to: rays -> ranges -> out of range as -inf / +inf (REP 117) -> noise on
 finite ranges -> messages. The robot's own parts are seen too, except those that enclose the sensor and what
 lies in the near clip cube. Intensities are the `<laser_retro>` of what was met.
+
+Source: https://github.com/gazebosim/gz-sensors/blob/gz-sensors8/src/GpuLidarSensor.cc
 """
 
 from __future__ import annotations
@@ -14,16 +16,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gz_course.sim.gz.sim.physics.builder import COLLISION_GROUP, VISUAL_GROUP
+from gz_course.sim.gz.sim.plugins.noise import Noise
+from gz_course.sim.gz.sim.plugins.sensor import SensorBase, sensor_type
+from gz_course.sim.gz.sim.rendering.geom_parts import geom_parts
+from gz_course.sim.gz.sim.rendering.point_cloud import LIDAR, fill_cloud
+from gz_course.sim.gz.sim.rendering.ray_caster import ALL_BITS, Floats, RayCaster, directions
 from gz_course.sim.gz.sim.sdf.description import Sensor
 from gz_course.sim.gz.sim.sdf.element import Element
-from gz_course.sim.gz.sim.sensors.geom_parts import geom_parts
-from gz_course.sim.gz.sim.sensors.noise import Noise
-from gz_course.sim.gz.sim.sensors.point_cloud import LIDAR, fill_cloud
-from gz_course.sim.gz.sim.sensors.ray_caster import ALL_BITS, Floats, RayCaster, directions
-from gz_course.sim.gz.sim.sensors.registry import SensorBase, sensor_type
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
 
 MOST_RAYS = 2_000_000
@@ -32,7 +34,7 @@ _MORE_THAN_ROUND = 6.5  # [rad]; a full turn may be stated carelessly
 
 
 class _Sweep:
-    """One direction of scanning: `count` angles from `minimum` to `maximum` (rad), `step` apart."""
+    """One direction of scanning: `count` angles from `minimum` to `maximum` [rad], `step` apart."""
 
     def __init__(self, element: Element | None, default_count: int) -> None:
         self.count, self.minimum, self.maximum = default_count, 0.0, 0.0
@@ -58,7 +60,7 @@ class Lidar(SensorBase):
     frame.
     """
 
-    def __init__(self, world: World, description: Sensor) -> None:
+    def __init__(self, world: WorldAccess, description: Sensor) -> None:
         super().__init__(world, description)
         holder = description.element.find("lidar") or description.element.find("ray")
         if holder is None:
@@ -104,7 +106,6 @@ class Lidar(SensorBase):
             self._retro[geom] = part.element.number("laser_retro", 0.0)
 
     def topic_suffix(self) -> str:
-        """Gazebo's last part of a lidar topic."""
         return "scan"
 
     def connect(self, node: Node) -> None:
@@ -117,11 +118,10 @@ class Lidar(SensorBase):
         self._points = node.advertise(f"{self.topic}/points", PointCloudPacked)
 
     def has_connections(self) -> bool:
-        """Tell whether anybody listens to the scan or the points."""
         return self._scan is not None and (self._scan.has_connections() or self._points.has_connections())
 
     def ranges(self) -> Floats:
-        """Return the exact distances (m) along all rays now: +inf beyond `range_max`, -inf below `range_min`,
+        """Return the exact distances [m] along all rays now: +inf beyond `range_max`, -inf below `range_min`,
         no noise.
         """
         hits = self.caster.cast()
@@ -133,7 +133,7 @@ class Lidar(SensorBase):
         return distances
 
     def measure(self) -> Floats:
-        """Return the ranges (m) with the noise of the current update."""
+        """Return the ranges [m] with the noise of the current update."""
         distances = self.ranges()
         if not self.noise.silent:
             finite = np.isfinite(distances)

@@ -2,6 +2,8 @@
 
 The LogicalCamera system runs it. A model is in view when its origin is inside the frustum that opens along the
 sensor's x axis; nothing hides anything. The frustum itself is told on `<topic>/frustum`.
+
+Source: https://github.com/gazebosim/gz-sensors/blob/gz-sensors8/src/LogicalCameraSensor.cc
 """
 
 from __future__ import annotations
@@ -10,15 +12,16 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
+from gz_course.sim.gz.sim.plugins.noise import Noise
+from gz_course.sim.gz.sim.plugins.sensor import sensor_type
+from gz_course.sim.gz.sim.plugins.sensor_system import sensor_system
+from gz_course.sim.gz.sim.plugins.site_sensor import SiteSensor
 from gz_course.sim.gz.sim.pose import Pose, Vector
 from gz_course.sim.gz.sim.sdf.description import Sensor
 from gz_course.sim.gz.sim.sdf.element import Element
-from gz_course.sim.gz.sim.sensors.noise import Noise
-from gz_course.sim.gz.sim.sensors.registry import sensor_type
-from gz_course.sim.gz.sim.sensors.site_sensor import SiteSensor
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
 
 
@@ -26,18 +29,18 @@ if TYPE_CHECKING:
 class LogicalCamera(SiteSensor):
     """Sees models, also nested ones and the one it is mounted on, in the order of their names."""
 
-    runs_in = "LogicalCamera"
+    runs_in = sensor_system("LogicalCamera", "gz-sim-logical-camera-system")
     suffix = "logical_camera"
     message_type = "gz.msgs.LogicalCameraImage"
 
-    def __init__(self, world: World, description: Sensor) -> None:
+    def __init__(self, world: WorldAccess, description: Sensor) -> None:
         """Read `<logical_camera>`, or take SDF's default values; raise `SdfError` for an impossible frustum."""
         super().__init__(world, description)
         element = description.element
         camera = element.find("logical_camera") or Element("logical_camera", file=element.file, line=element.line)
         self.near, self.far = camera.number("near", 0.0), camera.number("far", 1.0)
         self.horizontal_fov = camera.number("horizontal_fov", 1.0)
-        """Angle of view (rad) from side to side."""
+        """Angle of view [rad] from side to side."""
         self.aspect_ratio = camera.number("aspect_ratio", 1.0)
         """Width divided by height."""
         if not (0.0 <= self.near < self.far < math.inf):
@@ -62,7 +65,6 @@ class LogicalCamera(SiteSensor):
         self._frustum = node.advertise(f"{self.topic}/frustum", LogicalCameraSensor)
 
     def has_connections(self) -> bool:
-        """Tell whether anybody listens to either topic."""
         return super().has_connections() or (self._frustum is not None and self._frustum.has_connections())
 
     def update(self, now_ns: int) -> None:
@@ -76,13 +78,12 @@ class LogicalCamera(SiteSensor):
             self._frustum.publish(message)
 
     def contains(self, point: Vector) -> bool:
-        """Tell whether a point (3,) in the sensor's frame (m) is inside the frustum or on its surface."""
+        """Tell whether a point (3,) in the sensor's frame [m] is inside the frustum or on its surface."""
         ahead, left, up = (float(value) for value in point)
         across = math.tan(self.horizontal_fov / 2.0) * ahead
         return self.near <= ahead <= self.far and abs(left) <= across and abs(up) <= across / self.aspect_ratio
 
     def fill(self, message: Any) -> None:
-        """Look."""
         here = Pose(self.motion.position(), self.motion.quaternion())
         _set(message.pose, here)
         seen = {name: here.inverse() * pose for name, pose in self._models()}
@@ -94,11 +95,11 @@ class LogicalCamera(SiteSensor):
     def _models(self) -> Iterator[tuple[str, Pose]]:
         """Yield the name (without scope) and the pose in the world of every model."""
         for model in self.world.description.models:
-            yield model.name, self.world.pose(model.name)
+            yield model.name, self.world.truth.pose(model.name)
             for nested in model.nested:
                 link = model.link(nested.canonical_link)
                 if link is not None:
-                    now = self.world.link_pose(model.name, link.name)
+                    now = self.world.truth.link_pose(model.name, link.name)
                     yield nested.name.rpartition("::")[2], now * link.pose.inverse() * nested.pose
 
 

@@ -3,21 +3,29 @@
 The Magnetometer system runs it. In a world without `<spherical_coordinates>` the field is its `<magnetic_field>`, the
 same everywhere, in tesla. In a world that lies on the earth it is the earth's at that place; Gazebo then writes gauss
 into `field_tesla`, and takes north, east, down for the world's x, y, z, unless the system is told otherwise.
+
+Source: https://github.com/gazebosim/gz-sensors/blob/gz-sensors8/src/MagnetometerSensor.cc
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gz_course.sim.gz.sim.magnetic_field import earth_field
+from gz_course.sim.gz.sim.plugins.noise import Noise
+from gz_course.sim.gz.sim.plugins.sensor import sensor_type
+from gz_course.sim.gz.sim.plugins.sensor_system import SensorSystem
+from gz_course.sim.gz.sim.plugins.site_sensor import SiteSensor, noise_at
+from gz_course.sim.gz.sim.plugins.system import system
 from gz_course.sim.gz.sim.pose import Vector
+from gz_course.sim.gz.sim.sdf.description import Model, Plugin
 from gz_course.sim.gz.sim.sdf.element import Element
-from gz_course.sim.gz.sim.sensors.noise import Noise
-from gz_course.sim.gz.sim.sensors.registry import sensor_type
-from gz_course.sim.gz.sim.sensors.site_sensor import SiteSensor, noise_at
+
+if TYPE_CHECKING:
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
 GAUSS = 1e4
 """Gauss in a tesla."""
@@ -50,6 +58,25 @@ class Magnetometer(SiteSensor):
         return field * GAUSS if self.use_units_gauss else field
 
     def fill(self, message: Any) -> None:
-        """Measure."""
         into = message.field_tesla
         into.x, into.y, into.z = self.noise.apply(self.motion.rotation().T @ self.world_field()).tolist()
+
+
+@system("Magnetometer", "gz-sim-magnetometer-system")
+class MagnetometerSystem(SensorSystem):
+    """Runs every magnetometer. `<use_units_gauss>` and `<use_earth_frame_ned>` (both true by default) tell how the
+    earth's field is expressed.
+    """
+
+    parameters = frozenset(("use_units_gauss", "use_earth_frame_ned"))
+
+    def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
+        super().configure(world, model, plugin)
+        self._gauss = plugin.element.flag("use_units_gauss", True)
+        self._ned = plugin.element.flag("use_earth_frame_ned", True)
+
+    def bind(self) -> None:
+        super().bind()
+        for sensor in self.sensors:
+            if isinstance(sensor, Magnetometer):
+                sensor.use_units_gauss, sensor.use_earth_frame_ned = self._gauss, self._ned

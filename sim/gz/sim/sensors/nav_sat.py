@@ -1,6 +1,8 @@
 """NavSat (GPS): latitude, longitude, altitude and velocity, as `gz.msgs.NavSat`.
 
 The NavSat system runs it. Where the world lies is said by its `<spherical_coordinates>`.
+
+Source: https://github.com/gazebosim/gz-sensors/blob/gz-sensors8/src/NavSatSensor.cc
 """
 
 from __future__ import annotations
@@ -10,14 +12,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gz_course.sim.gz.sim.plugins.noise import Noise
+from gz_course.sim.gz.sim.plugins.sensor import sensor_type
+from gz_course.sim.gz.sim.plugins.sensor_system import sensor_system
+from gz_course.sim.gz.sim.plugins.site_sensor import SiteSensor, noise_at
 from gz_course.sim.gz.sim.sdf.description import Sensor
 from gz_course.sim.gz.sim.sdf.element import Element
-from gz_course.sim.gz.sim.sensors.noise import Noise
-from gz_course.sim.gz.sim.sensors.registry import sensor_type
-from gz_course.sim.gz.sim.sensors.site_sensor import SiteSensor, noise_at
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
 SUSPICIOUS_DEGREES = 0.01
 """A deviation of the horizontal position from here on (1.1 km) was most likely meant in metres."""
@@ -29,11 +32,11 @@ class NavSat(SiteSensor):
     world has a heading.
     """
 
-    runs_in = "NavSat"
+    runs_in = sensor_system("NavSat", "gz-sim-navsat-system")
     suffix = "navsat"
     message_type = "gz.msgs.NavSat"
 
-    def __init__(self, world: World, description: Sensor) -> None:
+    def __init__(self, world: WorldAccess, description: Sensor) -> None:
         """Read `<navsat>` or `<gps>`; warn when the world lies nowhere, and of noise that seems to be in metres."""
         super().__init__(world, description)
         where, name = description.element.where, description.name
@@ -46,7 +49,7 @@ class NavSat(SiteSensor):
             world.diagnostics.warn(where, f"{text} are {stddev * 111.0:.3g} km (sensor '{name}')")
 
     def read_noises(self, element: Element) -> Sequence[tuple[str, Noise]]:
-        """Return the noises of latitude and longitude (degrees), altitude (m), velocity east, north, up (m/s)."""
+        """Return the noises of latitude and longitude [degrees], altitude [m], velocity east, north, up [m/s]."""
         holder = "navsat" if element.find("navsat") is not None else "gps"
         across, up = (noise_at(element, f"{holder}/position_sensing/{side}") for side in ("horizontal", "vertical"))
         fast, rising = (noise_at(element, f"{holder}/velocity_sensing/{side}") for side in ("horizontal", "vertical"))
@@ -60,7 +63,6 @@ class NavSat(SiteSensor):
         del header.data[0]
 
     def fill(self, message: Any) -> None:
-        """Measure."""
         message.frame_id = self.frame_id
         measured = np.zeros(6)
         coordinates = self.world.description.spherical_coordinates

@@ -6,9 +6,9 @@ from typing import ClassVar
 
 import numpy as np
 
+from gz_course.sim.gz.sim.plugins.sensor import sensor_type
 from gz_course.sim.gz.sim.sensors.camera import encode
 from gz_course.sim.gz.sim.sensors.depth_camera import DepthSensing
-from gz_course.sim.gz.sim.sensors.registry import sensor_type
 
 
 @sensor_type("rgbd_camera", "rgbd")
@@ -19,11 +19,10 @@ class RgbdCamera(DepthSensing):
     wanted: ClassVar = {"/image": "Image", "/depth_image": "Image", "/points": "PointCloudPacked"}
 
     def topic_suffix(self) -> str:
-        """Nothing: the default topic ends with the sensor's name."""
+        """Return an empty suffix: the default topic ends with the sensor's name."""
         return ""
 
     def look(self, now_ns: int) -> None:
-        """Publish what somebody listens to."""
         coloured = self.listened("/image") or self.listened("/points")
         hits = self.cast(normals=coloured)
         depth = self.depths(hits)

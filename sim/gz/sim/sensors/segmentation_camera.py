@@ -16,14 +16,14 @@ from numpy.typing import NDArray
 
 from gz_course.sim.gz.sim.errors import nearest
 from gz_course.sim.gz.sim.physics.builder import VISUAL_GROUP
+from gz_course.sim.gz.sim.plugins.sensor import sensor_type
+from gz_course.sim.gz.sim.rendering.camera_sensor import CameraSensor
+from gz_course.sim.gz.sim.rendering.geom_parts import geom_parts
 from gz_course.sim.gz.sim.sdf.description import Sensor
-from gz_course.sim.gz.sim.sensors.camera_sensor import CameraSensor
-from gz_course.sim.gz.sim.sensors.geom_parts import geom_parts
-from gz_course.sim.gz.sim.sensors.registry import sensor_type
 from gz_course.sim.gz.sim.systems.label import label_of
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
 _PANOPTIC = {"semantic": False, "instance": True, "panoptic": True}
 
@@ -43,7 +43,7 @@ class SegmentationCamera(CameraSensor):
     info_beside = False
     wanted: ClassVar = {"/colored_map": "Image", "/labels_map": "Image"}
 
-    def __init__(self, world: World, description: Sensor) -> None:
+    def __init__(self, world: WorldAccess, description: Sensor) -> None:
         super().__init__(world, description)
         kind = self.camera.text_of("segmentation_type", "semantic").lower()
         if kind not in _PANOPTIC:
@@ -51,7 +51,6 @@ class SegmentationCamera(CameraSensor):
         self.panoptic = _PANOPTIC[kind]
 
     def topic_suffix(self) -> str:
-        """Gazebo's last part of a segmentation camera's topic."""
         return "segmentation"
 
     def bind(self) -> None:

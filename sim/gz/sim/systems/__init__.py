@@ -1,3 +1,1 @@
-"""The systems: what acts on a world besides physics. One file per system; `registry` finds them by scanning
-this folder.
-"""
+"""The systems: what acts on a world besides physics. One file per system, found by a scan of this folder."""

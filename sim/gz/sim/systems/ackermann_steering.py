@@ -4,6 +4,8 @@
 -> servos; after each step wheel angles -> odometry on `/model/M/odometry` and `/model/M/tf`. With `<steering_only>` a
 steering angle (`Double` on `/model/M/steer_angle`, or an entry of `Actuators`) is all it takes. As in Gazebo steering
 joints turn with a speed of `<steer_p_gain>` times the missing angle.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/ackermann_steering/AckermannSteering.cc
 """
 
 from __future__ import annotations
@@ -11,22 +13,22 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from gz_course.sim.gz.sim.driving.odometry_reports import OdometryReports
+from gz_course.sim.gz.sim.driving.speed_limiter import SpeedLimiter
 from gz_course.sim.gz.sim.errors import nearest
 from gz_course.sim.gz.sim.physics.servos import MAX_WHEEL_SPEED, VELOCITY, WHEEL, Drive, JointServo, find_drive
+from gz_course.sim.gz.sim.plugins.model_scope import ModelScope
+from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, system
+from gz_course.sim.gz.sim.plugins.topics import valid_topic
 from gz_course.sim.gz.sim.sdf.description import Model, Plugin
 from gz_course.sim.gz.sim.sdf.element import Element
-from gz_course.sim.gz.sim.systems.model_scope import ModelScope
-from gz_course.sim.gz.sim.systems.odometry_reports import OdometryReports
-from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, system
-from gz_course.sim.gz.sim.systems.speed_limiter import SpeedLimiter
-from gz_course.sim.gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
 
 STRAIGHT = 0.001
-"""Turning rates (rad/s) below this are straight on."""
+"""Turning rates [rad/s] below this are straight on."""
 _WHEELS = ("left_joint", "right_joint")
 _STEERING = ("left_steering_joint", "right_steering_joint")
 _LIMITS = [f"{bound}_{what}" for bound in ("min", "max") for what in ("velocity", "acceleration", "jerk")]
@@ -73,7 +75,7 @@ class AckermannSteering(System):
         radius = element.number("wheel_radius", _SIZES["wheel_radius"])
         return found + [JointServo(joint, WHEEL, radius, len(driven)) for joint in driven]
 
-    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
+    def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
         """Read the parameters; raise `SdfError` for sizes that are not positive."""
         element = plugin.element
         self.world = world
@@ -106,7 +108,6 @@ class AckermannSteering(System):
         self.reports = OdometryReports(scope, element)
 
     def bind(self) -> None:
-        """Find wheels and steering."""
         model, mj_model = self.scope.model, self.world.model
 
         def found(sides: list[list[str]], kind: str) -> list[list[Drive]]:
@@ -129,7 +130,6 @@ class AckermannSteering(System):
         self.reports.start()
 
     def connect(self, node: Node) -> None:
-        """Subscribe to the command, advertise the odometry."""
         if self._actuator_number >= 0:
             from gz_course.sim.gz.msgs.actuators_pb2 import Actuators
 
@@ -145,7 +145,7 @@ class AckermannSteering(System):
             self.reports.connect(node)
 
     def command(self, linear: float, angular: float) -> bool:
-        """Set the wanted forward speed (m/s) and turning rate (rad/s); return False when it was refused."""
+        """Set the wanted forward speed [m/s] and turning rate [rad/s]; return False when it was refused."""
         if not (math.isfinite(linear) and math.isfinite(angular)):
             self.world.drop_command(self.command_topic, f"linear.x={linear}, angular.z={angular}")
             return False
@@ -153,7 +153,7 @@ class AckermannSteering(System):
         return True
 
     def steer(self, angle: float) -> bool:
-        """Set the wanted steering angle (rad) of `<steering_only>`; return False when it was refused."""
+        """Set the wanted steering angle [rad] of `<steering_only>`; return False when it was refused."""
         if not math.isfinite(angle):
             self.world.drop_command(self.command_topic, f"data={angle}")
             return False

@@ -5,10 +5,10 @@
 
 from __future__ import annotations
 
+from gz_course.sim.gz.sim.driving.joint_command import JointCommand
 from gz_course.sim.gz.sim.physics.servos import APPLIED
+from gz_course.sim.gz.sim.plugins.system import UpdateInfo, system
 from gz_course.sim.gz.sim.sdf.element import Element
-from gz_course.sim.gz.sim.systems.joint_command import JointCommand
-from gz_course.sim.gz.sim.systems.registry import UpdateInfo, system
 
 
 @system("ApplyJointForce", "gz-sim-apply-joint-force-system")
@@ -20,14 +20,11 @@ class ApplyJointForce(JointCommand):
 
     @classmethod
     def servo_kind(cls, element: Element) -> str:
-        """A motor of its own."""
         return APPLIED
 
     def start(self) -> None:
-        """Push with nothing."""
         self.value = 0.0
 
     def pre_update(self, info: UpdateInfo) -> None:
-        """Push."""
         for drive in self.drives:
             drive.push(self.world.data, self.value)

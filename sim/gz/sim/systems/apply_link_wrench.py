@@ -3,6 +3,8 @@
 `gz.msgs.EntityWrench` (world axes, N and N m, on the origin of a link or `force_offset` from it in the link's axes) on
 `/world/W/wrench` acts in the next step, on `/world/W/wrench/persistent` in every step until a `gz.msgs.Entity` comes on
 `/world/W/wrench/clear`. For a model its canonical link is meant.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/apply_link_wrench/ApplyLinkWrench.cc
 """
 
 from __future__ import annotations
@@ -16,14 +18,14 @@ import mujoco
 import numpy as np
 
 from gz_course.sim.gz.sim.errors import nearest
+from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, system
+from gz_course.sim.gz.sim.plugins.topics import valid_topic
 from gz_course.sim.gz.sim.pose import Vector, rotate
 from gz_course.sim.gz.sim.sdf.description import Model, Plugin
 from gz_course.sim.gz.sim.sdf.element import Element
-from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, system
-from gz_course.sim.gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
 
 _ZERO = (0.0, 0.0, 0.0)
@@ -49,7 +51,7 @@ class ApplyLinkWrench(System):
 
     parameters = frozenset(("topic", "topic_persistent", "topic_clear", "persistent", "verbose"))
 
-    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
+    def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
         """Read topics and the wrenches that act from the beginning."""
         element = plugin.element
         if model is not None:
@@ -78,13 +80,12 @@ class ApplyLinkWrench(System):
         self._pushed: list[int] = []
 
     def start(self) -> None:
-        """Push with what the file says only."""
+        """Push with the wrenches of the file only."""
         self._once: deque[_Wrench] = deque(maxlen=_MOST)
         self._persistent = list(self._initial)
         self._clear: deque[tuple[int, str, str]] = deque(maxlen=_MOST)
 
     def connect(self, node: Node) -> None:
-        """Subscribe to the three topics."""
         from gz_course.sim.gz.msgs.entity_pb2 import Entity
         from gz_course.sim.gz.msgs.entity_wrench_pb2 import EntityWrench
 
@@ -119,7 +120,6 @@ class ApplyLinkWrench(System):
         return _Wrench(*_entity(message.entity), force, torque, offset)
 
     def pre_update(self, info: UpdateInfo) -> None:
-        """Push."""
         data = self.world.data
         for body in self._pushed:
             data.xfrc_applied[body] = 0.0
@@ -149,7 +149,7 @@ class ApplyLinkWrench(System):
         if body <= 0:
             return
         data = self.world.data
-        self.world.refresh()
+        self.world.truth.refresh()
         # MuJoCo applies forces at the centre of mass.
         lever = data.xpos[body] - data.xipos[body] + rotate(data.xquat[body], wrench.offset)
         data.xfrc_applied[body, :3] += wrench.force

@@ -3,6 +3,8 @@
 `Twist` on `/model/M/cmd_vel` -> target -> limits -> wheel speeds -> MuJoCo servos; after each step wheel
 angles -> odometry on `/model/M/odometry` and `/model/M/tf`. As in Gazebo a command takes effect one step
 after it is taken, holds for ever (there is no watchdog), and only `linear.x` and `angular.z` count.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/diff_drive/DiffDrive.cc
 """
 
 from __future__ import annotations
@@ -12,20 +14,20 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gz_course.sim.gz.sim.driving.odometry_reports import OdometryReports
+from gz_course.sim.gz.sim.driving.speed_limiter import SpeedLimiter
+from gz_course.sim.gz.sim.driving.wheel_odometry import WheelOdometry
 from gz_course.sim.gz.sim.errors import nearest
 from gz_course.sim.gz.sim.physics.servos import MAX_WHEEL_SPEED, WHEEL, JointServo
+from gz_course.sim.gz.sim.plugins.model_scope import ModelScope
+from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, system
+from gz_course.sim.gz.sim.plugins.topics import valid_topic
 from gz_course.sim.gz.sim.pose import Vector, rotate
 from gz_course.sim.gz.sim.sdf.description import Model, Plugin
 from gz_course.sim.gz.sim.sdf.element import Element
-from gz_course.sim.gz.sim.systems.model_scope import ModelScope
-from gz_course.sim.gz.sim.systems.odometry_reports import OdometryReports
-from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, system
-from gz_course.sim.gz.sim.systems.speed_limiter import SpeedLimiter
-from gz_course.sim.gz.sim.systems.topics import valid_topic
-from gz_course.sim.gz.sim.systems.wheel_odometry import WheelOdometry
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
 
 _LIMITS = [
@@ -62,7 +64,7 @@ class DiffDrive(System):
         wheels = left + right
         return [JointServo(joint, WHEEL, radius, len(wheels)) for joint in wheels]
 
-    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
+    def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
         """Read the parameters; `model` must not be None."""
         scope = ModelScope(world, model, plugin, self.name)
         model = scope.model
@@ -100,13 +102,11 @@ class DiffDrive(System):
 
     @property
     def reports(self) -> OdometryReports:
-        """Topics and frames of the odometry."""
         return self._reports
 
     def bind(self) -> None:
-        """Find the wheels."""
         self._left, self._right = (
-            [self._world.joint_address(self._model, joint) for joint in side] for side in self._sides
+            [self._world.truth.joint_address(self._model, joint) for joint in side] for side in self._sides
         )
 
     def start(self) -> None:
@@ -122,7 +122,6 @@ class DiffDrive(System):
         self._enabled = True
 
     def connect(self, node: Node) -> None:
-        """Subscribe to commands, advertise odometry."""
         from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
         from gz_course.sim.gz.msgs.twist_pb2 import Twist
 
@@ -131,7 +130,7 @@ class DiffDrive(System):
         self._reports.connect(node)
 
     def command(self, linear: float, angular: float) -> bool:
-        """Set the wanted forward speed (m/s) and turning speed (rad/s); return False when it was refused.
+        """Set the wanted forward speed [m/s] and turning speed [rad/s]; return False when it was refused.
 
         Values that are not finite never reach the physics: they are dropped, counted and reported once.
         """

@@ -2,21 +2,23 @@
 
 `gz.msgs.Double` on `/model/M/joint/J/cmd_vel` (rad/s or m/s) -> servos that hold the velocity against any load up to
 the effort of the joint; with `<use_force_commands>` a PID controller turns the error of the first joint into a force.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/joint_controller/JointController.cc
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from gz_course.sim.gz.sim.driving import pid
+from gz_course.sim.gz.sim.driving.joint_command import JointCommand
 from gz_course.sim.gz.sim.physics.servos import FORCE, VELOCITY
+from gz_course.sim.gz.sim.plugins.system import UpdateInfo, system
 from gz_course.sim.gz.sim.sdf.description import Model, Plugin
 from gz_course.sim.gz.sim.sdf.element import Element
-from gz_course.sim.gz.sim.systems import pid
-from gz_course.sim.gz.sim.systems.joint_command import JointCommand
-from gz_course.sim.gz.sim.systems.registry import UpdateInfo, system
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
 
 @system("JointController", "gz-sim-joint-controller-system")
@@ -29,10 +31,10 @@ class JointController(JointCommand):
 
     @classmethod
     def servo_kind(cls, element: Element) -> str:
-        """A servo, or a motor with `<use_force_commands>`."""
+        """Return a servo, or a motor with `<use_force_commands>`."""
         return FORCE if element.flag("use_force_commands", False) else VELOCITY
 
-    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
+    def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
         """Read joints, topic, gains and the velocity to begin with."""
         super().configure(world, model, plugin)
         element = plugin.element

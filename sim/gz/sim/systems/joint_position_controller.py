@@ -2,21 +2,23 @@
 
 `gz.msgs.Double` on `/model/M/joint/J/0/cmd_pos` (rad or m) -> error of the first joint -> PID -> force on every joint.
 With `<use_velocity_commands>` there is no PID: the joints go to the position at once, or with the speed `<cmd_max>`.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/joint_position_controller/JointPositionController.cc
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from gz_course.sim.gz.sim.driving import pid
+from gz_course.sim.gz.sim.driving.joint_command import JointCommand
 from gz_course.sim.gz.sim.physics.servos import FORCE, VELOCITY
+from gz_course.sim.gz.sim.plugins.system import UpdateInfo, system
 from gz_course.sim.gz.sim.sdf.description import Model, Plugin
 from gz_course.sim.gz.sim.sdf.element import Element
-from gz_course.sim.gz.sim.systems import pid
-from gz_course.sim.gz.sim.systems.joint_command import JointCommand
-from gz_course.sim.gz.sim.systems.registry import UpdateInfo, system
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
 
 @system("JointPositionController", "gz-sim-joint-position-controller-system")
@@ -34,10 +36,10 @@ class JointPositionController(JointCommand):
 
     @classmethod
     def servo_kind(cls, element: Element) -> str:
-        """A motor, or a servo with `<use_velocity_commands>`."""
+        """Return a motor, or a servo with `<use_velocity_commands>`."""
         return VELOCITY if element.flag("use_velocity_commands", False) else FORCE
 
-    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
+    def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
         """Read joints, topic, gains and the position to go to at first."""
         super().configure(world, model, plugin)
         element = plugin.element
@@ -51,12 +53,10 @@ class JointPositionController(JointCommand):
         return f"/model/{self.scope.name}/joint/{joint}/{self.index}/{self.quantity}"
 
     def start(self) -> None:
-        """Go to the initial position."""
         self.value = self._initial
         self.pid.reset()
 
     def pre_update(self, info: UpdateInfo) -> None:
-        """Push the joints towards the position."""
         drives = self.drives
         if not drives:
             return

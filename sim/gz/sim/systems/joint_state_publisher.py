@@ -3,6 +3,8 @@
 MuJoCo's state -> `gz.msgs.Model` on `/world/W/model/M/joint_state`, one `joint` each with `axis1` (and `axis2`) holding
 position (rad or m), velocity and force (N m or N: what actuators and applied forces pushed with in the last step).
 `parameter_bridge` makes a `sensor_msgs/JointState` of it.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/joint_state_publisher/JointStatePublisher.cc
 """
 
 from __future__ import annotations
@@ -10,15 +12,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from gz_course.sim.gz.sim.physics.joint_axis import JointAxis, find_axes
+from gz_course.sim.gz.sim.plugins.model_scope import ModelScope
+from gz_course.sim.gz.sim.plugins.period import period_ns
+from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, system
+from gz_course.sim.gz.sim.plugins.topics import valid_topic
 from gz_course.sim.gz.sim.pose import Pose, rotate
 from gz_course.sim.gz.sim.sdf.description import UNLIMITED, Axis, Joint, Model, Plugin
-from gz_course.sim.gz.sim.systems.model_scope import ModelScope
-from gz_course.sim.gz.sim.systems.period import period_ns
-from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, system
-from gz_course.sim.gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
 
 
@@ -28,7 +30,7 @@ class JointStatePublisher(System):
 
     parameters = frozenset(("joint_name", "topic", "update_rate"))
 
-    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
+    def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
         """Choose joints and topic."""
         element = plugin.element
         self.world = world
@@ -40,7 +42,6 @@ class JointStatePublisher(System):
         self._publisher: Any = None
 
     def bind(self) -> None:
-        """Find the joints."""
         prefix = f"{self.scope.model.name}::"
         self._axes: list[tuple[int, str, JointAxis]] = []
         for index, joint in enumerate(self.joints):
@@ -51,11 +52,9 @@ class JointStatePublisher(System):
             self._prepare()
 
     def start(self) -> None:
-        """Nothing was published yet."""
         self._last_ns = 0
 
     def connect(self, node: Node) -> None:
-        """Advertise the state."""
         from gz_course.sim.gz.msgs.model_pb2 import Model as ModelMessage
 
         self._type = ModelMessage
@@ -63,7 +62,6 @@ class JointStatePublisher(System):
         self._prepare()
 
     def post_update(self, info: UpdateInfo) -> None:
-        """Publish when due and somebody listens."""
         if info.sim_time_ns - self._last_ns < self._period_ns:
             return
         self._last_ns = info.sim_time_ns
@@ -71,7 +69,7 @@ class JointStatePublisher(System):
             self._publish(info.sim_time_ns)
 
     def paused_update(self, info: UpdateInfo) -> None:
-        """Go on saying the same, as Gazebo does."""
+        """Publish the same poses again, as Gazebo does."""
         if self._publisher is not None and self._publisher.has_connections():
             self._publish(info.sim_time_ns)
 

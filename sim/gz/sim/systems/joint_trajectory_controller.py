@@ -4,6 +4,8 @@
 -> PID of the position, PID of the velocity and the point's effort are added up to a force. As in Gazebo there is no
 interpolation between points, and accelerations do not count. After each new point the share of points reached goes out
 on `<topic>_progress` (`Float`).
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/joint_trajectory_controller/JointTrajectoryController.cc
 """
 
 from __future__ import annotations
@@ -12,16 +14,16 @@ import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from gz_course.sim.gz.sim.driving.pid import PARAMETERS, PID
 from gz_course.sim.gz.sim.physics.servos import FORCE, Drive, JointServo, find_drive
+from gz_course.sim.gz.sim.plugins.model_scope import ModelScope
+from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, system
+from gz_course.sim.gz.sim.plugins.topics import valid_topic
 from gz_course.sim.gz.sim.sdf.description import Joint, Model, Plugin
 from gz_course.sim.gz.sim.sdf.element import Element
-from gz_course.sim.gz.sim.systems.model_scope import ModelScope
-from gz_course.sim.gz.sim.systems.pid import PARAMETERS, PID
-from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, system
-from gz_course.sim.gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
 
 _ONE_AXIS = frozenset(("revolute", "continuous", "prismatic"))
@@ -71,7 +73,7 @@ class JointTrajectoryController(System):
         """Ask for a motor on each joint."""
         return [JointServo(joint.name, FORCE) for joint in _enabled(model, plugin)]
 
-    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
+    def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
         """Read joints, gains and topic."""
         element = plugin.element
         self.world = world
@@ -104,13 +106,12 @@ class JointTrajectoryController(System):
             actuated.drive = find_drive(self.world.model, self.scope.model, wish)
 
     def start(self) -> None:
-        """Hold the initial positions; follow nothing."""
+        """Hold the initial positions, without a trajectory."""
         self._trajectory: _Trajectory | None = None
         for actuated in self.joints.values():
             actuated.start()
 
     def connect(self, node: Node) -> None:
-        """Subscribe to trajectories, advertise the progress."""
         from gz_course.sim.gz.msgs.float_pb2 import Float
         from gz_course.sim.gz.msgs.joint_trajectory_pb2 import JointTrajectory
 

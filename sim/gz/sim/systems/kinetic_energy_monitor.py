@@ -1,7 +1,9 @@
 """KineticEnergyMonitor: tells when a link loses much of its energy of motion in one step, as in a crash.
 
-MuJoCo's state -> `gz.msgs.Double` with the loss (J) on `/model/M/kinetic_energy`, when it is above
+MuJoCo's state -> `gz.msgs.Double` with the loss [J] on `/model/M/kinetic_energy`, when it is above
 `<kinetic_energy_threshold>` (7).
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/kinetic_energy_monitor/KineticEnergyMonitor.cc
 """
 
 from __future__ import annotations
@@ -11,13 +13,13 @@ from typing import TYPE_CHECKING, Any
 import mujoco
 import numpy as np
 
+from gz_course.sim.gz.sim.plugins.model_scope import ModelScope
+from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, system
+from gz_course.sim.gz.sim.plugins.topics import valid_topic
 from gz_course.sim.gz.sim.sdf.description import Model, Plugin
-from gz_course.sim.gz.sim.systems.model_scope import ModelScope
-from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, system
-from gz_course.sim.gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
 
 
@@ -27,7 +29,7 @@ class KineticEnergyMonitor(System):
 
     parameters = frozenset(("link_name", "kinetic_energy_threshold", "topic"))
 
-    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
+    def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
         """Read link, threshold and topic; raise `SdfError` when no link is named."""
         element = plugin.element
         self.world = world
@@ -40,26 +42,23 @@ class KineticEnergyMonitor(System):
         self._publisher: Any = None
 
     def bind(self) -> None:
-        """Find the body."""
         self._body = self.scope.body(self.links[0].name) if self.links else -1
 
     def start(self) -> None:
-        """Nothing is known yet about the energy."""
         self._before: float | None = None
 
     def connect(self, node: Node) -> None:
-        """Advertise the loss."""
         from gz_course.sim.gz.msgs.double_pb2 import Double
 
         self._type = Double
         self._publisher = node.advertise(self.topic, Double)
 
     def energy(self) -> float:
-        """Return the kinetic energy of the link now (J)."""
+        """Return the kinetic energy of the link [J]."""
         model, data = self.world.model, self.world.data
         if self._body <= 0:
             return 0.0
-        self.world.refresh()
+        self.world.truth.refresh()
         mujoco.mj_comPos(model, data)
         mujoco.mj_comVel(model, data)
         velocity = np.zeros(6)

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from gz_course.sim.gz.sim.plugins.system import System, system, system_name
 from gz_course.sim.gz.sim.sdf.description import Collision, Link, Model, Plugin, Visual
 from gz_course.sim.gz.sim.sdf.element import Element
-from gz_course.sim.gz.sim.systems.registry import System, system, system_name
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
 
 @system("Label", "gz-sim-label-system")
@@ -22,7 +22,7 @@ class Label(System):
 
     parameters = frozenset(("label",))
 
-    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
+    def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
         """Read the label, so that a wrong one is told when the world is loaded."""
         if model is None:
             raise plugin.element.error("Label belongs inside a <visual> or a <model>, not directly in the <world>")

@@ -14,14 +14,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gz_course.sim.gz.sim.errors import LOG, SimError
+from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, system
 from gz_course.sim.gz.sim.sdf.description import Model, Plugin
 from gz_course.sim.gz.sim.sdf.element import Element
 from gz_course.sim.gz.sim.sdf_generator import generate_world
-from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, system
 from gz_course.sim.gz.sim.tlog import FILE_NAME, Entry, LogWriter
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
 
 _LOOK_NS = 100_000_000
@@ -34,7 +34,7 @@ class LogRecord(System):
 
     parameters = frozenset(["record_path", "path", "record_topic", "overwrite", "record_period", "compress"])
 
-    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
+    def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
         """Read the parameters; raise `SdfError` for a pattern that is none."""
         element = plugin.element
         if model is not None:
@@ -65,12 +65,11 @@ class LogRecord(System):
         self._write(f"/{self._world.name}/log/sdf", StringMsg.DESCRIPTOR.full_name, text)
 
     def start(self) -> None:
-        """Look for topics at once, also after the clock was set back."""
+        """Look for topics at the next step, also after the clock was set back."""
         self._next_look_ns = 0
         self._last.clear()
 
     def pre_update(self, info: UpdateInfo) -> None:
-        """Listen to topics that came."""
         if self._writer is None or info.sim_time_ns < self._next_look_ns:
             return
         self._next_look_ns = info.sim_time_ns + _LOOK_NS
@@ -80,7 +79,6 @@ class LogRecord(System):
                 self._node.subscribe_raw(topic, self._on_message)
 
     def close(self) -> None:
-        """Finish the file."""
         writer, self._writer = self._writer, None
         if writer is not None:
             try:

@@ -4,6 +4,8 @@ MuJoCo's state -> `Odometry` on `/model/M/odometry`, the same with covariances o
 `Pose_V` on `/model/M/pose`. The pose is that of the world (not of the place where the model started), the twist that of
 the model in its own axes, linear parts as means over the last ten steps. Nothing drifts; `<gaussian_noise>` is added to
 the twist only, as in Gazebo.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/odometry_publisher/OdometryPublisher.cc
 """
 
 from __future__ import annotations
@@ -16,16 +18,16 @@ from typing import TYPE_CHECKING, Any
 import mujoco
 import numpy as np
 
+from gz_course.sim.gz.sim.driving.odometry_reports import fill_odometry_header
+from gz_course.sim.gz.sim.plugins.model_scope import ModelScope
+from gz_course.sim.gz.sim.plugins.period import period_ns
+from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, system
+from gz_course.sim.gz.sim.plugins.topics import valid_topic
 from gz_course.sim.gz.sim.pose import Pose, Vector, multiply, rotate
 from gz_course.sim.gz.sim.sdf.description import Model, Plugin
-from gz_course.sim.gz.sim.systems.model_scope import ModelScope
-from gz_course.sim.gz.sim.systems.odometry_reports import fill_odometry_header
-from gz_course.sim.gz.sim.systems.period import period_ns
-from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, system
-from gz_course.sim.gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
 
 WINDOW = 10
@@ -51,7 +53,7 @@ class OdometryPublisher(System):
         )
     )
 
-    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
+    def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
         """Read the parameters; raise `SdfError` for dimensions other than 2 and 3, and numbers that are not finite."""
         element = plugin.element
         self.world = world
@@ -89,7 +91,6 @@ class OdometryPublisher(System):
                 self._address = int(model.jnt_qposadr[joint])
 
     def start(self) -> None:
-        """No pose was seen yet."""
         self._published_ns = 0
         self._published = 0
         self._seen: deque[Vector | Pose] = deque(maxlen=WINDOW + 1)
@@ -99,7 +100,6 @@ class OdometryPublisher(System):
         self._steps = self._caught_up = 0
 
     def connect(self, node: Node) -> None:
-        """Advertise the three topics."""
         from gz_course.sim.gz.msgs.odometry_pb2 import Odometry
         from gz_course.sim.gz.msgs.odometry_with_covariance_pb2 import OdometryWithCovariance
         from gz_course.sim.gz.msgs.pose_v_pb2 import Pose_V
@@ -180,7 +180,7 @@ class OdometryPublisher(System):
         return self._last
 
     def _velocity(self, before: Pose, now: Pose, dt: float) -> Vector:
-        """Return the linear velocity (m/s) of the base along its own axes; in 2-D only its heading counts."""
+        """Return the linear velocity [m/s] of the base along its own axes; in 2-D only its heading counts."""
         moved = (now.position - before.position) / dt
         if self.dimensions == 3:
             return rotate(now.quaternion * _INVERSE, moved)

@@ -4,6 +4,8 @@ After each step, or `<update_frequency>` times a second of simulated time, on `/
 one Pose_V of all. Each pose is in the frame of its parent: the header's `frame_id` is the parent's name with that of
 its models before it (`robot`, `robot::arm`), `child_frame_id` the entity's (`robot::arm::hand`), which is also the
 name of the pose. With `<static_publisher>` what no joint moves goes to `/model/M/pose_static`.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/pose_publisher/PosePublisher.cc
 """
 
 from __future__ import annotations
@@ -11,16 +13,16 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from gz_course.sim.gz.sim.plugins.period import period_ns
+from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, system
+from gz_course.sim.gz.sim.plugins.topics import valid_topic
 from gz_course.sim.gz.sim.scene.fields import fill_pose, set_pose, set_stamp
 from gz_course.sim.gz.sim.scene.graph import SceneGraph, Vertex
 from gz_course.sim.gz.sim.sdf.description import Model, Plugin
 from gz_course.sim.gz.sim.sdf.element import Element
-from gz_course.sim.gz.sim.systems.period import period_ns
-from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, system
-from gz_course.sim.gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
 
 
@@ -92,7 +94,7 @@ class PosePublisher(System):
         ]
     )
 
-    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
+    def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
         """Read the parameters; `model` must not be None."""
         element = plugin.element
         if model is None:
@@ -117,7 +119,7 @@ class PosePublisher(System):
         self._connected = False
 
     def bind(self) -> None:
-        """The bodies have other numbers: the graph has to be made anew."""
+        """Drop the graph, since the bodies have other numbers now."""
         self._graph = None
 
     def start(self) -> None:
@@ -126,7 +128,6 @@ class PosePublisher(System):
             stream.begin()
 
     def connect(self, node: Node) -> None:
-        """Advertise the topics."""
         from gz_course.sim.gz.msgs.pose_pb2 import Pose
         from gz_course.sim.gz.msgs.pose_v_pb2 import Pose_V
 
@@ -136,7 +137,6 @@ class PosePublisher(System):
         self._connected = True
 
     def post_update(self, info: UpdateInfo) -> None:
-        """Publish what is due and listened to."""
         if not self._connected:
             return
         now_ns = info.sim_time_ns

@@ -5,6 +5,8 @@ Topics below `/world/W`: `pose/info` (Pose_V: every model, link, visual and ligh
 what went), `state` (SerializedStepMap). Services: `scene/info`, `scene/graph` (Graphviz), `state` and `state_async`.
 Poses are in the parent's frame, names without scope, as in Gazebo. Rates are of simulated time; while a server is
 paused it asks for everything ten times a second. What is sent is made by `gz.sim.scene`, and only if somebody listens.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/scene_broadcaster/SceneBroadcaster.cc
 """
 
 from __future__ import annotations
@@ -14,15 +16,15 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from gz_course.sim.gz.sim.errors import LOG, SimError
+from gz_course.sim.gz.sim.plugins.period import LONGEST_NS
+from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, system
 from gz_course.sim.gz.sim.scene.fields import fill_pose, set_pose, set_stamp
 from gz_course.sim.gz.sim.scene.graph import KINDS, SceneGraph, Vertex
 from gz_course.sim.gz.sim.sdf.description import Model, Plugin
 from gz_course.sim.gz.sim.sdf.element import Element
-from gz_course.sim.gz.sim.systems.period import LONGEST_NS
-from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, system
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
 
 POSE_HERTZ = 60.0
@@ -71,7 +73,7 @@ class SceneBroadcaster(System):
     once = True
     parameters = frozenset(["dynamic_pose_hertz", "state_hertz"])
 
-    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
+    def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
         """Read the rates; a SceneBroadcaster stands directly in the world."""
         if model is not None:
             raise plugin.element.error("SceneBroadcaster belongs directly in the <world>, not inside a <model>")
@@ -80,7 +82,7 @@ class SceneBroadcaster(System):
         self._state_hertz = _rate(plugin.element, "state_hertz")
         self._graph: SceneGraph | None = None
         self._stale = True
-        """Whether what came and went since has still to be told."""
+        """Return whether there are changes that were not published yet."""
         self._pose_vectors: tuple[PoseVector, PoseVector] | None = None
         """What goes out on pose/info and dynamic_pose/info, once somebody listens."""
         self._sent: dict[tuple[str, str], list[int]] = {}
@@ -92,7 +94,7 @@ class SceneBroadcaster(System):
         self._graph, self._stale = None, True
 
     def start(self) -> None:
-        """Begin the schedules anew; everything that is there is new, once what is no more has been taken back."""
+        """Begin the schedules anew; delete what is gone, then announce everything that is there."""
         self._all, self._dynamic = Schedule(POSE_HERTZ), Schedule(self._dynamic_hertz)
         self._state = Schedule(self._state_hertz)
         self._next_ns = 0
@@ -128,7 +130,6 @@ class SceneBroadcaster(System):
         node.advertise_service(f"{root}/state_async", StringMsg, Empty, self._send_state)
 
     def post_update(self, info: UpdateInfo) -> None:
-        """Publish what is due."""
         if self._node is None:
             return
         if self._stale:
@@ -142,7 +143,6 @@ class SceneBroadcaster(System):
         self._publish(now_ns, *due)
 
     def paused_update(self, info: UpdateInfo) -> None:
-        """Publish everything."""
         if self._node is None:
             return
         if self._stale:

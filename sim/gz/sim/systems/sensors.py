@@ -1,12 +1,12 @@
 """Sensors: runs the sensors that look at the world (lidars, cameras); a plugin of the world.
 
-What is common to all systems that run sensors is in `gz.sim.systems.sensor_system`.
+What is common to all systems that run sensors is in `gz.sim.plugins.sensor_system`.
 """
 
 from __future__ import annotations
 
-from gz_course.sim.gz.sim.systems.registry import system
-from gz_course.sim.gz.sim.systems.sensor_system import SensorSystem
+from gz_course.sim.gz.sim.plugins.sensor_system import SensorSystem
+from gz_course.sim.gz.sim.plugins.system import system
 
 
 @system("Sensors", "gz-sim-sensors-system")

@@ -2,6 +2,8 @@
 
 It looks at the collisions that the model's contact sensors name, after every step. A message on `/NAMESPACE/touched`
 says that it happened; then the plugin is off until the service `/NAMESPACE/enable` switches it on again.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/touch_plugin/TouchPlugin.cc
 """
 
 from __future__ import annotations
@@ -9,25 +11,25 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from gz_course.sim.gz.sim.physics.contacts import CollisionGeoms, CollisionPath, touching
+from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, system, system_name
+from gz_course.sim.gz.sim.plugins.topics import valid_topic
 from gz_course.sim.gz.sim.requests import logged
 from gz_course.sim.gz.sim.sdf.description import Model, Plugin
-from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, system, system_name
-from gz_course.sim.gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
 
 
 @system("TouchPlugin", "gz-sim-touchplugin-system")
 class TouchPlugin(System):
-    """`<target>`: part of the scoped name of the collisions to touch; `<time>` (s): how long, at least;
+    """`<target>`: part of the scoped name of the collisions to touch; `<time>` [s]: how long, at least;
     `<namespace>`: of the topic and the service; `<enabled>`: whether it is on from the start.
     """
 
     parameters = frozenset(("target", "time", "namespace", "enabled"))
 
-    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
+    def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
         """Read the parameters; raise `SdfError` when one is missing or the plugin stands in no model. Nothing is
         ever touched when the model has no contact sensor or no Contact system runs them, and that is warned about.
         """

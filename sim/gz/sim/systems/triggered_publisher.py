@@ -3,6 +3,8 @@
 A message of `<input type= topic=>` that fulfils every `<match>` -> after `<delay_ms>` of simulated time every
 `<output type= topic=>` is published. A match is the text of a whole message, or with `field="a.b"` of one of its
 fields; `logic_type="negative"` turns it round, `tol` is how far numbers may be off.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/triggered_publisher/TriggeredPublisher.cc
 """
 
 from __future__ import annotations
@@ -17,13 +19,13 @@ from google.protobuf.message import Message
 from gz_course.sim.gz.msgs import message_class
 from gz_course.sim.gz.msgs.registry import UnknownTypeError
 from gz_course.sim.gz.msgs.text import MessageTextError, from_text
+from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, system
+from gz_course.sim.gz.sim.plugins.topics import valid_topic
 from gz_course.sim.gz.sim.sdf.description import Model, Plugin
 from gz_course.sim.gz.sim.sdf.element import Element
-from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, system
-from gz_course.sim.gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
 
 _MOST = 10_000
@@ -90,7 +92,7 @@ class TriggeredPublisher(System):
     parameters = frozenset(("input", "output", "delay_ms", "service"))
     joins_topics = True
 
-    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
+    def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
         """Read input, matches and outputs; raise `SdfError` for types and texts that do not fit."""
         element = plugin.element
         self.world = world
@@ -111,11 +113,9 @@ class TriggeredPublisher(System):
         self._publishers: list[Any] = []
 
     def start(self) -> None:
-        """Nothing waits to be answered."""
         self._due: deque[int] = deque(maxlen=_MOST)
 
     def connect(self, node: Node) -> None:
-        """Subscribe to the input, advertise the outputs."""
         topics: dict[str, Any] = {}
         for topic, message in self._outputs:
             if topic not in topics:

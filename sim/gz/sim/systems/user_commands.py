@@ -5,6 +5,8 @@ Services `/world/W/create`, `create_multiple`, `remove`, `set_pose`, `set_pose_v
 answers true as soon as the command is queued, and each has a twin `/blocking` that answers when it was done. What goes
 wrong is logged in one sentence. The commands themselves are in `entity_commands` and `property_commands`; a text is
 read in the transport's thread, so that the world goes on meanwhile, and the world is changed between two steps.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/user_commands/UserCommands.cc
 """
 
 from __future__ import annotations
@@ -13,13 +15,13 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from gz_course.sim.gz.sim.errors import LOG, SimError
+from gz_course.sim.gz.sim.plugins.system import System, system
 from gz_course.sim.gz.sim.requests import logged
 from gz_course.sim.gz.sim.sdf.description import Model, Plugin
-from gz_course.sim.gz.sim.systems.registry import System, system
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.systems.entity_commands import Command
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.editing.entity_commands import Command
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
 
 
@@ -29,17 +31,17 @@ class UserCommands(System):
 
     once = True
 
-    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
-        """Belongs to the world; `model` is None."""
+    def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
+        """Refuse a `model`: the plugin belongs to the world."""
         if model is not None:
             raise plugin.element.error("UserCommands belongs directly in the <world>, not inside a <model>")
         self._world = world
 
     def connect(self, node: Node) -> None:
-        """Offer every command twice, and listen to colours."""
+        """Offer every command with its blocking twin, and subscribe to colours."""
         from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
         from gz_course.sim.gz.msgs.material_color_pb2 import MaterialColor
-        from gz_course.sim.gz.sim.systems import entity_commands, property_commands
+        from gz_course.sim.gz.sim.editing import entity_commands, property_commands
 
         self._answer = Boolean
         prefix = self._world.topic

@@ -3,6 +3,8 @@
 `Twist` on `/model/M/cmd_vel` (in the model's axes), and on `/model/M/link/L/cmd_vel` for the links that `<link_name>`
 lists (in the link's axes) -> velocity of the floating base in MuJoCo, set anew before every step. Obstacles and gravity
 act within a step only; without a command the model is held still.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/velocity_control/VelocityControl.cc
 """
 
 from __future__ import annotations
@@ -15,14 +17,14 @@ from typing import TYPE_CHECKING, Any
 import mujoco
 import numpy as np
 
+from gz_course.sim.gz.sim.plugins.model_scope import ModelScope
+from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, system
+from gz_course.sim.gz.sim.plugins.topics import valid_topic
 from gz_course.sim.gz.sim.pose import Vector, rotate
 from gz_course.sim.gz.sim.sdf.description import Link, Model, Plugin
-from gz_course.sim.gz.sim.systems.model_scope import ModelScope
-from gz_course.sim.gz.sim.systems.registry import System, UpdateInfo, system
-from gz_course.sim.gz.sim.systems.topics import valid_topic
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.sim.world import World
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
 
 FASTEST = 1e4
@@ -43,8 +45,7 @@ class VelocityControl(System):
 
     parameters = frozenset(("topic", "link_name", "initial_linear", "initial_angular"))
 
-    def configure(self, world: World, model: Model | None, plugin: Plugin) -> None:
-        """Read the parameters."""
+    def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
         element = plugin.element
         self.world = world
         self.scope = ModelScope(world, model, plugin, self.name)
@@ -81,7 +82,6 @@ class VelocityControl(System):
         self._link_present: dict[str, _Twist] = {}
 
     def connect(self, node: Node) -> None:
-        """Subscribe to the commands."""
         from gz_course.sim.gz.msgs.twist_pb2 import Twist
 
         node.subscribe(Twist, self.topic, self._on_command)
@@ -130,12 +130,12 @@ class VelocityControl(System):
         for name, twist in self._link_present.items():
             root = self._free_root(name)
             if root >= 0:
-                pose = self.world.link_pose(self.scope.model.name, name)
+                pose = self.world.truth.link_pose(self.scope.model.name, name)
                 turn = pose.quaternion
                 self._set(root, rotate(turn, twist.linear), rotate(turn, twist.angular), pose.position)
 
     def post_update(self, info: UpdateInfo) -> None:
-        """Take the commands that came for the next step."""
+        """Use the latest commands from the next step on."""
         self._present = self._target
         if self._link_targets:
             self._link_present.update(self._link_targets)

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import gz_course.sim.gz.sim.world as gz_sim_world
-from gz_course.sim.gz.sim.sensors.registry import sensor_types
-from gz_course.sim.gz.sim.systems.registry import systems
+from gz_course.sim.gz.sim.plugins.sensor import sensor_types
+from gz_course.sim.gz.sim.plugins.system import systems
 from gz_course.sim.gz.sim.world import World
 from gz_course.sim.gz.transport import Node
 
@@ -27,15 +27,16 @@ def test_a_built_in_world_is_free_of_warnings_and_calm(name: str) -> None:
     world.step(1500)
     assert not world.warnings
     assert np.isfinite(world.data.qpos).all()
-    speeds = [np.linalg.norm(world.velocity(model).linear) for model in world.model_names() if model != "pendulum"]
-    assert all(speed < 2.0 for speed in speeds), dict(zip(world.model_names(), speeds, strict=False))
+    names = world.truth.model_names()
+    speeds = [np.linalg.norm(world.truth.velocity(model).linear) for model in names if model != "pendulum"]
+    assert all(speed < 2.0 for speed in speeds), dict(zip(names, speeds, strict=False))
 
 
 @pytest.mark.parametrize("name", MODELS)
 def test_a_built_in_model_comes_by_its_name(name: str) -> None:
     text = f"<sdf version='1.10'><world name='w'><include><uri>model://{name}</uri></include></world></sdf>"
     world = World.from_string(text)
-    assert name in world.model_names(static=True) or any(light.name == name for light in world.description.lights)
+    assert name in world.truth.model_names(static=True) or any(light.name == name for light in world.description.lights)
     assert not [warning for warning in world.warnings if "stays silent" not in warning]
 
 
@@ -69,10 +70,10 @@ def test_the_cargo_robot_drives_as_it_is_told() -> None:
     drive: Any = next(system for system in world.systems if system.name == "DiffDrive")
     drive.command(0.8, 0.0)
     world.step(3000)
-    velocity = world.velocity("cargo_robot")
+    velocity = world.truth.velocity("cargo_robot")
     assert velocity.linear[0] == pytest.approx(0.8, rel=0.005)
-    assert abs(world.pose("cargo_robot").position[1]) < 0.001
+    assert abs(world.truth.pose("cargo_robot").position[1]) < 0.001
     drive.command(0.0, 0.0)
     world.step(1500)
-    assert np.linalg.norm(world.velocity("cargo_robot").linear) < 1e-3
-    assert abs(world.pose("cargo_robot").rpy()[1]) < 0.02
+    assert np.linalg.norm(world.truth.velocity("cargo_robot").linear) < 1e-3
+    assert abs(world.truth.pose("cargo_robot").rpy()[1]) < 0.02

@@ -13,11 +13,11 @@ import pytest
 from gz_course.sim.gz.msgs.double_pb2 import Double
 from gz_course.sim.gz.msgs.twist_pb2 import Twist
 from gz_course.sim.gz.sim.errors import SimError
+from gz_course.sim.gz.sim.plugins.sensor import sensor_types
+from gz_course.sim.gz.sim.plugins.system import systems
 from gz_course.sim.gz.sim.pose import Pose
 from gz_course.sim.gz.sim.sdf.resources import BUILT_IN_MODELS
-from gz_course.sim.gz.sim.sensors.registry import sensor_types
 from gz_course.sim.gz.sim.server import Server
-from gz_course.sim.gz.sim.systems.registry import systems
 from gz_course.sim.gz.sim.world import World
 from gz_course.sim.gz.transport import Node
 
@@ -178,7 +178,7 @@ def drive(world: World, node: Node) -> None:
 def test_every_topic_carries_the_same_bytes_again(world: World, node: Node) -> None:
     tape = Tape(world, node)
     drive(world, node)
-    assert world.velocity("two_wheel_robot").linear[0] > 0.1, "it drives"
+    assert world.truth.velocity("two_wheel_robot").linear[0] > 0.1, "it drives"
     first, state = tape.take(), world.data.qpos.tobytes() + world.data.qvel.tobytes()
     assert len(first) >= 30, f"too little is heard to prove anything: {sorted(first)}"
     world.step(123)
@@ -195,18 +195,18 @@ def test_the_same_after_things_came_went_and_moved(world: World, node: Node) -> 
     tape = Tape(world, node)
     name = "two_wheel_robot"
     drive(world, node)
-    first, names = tape.take(), world.model_names(static=True)
+    first, names = tape.take(), world.truth.model_names(static=True)
     numbers = {(each.kind, each.path): each.number for each in world.entities}
     text = (BUILT_IN_MODELS / "two_wheel_robot" / "model.sdf").read_text()
-    world.spawn(text, name="other", pose=Pose((3.0, 0.0, 0.0)))
-    world.set_pose(name, Pose((1.0, 1.0, 0.0)))
-    world.set_pose("ground_plane", Pose((0.0, 0.0, -0.5)))
-    world.set_physics(step_size=0.002)
+    world.editor.spawn(text, name="other", pose=Pose((3.0, 0.0, 0.0)))
+    world.editor.set_pose(name, Pose((1.0, 1.0, 0.0)))
+    world.editor.set_pose("ground_plane", Pose((0.0, 0.0, -0.5)))
+    world.editor.set_physics(step_size=0.002)
     world.step(50)
-    world.remove(name)
+    world.editor.remove(name)
     world.step(50)
     world.reset()
-    assert world.model_names(static=True) == names
+    assert world.truth.model_names(static=True) == names
     assert {(each.kind, each.path): each.number for each in world.entities} == numbers
     tape.listen()
     tape.take()
@@ -218,7 +218,7 @@ def test_the_same_after_things_came_went_and_moved(world: World, node: Node) -> 
 def test_what_comes_later_begins_its_schedules_then(world: World, node: Node) -> None:
     """No system and no sensor makes up for the time before it came."""
     world.step(2000)
-    world.spawn(f"<sdf version='1.10'>{flyer()}</sdf>", name="later", pose=Pose((-2.0, -2.0, 0.099)))
+    world.editor.spawn(f"<sdf version='1.10'>{flyer()}</sdf>", name="later", pose=Pose((-2.0, -2.0, 0.099)))
     tape = Tape(world, node)
     world.step(500)
     counts = {topic: count for topic, (count, _) in tape.take().items()}

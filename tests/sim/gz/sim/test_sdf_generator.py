@@ -20,20 +20,22 @@ Load = Callable[..., World]
 @pytest.mark.parametrize("expand", [False, True])
 def test_the_present_world_comes_back(expand: bool) -> None:
     world = World.load("lidar_room.sdf")
-    world.spawn("<sdf version='1.10'><model name='box'><pose>3 1 2 0.1 0.2 0.3</pose><link name='l'/></model></sdf>")
-    world.spawn("<sdf version='1.10'><light name='lamp' type='point'><pose>0 1 2 0 0 0</pose></light></sdf>")
+    world.editor.spawn(
+        "<sdf version='1.10'><model name='box'><pose>3 1 2 0.1 0.2 0.3</pose><link name='l'/></model></sdf>"
+    )
+    world.editor.spawn("<sdf version='1.10'><light name='lamp' type='point'><pose>0 1 2 0 0 0</pose></light></sdf>")
     drive = next(each for each in world.systems if each.name == "DiffDrive")
     drive.command(0.3, 0.4)  # type: ignore[attr-defined]
     world.step(700)
-    world.set_pose("crate", Pose((1.0, 2.0, 0.25)))
-    world.remove("pillar" if "pillar" in world.model_names(static=True) else "ground_plane")
-    world.set_physics(step_size=0.002)
+    world.editor.set_pose("crate", Pose((1.0, 2.0, 0.25)))
+    world.editor.remove("pillar" if "pillar" in world.truth.model_names(static=True) else "ground_plane")
+    world.editor.set_physics(step_size=0.002)
     text = generate_world(world, expand_includes=expand)
     assert ("<include>" in text) is not expand
     again = World.from_string(text)
-    assert again.model_names(static=True) == world.model_names(static=True)
-    for name in world.model_names(static=True):
-        assert again.pose(name).is_close(world.pose(name), 1e-12), name
+    assert again.truth.model_names(static=True) == world.truth.model_names(static=True)
+    for name in world.truth.model_names(static=True):
+        assert again.truth.pose(name).is_close(world.truth.pose(name), 1e-12), name
     assert [(light.name, light.kind) for light in again.description.lights] == [
         (light.name, light.kind) for light in world.description.lights
     ]
@@ -48,13 +50,15 @@ def test_old_versions_have_their_poses_in_angles(load_text: Load) -> None:
     world = load_text("<model name='m'><pose>1 2 3 0.1 0.2 0.3</pose><link name='l'/></model>", version="1.6")
     text = generate_world(world)
     assert "quat_xyzw" not in text and 'version="1.6"' in text
-    assert World.from_string(text).pose("m").is_close(world.pose("m"), 1e-12)
+    assert World.from_string(text).truth.pose("m").is_close(world.truth.pose("m"), 1e-12)
 
 
 def test_a_model_of_older_rules_is_warned_about(load_text: Load, caplog: pytest.LogCaptureFixture) -> None:
     world = load_text("")
     for version in ("1.9", "1.4"):
-        world.spawn(f"<sdf version='{version}'><model name='m'><link name='l'/></model></sdf>", allow_renaming=True)
+        world.editor.spawn(
+            f"<sdf version='{version}'><model name='m'><link name='l'/></model></sdf>", allow_renaming=True
+        )
     generate_world(world)
     assert [record.getMessage().split(" but")[0] for record in caplog.records] == [
         "model 'm_0' follows the rules of SDF 1.4"
@@ -69,7 +73,7 @@ def test_joints_between_models_go_with_their_models(load_text: Load) -> None:
     for name, parent in (("one", "a"), ("two", "aa")):
         inside += f"<joint name='{name}' type='fixed'><parent>{parent}::l</parent><child>b::l</child></joint>"
     world = load_text(inside)
-    world.remove("a")
+    world.editor.remove("a")
     assert [joint.name for joint in world.description.joints] == ["two"]
     again = World.from_string(generate_world(world))
     assert [joint.name for joint in again.description.joints] == ["two"]
@@ -84,7 +88,7 @@ def test_models_that_other_frames_placed(load_text: Load) -> None:
         "<link name='l'><pose>0 0 2 0.2 0 0</pose></link></model>"
     )
     world = load_text(inside)
-    assert World.from_string(generate_world(world)).pose("m").is_close(world.pose("m"), 1e-12)
+    assert World.from_string(generate_world(world)).truth.pose("m").is_close(world.truth.pose("m"), 1e-12)
 
 
 words = st.text(st.characters(codec="utf-8", exclude_categories=("Cs", "Cc")), max_size=12)

@@ -95,17 +95,17 @@ def test_a_robot_that_is_spawned_is_looked_at_too_and_only_once(load: Load) -> N
     world = load(robot("one", drive("<topic>cmd_vel</topic>")))
     assert world.warnings == []
     for number, name in enumerate(("two", "three")):
-        world.spawn(f"<sdf version='1.10'>{robot(name, drive('<topic>cmd_vel</topic>'), x=number + 2)}</sdf>")
+        world.editor.spawn(f"<sdf version='1.10'>{robot(name, drive('<topic>cmd_vel</topic>'), x=number + 2)}</sdf>")
         assert len(world.warnings) == number + 1
         assert f"DiffDrive of model 'one' and DiffDrive of model '{name}'" in world.warnings[-1]
-    world.spawn("<sdf version='1.10'><model name='box'><pose>9 9 9 0 0 0</pose><link name='l'/></model></sdf>")
+    world.editor.spawn("<sdf version='1.10'><model name='box'><pose>9 9 9 0 0 0</pose><link name='l'/></model></sdf>")
     assert len(world.warnings) == 2
 
 
 def test_one_that_went_is_in_nobodys_way(load: Load) -> None:
     world = load(robot("one", drive("<topic>cmd_vel</topic>")))
-    world.remove("one")
-    world.spawn(f"<sdf version='1.10'>{robot('two', drive('<topic>cmd_vel</topic>'))}</sdf>")
+    world.editor.remove("one")
+    world.editor.spawn(f"<sdf version='1.10'>{robot('two', drive('<topic>cmd_vel</topic>'))}</sdf>")
     assert world.warnings == []
 
 

@@ -31,16 +31,17 @@ def test_time_is_exact_integers() -> None:
 
 def test_names_and_truth_at_the_start() -> None:
     world = World.load("lidar_room.sdf")
-    assert world.model_names() == ["robot"]
-    assert set(world.model_names(static=True)) > {"robot", "ground_plane", "crate"}
-    assert tuple(world.pose("robot").position) == (-2, 0, 0)
-    assert world.pose("crate").yaw() == pytest.approx(0.5)
-    assert tuple(world.link_pose("robot", "lidar_link").position) == pytest.approx((-2, 0, 0.18))
-    assert tuple(world.velocity("crate").linear) == (0, 0, 0)
+    assert world.truth.model_names() == ["robot"]
+    assert set(world.truth.model_names(static=True)) > {"robot", "ground_plane", "crate"}
+    assert tuple(world.truth.pose("robot").position) == (-2, 0, 0)
+    assert world.truth.pose("crate").yaw() == pytest.approx(0.5)
+    assert tuple(world.truth.link_pose("robot", "lidar_link").position) == pytest.approx((-2, 0, 0.18))
+    assert tuple(world.truth.velocity("crate").linear) == (0, 0, 0)
 
 
 @pytest.mark.parametrize(
-    "ask", [lambda w: w.pose("robt"), lambda w: w.velocity("robt"), lambda w: w.link_pose("robt", "x")]
+    "ask",
+    [lambda w: w.truth.pose("robt"), lambda w: w.truth.velocity("robt"), lambda w: w.truth.link_pose("robt", "x")],
 )
 def test_unknown_models_are_answered_with_the_nearest(ask: Callable[[World], object]) -> None:
     with pytest.raises(SimError, match="did you mean 'robot'"):
@@ -49,7 +50,7 @@ def test_unknown_models_are_answered_with_the_nearest(ask: Callable[[World], obj
 
 def test_unknown_links_are_answered_with_the_nearest() -> None:
     with pytest.raises(SimError, match="did you mean 'base_link'"):
-        World.load("lidar_room.sdf").link_pose("robot", "baselink")
+        World.load("lidar_room.sdf").truth.link_pose("robot", "baselink")
 
 
 def test_pose_and_velocity_are_those_of_the_model_frame_not_of_its_link(load_text: Load) -> None:
@@ -57,24 +58,24 @@ def test_pose_and_velocity_are_those_of_the_model_frame_not_of_its_link(load_tex
         "<gravity>0 0 0</gravity><model name='m'><pose>1 2 3 0 0 0.3</pose><link name='l'><pose>0 "
         "0.5 0 0 0 1</pose></link></model>"
     )
-    assert tuple(world.pose("m").position) == pytest.approx((1, 2, 3))
-    assert world.pose("m").yaw() == pytest.approx(0.3)
+    assert tuple(world.truth.pose("m").position) == pytest.approx((1, 2, 3))
+    assert world.truth.pose("m").yaw() == pytest.approx(0.3)
     world.data.qvel[:] = (0, 0, 0, 0, 0, 2.0)
     world.step(100)
     # The link turns about itself at 2 rad/s, so the model frame circles round it at 0.5 m.
-    velocity = world.velocity("m")
+    velocity = world.truth.velocity("m")
     assert tuple(velocity.angular) == pytest.approx((0, 0, 2))
     assert np.linalg.norm(velocity.linear) == pytest.approx(1.0, rel=1e-6)
-    before = world.pose("m").position
+    before = world.truth.pose("m").position
     world.step()
-    assert world.pose("m").position - before == pytest.approx(velocity.linear * 1e-3, abs=3e-6)
+    assert world.truth.pose("m").position - before == pytest.approx(velocity.linear * 1e-3, abs=3e-6)
 
 
 def test_truth_is_of_this_moment_not_of_the_step_before(load_text: Load) -> None:
     world = load_text("<gravity>0 0 0</gravity><model name='m'><link name='l'/></model>")
     world.data.qvel[0] = 1.0
     world.step(1000)
-    assert world.pose("m").position[0] == pytest.approx(1.0, abs=1e-9)
+    assert world.truth.pose("m").position[0] == pytest.approx(1.0, abs=1e-9)
 
 
 def test_geometry_lists_every_visual_with_full_extents(load_text: Load) -> None:
@@ -92,7 +93,7 @@ def test_geometry_lists_every_visual_with_full_extents(load_text: Load) -> None:
     }
     inside = "".join(visual.format(kind, text) for kind, (text, _) in shapes.items())
     world = load_text(f"<model name='m'><static>1</static><link name='l'>{inside}</link></model>")
-    listed = {shape.kind: shape for shape in world.geometry()}
+    listed = {shape.kind: shape for shape in world.truth.geometry()}
     assert {kind: shape.size for kind, shape in listed.items()} == {kind: size for kind, (_, size) in shapes.items()}
     assert listed["box"].rgba == (1, 0.5, 0, 0.5)
     assert (listed["box"].model, listed["box"].link, listed["box"].name) == ("m", "l", "box")
@@ -141,7 +142,7 @@ def test_commands_from_another_thread_do_not_disturb_stepping() -> None:
         finally:
             stop.set()
             thread.join(10)
-        assert world.velocity("robot").linear[0] == pytest.approx(0.3, rel=0.01)
+        assert world.truth.velocity("robot").linear[0] == pytest.approx(0.3, rel=0.01)
 
 
 @pytest.mark.parametrize("start", [-1.0, 1e300, float("nan")])
@@ -156,10 +157,10 @@ def test_models_in_models_have_a_pose() -> None:
         "<link name='l'/><model name='hand'><pose>0 2 0 0 0 1.5</pose><link name='palm'><pose>1 0 0 0 0 0</pose></link>"
         "</model></model></world></sdf>"
     )
-    assert world.pose("arm::hand").position == pytest.approx((1.0, 2.0, 0.0))
+    assert world.truth.pose("arm::hand").position == pytest.approx((1.0, 2.0, 0.0))
     world.step(1000)
-    fallen = world.pose("arm::hand")
+    fallen = world.truth.pose("arm::hand")
     assert fallen.position == pytest.approx((1.0, 2.0, -5.0), abs=0.01)
     assert fallen.quaternion == pytest.approx((math.cos(0.75), 0.0, 0.0, math.sin(0.75)))
     with pytest.raises(SimError, match="model 'arm' has no model 'hnd'; did you mean 'hand'"):
-        world.pose("arm::hnd")
+        world.truth.pose("arm::hnd")

@@ -151,7 +151,7 @@ def test_a_paused_world_takes_in_models_at_once(running: Running, node: Node) ->
     if service not in node.service_list():
         pytest.skip("lidar_room.sdf does not load UserCommands")
     assert node.request(service, request, EntityFactory, Boolean, 20_000)[1].data
-    assert "box" in running.world.model_names() and running.world.iterations == 0
+    assert "box" in running.world.truth.model_names() and running.world.iterations == 0
 
 
 def test_unstable_physics_pauses_a_running_server_which_goes_on_serving(

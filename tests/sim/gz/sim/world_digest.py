@@ -39,15 +39,15 @@ def digests(seed: int) -> dict[str, str]:
             publisher.close()
 
         listen()
-        first = world.model_names()[0]
+        first = world.truth.model_names()[0]
         drive(first, 20)
         text = (BUILT_IN_MODELS / Path("two_wheel_robot") / "model.sdf").read_text()
-        world.spawn(text, name="second", pose=Pose((1.0, -2.0, 0.0)))
+        world.editor.spawn(text, name="second", pose=Pose((1.0, -2.0, 0.0)))
         listen()
         drive("second", 15)
-        world.set_pose(first, Pose((-2.0, 1.0, 0.0)))
+        world.editor.set_pose(first, Pose((-2.0, 1.0, 0.0)))
         drive(first, 15)
-        world.remove("second")
+        world.editor.remove("second")
         drive(first, 10)
         found["state"] = hashlib.sha256(world.data.qpos.tobytes() + world.data.qvel.tobytes())
         world.close()

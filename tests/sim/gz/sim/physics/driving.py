@@ -36,7 +36,7 @@ def steps(world: World, seconds: float) -> int:
 
 
 def forward_speed(world: World) -> float:
-    velocity, yaw = world.velocity("robot"), world.pose("robot").yaw()
+    velocity, yaw = world.truth.velocity("robot"), world.truth.pose("robot").yaw()
     return float(velocity.linear[0] * math.cos(yaw) + velocity.linear[1] * math.sin(yaw))
 
 
@@ -50,24 +50,24 @@ def measure(robot: WheeledRobot, step: float) -> Driving:
     worst = [0.0, 0.0]
     for number in range(1, 151):
         world.step(steps(world, tick))
-        errors = [abs(forward_speed(world) / SPEED - 1.0), abs(world.velocity("robot").angular[2] / TURN - 1.0)]
+        errors = [abs(forward_speed(world) / SPEED - 1.0), abs(world.truth.velocity("robot").angular[2] / TURN - 1.0)]
         if max(errors) > 0.005:
             settled = number * tick
         if number * tick >= 0.5:
             worst = [max(old, new) for old, new in zip(worst, errors, strict=True)]
-    start = world.pose("robot").position
+    start = world.truth.pose("robot").position
     drive.command(0.0, 0.0)
     world.step(steps(world, 1.0))
-    stop = float(np.linalg.norm(world.pose("robot").position - start))
-    before = world.pose("robot")
+    stop = float(np.linalg.norm(world.truth.pose("robot").position - start))
+    before = world.truth.pose("robot")
     drive.command(SPEED, 0.0)
     world.step(steps(world, 10.0 / SPEED))
-    drift = float((before.inverse() * world.pose("robot")).position[1])
+    drift = float((before.inverse() * world.truth.pose("robot")).position[1])
     drive.command(0.0, 1.0)
     world.step(steps(world, 1.5))
-    turned = world.pose("robot").yaw()
+    turned = world.truth.pose("robot").yaw()
     world.step(steps(world, 2.0))
-    spin = (world.pose("robot").yaw() - turned) % (2 * math.pi) / 2.0 - 1.0
+    spin = (world.truth.pose("robot").yaw() - turned) % (2 * math.pi) / 2.0 - 1.0
     return Driving(worst[0], worst[1], settled, stop, abs(drift), abs(spin))
 
 
@@ -95,7 +95,7 @@ def endure(robot: WheeledRobot, step: float, seconds: float, seed: int = 1) -> E
     world = robot.world(step, drive=LIMITS)
     drive, random = drive_of(world), np.random.default_rng(seed)
     world.step(steps(world, 0.5))
-    start = world.pose("robot")
+    start = world.truth.pose("robot")
     distance = tilt = 0.0
     heights: list[float] = []
     last = start.position
@@ -103,12 +103,12 @@ def endure(robot: WheeledRobot, step: float, seconds: float, seed: int = 1) -> E
         drive.command(float(random.uniform(-0.5, 0.8)), float(random.uniform(-1.0, 1.0)))
         for _ in range(10):
             world.step(steps(world, 0.1))
-            pose = world.pose("robot")
+            pose = world.truth.pose("robot")
             distance += float(np.linalg.norm(pose.position - last))
             tilt = max(tilt, *map(abs, pose.rpy()[:2]))
             heights.append(float(pose.position[2]))
             last = pose.position
-    moved = (start.inverse() * world.pose("robot")).position
+    moved = (start.inverse() * world.truth.pose("robot")).position
     odometry = drive._odometry
     error = math.hypot(odometry.x - moved[0], odometry.y - moved[1])
     return Endurance(distance, tilt, float(np.ptp(heights)), error / distance, int(sum(world.data.warning.number)))

@@ -36,10 +36,10 @@ def test_the_lower_friction_of_two_surfaces_counts(load_text: Load, mu: float, g
     world = load_text(floor + box("slider", "0 0 0.1 0 0 0", mu, False))
     world.step(200)
     world.data.qvel[0] = 2.0
-    start = world.pose("slider").position[0]
+    start = world.truth.pose("slider").position[0]
     world.step(4000)
     expected = 2.0**2 / (2.0 * min(mu, ground) * 9.8)
-    assert world.pose("slider").position[0] - start == pytest.approx(expected, rel=0.02)
+    assert world.truth.pose("slider").position[0] - start == pytest.approx(expected, rel=0.02)
 
 
 def test_a_body_without_friction_slides_on(load_text: Load) -> None:
@@ -47,23 +47,23 @@ def test_a_body_without_friction_slides_on(load_text: Load) -> None:
     world.step(100)
     world.data.qvel[0] = 1.0
     world.step(1000)
-    assert world.velocity("slider").linear[0] == pytest.approx(1.0, rel=1e-3)
+    assert world.truth.velocity("slider").linear[0] == pytest.approx(1.0, rel=1e-3)
 
 
 def test_free_fall_and_gravity_switched_off(load_text: Load) -> None:
     still = box("still", "3 0 5 0 0 0", 1, False).replace("<link name='l'>", "<link name='l'><gravity>0</gravity>")
     world = load_text(box("falls", "0 0 5 0 0 0", 1, False) + still)
     world.step(500)
-    assert world.velocity("falls").linear[2] == pytest.approx(-9.8 * 0.5, rel=1e-6)
-    assert world.pose("falls").position[2] == pytest.approx(5 - 9.8 * 0.125, rel=3e-3)
-    assert world.pose("still").position[2] == pytest.approx(5.0, abs=1e-9)
+    assert world.truth.velocity("falls").linear[2] == pytest.approx(-9.8 * 0.5, rel=1e-6)
+    assert world.truth.pose("falls").position[2] == pytest.approx(5 - 9.8 * 0.125, rel=3e-3)
+    assert world.truth.pose("still").position[2] == pytest.approx(5.0, abs=1e-9)
 
 
 def test_collide_bitmask_decides_who_touches(load_text: Load) -> None:
     mask = "<surface><contact><collide_bitmask>0x0100</collide_bitmask></contact>"
     world = load_text(GROUND + box("ghost", "0 0 0.1 0 0 0", 1, False).replace("<surface>", mask))
     world.step(500)
-    assert world.pose("ghost").position[2] < -0.5
+    assert world.truth.pose("ghost").position[2] < -0.5
 
 
 PENDULUM = """<model name='p'><link name='base'/><joint name='fix' type='fixed'><parent>world</parent>
@@ -96,7 +96,7 @@ def test_a_slider_moves_along_its_axis(load_text: Load) -> None:
     text = PENDULUM.format(kind="prismatic", axis="").replace("<xyz>0 1 0</xyz>", "<xyz>0 0 1</xyz>")
     world = load_text(text)
     world.step(100)
-    assert world.link_pose("p", "bob").position == pytest.approx((0, 0, 1 - 9.8 * 0.01 / 2), abs=1e-3)
+    assert world.truth.link_pose("p", "bob").position == pytest.approx((0, 0, 1 - 9.8 * 0.01 / 2), abs=1e-3)
 
 
 def test_inertia_of_a_flat_wheel_is_accepted_and_kept(load_text: Load) -> None:
@@ -165,7 +165,7 @@ def test_a_second_joint_closes_a_loop(load_text: Load) -> None:
     world = load_text(f"<model name='m'>{links}{joints}</model>")
     assert world.model.neq == 1
     world.step(100)
-    reach = world.link_pose("m", "c").position - world.link_pose("m", "a").position
+    reach = world.truth.link_pose("m", "c").position - world.truth.link_pose("m", "a").position
     assert np.linalg.norm(reach) == pytest.approx(2.0, abs=1e-2)
 
 
@@ -181,6 +181,6 @@ def test_what_mujoco_refuses_is_one_sentence(load_text: Load) -> None:
 def test_more_moving_links_than_physics_can_take_are_refused(load_text: Load, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("gz_course.sim.gz.sim.physics.builder.MOST_MOVING", 3)
     models = "".join(box(f"m{n}", f"{n} 0 0 0 0 0", 1, n > 2) for n in range(9))
-    assert len(load_text(models).model_names()) == 3
+    assert len(load_text(models).truth.model_names()) == 3
     with pytest.raises(SdfError, match="the world has 4 links that move, more than 3"):
         load_text(models + box("one_more", "0 0 9 0 0 0", 1, False))

@@ -36,9 +36,9 @@ def test_a_minute_of_random_commands(robot: WheeledRobot) -> None:
 def test_a_parked_robot_stays(robot: WheeledRobot) -> None:
     world = robot.world(0.002)
     world.step(steps(world, 0.5))
-    before = world.pose("robot")
+    before = world.truth.pose("robot")
     world.step(steps(world, 10.0))
-    assert world.pose("robot").is_close(before, 1e-5)
+    assert world.truth.pose("robot").is_close(before, 1e-5)
 
 
 def test_wheel_odometry_slips_where_the_truth_does_not() -> None:
@@ -47,7 +47,7 @@ def test_wheel_odometry_slips_where_the_truth_does_not() -> None:
     world.step(500)
     drive_of(world).command(1.0, 0.0)
     world.step(2000)
-    odometry, truth = drive_of(world)._odometry.x, world.pose("robot").position[0]
+    odometry, truth = drive_of(world)._odometry.x, world.truth.pose("robot").position[0]
     assert 0.03 < odometry - truth < 0.12
 
 
@@ -56,12 +56,12 @@ def test_a_robot_against_a_wall_stands_and_its_wheels_spin() -> None:
       <geometry><box><size>0.2 4 1</size></box></geometry></collision></link></model>"""
     robot = ROBOTS[2]
     world = robot.world()
-    world.spawn(f"<sdf version='1.10'>{wall}</sdf>")
+    world.editor.spawn(f"<sdf version='1.10'>{wall}</sdf>")
     drive_of(world).command(0.5, 0.0)
     world.step(4000)
-    before = world.pose("robot")
+    before = world.truth.pose("robot")
     world.step(2000)
-    after = world.pose("robot")
+    after = world.truth.pose("robot")
     assert before.position[0] < 1.0
     assert after.is_close(before, 0.02)
     assert drive_of(world)._odometry.x > 2.0

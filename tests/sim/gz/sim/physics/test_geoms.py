@@ -46,8 +46,8 @@ def test_shapes_rest_on_the_floor(load_text: Load, tmp_path: Path, geometry: str
     world = load_text(FLOOR + body("m", f"0 0 {height + 0.01} 0 0 0", geometry.replace("{folder}", str(tmp_path))))
     assert world.warnings == []
     world.step(800)
-    assert world.pose("m").position == pytest.approx((0, 0, height), abs=2e-3)
-    assert np.abs(world.pose("m").rpy()) == pytest.approx((0, 0, 0), abs=2e-3)
+    assert world.truth.pose("m").position == pytest.approx((0, 0, height), abs=2e-3)
+    assert np.abs(world.truth.pose("m").rpy()) == pytest.approx((0, 0, 0), abs=2e-3)
 
 
 @pytest.mark.parametrize(
@@ -61,7 +61,7 @@ def test_shapes_roll_down_a_slope_as_their_automatic_inertia_says(load_text: Loa
     slope = FLOOR.replace("<link ", "<pose>0 0 0 0 -0.3 0</pose><link ")
     world = load_text(slope + body("m", f"0 0 {0.5 / np.cos(0.3)} 1.5707963267948966 0 0", geometry))
     world.step(1000)
-    travelled = float(np.linalg.norm(world.pose("m").position - (0, 0, 0.5 / np.cos(0.3))))
+    travelled = float(np.linalg.norm(world.truth.pose("m").position - (0, 0, 0.5 / np.cos(0.3))))
     assert travelled == pytest.approx(0.5 * share * 9.8 * np.sin(0.3), rel=0.01)
 
 
@@ -98,10 +98,10 @@ def test_a_ball_rolls_to_the_bottom_of_a_heightmap(load_text: Load, tmp_path: Pa
     lowest = 9.0
     for _ in range(60):
         world.step(50)
-        lowest = min(lowest, float(world.pose("ball").position[2]))
+        lowest = min(lowest, float(world.truth.pose("ball").position[2]))
     # Between slopes of 45 degrees a ball's centre comes to rest r sqrt(2) above the valley, which is at 3 m.
     assert lowest == pytest.approx(3 + 0.3 * 2**0.5, abs=0.1)
-    assert world.pose("ball").position[1] == pytest.approx(4.0, abs=0.05)
+    assert world.truth.pose("ball").position[1] == pytest.approx(4.0, abs=0.05)
 
 
 def test_a_room_made_of_one_mesh_is_hollow(load_text: Load, tmp_path: Path) -> None:
@@ -113,7 +113,7 @@ def test_a_room_made_of_one_mesh_is_hollow(load_text: Load, tmp_path: Path) -> N
     world = load_text(room + body("ball", "2 2 1 0 0 0", "<sphere><radius>0.3</radius></sphere>"))
     assert world.warnings == []
     world.step(1000)
-    assert world.pose("ball").position == pytest.approx((2, 2, 0.3), abs=5e-3)
+    assert world.truth.pose("ball").position == pytest.approx((2, 2, 0.3), abs=5e-3)
     part = world.description.models[0].links[0].collisions[0]
     assert [world.model.geom(name).id for name in geom_names("room::l::c0", part)] == sorted(
         geom for geom in range(world.model.ngeom) if "room::l::c0" in world.model.geom(geom).name
@@ -125,7 +125,7 @@ def test_a_flat_mesh_can_be_stood_on(load_text: Load, tmp_path: Path) -> None:
     sheet = body("sheet", "0 0 1 0 0 0", f"<mesh><uri>{tmp_path}/sheet.stl</uri></mesh>", static=True)
     world = load_text(sheet + body("box", "0.5 0.5 1.26 0 0 0", "<box><size>0.5 0.5 0.5</size></box>"))
     world.step(500)
-    assert world.pose("box").position[2] == pytest.approx(1.25, abs=0.01)
+    assert world.truth.pose("box").position[2] == pytest.approx(1.25, abs=0.01)
 
 
 def test_self_collision_of_one_link_is_enough_but_joints_keep_apart(load_text: Load) -> None:
@@ -149,5 +149,5 @@ def test_lights_have_their_kind_and_those_of_links_move_along(load_text: Load) -
     assert bulb.attenuation == pytest.approx((1, 1, 0.2)) and not bulb.active[0] and not bulb.castshadow[0]
     world.step(300)
     mujoco.mj_forward(world.model, world.data)
-    assert world.data.light_xpos[lamp.id][2] == pytest.approx(world.pose("m").position[2], abs=1e-6)
+    assert world.data.light_xpos[lamp.id][2] == pytest.approx(world.truth.pose("m").position[2], abs=1e-6)
     assert world.data.light_xdir[lamp.id] == pytest.approx((-1, 0, 0), abs=1e-6)

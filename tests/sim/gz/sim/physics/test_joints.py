@@ -57,7 +57,7 @@ def test_a_screw_advances_by_its_pitch_at_each_turn(load_text: Load, pitch: str,
     world.step(1500)
     turned = angle(world, "m::screw")
     assert turned > 3.0
-    assert world.link_pose("m", "nut").position[2] == pytest.approx(turned * advance / (2 * math.pi), rel=1e-2)
+    assert world.truth.link_pose("m", "nut").position[2] == pytest.approx(turned * advance / (2 * math.pi), rel=1e-2)
 
 
 @pytest.mark.parametrize("kind", ["universal", "revolute2"])
@@ -67,7 +67,7 @@ def test_two_axes_turn_one_after_the_other(load_text: Load, kind: str) -> None:
     world.data.qpos[world.model.joint("m::j").qposadr[0]] = math.pi / 2
     world.data.qpos[world.model.joint("m::j#2").qposadr[0]] = 0.3
     world.step()
-    turn = matrix(world.link_pose("m", "l").quaternion)
+    turn = matrix(world.truth.link_pose("m", "l").quaternion)
     # About z first: the second axis has become y.
     assert turn[:, 0] == pytest.approx((0, 1, 0), abs=1e-6)
     assert turn[:, 2] == pytest.approx((math.sin(0.3), 0, math.cos(0.3)), abs=1e-6)
@@ -88,9 +88,9 @@ def test_a_joint_starts_at_its_initial_position(load_text: Load, kind: str, expe
     arm = link("arm", "1 0 0.2 0 0 0") + joint("j", kind, "base", "arm", inside, "-1 0 0 0 0 0")
     world = load_text(f"<model name='m'>{HELD}{hand}{arm}</model>")
     assert angle(world, "m::j") == pytest.approx(start)
-    assert world.link_pose("m", "arm").position == pytest.approx(expected, abs=1e-9)
+    assert world.truth.link_pose("m", "arm").position == pytest.approx(expected, abs=1e-9)
     far = (0, 2, 0.2) if kind == "revolute" else (2, 0, 0.7)
-    assert world.link_pose("m", "hand").position == pytest.approx(far, abs=1e-9)
+    assert world.truth.link_pose("m", "hand").position == pytest.approx(far, abs=1e-9)
     world.step(50)
     assert angle(world, "m::j") == pytest.approx(start, abs=1e-6)
 
@@ -152,7 +152,7 @@ def test_a_gearbox_without_its_hinges_says_so(load_text: Load) -> None:
     world = load_text(f"<model name='m'>{HELD}{free}{gear}</model>")
     assert len(world.warnings) == 1 and "gearbox 'g' needs revolute joints" in world.warnings[0]
     world.step(300)
-    assert world.link_pose("m", "l").position == pytest.approx((1, 0, 1), abs=2e-3)
+    assert world.truth.link_pose("m", "l").position == pytest.approx((1, 0, 1), abs=2e-3)
 
 
 def test_a_loop_of_a_fixed_joint_is_welded_and_a_sliding_one_is_left_out(load_text: Load) -> None:
@@ -162,9 +162,9 @@ def test_a_loop_of_a_fixed_joint_is_welded_and_a_sliding_one_is_left_out(load_te
         world = load_text(
             f"<model name='m'><pose>0 3 0 0 0 1</pose>{held}{joint('again', 'fixed', parent, 'far')}</model>"
         )
-        before = world.link_pose("m", "far")
+        before = world.truth.link_pose("m", "far")
         world.step(500)
-        assert world.model.neq == 1 and before.is_close(world.link_pose("m", "far"), 2e-3)
+        assert world.model.neq == 1 and before.is_close(world.truth.link_pose("m", "far"), 2e-3)
     world = load_text(f"<model name='m'>{held}{joint('again', 'prismatic', 'base', 'far', axis('0 0 1'))}</model>")
     assert world.model.neq == 0 and "prismatic joint 'again' closes a loop" in world.warnings[0]
 
@@ -182,7 +182,7 @@ def test_joints_of_the_world_hold_models_together(load_text: Load) -> None:
     top = np.array((1, 0, 3))
     for _ in range(5):
         world.step(100)
-        bob, tail = world.pose("bob"), world.pose("tail")
+        bob, tail = world.truth.pose("bob"), world.truth.pose("tail")
         assert np.linalg.norm(bob.position - top) == pytest.approx(1.0, abs=1e-6)
         assert (bob.inverse() * tail).position == pytest.approx((0, 0, -1), abs=1e-6)
 
@@ -192,18 +192,18 @@ def test_a_joint_of_the_world_to_a_link_that_hangs_already_is_a_constraint(load_
     world = load_text(arm + falls("other", "0 0 1 0 0 0") + joint("between", "ball", "other::l", "arm::l"))
     assert world.model.neq == 1
     world.step(300)
-    assert world.pose("other").position == pytest.approx(world.link_pose("arm", "l").position, abs=5e-3)
+    assert world.truth.pose("other").position == pytest.approx(world.truth.link_pose("arm", "l").position, abs=5e-3)
 
 
 def test_a_loop_is_closed_at_the_place_of_its_joint(load_text: Load) -> None:
     heavy = link("rod", "1 0 2 0 0.3 0").replace("<gravity>0</gravity>", "")
     held = HELD + heavy + joint("hang", "ball", "base", "rod", pose="0 0 1 0 0 0")
     world = load_text(f"<model name='m'>{held}{joint('pin', 'ball', 'world', 'rod', pose='0.5 0 -0.7 0 0 0')}</model>")
-    place = world.link_pose("m", "rod").transform((0.5, 0, -0.7))
+    place = world.truth.link_pose("m", "rod").transform((0.5, 0, -0.7))
     world.data.qvel[degree(world, "m::hang") :][:3] = (0.5, 0.4, 0.3)
     world.step(300)
     assert world.model.neq == 1
-    assert world.link_pose("m", "rod").transform((0.5, 0, -0.7)) == pytest.approx(place, abs=5e-3)
+    assert world.truth.link_pose("m", "rod").transform((0.5, 0, -0.7)) == pytest.approx(place, abs=5e-3)
 
 
 @pytest.mark.parametrize(
@@ -223,8 +223,8 @@ def test_a_static_model_inside_a_moving_one_stays(load_text: Load) -> None:
     still = f"<model name='post'><static>1</static><pose>1 0 0 0 0 0</pose><link name='l'>{SMALL}</link></model>"
     world = load_text(f"<model name='m'><pose>0 0 2 0 0 0</pose><link name='l'>{SMALL}</link>{still}</model>")
     world.step(300)
-    assert world.link_pose("m", "post::l").position == pytest.approx((1, 0, 2))
-    assert world.pose("m").position[2] < 1.7
+    assert world.truth.link_pose("m", "post::l").position == pytest.approx((1, 0, 2))
+    assert world.truth.pose("m").position[2] < 1.7
 
 
 def test_a_chain_that_is_too_long_is_refused(load_text: Load) -> None:

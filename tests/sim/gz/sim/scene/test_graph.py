@@ -82,8 +82,8 @@ def test_poses_follow_what_moves_and_chain_to_the_truth(world: World) -> None:
         while vertex is not None:
             chained = vertex.pose * chained
             vertex = vertex.parent
-        assert chained.is_close(world.link_pose("robot", link), 1e-9)
-    assert found(graph, "robot").pose.is_close(world.pose("robot"), 1e-9)
+        assert chained.is_close(world.truth.link_pose("robot", link), 1e-9)
+    assert found(graph, "robot").pose.is_close(world.truth.pose("robot"), 1e-9)
     assert found(graph, "robot::base").pose.is_close(Pose(), 1e-9)
     assert found(graph, "robot::arm::hand").pose.is_close(Pose((0.5, 0, 0)), 1e-6)
     assert not found(graph, "robot::wheel").pose.is_close(Pose.from_rpy((0, 1, 0), (math.pi / 2, 0, 0)), 1e-3)

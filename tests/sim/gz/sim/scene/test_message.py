@@ -60,7 +60,7 @@ def test_links_of_nested_models_are_in_their_model(world: World) -> None:
 def test_poses_are_those_of_now(world: World) -> None:
     world.data.qvel[:] = 0.5
     world.step(100)
-    robot, pose = named(scene_message(world).model, "robot"), world.pose("robot")
+    robot, pose = named(scene_message(world).model, "robot"), world.truth.pose("robot")
     assert vector(robot.pose.position) == pytest.approx(tuple(pose.position))
     at = robot.pose.orientation
     assert (at.w, at.x, at.y, at.z) == pytest.approx(tuple(pose.quaternion))
@@ -88,7 +88,7 @@ def test_visuals(world: World) -> None:
 
 def test_a_colour_that_was_changed_shows(world: World) -> None:
     head = world.description.models[1].links[0].visuals[1]
-    world.set_colour(head, (1.0, 0.0, 0.0, 0.5))
+    world.editor.set_colour(head, (1.0, 0.0, 0.0, 0.5))
     shown = link_of(world, "robot", "base").visual[1]
     assert colour(shown.material.diffuse) == (1, 0, 0, 0.5)
 
@@ -145,7 +145,7 @@ def test_lights_of_the_world_and_of_links(world: World) -> None:
     (lamp,) = base.light
     assert (lamp.type, lamp.parent_id) == (Light.SPOT, base.id)
     assert (lamp.spot_inner_angle, lamp.spot_outer_angle) == pytest.approx((0.1, 0.5))
-    world.set_light("sun", intensity=0.25, on=False)
+    world.editor.set_light("sun", intensity=0.25, on=False)
     (sun,) = scene_message(world).light
     assert (sun.intensity, sun.is_light_off) == (0.25, True)
 

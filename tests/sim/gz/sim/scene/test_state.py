@@ -76,5 +76,5 @@ def test_of_what_moves_only_the_pose(world: World) -> None:
     assert not state.has_one_time_component_changes
     assert set(state.entities) == {vertex.number for vertex in graph.movers}
     x, *_ = component(state, world.entities.number("model", "robot"), "Pose").split()
-    assert float(x) == pytest.approx(world.pose("robot").position[0])
+    assert float(x) == pytest.approx(world.truth.pose("robot").position[0])
     assert (state.header.stamp.sec, state.header.stamp.nsec) == (0, 100_000_000)

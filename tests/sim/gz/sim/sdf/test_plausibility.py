@@ -156,7 +156,7 @@ def test_angles_of_a_urdf() -> None:
     inertial = "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>"
     links = "".join(f"<link name='{name}'>{inertial}</link>" for name in "ab")
     world = World.load("empty.sdf")
-    world.spawn(
+    world.editor.spawn(
         f"<robot name='r'>{links}\n<joint name='j' type='fixed'><origin xyz='0 0 1' rpy='0 180 0'/>"
         "<parent link='a'/><child link='b'/></joint></robot>"
     )

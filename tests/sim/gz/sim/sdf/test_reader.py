@@ -273,9 +273,9 @@ def test_a_step_that_is_too_long_for_wheels_is_named_with_its_line(step: str, sa
 
 def test_a_step_that_becomes_too_long_while_the_world_runs_is_named() -> None:
     world = World.load("empty.sdf")
-    world.set_physics(step_size=0.02)
+    world.editor.set_physics(step_size=0.02)
     assert world.warnings == []
-    world.set_physics(step_size=0.03)
+    world.editor.set_physics(step_size=0.03)
     assert len(world.warnings) == 1 and "<max_step_size> is 0.03 s" in world.warnings[0]
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from gz_course.sim.gz.sim.sensors.camera_sensor import CameraSensor
+from gz_course.sim.gz.sim.rendering.camera_sensor import CameraSensor
 from gz_course.sim.gz.sim.world import World
 from gz_course.sim.gz.transport import Node
 

@@ -9,9 +9,9 @@ from typing import Any
 import pytest
 
 from gz_course.sim.gz.msgs import message_class
-from gz_course.sim.gz.sim.sensors.registry import SensorBase
-from gz_course.sim.gz.sim.systems.registry import systems
-from gz_course.sim.gz.sim.systems.sensor_system import SensorSystem
+from gz_course.sim.gz.sim.plugins.sensor import SensorBase
+from gz_course.sim.gz.sim.plugins.sensor_system import SensorSystem
+from gz_course.sim.gz.sim.plugins.system import systems
 from gz_course.sim.gz.sim.world import World
 from gz_course.sim.gz.transport import Node, NodeOptions, Scope
 

@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
 from gz_course.sim.gz.msgs.camera_info_pb2 import CameraInfo
 from gz_course.sim.gz.msgs.image_pb2 import Image
+from gz_course.sim.gz.sim.rendering.ray_caster import RayCaster
+from gz_course.sim.gz.sim.rendering.shading import Shader
 from gz_course.sim.gz.sim.sensors.camera import Camera
-from gz_course.sim.gz.sim.sensors.ray_caster import RayCaster
-from gz_course.sim.gz.sim.sensors.shading import Shader
 from gz_course.sim.gz.sim.world import World
 from gz_course.sim.gz.transport import Node
 from gz_course.tests.sim.gz.sim.sensors.camera_rig import SCENE, WALL, Load, eye, listen, sensor_of, sun, thing

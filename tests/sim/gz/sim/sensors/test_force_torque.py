@@ -198,7 +198,7 @@ def test_looking_changes_no_truth(listen: Listen) -> None:
         if hear:
             heard = listen(world, TOPIC, "gz.msgs.Wrench")
         world.step(300)
-        world.refresh()
+        world.truth.refresh()
         ends.append(b"".join(each.tobytes() for each in (world.data.qpos, world.data.qvel, world.data.xpos)))
     assert len(heard) == 300 and ends[0] == ends[1]
 
@@ -207,7 +207,7 @@ def test_after_a_spawn_it_measures_on(listen: Listen) -> None:
     world = sensor_world(model(sensor()), "ForceTorque")
     heard = listen(world, TOPIC, "gz.msgs.Wrench")
     world.step(5)
-    world.spawn(f"<sdf version='1.10'><model name='n'><link name='l'>{inertial(50)}</link></model></sdf>")
+    world.editor.spawn(f"<sdf version='1.10'><model name='n'><link name='l'>{inertial(50)}</link></model></sdf>")
     world.step(5)
     assert read(heard[-1])[0] == pytest.approx((0, 0, 98))
 

@@ -305,7 +305,8 @@ def test_numbers_do_not_depend_on_who_listened_before() -> None:
             world = sensor_world(model(imu(WANDERING, rate=100)), "Imu", seed=seed, node=own)
             world.step(listen_from)
             if rebuilt:
-                world.spawn("<sdf version='1.10'><model name='n'><static>1</static><link name='l'/></model></sdf>")
+                new = "<model name='n'><static>1</static><link name='l'/></model>"
+                world.editor.spawn(f"<sdf version='1.10'>{new}</sdf>")
             own.subscribe(IMU, TOPIC, lambda message: heard.append(message.angular_velocity.x))
             world.step(1000 - listen_from)
             world.close()

@@ -111,7 +111,7 @@ def test_the_scan_follows_the_robot() -> None:
     world.step(3000)
     lidar = lidar_of(world)
     measured = lidar.ranges()
-    pose = world.link_pose("robot", "lidar_link")
+    pose = world.truth.link_pose("robot", "lidar_link")
     expected = np.array([room_at(*pose.position, pose.yaw() + angle) for angle in lidar.horizontal.angles])
     both = np.isfinite(measured) & (expected < 6.0)
     assert both.sum() > 250

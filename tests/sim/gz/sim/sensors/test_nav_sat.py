@@ -118,6 +118,6 @@ def test_the_place_may_change_while_it_runs(listen: Listen) -> None:
     world = sensor_world(PLACE.format(0) + model(), "NavSat")
     heard = listen(world, TOPIC, "gz.msgs.NavSat")
     world.step(1)
-    world.set_spherical_coordinates(SphericalCoordinates(latitude_deg=-30))
+    world.editor.set_spherical_coordinates(SphericalCoordinates(latitude_deg=-30))
     world.step(1)
     assert heard[1].latitude_deg == pytest.approx(-30, abs=0.01)

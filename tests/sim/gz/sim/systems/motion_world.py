@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gz_course.sim.gz.sim.systems.registry import systems
+from gz_course.sim.gz.sim.plugins.system import systems
 from gz_course.sim.gz.sim.world import World
 
 

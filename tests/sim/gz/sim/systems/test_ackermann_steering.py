@@ -69,9 +69,9 @@ def test_the_car_drives_along_its_circle(speed: float, rate: float) -> None:
     made = world(car(), step=0.002)
     drive_of(made).command(speed, rate)
     made.step(4000)
-    before = made.pose("car")
+    before = made.truth.pose("car")
     made.step(500)
-    after = made.pose("car")
+    after = made.truth.pose("car")
     turned = math.remainder(after.yaw() - before.yaw(), 2 * math.pi)
     assert turned == pytest.approx(rate, rel=0.02, abs=1e-3)
     chord = abs(speed) if rate == 0 else abs(2 * speed / rate * math.sin(rate / 2))
@@ -103,7 +103,7 @@ def test_odometry_follows(node: Node) -> None:
     command.linear.x, command.angular.z = 0.8, 0.3
     node.advertise("/model/car/cmd_vel", Twist).publish(command)
     made.step(3000)
-    last, truth = heard[-1], made.pose("car")
+    last, truth = heard[-1], made.truth.pose("car")
     assert {entry.key: entry.value[0] for entry in last.header.data} == {
         "frame_id": "car/odom",
         "child_frame_id": "car/body",

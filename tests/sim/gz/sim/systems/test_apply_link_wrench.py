@@ -40,7 +40,7 @@ def test_a_push_acts_for_one_step(node: Node) -> None:
     made.attach(node)
     node.advertise("/world/w/wrench", EntityWrench).publish(wrench("box::l", (4.0, 0, 0)))
     made.step(10)
-    assert made.velocity("box").linear == pytest.approx((4.0 / 2.0 * 0.001, 0, 0))
+    assert made.truth.velocity("box").linear == pytest.approx((4.0 / 2.0 * 0.001, 0, 0))
 
 
 def test_a_persistent_push_acts_until_it_is_cleared_and_not_after_a_reset(node: Node) -> None:
@@ -48,16 +48,16 @@ def test_a_persistent_push_acts_until_it_is_cleared_and_not_after_a_reset(node: 
     made.attach(node)
     node.advertise("/world/w/wrench/persistent", EntityWrench).publish(wrench("box", (4.0, 0, 0), kind=Entity.MODEL))
     made.step(500)
-    made.spawn("<sdf version='1.10'><model name='other'><pose>9 9 9 0 0 0</pose><link name='l'/></model></sdf>")
+    made.editor.spawn("<sdf version='1.10'><model name='other'><pose>9 9 9 0 0 0</pose><link name='l'/></model></sdf>")
     made.step(500)
-    assert made.velocity("box").linear[0] == pytest.approx(2.0, rel=1e-6)
+    assert made.truth.velocity("box").linear[0] == pytest.approx(2.0, rel=1e-6)
     number = made.entities.number("link", "box", "l")
     node.advertise("/world/w/wrench/clear", Entity).publish(Entity(id=number))
     made.step(500)
-    assert made.velocity("box").linear[0] == pytest.approx(2.0, rel=1e-6)
+    assert made.truth.velocity("box").linear[0] == pytest.approx(2.0, rel=1e-6)
     made.reset()
     made.step(10)
-    assert not made.velocity("box").linear.any()
+    assert not made.truth.velocity("box").linear.any()
 
 
 def test_wrenches_of_the_file_and_levers(node: Node) -> None:
@@ -67,13 +67,13 @@ def test_wrenches_of_the_file_and_levers(node: Node) -> None:
     assert ["<entity_type>" in text for text in made.warnings] == [True]
     made.attach(node)
     made.step(1000)
-    assert made.velocity("box").angular == pytest.approx((0, 0, 1.0), rel=1e-6)
-    before = made.velocity("box").angular[2]
-    turned = made.pose("box").yaw() + 0.001
+    assert made.truth.velocity("box").angular == pytest.approx((0, 0, 1.0), rel=1e-6)
+    before = made.truth.velocity("box").angular[2]
+    turned = made.truth.pose("box").yaw() + 0.001
     side = (math.cos(turned + math.pi / 2), math.sin(turned + math.pi / 2), 0.0)
     node.advertise("/world/w/wrench", EntityWrench).publish(wrench("box::l", side, offset=(2.0, 0, 0)))
     made.step(1)
-    assert made.velocity("box").angular[2] - before == pytest.approx((2.0 + 0.08) / 0.08 * 0.001, rel=1e-3)
+    assert made.truth.velocity("box").angular[2] - before == pytest.approx((2.0 + 0.08) / 0.08 * 0.001, rel=1e-3)
 
 
 def test_what_makes_no_sense_is_dropped(node: Node) -> None:
@@ -114,7 +114,7 @@ def test_energy_is_that_of_motion_and_turning(node: Node) -> None:
     monitor = plugin("KineticEnergyMonitor", "<link_name>l</link_name>")
     made = world(BOX.format(monitor), gravity="0 0 0")
     made.data.qvel[:] = (1.0, 2.0, 0.0, 0.0, 0.0, 3.0)
-    system: Any = made.systems[-1]
+    system: Any = list(made.systems)[-1]
     assert system.energy() == pytest.approx(0.5 * 2.0 * 5.0 + 0.5 * 0.08 * 9.0)
     assert np.isfinite(made.data.qpos).all()
     with pytest.raises(SdfError, match="needs a <link_name>"):

@@ -12,8 +12,8 @@ from gz_course.sim.gz.msgs.actuators_pb2 import Actuators
 from gz_course.sim.gz.msgs.double_pb2 import Double
 from gz_course.sim.gz.msgs.float_pb2 import Float
 from gz_course.sim.gz.msgs.joint_trajectory_pb2 import JointTrajectory
+from gz_course.sim.gz.sim.driving.joint_command import JointCommand
 from gz_course.sim.gz.sim.errors import SdfError
-from gz_course.sim.gz.sim.systems.joint_command import JointCommand
 from gz_course.sim.gz.sim.world import World
 from gz_course.sim.gz.transport import Node
 from gz_course.tests.sim.gz.sim.systems.motion_world import arm, joint, link, plugin, world

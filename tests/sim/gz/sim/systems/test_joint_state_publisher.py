@@ -111,13 +111,13 @@ def test_a_free_model_is_reported_where_it_is(node: Node) -> None:
     heard = listen(node, made, "/world/w/model/m/joint_state")
     made.step(500)
     position = heard[-1].pose.position
-    assert np.array((position.x, position.y, position.z)) == pytest.approx(made.pose("m").position)
+    assert np.array((position.x, position.y, position.z)) == pytest.approx(made.truth.pose("m").position)
     assert position.z < 2.0
 
 
 def test_nothing_is_made_while_nobody_listens(node: Node) -> None:
     made = world(arm(publisher()))
     made.attach(node)
-    system = made.systems[-1]
+    system = list(made.systems)[-1]
     system._message = None  # type: ignore[attr-defined]  # whoever makes a message now fails
     made.step(10)

@@ -48,7 +48,7 @@ def test_a_model_that_comes_is_recorded_too(node: Node, tmp_path: Path) -> None:
     world = load(node, f"<record_path>{tmp_path / 'log'}</record_path><record_topic>/model/.*/odometry</record_topic>")
     world.step(200)
     text = (BUILT_IN_MODELS / "two_wheel_robot" / "model.sdf").read_text()
-    world.spawn(text, name="second", pose=Pose((2.0, -2.0, 0.0)))
+    world.editor.spawn(text, name="second", pose=Pose((2.0, -2.0, 0.0)))
     world.step(400)
     world.close()
     counts = {each.topic: each.count for each in Log(tmp_path / "log").topics()}

@@ -109,9 +109,9 @@ def test_what_comes_and_goes_in_between_changes_nothing() -> None:
         def step_and_change(steps: int) -> None:
             step(steps)
             number = next(visitors)
-            disturbed.world.spawn(SPAWNED.format(f"visitor{number}", number * 2))
+            disturbed.world.editor.spawn(SPAWNED.format(f"visitor{number}", number * 2))
             if number > 2:
-                disturbed.world.remove(f"visitor{number - 2}")
+                disturbed.world.editor.remove(f"visitor{number - 2}")
 
         disturbed.world.step = step_and_change  # type: ignore[method-assign]
         also_said = disturbed.run()
@@ -142,7 +142,7 @@ def test_commands_to_a_world_at_rest_count_when_it_runs(node: Node) -> None:
     session._drive.publish(command)
     assert session.heard == []
     session.world.step(1500)
-    assert session.world.velocity("robot").linear[0] == pytest.approx(0.4, rel=0.01)
+    assert session.world.truth.velocity("robot").linear[0] == pytest.approx(0.4, rel=0.01)
 
 
 def test_two_robots_drive_each_for_itself(node: Node) -> None:
@@ -155,8 +155,8 @@ def test_two_robots_drive_each_for_itself(node: Node) -> None:
         command.linear.x = speed
         node.advertise(f"/model/{name}/cmd_vel", Twist).publish(command)
     made.step(1000)
-    assert made.velocity("robot").linear[0] == pytest.approx(0.3, rel=5e-3)
-    ahead = made.velocity("other").linear[:2] @ (0.5403023, 0.8414710)
+    assert made.truth.velocity("robot").linear[0] == pytest.approx(0.3, rel=5e-3)
+    ahead = made.truth.velocity("other").linear[:2] @ (0.5403023, 0.8414710)
     assert ahead == pytest.approx(-0.2, rel=5e-3)
 
 
@@ -172,7 +172,7 @@ def test_a_robot_inside_another_model_has_the_topics_of_its_own_name(node: Node)
     command.linear.x, command.angular.z = 0.3, 0.2
     node.advertise("/model/inner/cmd_vel", Twist).publish(command)
     made.step(1000)
-    assert made.velocity("outer").angular[2] == pytest.approx(0.2, rel=0.01)
+    assert made.truth.velocity("outer").angular[2] == pytest.approx(0.2, rel=0.01)
 
 
 def test_wheels_one_behind_the_other_are_warned_about() -> None:

@@ -44,7 +44,7 @@ def test_pose_is_that_of_the_world_and_twist_that_of_the_model(node: Node) -> No
     assert [each.header.stamp.sec * 1000 + each.header.stamp.nsec // 10**6 for each in heard] == list(
         range(20, 1001, 20)
     )
-    last, truth = heard[-1], made.pose("box")
+    last, truth = heard[-1], made.truth.pose("box")
     assert (last.pose.position.x, last.pose.position.y) == pytest.approx(tuple(truth.position[:2]))
     assert last.pose.position.z == 0.0
     turn = last.pose.orientation
@@ -121,7 +121,7 @@ def test_three_dimensions_follow_a_tumbling_body(node: Node) -> None:
     heard = listen(node, made)
     made.data.qvel[:] = (1.0, 0.0, 0.5, 0.0, 0.0, 0.6)
     made.step(1000)
-    last, pose = heard[-1], made.pose("box")
+    last, pose = heard[-1], made.truth.pose("box")
     assert last.pose.position.z == pytest.approx(5.5, rel=1e-3)
     world_speed = np.array((last.twist.linear.x, last.twist.linear.y, last.twist.linear.z))
     turned = pose.transform(world_speed) - pose.position

@@ -124,9 +124,9 @@ def test_which_models_are_published(publish: Callable[..., Any], parameters: str
 def test_poses_lead_from_the_parent_to_the_entity(publish: Callable[..., Any]) -> None:
     world, heard = publish(ALL, steps=300)
     last = {pose.name: pose for pose in heard["/model/robot/pose"]}
-    truth = world.pose("robot")
+    truth = world.truth.pose("robot")
     assert last["robot"].position.x == pytest.approx(truth.position[0], abs=1e-9)
-    wheel = (world.pose("robot").inverse() * world.link_pose("robot", "wheel")).quaternion
+    wheel = (world.truth.pose("robot").inverse() * world.truth.link_pose("robot", "wheel")).quaternion
     assert abs(wheel[2]) > 0.01
     at = last["robot::wheel"].orientation
     assert (at.w, at.x, at.y, at.z) == pytest.approx(tuple(wheel), abs=1e-9)
@@ -190,9 +190,9 @@ def test_it_goes_on_after_the_world_was_built_anew(load_text: Callable[..., Worl
     world.attach(node)
     world.data.qvel[:] = 1.0
     world.step(10)
-    world.remove("other")  # every body has another number now
+    world.editor.remove("other")  # every body has another number now
     world.step(1)
-    wheel = (world.pose("robot").inverse() * world.link_pose("robot", "wheel")).quaternion
+    wheel = (world.truth.pose("robot").inverse() * world.truth.link_pose("robot", "wheel")).quaternion
     pose = next(each for each in heard[-1].pose if each.name == "robot::wheel")
     assert pose.orientation.y == pytest.approx(wheel[2], abs=1e-9)
     world.close()

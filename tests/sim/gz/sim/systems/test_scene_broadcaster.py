@@ -132,14 +132,14 @@ def test_the_scene_is_published_once_and_served(ear: Callable[..., Ear]) -> None
     ok, served = made.call("scene/info", Scene)
     assert ok
     assert [light.name for light in served.light] == ["sun"]
-    assert served.model[1].pose.position.z == made.world.pose("ball").position[2] < 5
+    assert served.model[1].pose.position.z == made.world.truth.pose("ball").position[2] < 5
 
 
 def test_what_comes_and_goes_is_told(ear: Callable[..., Ear]) -> None:
     made = ear()
     made.world.step(1)
     made.clear()
-    made.world.spawn(SPAWNED)
+    made.world.editor.spawn(SPAWNED)
     made.world.step(1)
     (scene,) = made.heard["scene/info"]
     assert [model.name for model in scene.model] == ["late"]
@@ -149,8 +149,8 @@ def test_what_comes_and_goes_is_told(ear: Callable[..., Ear]) -> None:
     made.world.step(20)
     assert "late" in by_name(made.heard["pose/info"][-1])
     assert made.heard["scene/deletion"] == []
-    made.world.remove("late")
-    made.world.remove("sun")
+    made.world.editor.remove("late")
+    made.world.editor.remove("sun")
     made.world.step(20)
     (deleted,) = made.heard["scene/deletion"]
     assert number in deleted.data
@@ -163,7 +163,7 @@ def test_who_asks_between_two_steps_takes_nothing_from_those_who_listen(ear: Cal
     made.call("scene/info", Scene)
     made.world.step(1)
     assert [len(made.heard[topic]) for topic in ("scene/info", "pose/info")] == [1, 1]
-    made.world.remove("ball")
+    made.world.editor.remove("ball")
     made.call("scene/graph", StringMsg)
     made.world.step(20)
     assert len(made.heard["scene/deletion"]) == 1
@@ -182,7 +182,7 @@ def test_a_rewound_world_begins_with_the_same_bytes(ear: Callable[..., Ear]) -> 
 
     first = bytes_of_all()
     assert all(messages for topic, messages in first.items() if topic != "scene/deletion")
-    made.world.spawn(SPAWNED)
+    made.world.editor.spawn(SPAWNED)
     made.world.step(50)
     number = made.world.entities.number("model", "late")
     made.clear()
@@ -222,7 +222,7 @@ def test_the_state_is_published_whole_and_then_what_moves(ear: Callable[..., Ear
     }
     assert (second.stats.iterations, second.stats.sim_time.nsec, second.stats.step_size.nsec) == (10, 10**7, 10**6)
     made.clear()
-    made.world.spawn(SPAWNED)
+    made.world.editor.spawn(SPAWNED)
     made.world.step(10)
     assert "late" in names_in(made.heard["state"][0].state)
 

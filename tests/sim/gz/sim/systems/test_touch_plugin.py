@@ -112,9 +112,11 @@ def test_after_a_reset_it_is_as_in_the_file(run: Run) -> None:
 def test_a_target_that_comes_later_is_felt(run: Run) -> None:
     world, touches = run(text(PARAMETERS.replace("ground", "late"), height=0.4999))
     world.step(100)
-    world.remove("ground_plane")
+    world.editor.remove("ground_plane")
     plane = "<collision name='c'><geometry><plane><normal>0 0 1</normal></plane></geometry></collision>"
-    world.spawn(f"<sdf version='1.10'><model name='late'><static>1</static><link name='l'>{plane}</link></model></sdf>")
+    world.editor.spawn(
+        f"<sdf version='1.10'><model name='late'><static>1</static><link name='l'>{plane}</link></model></sdf>"
+    )
     world.step(200)
     assert touches == [0.202]
 

@@ -84,13 +84,13 @@ def test_create_and_remove(world: World, ask: Ask, form: str) -> None:
     request = EntityFactory(sdf=BOX, name="crate")
     request.pose.position.z = 0.5
     assert ask("create" + form, request)
-    assert tuple(world.pose("crate").position) == (0, 0, 0.5)
+    assert tuple(world.truth.pose("crate").position) == (0, 0, 0.5)
     assert ask("remove" + form, "name: 'crate', type: MODEL")
-    assert world.model_names() == []
+    assert world.truth.model_names() == []
     assert ask("create" + form, EntityFactory(sdf=BOX))
-    assert tuple(world.pose("box").position) == (1, 2, 3)
+    assert tuple(world.truth.pose("box").position) == (1, 2, 3)
     assert ask("remove" + form, Entity(id=world.entities.number("model", "box")))
-    assert world.model_names() == []
+    assert world.truth.model_names() == []
 
 
 def test_create_from_a_file_a_clone_a_light_and_beside_another(world: World, ask: Ask, tmp_path: Any) -> None:
@@ -99,9 +99,9 @@ def test_create_from_a_file_a_clone_a_light_and_beside_another(world: World, ask
     assert ask("create/blocking", f"sdf_filename: '{file}'")
     assert ask("create/blocking", "clone_name: 'box', name: 'twin', pose: {position: {x: -1}}")
     assert ask("create/blocking", "clone_name: 'box'")
-    assert world.model_names() == ["box", "twin", "box_0"]
+    assert world.truth.model_names() == ["box", "twin", "box_0"]
     assert ask("create/blocking", EntityFactory(sdf=BOX, name="near", relative_to="box", pose=PoseMessage()))
-    assert tuple(world.pose("near").position) == (1, 2, 3)
+    assert tuple(world.truth.pose("near").position) == (1, 2, 3)
     assert ask("create/blocking", "light: {name: 'lamp', type: POINT, diffuse: {r: 1}, pose: {position: {z: 4}}}")
     assert [(light.name, light.diffuse) for light in world.description.lights][1:] == [("lamp", (1.0, 0.0, 0.0))]
     assert ask("remove/blocking", "name: 'lamp', type: LIGHT")
@@ -110,14 +110,14 @@ def test_create_from_a_file_a_clone_a_light_and_beside_another(world: World, ask
 def test_create_multiple_and_set_pose_vector(world: World, ask: Ask, said: pytest.LogCaptureFixture) -> None:
     many = EntityFactory_V(data=[EntityFactory(sdf=BOX, name=name) for name in ("a", "b", "a", "c")])
     assert ask("create_multiple", many)
-    assert world.model_names() == ["a", "b", "c"], "the one that fails does not keep the others out"
+    assert world.truth.model_names() == ["a", "b", "c"], "the one that fails does not keep the others out"
     assert [record.getMessage() for record in said.records] == [
         "/world/w/create_multiple: world 'w' already has something called 'a'; choose another name or allow renaming"
     ]
     assert ask("set_pose_vector", "pose {name: 'a', position {x: 1}} pose {name: 'b', position {x: 2}}")
-    assert [world.pose(name).position[0] for name in "ab"] == [1, 2]
+    assert [world.truth.pose(name).position[0] for name in "ab"] == [1, 2]
     assert ask("set_pose/blocking", f"id: {world.entities.number('model', 'c')}, position: {{y: 4}}")
-    assert world.pose("c").position[1] == 4
+    assert world.truth.pose("c").position[1] == 4
 
 
 def test_properties(world: World, ask: Ask, node: Node) -> None:
@@ -137,7 +137,7 @@ def test_properties(world: World, ask: Ask, node: Node) -> None:
     assert (world.step_size_ns, world.description.real_time_factor) == (2_000_000, 3.0)
     assert ask("set_spherical_coordinates", "latitude_deg: 10")
     assert ask("set_spherical_coordinates", "entity: {name: 'box'}, latitude_deg: 10, longitude_deg: 0.001")
-    assert world.pose("box").position[0] == pytest.approx(109.6, abs=0.2), (
+    assert world.truth.pose("box").position[0] == pytest.approx(109.6, abs=0.2), (
         "a thousandth of a degree at 10 degrees north"
     )
 
@@ -188,7 +188,7 @@ def test_nonsense_is_refused_in_one_sentence_and_the_world_lives_on(
     assert len(spoken) == 2 and all(sentence in text and "\n" not in text for text in spoken)
     assert spoken[0].startswith(f"/world/w/{service}/blocking: ") and spoken[1].startswith(f"/world/w/{service}: ")
     world.step()
-    assert world.model_names() == ["box"]
+    assert world.truth.model_names() == ["box"]
 
 
 def test_a_request_of_another_thread_waits_for_the_end_of_a_step(world: World, ask: Ask) -> None:
@@ -199,7 +199,7 @@ def test_a_request_of_another_thread_waits_for_the_end_of_a_step(world: World, a
         world.step()
         world.requests.wait(0.01)
     thread.join()
-    assert answers == [True] and world.model_names() == ["box"]
+    assert answers == [True] and world.truth.model_names() == ["box"]
 
 
 def test_a_blocking_request_that_nobody_serves_is_given_up_and_never_done(
@@ -212,7 +212,7 @@ def test_a_blocking_request_that_nobody_serves_is_given_up_and_never_done(
     thread.join(20)
     assert answers == [False] and "was not stepped" in said.records[0].getMessage()
     world.step()
-    assert world.model_names() == []
+    assert world.truth.model_names() == []
 
 
 def test_a_plain_request_is_answered_at_once_and_done_at_the_next_step(world: World, ask: Ask) -> None:
@@ -220,9 +220,9 @@ def test_a_plain_request_is_answered_at_once_and_done_at_the_next_step(world: Wo
     thread = threading.Thread(target=lambda: answers.append(ask("create", EntityFactory(sdf=BOX))))
     thread.start()
     thread.join(20)
-    assert answers == [True] and world.model_names() == []
+    assert answers == [True] and world.truth.model_names() == []
     world.step()
-    assert world.model_names() == ["box"]
+    assert world.truth.model_names() == ["box"]
 
 
 def test_ten_megabytes_of_sdf(world: World, ask: Ask) -> None:
@@ -230,11 +230,11 @@ def test_ten_megabytes_of_sdf(world: World, ask: Ask) -> None:
     text = f"<sdf version='1.10'><model name='big'><link name='l'>{visuals}</link></model></sdf>"
     assert len(text) > 9_500_000
     assert ask("create/blocking", EntityFactory(sdf=text))
-    assert world.model_names() == ["big"] and world.model.ngeom == 1000
+    assert world.truth.model_names() == ["big"] and world.model.ngeom == 1000
 
 
 def test_quaternions_of_any_length_say_a_direction() -> None:
-    from gz_course.sim.gz.sim.systems.entity_commands import pose_of
+    from gz_course.sim.gz.sim.editing.entity_commands import pose_of
 
     for length in (1e-8, 1.0, 1e300):
         turned = pose_of(PoseMessage(orientation={"z": length, "w": length}), "box")

@@ -35,7 +35,7 @@ def test_a_model_moves_along_its_own_axes_and_turns(node: Node) -> None:
     made.attach(node)
     node.advertise("/model/box/cmd_vel", Twist).publish(twist(1.0, 0.0, 0.2, 0.8))
     made.step(1001)
-    pose = made.pose("box")
+    pose = made.truth.pose("box")
     assert pose.yaw() == pytest.approx(0.5 + 0.8, rel=1e-3)
     radius = 1.0 / 0.8
     expected = (radius * (math.sin(1.3) - math.sin(0.5)), -radius * (math.cos(1.3) - math.cos(0.5)), 5.2)
@@ -47,8 +47,8 @@ def test_the_axes_are_those_of_the_model_however_its_link_stands() -> None:
       {plugin("VelocityControl", "<initial_angular>0 0 1</initial_angular>")}</model>"""
     made = world(tilted, gravity="0 0 0")
     made.step(1000)
-    assert made.pose("box").yaw() == pytest.approx(1.0, rel=2e-3)
-    assert made.velocity("box").angular == pytest.approx((0, 0, 1), abs=5e-3)
+    assert made.truth.pose("box").yaw() == pytest.approx(1.0, rel=2e-3)
+    assert made.truth.velocity("box").angular == pytest.approx((0, 0, 1), abs=5e-3)
 
 
 def test_a_command_acts_one_step_later_and_holds() -> None:
@@ -66,7 +66,7 @@ def test_a_command_acts_one_step_later_and_holds() -> None:
 def test_without_a_command_gravity_acts_within_a_step_only() -> None:
     made = world(box())
     made.step(1000)
-    assert made.pose("box").position[2] == pytest.approx(5.0 - 9.8e-3, rel=1e-4)
+    assert made.truth.pose("box").position[2] == pytest.approx(5.0 - 9.8e-3, rel=1e-4)
 
 
 def test_initial_velocities_come_again_after_a_reset() -> None:
@@ -88,8 +88,8 @@ def test_parts_that_float_apart_move_as_one_body() -> None:
     made = world(box(more=link("far", "2 0 0 0 0 0"), pose="0 0 5 0 0 0"), gravity="0 0 0")
     control(made).command((0.0, 0.0, 0.0), (0.0, 0.0, math.pi))
     made.step(1001)
-    assert made.link_pose("box", "l").position == pytest.approx((0, 0, 5), abs=0.02)
-    assert made.link_pose("box", "far").position == pytest.approx((-2, 0, 5), abs=0.02)
+    assert made.truth.link_pose("box", "l").position == pytest.approx((0, 0, 5), abs=0.02)
+    assert made.truth.link_pose("box", "far").position == pytest.approx((-2, 0, 5), abs=0.02)
 
 
 def test_a_link_is_moved_by_its_own_topic(node: Node) -> None:
@@ -98,8 +98,8 @@ def test_a_link_is_moved_by_its_own_topic(node: Node) -> None:
     made.attach(node)
     node.advertise("/model/box/link/far/cmd_vel", Twist).publish(twist(1.0))
     made.step(1001)
-    assert made.link_pose("box", "far").position == pytest.approx((2, 1, 5), abs=5e-3)
-    assert made.link_pose("box", "l").position == pytest.approx((0, 0, 5), abs=1e-9)
+    assert made.truth.link_pose("box", "far").position == pytest.approx((2, 1, 5), abs=5e-3)
+    assert made.truth.link_pose("box", "l").position == pytest.approx((0, 0, 5), abs=1e-9)
 
 
 def test_joints_of_a_moved_model_stay_free() -> None:

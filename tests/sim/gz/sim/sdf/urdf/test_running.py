@@ -65,7 +65,7 @@ def test_a_urdf_robot_drives_and_scans(
     include = "" if spawned else f"<include><uri>{tmp_path}/cart.urdf</uri></include>"
     (tmp_path / "cart.urdf").write_text(ROBOT)
     world = load_text(ROOM + include, node=node)
-    assert not spawned or world.spawn(ROBOT, file_name="cart.urdf") == "cart"
+    assert not spawned or world.editor.spawn(ROBOT, file_name="cart.urdf") == "cart"
     scans, odometry = [], []
     node.subscribe(LaserScan, "/world/w/model/cart/link/base_footprint/sensor/scan/scan", scans.append)
     node.subscribe(Odometry, "/model/cart/odometry", odometry.append)
@@ -74,9 +74,9 @@ def test_a_urdf_robot_drives_and_scans(
     message.linear.x = 0.3
     node.advertise("/model/cart/cmd_vel", Twist).publish(message)
     world.step(1000)
-    before = world.pose("cart").position[0]
+    before = world.truth.pose("cart").position[0]
     world.step(1000)
-    pose = world.pose("cart")
+    pose = world.truth.pose("cart")
     assert pose.position[0] - before == pytest.approx(0.3, rel=0.005)
     assert abs(pose.yaw()) < 0.002 and abs(pose.position[2]) < 0.002
     # The lidar looks back, from 0.1 m before the middle, at a wall whose near side is at x = -2.9.

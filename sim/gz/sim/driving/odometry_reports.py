@@ -1,0 +1,90 @@
+"""The wheel odometry of a drive system on its topics: `Odometry` and, for transforms, `Pose_V`.
+
+DiffDrive and AckermannSteering compute it; here it is published at `<odom_publish_frequency>`, on `/model/M/odometry`
+and `/model/M/tf`.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from gz_course.sim.gz.sim.plugins.model_scope import ModelScope
+from gz_course.sim.gz.sim.plugins.period import period_ns
+from gz_course.sim.gz.sim.plugins.topics import valid_topic
+from gz_course.sim.gz.sim.sdf.element import Element
+
+if TYPE_CHECKING:
+    from gz_course.sim.gz.transport import Node
+
+
+def fill_odometry_header(header: Any, now_ns: int, frame_id: str, child_frame_id: str) -> None:
+    """Write the stamp (simulated time [ns]) and the two frames as Gazebo does."""
+    header.stamp.sec, header.stamp.nsec = divmod(now_ns, 1_000_000_000)
+    for key, value in (("frame_id", frame_id), ("child_frame_id", child_frame_id)):
+        entry = header.data.add()
+        entry.key = key
+        entry.value.append(value)
+
+
+class OdometryReports:
+    """Topics, frames and rate of one drive's odometry, read from its parameters."""
+
+    parameters: ClassVar[tuple[str, ...]] = (
+        "odom_publish_frequency",
+        "odom_topic",
+        "tf_topic",
+        "frame_id",
+        "child_frame_id",
+    )
+
+    def __init__(self, scope: ModelScope, element: Element) -> None:
+        self._period_ns = period_ns(element.number("odom_publish_frequency", 50.0))
+        self.odometry_topic = valid_topic(element.text_of("odom_topic"), f"/model/{scope.name}/odometry")
+        self.tf_topic = valid_topic(element.text_of("tf_topic"), f"/model/{scope.name}/tf")
+        self.frame_id = element.text_of("frame_id", f"{scope.name}/odom")
+        base = scope.own_name(scope.canonical_link).replace("::", "/")
+        self.child_frame_id = element.text_of("child_frame_id", f"{scope.name}/{base}")
+        self._publisher: Any = None
+        self._tf_publisher: Any = None
+        self.start()
+
+    def start(self) -> None:
+        self._last_ns = 0
+
+    def connect(self, node: Node) -> None:
+        from gz_course.sim.gz.msgs.odometry_pb2 import Odometry
+        from gz_course.sim.gz.msgs.pose_v_pb2 import Pose_V
+
+        self._odometry_type, self._pose_v_type = Odometry, Pose_V
+        self._publisher = node.advertise(self.odometry_topic, Odometry)
+        self._tf_publisher = node.advertise(self.tf_topic, Pose_V)
+
+    def due(self, now_ns: int) -> bool:
+        """Tell whether it is time for a message, and count it as published."""
+        if now_ns - self._last_ns < self._period_ns:
+            return False
+        self._last_ns = now_ns
+        return True
+
+    def publish(self, now_ns: int, pose: tuple[float, float, float], linear: float, angular: float) -> None:
+        """Publish to those who listen: `pose` is x, y [m] and heading [rad], the speeds are in [m/s] and [rad/s]."""
+        if self._publisher is not None and self._publisher.has_connections():
+            message = self._odometry_type()
+            fill_odometry_header(message.header, now_ns, self.frame_id, self.child_frame_id)
+            _fill_pose(message.pose, pose)
+            message.twist.linear.x = linear
+            message.twist.angular.z = angular
+            self._publisher.publish(message)
+        if self._tf_publisher is not None and self._tf_publisher.has_connections():
+            frames = self._pose_v_type()
+            frame = frames.pose.add()
+            fill_odometry_header(frame.header, now_ns, self.frame_id, self.child_frame_id)
+            _fill_pose(frame, pose)
+            self._tf_publisher.publish(frames)
+
+
+def _fill_pose(message: Any, pose: tuple[float, float, float]) -> None:
+    message.position.x, message.position.y = pose[:2]
+    message.orientation.z = math.sin(pose[2] / 2.0)
+    message.orientation.w = math.cos(pose[2] / 2.0)

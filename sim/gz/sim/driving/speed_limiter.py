@@ -1,0 +1,59 @@
+"""Limits of a commanded speed: velocity, acceleration and jerk.
+
+Used by drive systems once per step and per degree of freedom: jerk is limited first, then acceleration, then
+velocity.
+
+Source: https://github.com/gazebosim/gz-math/blob/gz-math7/src/SpeedLimiter.cc
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from gz_course.sim.gz.sim.sdf.element import Element
+
+
+@dataclass
+class SpeedLimiter:
+    """Limits in [m] or [rad] per [s], [s^2] and [s^3]; minima are usually negative."""
+
+    min_velocity: float = -math.inf
+    max_velocity: float = math.inf
+    min_acceleration: float = -math.inf
+    max_acceleration: float = math.inf
+    min_jerk: float = -math.inf
+    max_jerk: float = math.inf
+
+    @classmethod
+    def from_sdf(cls, element: Element, axis: str) -> SpeedLimiter:
+        """Read `min_velocity` ... `max_jerk`; `min_linear_velocity` ... for `axis` win over the common ones."""
+        limiter = cls()
+        for bound in ("min", "max"):
+            for quantity in ("velocity", "acceleration", "jerk"):
+                value = element.number(f"{bound}_{quantity}", getattr(limiter, f"{bound}_{quantity}"))
+                value = element.number(f"{bound}_{axis}_{quantity}", value)
+                setattr(limiter, f"{bound}_{quantity}", value)
+        for quantity in ("velocity", "acceleration", "jerk"):
+            lower, upper = getattr(limiter, f"min_{quantity}"), getattr(limiter, f"max_{quantity}")
+            if lower > upper:
+                raise element.error(f"min {axis} {quantity} ({lower}) is above max {axis} {quantity} ({upper})")
+        return limiter
+
+    @property
+    def unlimited(self) -> bool:
+        """True when no limit is set, so that `limit` would return its input."""
+        return self == SpeedLimiter()
+
+    def limit(self, target: float, previous: float, before_previous: float, dt: float) -> float:
+        """Return the speed to command now; `previous` and `before_previous` are the last two, `dt` is the step [s]."""
+        last_acceleration = (previous - before_previous) / dt
+        jerk = ((target - previous) / dt - last_acceleration) / dt
+        limited_jerk = min(max(jerk, self.min_jerk), self.max_jerk)
+        if limited_jerk != jerk:
+            target = previous + (last_acceleration + limited_jerk * dt) * dt
+        acceleration = (target - previous) / dt
+        limited = min(max(acceleration, self.min_acceleration), self.max_acceleration)
+        if limited != acceleration:
+            target = previous + limited * dt
+        return min(max(target, self.min_velocity), self.max_velocity)

@@ -1,0 +1,231 @@
+"""The base of all sensors (topic, frame, rate), and how a `<sensor type=...>` finds its class.
+
+A sensor type is a file in `gz/sim/sensors` with a class under `@sensor_type`. The system named by `runs_in` creates
+the sensors and calls `run` when they are due; `update` is called if somebody listens, too.
+
+Source: http://sdformat.org/spec?elem=sensor
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import numpy as np
+
+from gz_course.sim.gz.sim.plugins.period import period_ns
+from gz_course.sim.gz.sim.plugins.system import scan
+from gz_course.sim.gz.sim.plugins.topics import valid_topic
+from gz_course.sim.gz.sim.requests import logged
+from gz_course.sim.gz.sim.sdf.description import Sensor
+
+if TYPE_CHECKING:
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
+    from gz_course.sim.gz.transport import Node
+
+KNOWN_TYPES = frozenset(
+    [
+        "air_pressure",
+        "air_speed",
+        "altimeter",
+        "boundingbox",
+        "boundingbox_camera",
+        "camera",
+        "contact",
+        "custom",
+        "depth",
+        "depth_camera",
+        "force_torque",
+        "gps",
+        "gpu_lidar",
+        "gpu_ray",
+        "imu",
+        "lidar",
+        "logical_camera",
+        "magnetometer",
+        "multicamera",
+        "navsat",
+        "ray",
+        "rgbd",
+        "rgbd_camera",
+        "segmentation",
+        "segmentation_camera",
+        "thermal",
+        "thermal_camera",
+        "wideangle_camera",
+        "wideanglecamera",
+        "wide_angle_camera",
+    ]
+)
+"""Every sensor type of SDF, also those this simulator has no file for."""
+
+
+_ZEROS = np.zeros(4, dtype=np.uint64)
+_FRESH = {"bit_generator": "Philox", "buffer": _ZEROS, "buffer_pos": 4, "has_uint32": 0, "uinteger": 0}
+"""The state of a Philox generator that has drawn nothing yet, but for its key."""
+
+
+class SensorBase:
+    """Base of all sensors: parameters common to every type and the schedule of its updates."""
+
+    runs_in = "Sensors"
+    """Name of the system that runs sensors of this type."""
+
+    def __init__(self, world: WorldAccess, description: Sensor) -> None:
+        """Read topic, frame and rate; `world` gives time, poses and the seed."""
+        self.world = world
+        self.description = description
+        element = description.element
+        kind, holder = ("joint", description.joint) if description.joint else ("link", description.link)
+        self.scoped_name = f"{description.model}::{holder}::{description.name}"
+        *scope, own = holder.split("::")
+        nested = "".join(f"/model/{part}" for part in scope)
+        self.default_topic = (
+            f"/world/{world.name}/model/{description.model}{nested}/{kind}/{own}"
+            f"/sensor/{description.name}/{self.topic_suffix()}"
+        )
+        self.topic = valid_topic(element.text_of("topic"), self.default_topic)
+        stated = (element.text_of(tag) for tag in ("frame_id", "gz_frame_id", "ignition_frame_id"))
+        self.frame_id = next((text for text in stated if text), self.scoped_name)
+        rate = element.number("update_rate", 0.0)
+        self.highest_rate = rate if 0.0 < rate < math.inf else 0.0
+        """`<update_rate>` [Hz], 0 for every step: what `set_rate` may not exceed."""
+        self.period_ns = _period_ns(self.highest_rate)
+        self.next_update_ns = 0
+        self.updates = 0
+        self._last_ns: int | None = None
+        self._generators: dict[str, np.random.Generator] = {}
+
+    def bind(self) -> None:
+        """Look up ids in MuJoCo's model: it was just built, or built anew because a model came or went."""
+
+    def start(self) -> None:
+        """Take the state of time zero; called after the first `bind` and after every reset."""
+        self.next_update_ns = 0
+        self.updates = 0
+        self._last_ns = None
+
+    def topic_suffix(self) -> str:
+        """Return the last part of the default topic."""
+        raise NotImplementedError
+
+    def connect(self, node: Node) -> None:
+        """Advertise the sensor's topics on `node`, which is this sensor's own."""
+        raise NotImplementedError
+
+    def has_connections(self) -> bool:
+        """Tell whether anybody listens, so that the sensor is worth computing."""
+        raise NotImplementedError
+
+    def advance(self, dt: float) -> None:
+        """Let what wanders by itself go on for `dt` seconds, the time since the last update; called at every
+        update that is due, heard or not.
+        """
+
+    def update(self, now_ns: int) -> None:
+        """Measure and publish, stamped `now_ns` (simulated nanoseconds)."""
+        raise NotImplementedError
+
+    def run(self, now_ns: int) -> None:
+        """Do the update that is due at `now_ns` and find the time of the next one."""
+        self.advance((now_ns - self._last_ns) * 1e-9 if self._last_ns is not None else 0.0)
+        self._last_ns = now_ns
+        if self.has_connections():
+            self.update(now_ns)
+        self.updates += 1
+        period = self.period_ns
+        self.next_update_ns += period
+        if period and self.next_update_ns <= now_ns:
+            self.next_update_ns += ((now_ns - self.next_update_ns) // period + 1) * period
+
+    def offer_set_rate(self, node: Node) -> None:
+        """Offer the one-way service `<topic>/set_rate` (gz.msgs.Double, Hz) on `node`."""
+        from gz_course.sim.gz.msgs.double_pb2 import Double
+        from gz_course.sim.gz.msgs.empty_pb2 import Empty
+
+        service = f"{self.topic}/set_rate"
+
+        def serve(request: Double) -> Empty:
+            self.world.requests.put(logged(lambda: self.set_rate(request.data), service))
+            return Empty()
+
+        node.advertise_service(service, Double, Empty, serve)
+
+    def set_rate(self, rate: float) -> None:
+        """Make the updates rarer: `rate` in Hz, at most `<update_rate>`; any rate, also 0 for every step, when
+        that is 0. Another request is refused with a warning.
+        """
+        if math.isnan(rate):
+            self.world.drop_command(f"{self.topic}/set_rate", "rate")
+            return
+        rate = max(0.0, rate)
+        highest = self.highest_rate
+        if highest and (rate == 0.0 or rate > highest * (1.0 + 1e-6)):
+            text = f"sensor '{self.scoped_name}' keeps its rate: {rate:g} Hz was asked for, 0 is not possible and "
+            self.world.diagnostics.warn("", text + f"<update_rate> allows {highest:g} Hz at most")
+            return
+        self.period_ns = _period_ns(rate)
+        if self.period_ns == 0:
+            self.next_update_ns = 0
+        self.rescheduled()
+
+    def rescheduled(self) -> None:
+        """Tell the system that runs the sensor, which replaces this, that an update may be due earlier than planned."""
+
+    def random(self, purpose: str = "noise") -> np.random.Generator:
+        """Return the generator of this sensor's current update.
+
+        It depends only on the world's seed, the sensor's name, `purpose` and the number of the update, so a
+        listener that comes later, or not at all, changes no other number. Good until the next call for this purpose.
+        """
+        return self._generator(purpose, self.updates)
+
+    def constant_random(self, purpose: str) -> np.random.Generator:
+        """Return the generator for what is drawn once per run, such as a bias."""
+        return self._generator(purpose, -1)
+
+    def _generator(self, purpose: str, update: int) -> np.random.Generator:
+        text = f"{self.world.seed}/{self.scoped_name}/{purpose}/{update}"
+        key = np.frombuffer(hashlib.sha256(text.encode()).digest(), dtype="<u8", count=2)
+        generator = self._generators.get(purpose)
+        if generator is None:
+            generator = self._generators[purpose] = np.random.Generator(np.random.Philox(key=0))
+        # To set a key is much quicker than to make a generator, and draws the same numbers.
+        generator.bit_generator.state = {**_FRESH, "state": {"counter": _ZEROS, "key": key}}
+        return generator
+
+    def fill_header(self, header: Any, now_ns: int) -> None:
+        """Write stamp, frame and sequence number as Gazebo does."""
+        header.stamp.sec, header.stamp.nsec = divmod(now_ns, 1_000_000_000)
+        for key, value in (("frame_id", self.frame_id), ("seq", str(self.updates))):
+            entry = header.data.add()
+            entry.key = key
+            entry.value.append(value)
+
+
+def _period_ns(rate: float) -> int:
+    # Gazebo keeps the period in whole milliseconds: 30 Hz means every 33 ms.
+    return period_ns(rate) // 1_000_000 * 1_000_000
+
+
+S = TypeVar("S", bound=type[SensorBase])
+_TYPES: dict[str, type[SensorBase]] = {}
+
+
+def sensor_type(*names: str) -> Callable[[S], S]:
+    """Register a class for these values of `<sensor type=...>`."""
+
+    def register(cls: S) -> S:
+        for name in names:
+            _TYPES[name] = cls
+        return cls
+
+    return register
+
+
+def sensor_types() -> dict[str, type[SensorBase]]:
+    """Return the class of every sensor type this simulator has."""
+    scan("sensors")
+    return dict(_TYPES)

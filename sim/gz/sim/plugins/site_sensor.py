@@ -1,0 +1,77 @@
+"""What sensors share that measure a few numbers at one place: one site, one topic, one message, noise by channel.
+
+`imu.py`, `altimeter.py`, `magnetometer.py` and their like say which noises they have and fill in the message.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from google.protobuf.message import Message
+
+from gz_course.sim.gz.sim.physics.motion import SiteMotion
+from gz_course.sim.gz.sim.plugins.noise import Channels, Noise
+from gz_course.sim.gz.sim.plugins.sensor import SensorBase
+from gz_course.sim.gz.sim.sdf.description import Sensor
+from gz_course.sim.gz.sim.sdf.element import Element
+
+if TYPE_CHECKING:
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
+    from gz_course.sim.gz.transport import Node
+
+
+class SiteSensor(SensorBase):
+    """Base of the sensors that stand at one place. `motion` is that of the sensor, `noise` its channels."""
+
+    suffix: ClassVar[str]
+    """Last part of the default topic."""
+    message_type: ClassVar[str]
+    """Name of the message type, for example gz.msgs.IMU."""
+
+    def __init__(self, world: WorldAccess, description: Sensor) -> None:
+        super().__init__(world, description)
+        self.noise = Channels(self, self.read_noises(description.element))
+        self._publisher: Any = None
+
+    def read_noises(self, element: Element) -> Sequence[tuple[str, Noise]]:
+        """Return the noise of each number, by name of channel; `element` is the `<sensor>`."""
+        raise NotImplementedError
+
+    def fill(self, message: Any) -> None:
+        """Measure and write what is special about this sensor; the header is written already."""
+        raise NotImplementedError
+
+    def bind(self) -> None:
+        self.motion = SiteMotion(self.world, self.scoped_name)
+
+    def start(self) -> None:
+        """Begin the schedule and draw the biases of the run."""
+        super().start()
+        self.noise.start()
+
+    def advance(self, dt: float) -> None:
+        self.noise.advance(dt)
+
+    def topic_suffix(self) -> str:
+        return self.suffix
+
+    def connect(self, node: Node) -> None:
+        from gz_course.sim.gz.msgs import message_class
+
+        self._message: type[Message] = message_class(self.message_type)
+        self._publisher = node.advertise(self.topic, self._message)
+
+    def has_connections(self) -> bool:
+        return self._publisher is not None and self._publisher.has_connections()
+
+    def update(self, now_ns: int) -> None:
+        message: Any = self._message()
+        self.fill_header(message.header, now_ns)
+        self.fill(message)
+        self._publisher.publish(message)
+
+
+def noise_at(element: Element, path: str) -> Noise:
+    """Return the noise written at `path/noise` below an element; none when nothing is written there."""
+    return Noise.from_sdf(element.find(f"{path}/noise"))

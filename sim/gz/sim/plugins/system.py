@@ -1,0 +1,240 @@
+"""The base of all systems, and how a `<plugin>` of an SDF file finds its class.
+
+A system is a file in `gz/sim/systems` with a class under the `@system` decorator; nothing else has to be edited.
+`RunningSystems` calls `find_system` for every plugin and the hooks of the class: `servos` before the model is built,
+`configure` once, `bind` each time the physics model was built, `start` at time zero (again after a reset), `connect`
+when a transport node is attached, then `pre_update` and `post_update` around every physics step, and `paused_update`
+while a server is paused.
+
+Source: https://gazebosim.org/api/sim/8/createsystemplugins.html
+"""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, ClassVar, TypeVar
+
+from gz_course.sim.gz.sim.errors import Diagnostics, nearest
+from gz_course.sim.gz.sim.physics.servos import JointServo
+from gz_course.sim.gz.sim.sdf.description import Model, Plugin
+
+if TYPE_CHECKING:
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
+    from gz_course.sim.gz.transport import Node
+
+
+class UpdateInfo:
+    """The time of a step: `sim_time_ns` (its end), `dt` [s] and `iterations` (this one included)."""
+
+    __slots__ = ("dt", "iterations", "sim_time_ns")
+
+    def __init__(self, dt: float) -> None:
+        self.dt = dt
+        self.sim_time_ns = 0
+        self.iterations = 0
+
+
+class System:
+    """Base of all systems. Hooks that are not overridden cost nothing per step."""
+
+    name: ClassVar[str] = ""
+    filename: ClassVar[str] = ""
+    parameters: ClassVar[frozenset[str]] = frozenset()
+    once: ClassVar[bool] = False
+    """Whether it serves the whole world, so that a second one would do everything twice."""
+    joins_topics: ClassVar[bool] = False
+    """Whether it may publish and listen on the topics of others as a matter of course."""
+
+    @classmethod
+    def servos(cls, model: Model, plugin: Plugin) -> list[JointServo]:
+        """Return the joints of `model` this system will drive. Raises `SdfError` for a joint that is not there."""
+        return []
+
+    def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
+        """Read the parameters, once; `model` is None for a plugin of the world itself."""
+
+    def bind(self) -> None:
+        """Look up ids and addresses in MuJoCo's model, which was just built or rebuilt."""
+
+    def start(self) -> None:
+        """Take the state of time zero; called after the first `bind` and after every reset."""
+
+    def connect(self, node: Node) -> None:
+        """Advertise and subscribe on `node`, which is this system's own; the world closes it."""
+
+    def close(self) -> None:
+        """End what this system opened beside its node; called when its model or the world goes."""
+
+    def pre_update(self, info: UpdateInfo) -> None:
+        """Act before the physics step, for example set controls."""
+
+    def post_update(self, info: UpdateInfo) -> None:
+        """Look at the result of the physics step, for example publish."""
+
+    def paused_update(self, info: UpdateInfo) -> None:
+        """Publish what is due while a running server is paused; called ten times a second of wall time, and after
+        every change.
+        """
+
+
+S = TypeVar("S", bound=type[System])
+_SYSTEMS: dict[str, type[System]] = {}
+
+
+def system(name: str, filename: str) -> Callable[[S], S]:
+    """Register a class under Gazebo's system name (`DiffDrive`) and file name (`gz-sim-diff-drive-system`)."""
+
+    def register(cls: S) -> S:
+        cls.name, cls.filename = name, filename
+        _SYSTEMS[name] = cls
+        return cls
+
+    return register
+
+
+def systems() -> dict[str, type[System]]:
+    """Return every system by name; those that run a single sensor type are declared beside the sensor."""
+    scan("systems")
+    scan("sensors")
+    return dict(_SYSTEMS)
+
+
+@cache
+def scan(room: str) -> None:
+    """Import every file of a folder of this simulator, so that the classes in it register themselves."""
+    for module in pkgutil.iter_modules([str(Path(__file__).parents[1] / room)]):
+        importlib.import_module(f"gz_course.sim.gz.sim.{room}.{module.name}")
+
+
+BUILT_IN = {"Physics"}
+"""Systems whose work the world itself does."""
+
+OTHER_GAZEBO_SYSTEMS = frozenset(
+    [
+        "AckermannSteering",
+        "AcousticComms",
+        "AirPressure",
+        "AirSpeed",
+        "Altimeter",
+        "ApplyJointForce",
+        "ApplyLinkWrench",
+        "BatteryPlugin",
+        "Breadcrumbs",
+        "Buoyancy",
+        "BuoyancyEngine",
+        "CameraVideoRecorder",
+        "CommsEndpoint",
+        "Contact",
+        "DetachableJoint",
+        "DopplerVelocityLog",
+        "DriveToPoseController",
+        "EnvironmentPreload",
+        "FollowActor",
+        "ForceTorque",
+        "Hydrodynamics",
+        "Imu",
+        "JointController",
+        "JointPositionController",
+        "JointStatePublisher",
+        "JointTrajectoryController",
+        "KineticEnergyMonitor",
+        "Label",
+        "LensFlare",
+        "LiftDrag",
+        "LogPlayback",
+        "LogRecord",
+        "LogicalAudio",
+        "LogicalCamera",
+        "Magnetometer",
+        "MecanumDrive",
+        "ModelPhotoShoot",
+        "MulticopterMotorModel",
+        "MulticopterVelocityControl",
+        "NavSat",
+        "OdometryPublisher",
+        "OpticalTactilePlugin",
+        "ParticleEmitter",
+        "PerformerDetector",
+        "PosePublisher",
+        "PythonSystemLoader",
+        "ReplayVideo",
+        "RFComms",
+        "SceneBroadcaster",
+        "Sensors",
+        "ShaderParam",
+        "SpacecraftThrusterModel",
+        "TempStore",
+        "Thermal",
+        "ThermalSensor",
+        "Thruster",
+        "TouchPlugin",
+        "TrackController",
+        "TrackedVehicle",
+        "TrajectoryFollower",
+        "TriggeredPublisher",
+        "UserCommands",
+        "VelocityControl",
+        "WheelSlip",
+        "WindEffects",
+    ]
+)
+
+_CLASSIC = {
+    "libgazebo_ros_diff_drive": "gz-sim-diff-drive-system",
+    "libgazebo_ros_ray_sensor": "gz-sim-sensors-system in the world",
+    "libgazebo_ros_laser": "gz-sim-sensors-system in the world",
+    "libgazebo_ros_camera": "gz-sim-sensors-system in the world",
+    "libgazebo_ros_imu_sensor": "gz-sim-imu-system in the world",
+    "libgazebo_ros_joint_state_publisher": "gz-sim-joint-state-publisher-system",
+    "libgazebo_ros_p3d": "gz-sim-odometry-publisher-system",
+}
+
+
+def system_name(plugin: Plugin) -> str:
+    """Return the Gazebo name of the system a plugin asks for, in any spelling of its attributes."""
+    if plugin.name:
+        last = plugin.name.rsplit("::", 1)[-1]
+        if last in BUILT_IN | OTHER_GAZEBO_SYSTEMS or last in systems():
+            return last
+    filename = plugin.filename.rsplit("/", 1)[-1].removeprefix("lib").removesuffix(".so")
+    for prefix in ("ignition-gazebo", "gz-sim"):
+        if filename.startswith(prefix) and filename.endswith("-system"):
+            middle = filename[len(prefix) : -len("-system")].lstrip("0123456789").strip("-")
+            word = middle.replace("-", "").lower()
+            for name in (*systems(), *BUILT_IN, *OTHER_GAZEBO_SYSTEMS):
+                if name.lower() == word:
+                    return name
+    return plugin.name.rsplit("::", 1)[-1] or filename
+
+
+def find_system(plugin: Plugin, diagnostics: Diagnostics) -> type[System] | None:
+    """Return the class for a plugin, or None after saying why there is none."""
+    name = system_name(plugin)
+    found = systems().get(name)
+    if found is not None:
+        _check_parameters(plugin, found, diagnostics)
+        return found
+    where = plugin.element.where
+    classic = plugin.filename.rsplit("/", 1)[-1].removesuffix(".so")
+    if name in BUILT_IN:
+        return None
+    if classic.startswith("libgazebo_"):
+        instead = _CLASSIC.get(classic, "the gz-sim system of the same purpose")
+        diagnostics.warn(where, f"plugin '{plugin.filename}' is of Gazebo Classic and is ignored; use {instead}")
+    elif name in OTHER_GAZEBO_SYSTEMS:
+        diagnostics.warn(where, f"system '{name}' exists in Gazebo but not in this simulator, it is ignored")
+    else:
+        hint = nearest(name, {*systems(), *BUILT_IN}, listing="systems that run here are")
+        diagnostics.warn(where, f"no system is called '{plugin.name or plugin.filename}', it is ignored; {hint}")
+    return None
+
+
+def _check_parameters(plugin: Plugin, found: type[System], diagnostics: Diagnostics) -> None:
+    for child in plugin.element.children:
+        if found.parameters and child.tag not in found.parameters and ":" not in child.tag:
+            hint = nearest(child.tag, found.parameters, listing="its parameters are")
+            diagnostics.warn(child.where, f"{found.name} has no parameter <{child.tag}>, it is ignored; {hint}")

@@ -1,0 +1,1 @@
+"""What cameras and lidars are built on: rays, lenses, shading, point clouds."""

@@ -1,0 +1,155 @@
+"""What all cameras share: the lens, the rays of the pixels, the camera_info topic, the trigger, image messages.
+
+`camera.py`, `depth_camera.py`, `rgbd_camera.py` and `segmentation_camera.py` say which images they make of what the
+rays met. Topic and frame rules are Gazebo's: camera_info stands beside the image (`<parent of topic>/camera_info`),
+headers carry `<optical_frame_id>` when it is given, else the sensor's frame.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gz_course.sim.gz.sim.physics.builder import VISUAL_GROUP
+from gz_course.sim.gz.sim.plugins.noise import Noise
+from gz_course.sim.gz.sim.plugins.sensor import SensorBase
+from gz_course.sim.gz.sim.plugins.topics import valid_topic
+from gz_course.sim.gz.sim.rendering.pinhole import Pinhole
+from gz_course.sim.gz.sim.rendering.point_cloud import fill_cloud
+from gz_course.sim.gz.sim.rendering.ray_caster import ALL_BITS, Floats, Hits, RayCaster
+from gz_course.sim.gz.sim.sdf.description import Sensor
+from gz_course.sim.gz.sim.sdf.element import Element
+
+if TYPE_CHECKING:
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
+    from gz_course.sim.gz.transport import Node
+
+
+class CameraSensor(SensorBase):
+    """Base of the cameras; `pinhole` is the lens, `caster` the rays of its pixels."""
+
+    info_beside = True
+    """Whether camera_info stands beside the topic; otherwise below it."""
+    near_hides = True
+    """Whether what is nearer than the near plane is looked through."""
+    wanted: ClassVar[dict[str, str]] = {}
+    """Suffix of each topic this camera publishes, and the message type."""
+
+    def __init__(self, world: WorldAccess, description: Sensor) -> None:
+        super().__init__(world, description)
+        element = description.element
+        # SDF has a value for everything in it: 320 x 240 pixels, 60 degrees, 0.1 to 100 m.
+        camera = element.find("camera") or Element("camera", file=element.file, line=element.line)
+        save = camera.find("save")
+        if save is not None and save.attributes.get("enabled", "false") in ("true", "1"):
+            reason = "images are not written to disk here; subscribe, or record the topic"
+            world.diagnostics.warn(save.where, f"<save> of sensor '{description.name}' is ignored: {reason}")
+        self.camera = camera
+        self.pinhole = Pinhole(camera)
+        self.noise = Noise.from_sdf(camera.find("noise"))
+        self.optical_frame_id = camera.text_of("optical_frame_id", self.frame_id)
+        parent = self.topic.rsplit("/", 1)[0] if self.info_beside else self.topic
+        self.info_topic = valid_topic(camera.text_of("camera_info_topic"), f"{parent}/camera_info")
+        self._triggered = camera.flag("triggered", False)
+        self.trigger_topic = valid_topic(camera.text_of("trigger_topic"), f"{self.topic}/trigger")
+        self.directions = self.pinhole.directions()
+        # A renderer leaves out what is nearer than the near plane, and what is behind the far plane.
+        along = self.directions[:, 0]
+        near = self.pinhole.near / along if self.near_hides else np.zeros(len(along))
+        self._far = self.pinhole.far / along
+        self._along = along
+        mask = camera.integer("visibility_mask", ALL_BITS)
+        reach = float(self._far.max())
+        self.caster = RayCaster(world, description, self.directions, VISUAL_GROUP, near, reach, mask)
+        self.publishers: dict[str, Any] = {}
+        self._info: Any = None
+
+    def bind(self) -> None:
+        """Find the site and what this camera does not see."""
+        self.caster.bind()
+
+    def start(self) -> None:
+        """Begin the schedule, with no trigger waiting."""
+        super().start()
+        self._pending = False
+
+    def connect(self, node: Node) -> None:
+        """Advertise camera_info and the images; listen to the trigger."""
+        from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
+        from gz_course.sim.gz.msgs.camera_info_pb2 import CameraInfo
+        from gz_course.sim.gz.msgs.image_pb2 import Image
+        from gz_course.sim.gz.msgs.pointcloud_packed_pb2 import PointCloudPacked
+
+        types = {"Image": Image, "PointCloudPacked": PointCloudPacked}
+        self._types = types
+        self._info_type = CameraInfo
+        self._formats = Image.DESCRIPTOR.file.enum_types_by_name["PixelFormatType"].values_by_name
+        self._info = node.advertise(self.info_topic, CameraInfo)
+        for suffix, kind in self.wanted.items():
+            self.publishers[suffix] = node.advertise(self.topic + suffix, types[kind])
+        if self._triggered:
+            node.subscribe(Boolean, self.trigger_topic, self._on_trigger)
+
+    def _on_trigger(self, message: Any) -> None:
+        self._pending = bool(message.data)
+
+    def listened(self, suffix: str) -> bool:
+        return suffix in self.publishers and self.publishers[suffix].has_connections()
+
+    def has_connections(self) -> bool:
+        """Tell whether there is anything to do: a listener, and for a triggered camera a trigger."""
+        if self._info is None or (self._triggered and not self._pending):
+            return False
+        return self._info.has_connections() or any(each.has_connections() for each in self.publishers.values())
+
+    def update(self, now_ns: int) -> None:
+        """Publish camera_info, then the images somebody listens to."""
+        self._pending = False
+        if self._info.has_connections():
+            message = self._info_type()
+            self.fill_header(message.header, now_ns)
+            self.pinhole.fill_info(message)
+            self._info.publish(message)
+        if any(each.has_connections() for each in self.publishers.values()):
+            self.look(now_ns)
+
+    def look(self, now_ns: int) -> None:
+        raise NotImplementedError
+
+    def fill_header(self, header: Any, now_ns: int) -> None:
+        super().fill_header(header, now_ns)
+        header.data[0].value[0] = self.optical_frame_id
+
+    def cast(self, *, normals: bool = False) -> Hits:
+        """Cast the rays of all pixels; what is behind the far plane is not met."""
+        hits = self.caster.cast(normals=normals)
+        beyond = hits.distance > self._far
+        hits.distance[beyond] = -1.0
+        hits.geom[beyond] = -1
+        return hits
+
+    def depth(self, hits: Hits) -> Floats:
+        """Return the distance along the optical axis (n,) in metres: +inf where nothing was met."""
+        depth = hits.distance * self._along
+        depth[hits.geom < 0] = np.inf
+        return depth
+
+    def publish_image(self, suffix: str, pixels: NDArray[Any], pixel_format: str, now_ns: int) -> None:
+        """Publish rows x columns (x channels) of numbers; they are sent little-endian, without padding."""
+        message = self._types["Image"]()
+        self.fill_header(message.header, now_ns)
+        message.width, message.height = self.pinhole.width, self.pinhole.height
+        data = pixels.tobytes()
+        message.step = len(data) // self.pinhole.height
+        message.pixel_format_type = self._formats[pixel_format].number
+        message.data = data
+        self.publishers[suffix].publish(message)
+
+    def publish_cloud(self, suffix: str, points: NDArray[Any], now_ns: int) -> None:
+        """Publish points, one a pixel."""
+        message = self._types["PointCloudPacked"]()
+        self.fill_header(message.header, now_ns)
+        fill_cloud(message, points, self.pinhole.height, self.pinhole.width)
+        self.publishers[suffix].publish(message)

@@ -1,0 +1,39 @@
+"""Which `<visual>` or `<collision>` each MuJoCo geom was made of, for sensors that need more than its shape.
+
+MuJoCo's model knows shapes and colours; retro-reflection, visibility flags, labels and the entity a geom belongs to
+stand in the world's description. Looked up once, when a sensor binds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+import mujoco
+
+from gz_course.sim.gz.sim.physics.geoms import VISUAL_GROUP, geom_names
+from gz_course.sim.gz.sim.sdf.description import Collision, Link, Model, Visual
+
+if TYPE_CHECKING:
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
+
+
+class GeomPart(NamedTuple):
+    """MuJoCo's geom id, and the model, link and part it was made of."""
+
+    geom: int
+    model: Model
+    link: Link
+    part: Visual | Collision
+
+
+def geom_parts(world: WorldAccess, group: int) -> Iterator[GeomPart]:
+    """Yield the parts of a geom group (visuals or collisions) that have a geom, in file order."""
+    for model in world.description.models:
+        for link in model.links:
+            parts: list[Visual | Collision] = [*(link.visuals if group == VISUAL_GROUP else link.collisions)]
+            for part in parts:
+                for name in geom_names(f"{model.name}::{link.name}::{part.name}", part):
+                    geom = mujoco.mj_name2id(world.model, mujoco.mjtObj.mjOBJ_GEOM, name)
+                    if geom >= 0:
+                        yield GeomPart(geom, model, link, part)

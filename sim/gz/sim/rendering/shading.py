@@ -1,0 +1,199 @@
+"""Colours for what camera rays met: ambient light, Lambert's law for every light of the world, shadows, sky.
+
+Plain arithmetic on MuJoCo's ray hits, so that images need no GPU and no OpenGL and are the same bytes on every run.
+A surface shows its `rgba`, brightened by emission; a ray that met nothing shows the scene's background, or a sky
+when `<scene>` has one.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from gz_course.sim.gz.sim.physics.builder import SITE_GROUP, VISUAL_GROUP
+from gz_course.sim.gz.sim.rendering.geom_parts import geom_parts
+from gz_course.sim.gz.sim.rendering.ray_caster import Floats, Hits
+
+if TYPE_CHECKING:
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
+
+Colours = NDArray[np.float32]
+
+_FAR_LIGHT = 1e4
+"""Distance [m] at which a directional light is taken to stand when its shadows are cast: straight enough, and no
+digits are lost.
+"""
+_SHADOW_GAP = 2e-3
+"""A surface shadows a point only when it is at least this far [m] before it."""
+_UNKNOWN = -1
+_ZENITH = np.array((0.30, 0.52, 0.85))
+_HORIZON = np.array((0.80, 0.88, 0.95))
+_DIRECTIONAL = int(mujoco.mjtLightType.mjLIGHT_DIRECTIONAL)
+_SPOT = int(mujoco.mjtLightType.mjLIGHT_SPOT)
+
+
+class Shader:
+    """Knows the lights and surfaces of one world."""
+
+    def __init__(self, world: WorldAccess) -> None:
+        self._world = world
+        self._background = np.array(world.description.background, dtype=np.float32)
+        self._ambient = np.array(world.description.ambient, dtype=np.float32)
+        self._sky = world.description.element.find("scene/sky") is not None
+        self._groups = np.zeros(6, dtype=np.uint8)
+        self._groups[VISUAL_GROUP] = 1
+
+    def bind(self) -> None:
+        """Take the colours of all geoms; MuJoCo's model was just built."""
+        model = self._world.model
+        # One more row, for rays that met nothing (geom -1).
+        self._colour = np.zeros((model.ngeom + 1, 3), dtype=np.float32)
+        self._colour[:-1] = model.geom_rgba[:, :3]
+        self._emission = np.zeros((model.ngeom + 1, 3), dtype=np.float32)
+        self._shadowless: list[int] = []
+        for geom, _, _, part in geom_parts(self._world, VISUAL_GROUP):
+            if not part.element.flag("cast_shadows", True):
+                self._shadowless.append(geom)
+            emissive = part.element.find("material/emissive")
+            if emissive is not None and len(emissive.text.split()) in (3, 4):
+                self._emission[geom] = np.clip(emissive.floats(len(emissive.text.split()))[:3], 0.0, 1.0)
+        self._emits = bool(self._emission.any())
+
+    def colours(self, hits: Hits, width: int) -> Colours:
+        """Return the colour (n, 3), each 0..1, that each ray sees.
+
+        `hits` must hold normals; its rays come in rows of `width`.
+        """
+        assert hits.normal is not None
+        met = hits.geom >= 0
+        points = hits.rays * hits.distance[:, None]
+        points += hits.origin
+        view = _View(met, points, hits.normal, hits.geom, width)
+        model, data = self._world.model, self._world.data
+        mujoco.mj_comPos(model, data)
+        mujoco.mj_camlight(model, data)
+        light: Colours | None = None
+        for number in range(model.nlight):
+            if model.light_active[number]:
+                strength = self._from_light(number, view).astype(np.float32)
+                more = np.multiply.outer(strength, model.light_diffuse[number])
+                light = more if light is None else light + more
+        result: Colours = self._colour[hits.geom]
+        result *= self._ambient if light is None else np.add(light, self._ambient, out=light)
+        if self._emits:
+            result += self._emission[hits.geom]
+        np.minimum(result, 1.0, out=result)
+        missed = np.flatnonzero(~met)
+        result[missed] = self.background(hits.rays[missed])
+        return result
+
+    def background(self, rays: Floats) -> Colours:
+        """Return what is behind everything along rays (n, 3): one colour, or a sky, pale at the horizon, blue above."""
+        if not self._sky:
+            return np.tile(self._background, (len(rays), 1))
+        height = np.sqrt(np.clip(rays[:, 2], 0.0, 1.0))[:, None]
+        return (_HORIZON + height * (_ZENITH - _HORIZON)).astype(np.float32)
+
+    def _from_light(self, number: int, view: _View) -> Floats:
+        """Return how strongly one light shines on each point (n,); 0 where nothing was met."""
+        model, data = self._world.model, self._world.data
+        direction, kind = data.light_xdir[number], int(model.light_type[number])
+        points, normals = view.points, view.normals
+        strength: Floats
+        if kind == _DIRECTIONAL:
+            strength = -(normals @ direction)
+            source = points[len(points) // 2] - direction * _FAR_LIGHT
+        else:
+            source = data.light_xpos[number].copy()
+            way = points - source
+            distance = np.maximum(np.linalg.norm(way, axis=1), 1e-6)
+            way /= distance[:, None]
+            strength = -np.einsum("ij,ij->i", normals, way)
+            constant, linear, quadratic = model.light_attenuation[number]
+            strength /= np.maximum(constant + distance * (linear + distance * quadratic), 1e-3)
+            if kind == _SPOT:
+                edge = np.cos(np.radians(min(float(model.light_cutoff[number]), 90.0)))
+                strength *= np.clip((way @ direction - edge) / max(1.0 - edge, 1e-6) * 4.0, 0.0, 1.0)
+        strength[~view.met] = 0.0
+        np.maximum(strength, 0.0, out=strength)
+        if model.light_castshadow[number]:
+            strength[self._shadows(source, view, strength > 0.0)] = 0.0
+        return strength
+
+    def _shadows(self, source: Floats, view: _View, lit: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """Tell for each `lit` point (n,) whether it lies in the shadow of the light at `source`.
+
+        Every second pixel of every second row is looked at first. Each other pixel has four of them around it: it
+        follows those that lie on its own geom if they agree; the rest is looked at one by one.
+        """
+        width, height = view.width, len(view.geom) // view.width
+        sparse = lit.reshape(height, width)[::2, ::2]
+        points = view.points.reshape(height, width, 3)[::2, ::2]
+        state = np.full(sparse.shape, _UNKNOWN, dtype=np.int8)
+        state[sparse] = self._shadowed(source, points[sparse])
+        verdicts = _spread(state, view.geom.reshape(height, width)).ravel()
+        shadowed: NDArray[np.bool_] = verdicts == 1
+        alone = lit & (verdicts == _UNKNOWN)
+        shadowed[alone] = self._shadowed(source, view.points[alone])
+        return shadowed
+
+    def _shadowed(self, source: Floats, points: Floats) -> NDArray[np.bool_]:
+        """Tell for each point (n, 3) whether something stands between it and `source` (3,)."""
+        count = len(points)
+        if not count:
+            return np.zeros(0, dtype=np.bool_)
+        way = points - source
+        distance = np.sqrt(np.einsum("ij,ij->i", way, way))
+        way /= distance[:, None]
+        model = self._world.model
+        groups = model.geom_group[self._shadowless].copy()
+        model.geom_group[self._shadowless] = SITE_GROUP
+        met, geom = np.zeros(count), np.zeros(count, dtype=np.int32)
+        try:
+            mujoco.mj_multiRay(
+                model, self._world.data, source, way.ravel(), self._groups, True, -1, geom, met, None, count, 1e10
+            )
+        finally:
+            model.geom_group[self._shadowless] = groups
+        shadowed: NDArray[np.bool_] = (met >= 0.0) & (met < distance - _SHADOW_GAP)
+        return shadowed
+
+
+class _View(NamedTuple):
+    """What is to be lit: which rays `met` something, the `points` and `normals` there, and the `geom` met, in rows of
+    `width`.
+    """
+
+    met: NDArray[np.bool_]
+    points: Floats
+    normals: Floats
+    geom: NDArray[np.int32]
+    width: int
+
+
+def _spread(state: NDArray[np.int8], geom: NDArray[np.int32]) -> NDArray[np.int8]:
+    """Return for each pixel of `geom` (h, w) what its neighbours in `state` (every second pixel of every second row)
+    agree on, as far as they lie on the pixel's own geom; _UNKNOWN where there is none, or two disagree.
+    """
+    decided = np.full(geom.shape, _UNKNOWN, dtype=np.int8)
+    for down, right in ((0, 0), (0, 1), (1, 0), (1, 1)):
+        mine = geom[down::2, right::2]
+        verdict = np.full(mine.shape, _UNKNOWN, dtype=np.int8)
+        disagree = np.zeros(mine.shape, dtype=np.bool_)
+        for row in range(down + 1):
+            for column in range(right + 1):
+                high, wide = min(len(mine), len(state) - row), min(mine.shape[1], state.shape[1] - column)
+                if high <= 0 or wide <= 0:
+                    continue
+                around = state[row : row + high, column : column + wide]
+                theirs = geom[2 * row :: 2, 2 * column :: 2][:high, :wide]
+                here = verdict[:high, :wide]
+                same = (theirs == mine[:high, :wide]) & (around != _UNKNOWN)
+                disagree[:high, :wide] |= same & (here != _UNKNOWN) & (here != around)
+                np.copyto(here, around, where=same)
+        verdict[disagree] = _UNKNOWN
+        decided[down::2, right::2] = verdict
+    return decided

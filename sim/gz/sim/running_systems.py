@@ -1,0 +1,224 @@
+"""The systems that run in a world: chosen from the plugins, configured, bound, started, connected, and ended.
+
+`World` calls `add` for the plugins of the world and of every model, `bind` after each build of MuJoCo's model and
+`start` at time zero, and runs the collected hooks around every step. Every system has a transport node of its own, so
+that its topics and services end with its model.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from gz_course.sim.gz.sim.errors import nearest
+from gz_course.sim.gz.sim.physics.servos import JointServo
+from gz_course.sim.gz.sim.plugins.sensor import KNOWN_TYPES, SensorBase, sensor_types
+from gz_course.sim.gz.sim.plugins.sensor_system import SensorSystem
+from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, find_system, system_name, systems
+from gz_course.sim.gz.sim.sdf.description import Model, Plugin, Sensor
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.shared_topics import SharedTopics, Talker
+
+if TYPE_CHECKING:
+    from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
+    from gz_course.sim.gz.transport import Node
+
+Hook = Callable[[UpdateInfo], None]
+
+
+@dataclass(eq=False)
+class Running:
+    """A system with the model it belongs to (None: the world) and its node, once the world is attached to one."""
+
+    system: System
+    model: Model | None
+    plugin: Plugin
+    node: Node | None = None
+
+
+class RunningSystems:
+    """The systems of one world, those of the world first, then those of the models in their order."""
+
+    def __init__(self, world: WorldAccess) -> None:
+        self._world = world
+        self._running: list[Running] = []
+        self.servos: dict[str, list[JointServo]] = {}
+        """The joints that systems drive, by model."""
+        self._options_of: Node | None = None
+        self._shared_topics = SharedTopics(world.diagnostics)
+        self.pre_updates: list[Hook] = []
+        self.post_updates: list[Hook] = []
+        self.paused_updates: list[Hook] = []
+
+    def __iter__(self) -> Iterator[System]:
+        """Yield all systems in the order in which they are called."""
+        return (each.system for each in self._running)
+
+    def __len__(self) -> int:
+        return len(self._running)
+
+    def sensors(self) -> Iterator[SensorBase]:
+        """Yield the sensors of all systems."""
+        return (sensor for system in self if isinstance(system, SensorSystem) for sensor in system.sensors)
+
+    def add_world(self, plugins: Iterable[Plugin]) -> None:
+        """Make and configure the systems of the world itself."""
+        for plugin in plugins:
+            found = find_system(plugin, self._world.diagnostics)
+            if found is not None:
+                self._make(found, None, plugin)
+
+    def add(self, model: Model) -> list[Running]:
+        """Make and configure the systems of a model; return them.
+
+        Raises `SdfError` for parameters they cannot work with; no system of the model is left then.
+        """
+        before = list(self._running)
+        taken = self.servos[model.name] = []
+        diagnostics = self._world.diagnostics
+        try:
+            for plugin in model.plugins:
+                found = find_system(plugin, diagnostics)
+                if found is None:
+                    continue
+                driven = found.servos(model, plugin)
+                if driven and model.static:
+                    text = f"model '{model.name}' is static, so its system {found.name} cannot move it"
+                    diagnostics.warn(plugin.element.where, text)
+                    continue
+                for servo in driven:
+                    if all(servo.actuator != other.actuator for other in taken):
+                        taken.append(servo)
+                self._make(found, model, plugin)
+        except Exception:
+            self._running = before
+            del self.servos[model.name]
+            raise
+        return [each for each in self._running if each not in before]
+
+    def _make(self, found: type[System], model: Model | None, plugin: Plugin) -> None:
+        first = next((each for each in self._running if type(each.system) is found), None)
+        if found.once and first is not None:
+            text = f"{found.name} runs already (see {first.plugin.element.where}) and serves the whole world, "
+            self._world.diagnostics.warn(plugin.element.where, f"{text}this second one is ignored; remove it")
+            return
+        made = found()
+        made.configure(self._world, model, plugin)
+        self._running.append(Running(made, model, plugin))
+
+    def bind(self) -> None:
+        """Let all systems look up their indices in MuJoCo's model, and collect their hooks in order."""
+        order = {id(model): number for number, model in enumerate(self._world.description.models)}
+        self._running.sort(key=lambda each: -1 if each.model is None else order.get(id(each.model), len(order)))
+        for each in self._running:
+            each.system.bind()
+        self.pre_updates = self._hooks("pre_update")
+        self.post_updates = self._hooks("post_update")
+        self.paused_updates = self._hooks("paused_update")
+
+    def _hooks(self, hook: str) -> list[Hook]:
+        return [getattr(each, hook) for each in self if getattr(type(each), hook) is not getattr(System, hook)]
+
+    def start(self, only: Iterable[Running] | None = None) -> None:
+        """Start all systems, or only these, from the present state."""
+        for each in self._running if only is None else only:
+            each.system.start()
+
+    def connect(self, node: Node) -> None:
+        """Give every system, also those added later, a node with the options of `node`."""
+        self._options_of = node
+        self.connect_new()
+
+    def connect_new(self) -> None:
+        """Connect the systems that have no node yet, if the world is attached to one."""
+        if self._options_of is None:
+            return
+        for each in self._running:
+            if each.node is None:
+                each.node = type(self._options_of)(self._options_of.options)
+                each.system.connect(each.node)
+        self._shared_topics.check(self._talkers())
+
+    def _talkers(self) -> Iterator[Talker]:
+        """Yield all systems and sensors that have a node, in the order in which they came."""
+        for each in self._running:
+            system, name = each.system, each.model.name if each.model is not None else ""
+            if isinstance(system, SensorSystem):
+                for sensor, node in system.connected():
+                    made = sensor.description
+                    shown = f"sensor '{made.name}' of model '{made.model}'"
+                    yield Talker(system.name, shown, made.model, made.element, node, system.joins_topics)
+            elif each.node is not None:
+                shown = f"{system.name} of model '{name}'" if name else system.name
+                joins = system.joins_topics or not name
+                yield Talker(system.name, shown, name, each.plugin.element, each.node, joins)
+
+    def remove(self, model: Model) -> None:
+        """End the systems of a model and their topics and services."""
+        gone = [each for each in self._running if each.model is model]
+        self._running = [each for each in self._running if each.model is not model]
+        self.servos.pop(model.name, None)
+        for each in gone:
+            self._end(each)
+
+    def close(self) -> None:
+        """Close the nodes of all systems; the systems stay."""
+        for each in self._running:
+            self._end(each)
+            each.node = None
+
+    @staticmethod
+    def _end(running: Running) -> None:
+        running.system.close()
+        if running.node is not None:
+            running.node.close()
+
+    def check_world(self) -> None:
+        """Warn of a world that loads plugins but not Physics."""
+        description = self._world.description
+        wanted = {system_name(plugin) for plugin in description.plugins}
+        if wanted and "Physics" not in wanted:
+            self._world.diagnostics.warn(
+                description.element.where,
+                f"world '{description.name}' loads plugins but not Physics, so in Gazebo nothing would move; "
+                "physics runs here, add <plugin filename='gz-sim-physics-system' name='gz::sim::systems::Physics'/>",
+            )
+
+    def check_sensors(self, model: Model) -> None:
+        """Warn of each sensor of a model that no system runs."""
+        running = {each.name for each in self}
+        for sensor in model.sensors():
+            text = _why_silent(sensor, running)
+            if text:
+                self._world.diagnostics.warn(sensor.element.where, text)
+
+
+def _why_silent(sensor: Sensor, running: set[str]) -> str:
+    types, kind = sensor_types(), sensor.kind
+    if kind in types:
+        system = types[kind].runs_in
+        if system in running:
+            return ""
+        return (
+            f"sensor '{sensor.name}' stays silent because the world does not load the {system} system; add "
+            f"<plugin filename='{systems()[system].filename}' name='gz::sim::systems::{system}'/> to <world>"
+        )
+    if kind in KNOWN_TYPES:
+        return f"sensor type '{kind}' is not simulated here, sensor '{sensor.name}' stays silent"
+    hint = nearest(kind, types, listing="types that run here are")
+    return f"sensor '{sensor.name}' has type '{kind}', which is not known; {hint}"
+
+
+def default_plugins(world: Element) -> list[Plugin]:
+    """Return what Gazebo runs in a world that names no plugin: Physics, UserCommands and SceneBroadcaster."""
+    made: list[Plugin] = []
+    for name, filename in (
+        ("Physics", "gz-sim-physics-system"),
+        ("UserCommands", "gz-sim-user-commands-system"),
+        ("SceneBroadcaster", "gz-sim-scene-broadcaster-system"),
+    ):
+        attributes = {"name": f"gz::sim::systems::{name}", "filename": filename}
+        element = Element("plugin", dict(attributes), file=world.file, line=world.line)
+        made.append(Plugin(attributes["name"], filename, element))
+    return made

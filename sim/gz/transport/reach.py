@@ -1,0 +1,19 @@
+"""The way out of this process that a scope allows: the network, joined when it is first needed, or none."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from gz_course.sim.gz.transport.options import Scope
+
+if TYPE_CHECKING:
+    from gz_course.sim.gz.transport.network import Network
+
+
+def network_for(scope: Scope) -> Network | None:
+    """Return the network of this process; None for `Scope.PROCESS`, which opens no socket."""
+    if scope == Scope.PROCESS:
+        return None
+    from gz_course.sim.gz.transport import network
+
+    return network.joined()
