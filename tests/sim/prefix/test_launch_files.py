@@ -150,11 +150,13 @@ def test_a_model_with_its_bridge(start, tmp_path):
         "- topic_name: /clock\n  ros_type_name: rosgraph_msgs/msg/Clock\n  gz_type_name: gz.msgs.Clock\n"
         "  direction: GZ_TO_ROS\n"
     )
-    start("ros_gz_sim", "gz_server.launch.py", "world_sdf_file:=empty.sdf")
+    server = start("ros_gz_sim", "gz_server.launch.py", "world_sdf_file:=empty.sdf", "verbosity_level:=3")
+    lines_until(server, "world 'empty' is loaded")
     arguments = ["bridge_name:=my_bridge", "config_file:=bridge.yaml", "file:=model://crate"]
     process = start("ros_gz_sim", "ros_gz_spawn_model.launch.py", *arguments)
     waiting = {"ready: 1 bridge", "Entity creation successful in world 'empty'"}
     for line in process.stdout:
+        assert "process has died" not in line
         waiting = {words for words in waiting if words not in line}
         if not waiting:
             break
