@@ -11,7 +11,7 @@ import pytest
 
 from gz_course.grader.doctor.checkup import questions
 
-DEADLINE = 60.0
+DEADLINE = 120.0
 
 
 @pytest.fixture

@@ -18,7 +18,7 @@ from gz_course.sim.ros_gz_bridge.config import ConfigError, parse_yaml, read_yam
 from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction, ServiceEntry
 
 TYPES = ("std_srvs/srv/SetBool", "gz.msgs.Boolean", "gz.msgs.StringMsg")
-DEADLINE = 20.0
+DEADLINE = 120.0
 
 
 @pytest.fixture(autouse=True)

@@ -55,7 +55,7 @@ def test_large_pictures_reach_a_best_effort_subscriber(start, ros, inbox, eventu
             eventually(lambda: (number.publish(GzInt32(data=1)), numbers.messages)[1], "a small message arrives")
             eventually(lambda: subscriptions[0].get_publisher_count() == 1, "the bridge publishes pictures")
             publisher = gz.advertise("/hd", GzImage)
-            assert publisher.wait_for_subscribers(timeout=20)
+            assert publisher.wait_for_subscribers(timeout=120)
             # The other half of the connection announces itself by nothing: the first picture may be too early.
             eventually(lambda: (publisher.publish(picture), pictures.messages)[1], "the first picture", timeout=5)
             for count in range(len(pictures.messages), len(pictures.messages) + PICTURES):
