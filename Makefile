@@ -3,6 +3,11 @@ PYTHON ?= python3
 BIN := .venv/bin
 PIP := $(BIN)/pip --disable-pip-version-check --quiet install --constraint constraints.txt
 
+# Tests side by side: domains, partitions and folders are reserved by each worker.
+# `exec`, so that whatever ends make ends the test run: the shell between them would not pass a signal on.
+WORKERS ?= 3
+PARALLEL := --numprocesses $(WORKERS) --dist worksteal
+
 .PHONY: setup demo test verify bench book fuzz lint clean
 setup: .venv/with-course
 
@@ -25,11 +30,11 @@ demo: setup
 	@echo "Look at one:    $(BIN)/course show runs/demo/03_teleop.rrd"
 
 test: .venv/with-tools
-	$(BIN)/pytest -q -m "not proof"
+	exec $(BIN)/pytest -q -m "not proof" $(PYTEST_OPTIONS) $(PARALLEL)
 
 verify: .venv/with-tools
 	$(BIN)/course verify
-	$(BIN)/pytest -q -m proof
+	exec $(BIN)/pytest -q -m proof $(PYTEST_OPTIONS) $(PARALLEL)
 
 bench: .venv/with-tools
 	$(BIN)/python -m gz_course.tests.bench
@@ -39,7 +44,7 @@ book: .venv/with-tools
 
 fuzz: .venv/with-tools
 	$(BIN)/python -m gz_course.tests.fuzz.load_worlds
-	$(BIN)/pytest -q -m "not proof" --hypothesis-profile=new_examples
+	exec $(BIN)/pytest -q -m "not proof" --hypothesis-profile=new_examples $(PARALLEL)
 
 lint: .venv/with-tools
 	$(BIN)/ruff check .

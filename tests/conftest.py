@@ -4,11 +4,18 @@ import signal
 
 from hypothesis import settings
 
+from gz_course.tests.process_guard import watch_over_this_process
+
 # A shell's `&` has SIGINT ignored, and `nohup` SIGHUP: here, and in every process the tests start.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 # Whoever turns a test red has changed something: the examples are the same each time. `make fuzz` looks for new ones.
-settings.register_profile("new_examples", settings.default)
-settings.register_profile("repeatable", derandomize=True)
+# No deadline: how long an example takes is a matter of what else the machine does.
+settings.register_profile("new_examples", settings.default, deadline=None)
+settings.register_profile("repeatable", derandomize=True, deadline=None)
 settings.load_profile("repeatable")
+
+
+def pytest_configure():
+    watch_over_this_process()

@@ -6,6 +6,8 @@ sockets of the Unix family; the network's sockets and their wake-up descriptors 
 
 import os
 import socket
+import threading
+import time
 
 
 def own_descriptors() -> dict[int, str]:
@@ -24,3 +26,11 @@ def own_descriptors() -> dict[int, str]:
         if what != "anon_inode:[eventfd]":
             found[int(name)] = what
     return found
+
+
+def left_open(before: dict[int, str], deadline: float = 20.0) -> dict[int, str]:
+    """Return what has been opened since `before` and stays open: another thread may be reading a file just now."""
+    end, pause = time.monotonic() + deadline, threading.Event()
+    while (left := dict(own_descriptors().items() - before.items())) and time.monotonic() < end:
+        pause.wait(0.05)
+    return left

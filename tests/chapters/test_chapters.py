@@ -227,14 +227,14 @@ def printed(cell):
 
 
 @pytest.mark.proof
-@pytest.mark.timeout(200)
+@pytest.mark.timeout(2400)
 @each_notebook
 def test_runs_from_first_to_last_cell_and_leaves_nothing_running(path, tmp_path, descendants):
     execute(path, tmp_path, descendants, times=1)
 
 
 @pytest.mark.proof
-@pytest.mark.timeout(400)
+@pytest.mark.timeout(2400)
 @each_notebook
 def test_every_cell_may_be_run_again_at_once(path, tmp_path, descendants):
     execute(path, tmp_path, descendants, times=2)

@@ -22,7 +22,7 @@ def libsdformat(source, folder):
         pytest.skip("conformance with libsdformat was NOT tested: install libsdformat-dev (Debian 12)")
     program = folder / Path(source).stem
     command = ["g++", Path(__file__).with_name(source), "-o", program, *flags.stdout.split()]
-    subprocess.run(command, check=True, timeout=120)
+    subprocess.run(command, check=True, timeout=600)
     process = subprocess.Popen([program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
     def read(path: Path) -> dict:
@@ -31,4 +31,4 @@ def libsdformat(source, folder):
         return json.loads(process.stdout.readline())
 
     yield read
-    process.communicate(timeout=20)
+    process.communicate(timeout=600)

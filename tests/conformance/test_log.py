@@ -27,12 +27,12 @@ def flags() -> list[str]:
 def test_the_library_of_gazebo_reads_our_log(tmp_path: Path) -> None:
     program, log = tmp_path / "log_reader", tmp_path / FILE_NAME
     source = Path(__file__).with_name("log_reader.cc")
-    subprocess.run(["g++", "-std=c++17", "-O0", source, "-o", program, *flags()], check=True, timeout=120)
+    subprocess.run(["g++", "-std=c++17", "-O0", source, "-o", program, *flags()], check=True, timeout=600)
     writer = LogWriter(log)
     for number in range(3):
         writer.write(Entry(f"/topic_{number % 2}", "gz.msgs.StringMsg", number * 1000, f"data{number}".encode()))
     writer.close()
-    read = subprocess.run([program, log], check=True, capture_output=True, text=True, timeout=30)
+    read = subprocess.run([program, log], check=True, capture_output=True, text=True, timeout=600)
     assert read.stdout.splitlines() == [
         "0.1.0 0 2000",
         "0 /topic_0 gz.msgs.StringMsg data0",

@@ -63,4 +63,4 @@ def test_a_real_one_way_call_arrives(stage):
     participant.ask("serve one-way", "/tell", STRING, "ignition.msgs.Empty")
     call = ("--reqtype", STRING, "--reptype", "ignition.msgs.Empty", "--timeout", "1000")
     assert stage.real_service("-s", "/tell", *call, "-r", 'data: "this"').wait() == 0
-    assert participant.heard.get(timeout=20) == ["", "", "this"]
+    assert participant.heard.get(timeout=600) == ["", "", "this"]

@@ -24,6 +24,7 @@ NEWER = {
     )
 }
 """Types that came after the release of the real client."""
+BOTH_KNOW = [name for name in OURS if name not in NEWER]
 AT_ONCE = 12
 
 
@@ -59,14 +60,16 @@ def kind(field):
     return field.label, what, field.HasField("oneof_index")
 
 
-@pytest.mark.parametrize("name", [name for name in OURS if name not in NEWER])
-def test_fields_have_the_numbers_and_types_of_the_real_client(information, name):
+def test_fields_have_the_numbers_and_types_of_the_real_client(information):
     """Whatever the real one has, ours has under the same name, with the same number and type."""
-    own, real = (
-        numbers(read_proto(text.split("\n\n", 1)[1], name).message_type[0])
-        for text in (describe(message_class(name)), information[name])
-    )
-    assert {entry: what for entry, what in real.items() if own.get(entry) != what} == {}
+    different = []
+    for name in BOTH_KNOW:
+        own, real = (
+            numbers(read_proto(text.split("\n\n", 1)[1], name).message_type[0])
+            for text in (describe(message_class(name)), information[name])
+        )
+        different += [f"{name}: {entry} {what}" for entry, what in real.items() if own.get(entry) != what]
+    assert not different, "\n".join(different)
 
 
 def newer_lines(own, real):
@@ -74,14 +77,15 @@ def newer_lines(own, real):
     return set(own.splitlines()) - set(real.splitlines()), set(real.splitlines()) - set(own.splitlines())
 
 
-@pytest.mark.parametrize("name", [name for name in OURS if name not in NEWER])
-def test_the_definition_is_that_of_the_real_client(information, name):
-    own = describe(message_class(name)).replace("gz.msgs", "ignition.msgs").replace("gz/msgs", "ignition/msgs")
-    if own != information[name]:
-        # One of the two has fields that the other lacks; what both have must still be written alike.
+def test_the_definition_is_that_of_the_real_client(information):
+    different = []
+    for name in BOTH_KNOW:
+        own = describe(message_class(name)).replace("gz.msgs", "ignition.msgs").replace("gz/msgs", "ignition/msgs")
+        # Where one of the two has fields that the other lacks, what both have must still be written alike.
         ours, real = newer_lines(own, information[name])
         own_fields = {line.split(" = ")[0] for line in ours}
-        assert not own_fields & {line.split(" = ")[0] for line in real}
+        different += [f"{name}: {field}" for field in own_fields & {line.split(" = ")[0] for line in real}]
+    assert not different, "\n".join(different)
 
 
 @pytest.fixture(scope="module")
@@ -103,7 +107,7 @@ def echoes(shared_stage):
     return echo
 
 
-@pytest.mark.parametrize("name", [name for name in OURS if name not in NEWER])
+@pytest.mark.parametrize("name", BOTH_KNOW)
 @settings(max_examples=8, deadline=None, phases=[Phase.explicit, Phase.generate, Phase.shrink])
 @given(data=strategies.data())
 def test_the_real_echo_prints_what_we_print(vocabulary, echoes, name, data):

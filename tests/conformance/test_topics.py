@@ -60,7 +60,7 @@ def test_our_publish_reaches_every_real_echo_the_first_time(stage):
 
 def test_our_echo_shows_what_the_real_client_publishes(stage):
     echo = stage.gz("topic", "-e", "-t", "/chat", "-n", "1")
-    deadline = time.monotonic() + 20
+    deadline = time.monotonic() + 120
     while not echo.out and time.monotonic() < deadline:  # the real one loses some of its messages
         assert stage.real_topic("-t", "/chat", "-m", STRING, "-p", HI).wait() == 0
     assert echo.wait() == 0
@@ -70,7 +70,7 @@ def test_our_echo_shows_what_the_real_client_publishes(stage):
 def test_our_typed_subscription_hears_the_real_client(stage):
     participant = stage.participant()
     participant.ask("subscribe", "/chat", "gz.msgs.StringMsg")
-    deadline = time.monotonic() + 20
+    deadline = time.monotonic() + 120
     while participant.heard.empty() and time.monotonic() < deadline:
         assert stage.real_topic("-t", "/chat", "-m", STRING, "-p", HI).wait() == 0
     name, _, data = participant.heard.get(timeout=1)
@@ -86,7 +86,7 @@ def test_we_list_a_real_publisher_while_it_is_there(stage):
         found = participant.ask("publishers", "/real")
     assert [kind for _, kind in found] == [STRING]
     assert real.wait() == 0
-    deadline = time.monotonic() + 20
+    deadline = time.monotonic() + 120
     while participant.ask("topics") and time.monotonic() < deadline:
         pass
     assert participant.ask("topics") == []

@@ -16,7 +16,7 @@ BLOCK = re.compile(
 )
 DEADLINE = 300  # [s] for one block of commands
 
-pytestmark = [pytest.mark.proof, pytest.mark.timeout(900)]
+pytestmark = [pytest.mark.proof, pytest.mark.timeout(2400)]
 
 
 def steps():

@@ -81,7 +81,7 @@ def environment(folder, **more):
     return kept | {"TMPDIR": str(folder / "tmp"), "COURSE_ROOT": str(ROOT), "COLUMNS": "100"} | more
 
 
-def run_course(folder, *arguments, prelude="", timeout=150, **variables):
+def run_course(folder, *arguments, prelude="", timeout=600, **variables):
     """Run `course ARGUMENTS` in `folder`; `prelude` is Python that runs before the command."""
     command = [*COURSE[:-1], f"{prelude}\n{COURSE[-1]}"]
     done = subprocess.run(

@@ -11,7 +11,7 @@ import time
 import pytest
 
 SOLUTION = "solutions/03_teleop/teleop_node.py"
-DEADLINE = 30.0
+DEADLINE = 120.0
 
 
 def with_files(folder, root, out="out", report="report.json"):

@@ -1,25 +1,28 @@
 """Golden submissions: each folder in `cases/` is graded by a real `course grade`, and must come out as it says.
 
 A case is one file to submit and `expected.toml`: `outcome`, `exit` code, `points` and ids of the `fails` (both may be
-left out), the `words` its diagnosis must hold; `duration` [s] shortens the exercise. After each, nothing may be left.
+left out), the `words` its diagnosis must hold; `duration` [s] shortens the exercise;
+`proof = true` where `make verify` runs the case and `make test` one that is like it. After each, nothing may be left.
 """
 
 import os
 import shutil
 import tomllib
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 
 CASES = Path(__file__).parent / "cases"
 CASE_NAMES = sorted(path.parent.name for path in CASES.glob("*/expected.toml"))
-SLOW = {name for name in CASE_NAMES if "slow = true" in (CASES / name / "expected.toml").read_text()}
 TEXTBOOK = Path(__file__).parents[3] / "shared" / "seeds" / "code"
 
 
 def expected(name):
     return tomllib.loads((CASES / name / "expected.toml").read_text())
+
+
+def case_param(name):
+    return pytest.param(name, marks=pytest.mark.proof if expected(name).get("proof") else ())
 
 
 def shorter_course(root, folder, exercise, duration):
@@ -33,31 +36,12 @@ def shorter_course(root, folder, exercise, duration):
     return folder
 
 
-@pytest.fixture(scope="module")
-def outcomes(request, tmp_path_factory, grading, root):
-    """Futures of all selected cases, two at a time: gradings side by side must not disturb each other."""
-    selected = [i.callspec.params["case"] for i in request.session.items if "case" in getattr(i, "fixturenames", ())]
-    pool = ThreadPoolExecutor(2)
-
-    def one(name):
-        folder = tmp_path_factory.mktemp(name)
-        want = expected(name)
-        options = {}
-        if "duration" in want:
-            options["COURSE_ROOT"] = str(shorter_course(root, folder / "course", want["exercise"], want["duration"]))
-        return grading(folder, want["exercise"], CASES / name / want["file"], timeout=60, **options)
-
-    # The longest first, so that the last one does not run alone.
-    yield {name: pool.submit(one, name) for name in sorted(selected, key=lambda name: name not in SLOW)}
-    pool.shutdown(cancel_futures=True)
-
-
-@pytest.mark.parametrize(
-    "case", [pytest.param(name, marks=pytest.mark.slow if name in SLOW else ()) for name in CASE_NAMES]
-)
-def test_a_submission_comes_out_as_its_case_says(case, outcomes, clean):
-    outcome, want = outcomes[case].result(), expected(case)
-    clean(outcome)
+@pytest.mark.parametrize("case", [case_param(name) for name in CASE_NAMES])
+def test_a_submission_comes_out_as_its_case_says(case, tmp_path, grade, root):
+    want, options = expected(case), {}
+    if "duration" in want:
+        options["COURSE_ROOT"] = str(shorter_course(root, tmp_path / "course", want["exercise"], want["duration"]))
+    outcome = grade(want["exercise"], CASES / case / want["file"], **options)
     assert outcome.code == want["exit"], outcome.output
     report = outcome.report
     assert report is not None, outcome.output

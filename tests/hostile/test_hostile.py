@@ -61,6 +61,7 @@ def test_an_attack_comes_to_nothing(case, worker, solution):
     assert (honest["network"], honest["mounts"]) == (told["network"], told["mounts"])
 
 
+@pytest.mark.proof
 def test_the_truth_is_the_same_at_every_level(workers, solution):
     """The same submission moves the robot in the same way, however it is locked in."""
     levels = ["A", "B", "C", "D"]

@@ -12,7 +12,7 @@ import pytest
 from gz_course.grader.process.temporary_folder import sweep
 from gz_course.grader.run.sandbox.probe import try_level
 
-DEADLINE = 30.0
+DEADLINE = 120.0
 # Leaves the process group, hears no signal, does not die with its parent.
 STUBBORN = """
 import ctypes, os, signal, time

@@ -71,6 +71,6 @@ def test_a_fault_names_its_line(text, line, words):
 
 def test_aliases_that_multiply_do_no_harm():
     lines = ["- &a0 {ros_topic: /a}"] + [f"- &a{i} [{', '.join([f'*a{i - 1}'] * 9)}]" for i in range(1, 40)]
-    started = time.monotonic()
+    started = time.thread_time()
     assert "expected a row" in fault("topics.yaml", "\n".join(lines).encode())
-    assert time.monotonic() - started < 2.0
+    assert time.thread_time() - started < 2.0

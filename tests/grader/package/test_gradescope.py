@@ -47,7 +47,7 @@ def autograder(archive, tmp_path, root):
             "PYTHONPATH": str(course / "public"),  # as if this had been installed, not the checkout
         }
         done = subprocess.run(
-            [tmp_path / "run_autograder"], cwd=tmp_path, env=environment | variables, capture_output=True, timeout=120
+            [tmp_path / "run_autograder"], cwd=tmp_path, env=environment | variables, capture_output=True, timeout=600
         )
         assert done.returncode == 0, done.stderr
         return json.loads((tmp_path / "results/results.json").read_text())

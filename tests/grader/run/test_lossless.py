@@ -155,6 +155,7 @@ def course_folder(tmp_path):
     return tmp_path / "course"
 
 
+@pytest.mark.proof
 def test_nothing_large_is_lost_however_little_the_sockets_hold(course_folder, grading, clean, tmp_path):
     profiles = tmp_path / "profiles"
     shutil.copytree(environment.PROFILES, profiles)

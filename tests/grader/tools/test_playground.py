@@ -17,7 +17,7 @@ from gz_course.grader.errors import UsageError
 from gz_course.grader.tools import playground
 from gz_course.grader.tools.playground import Playground
 
-DEADLINE = 20.0
+DEADLINE = 120.0
 FENCE = ("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE", "GZ_PARTITION", "ROS_LOG_DIR")
 
 

@@ -49,7 +49,7 @@ def reports(root, tmp_path):
         program.write_text(GRADINGS)
         files = [str(root / file) for file in FILES]
         command = [sys.executable, str(program), str(root), str(out), str(count), str(trials), *files]
-        done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+        done = subprocess.run(command, capture_output=True, text=True, timeout=600)
         assert done.returncode == 0, done.stderr
         return json.loads(done.stdout)
 
@@ -99,7 +99,7 @@ def test_an_interrupted_verification_leaves_nothing(verifying, number, code):
         os.killpg(verifying.pid, number)  # as a terminal does
     else:
         verifying.send_signal(number)
-    _, errors = verifying.communicate(timeout=30)
+    _, errors = verifying.communicate(timeout=120)
     assert verifying.returncode == code
     assert "Traceback" not in errors, errors
 
@@ -107,7 +107,7 @@ def test_an_interrupted_verification_leaves_nothing(verifying, number, code):
 def test_a_worker_that_is_killed_is_our_fault(verifying):
     workers = [p for p in psutil.Process(verifying.pid).children() if "spawn_main" in " ".join(p.cmdline())]
     workers[0].kill()
-    _, errors = verifying.communicate(timeout=60)
+    _, errors = verifying.communicate(timeout=600)
     assert verifying.returncode == 3
     assert "was killed" in errors and "Traceback" not in errors
 

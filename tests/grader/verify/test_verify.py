@@ -140,7 +140,7 @@ def test_an_unknown_table_in_the_expectations(copy):
 
 
 def run(copy, course, *arguments):
-    return course("verify", "--no-mutants", *arguments, COURSE_ROOT=str(copy.folder), timeout=150)
+    return course("verify", "--no-mutants", *arguments, COURSE_ROOT=str(copy.folder), timeout=600)
 
 
 def test_a_private_half_without_its_public_one_is_found(copy, course):

@@ -67,13 +67,13 @@ def rows_of(path):
 
 
 def finished(process):
-    told, errors = process.communicate(timeout=120)
+    told, errors = process.communicate(timeout=600)
     return process.returncode, told, errors
 
 
 def gone(folder, running_in):
     """Wait until nothing that worked in a folder runs any more."""
-    _, alive = psutil.wait_procs(running_in(folder / "tmp"), timeout=30)
+    _, alive = psutil.wait_procs(running_in(folder / "tmp"), timeout=120)
     return not alive
 
 
@@ -88,7 +88,7 @@ def reference(tmp_path_factory, short_course, submissions, course_environment):
         env=course_environment(folder, COURSE_ROOT=str(short_course)),
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=600,
     )
     assert done.returncode == 0, done.stderr
     return folder, done

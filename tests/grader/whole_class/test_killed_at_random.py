@@ -17,7 +17,7 @@ import zipfile
 import psutil
 import pytest
 
-pytestmark = [pytest.mark.proof, pytest.mark.slow, pytest.mark.timeout(600)]
+pytestmark = [pytest.mark.proof, pytest.mark.timeout(2400)]
 
 FILE = "teleop_node.py"
 COMMAND = [sys.executable, "-c", "from gz_course.grader.course import main; main()", "grade-all", "03_teleop"]
@@ -140,5 +140,5 @@ def test_the_same_bytes_come_out(kill, begin, undisturbed, tmp_path, running_in)
     print(f"\n{seconds:.1f} s undisturbed; killed {kills} times, after {done} of 12")
     for got, wanted in zip(came_out(tmp_path), expected, strict=True):
         assert got == wanted
-    assert psutil.wait_procs(running_in(tmp_path / "tmp"), timeout=30)[1] == []
+    assert psutil.wait_procs(running_in(tmp_path / "tmp"), timeout=120)[1] == []
     assert list((tmp_path / "tmp").iterdir()) == []

@@ -119,6 +119,6 @@ def test_versions_names_the_engines(capsys):
 
 def test_the_installed_command_answers():
     done = subprocess.run(
-        [sys.executable, "-m", "gz_course.sim.gz.command"], capture_output=True, text=True, timeout=60
+        [sys.executable, "-m", "gz_course.sim.gz.command"], capture_output=True, text=True, timeout=600
     )
     assert done.returncode == 0

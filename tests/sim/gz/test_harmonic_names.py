@@ -35,7 +35,7 @@ def run(code, *path):
     environment = {**os.environ, "PYTHONPATH": ""}
     program = f"import sys; sys.path += {list(map(str, path))!r}\n{code}"
     return subprocess.run(
-        [sys.executable, "-W", "error", "-c", program], capture_output=True, text=True, timeout=60, env=environment
+        [sys.executable, "-W", "error", "-c", program], capture_output=True, text=True, timeout=600, env=environment
     )
 
 

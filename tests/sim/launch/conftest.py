@@ -8,7 +8,7 @@ import gz_course.sim.launch.logging as launch_logging
 from gz_course.sim import launch
 from gz_course.sim.launch import LaunchDescription, LaunchService
 
-DEADLINE = 30.0
+DEADLINE = 120.0
 
 
 @pytest.fixture(autouse=True)

@@ -369,7 +369,7 @@ def test_signals_that_the_parent_ignores_or_blocks_are_heard_by_children(capfd):
     try:
         thread = threading.Thread(target=service.run)
         thread.start()
-        thread.join(30)
+        thread.join(120)
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before[1])
         signal.signal(signal.SIGTERM, before[0])

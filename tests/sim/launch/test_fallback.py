@@ -21,7 +21,7 @@ def python(*options, code, **environment):
         env={**os.environ, **environment},
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=600,
         check=False,
     )
     return done.stdout.strip(), done.stderr.strip().rpartition("\n")[2]

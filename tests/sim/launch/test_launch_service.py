@@ -126,7 +126,7 @@ def test_it_runs_in_any_thread(capsys):
     service = started(ExecuteProcess(cmd=["sh", "-c", "exit 3"]), note("a"))
     thread = threading.Thread(target=lambda: codes.append(service.run()))
     thread.start()
-    thread.join(30)
+    thread.join(120)
     assert codes == [0]
     assert "exit code 3" in capsys.readouterr().out
 

@@ -74,7 +74,7 @@ def test_a_reader_that_has_gone_is_no_error(tmp_path):
         env={**os.environ, "ROS_LOG_DIR": str(tmp_path)},
         capture_output=True,
         text=True,
-        timeout=30,
+        timeout=120,
         check=True,
     )
     assert (done.stdout, done.stderr) == ("[INFO] [launch]: x\n", "")

@@ -64,7 +64,7 @@ def test_signals_end_it_whatever_it_does(tmp_path, entities, number, code):
                 if line.rstrip().endswith("up"):
                     break
             process.send_signal(number)
-            rest, _ = process.communicate(timeout=30)  # until the last process that holds its output has gone
+            rest, _ = process.communicate(timeout=120)  # until the last process that holds its output has gone
         finally:
             left = living_with("ROS_LOG_DIR", str(tmp_path))
             for each in left:

@@ -9,7 +9,7 @@ import gz_course.sim.launch.logging as launch_logging
 from gz_course.sim.launch import LaunchDescription, LaunchService
 from gz_course.tests.sim.launch.conftest import performed  # noqa: F401
 
-DEADLINE = 30.0
+DEADLINE = 120.0
 # Writes its words, and what is in its parameter files, as one line of JSON.
 TELL = f"""\
 #!{sys.executable} -S

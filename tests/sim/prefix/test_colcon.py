@@ -93,7 +93,7 @@ def test_what_colcon_has_built_is_found_and_runs(workspace, options, shell):
         env=environment,
         capture_output=True,
         text=True,
-        timeout=90,
+        timeout=600,
         check=False,
     )
     assert built.returncode == 0, built.stdout + built.stderr
@@ -103,7 +103,7 @@ def test_what_colcon_has_built_is_found_and_runs(workspace, options, shell):
         env=environment,
         capture_output=True,
         text=True,
-        timeout=90,
+        timeout=600,
         check=False,
     )
     assert (looked.returncode, looked.stderr) == (0, ""), looked.stdout

@@ -62,7 +62,7 @@ def start(tmp_path):
     yield start
     for process in running:
         process.send_signal(signal.SIGINT)
-        process.communicate(timeout=30)
+        process.communicate(timeout=120)
 
 
 def lines_until(process, words):
@@ -95,7 +95,7 @@ def test_gazebo_gets_its_words_as_a_shell_reads_them(start, tmp_path):
     said = lines_until(process, "is paused")
     assert "[gazebo-1] [Msg] world 'small' is loaded" in said
     process.send_signal(signal.SIGINT)
-    rest, _ = process.communicate(timeout=30)
+    rest, _ = process.communicate(timeout=120)
     assert process.returncode == 0
     assert "[INFO] [gazebo-1]: process has finished cleanly" in rest
 
@@ -103,7 +103,7 @@ def test_gazebo_gets_its_words_as_a_shell_reads_them(start, tmp_path):
 @pytest.mark.parametrize(("value", "ends"), [("true", True), ("false", False)])
 def test_the_end_of_gazebo_may_end_the_launch(start, tmp_path, value, ends):
     arguments = ["gz_args:=-r -s empty.sdf --iterations 1", f"on_exit_shutdown:={value}"]
-    output, _ = start("ros_gz_sim", "gz_sim.launch.py", *arguments).communicate(timeout=30)
+    output, _ = start("ros_gz_sim", "gz_sim.launch.py", *arguments).communicate(timeout=120)
     assert ("process[gazebo-1] was required: shutting down launched system" in output) is ends
 
 
@@ -138,9 +138,9 @@ def test_a_server_from_a_text_and_a_model_spawned_into_it(start):
     lines_until(server, "world 'small' is loaded")
     model = "<sdf version='1.9'><model name='m'><static>true</static><link name='l'/></model></sdf>"
     arguments = ["world:=small", f"model_string:={model}", "entity_name:=here", "x:=1.5", "Y:=1.5"]
-    output, _ = start("ros_gz_sim", "gz_spawn_model.launch.py", *arguments).communicate(timeout=30)
+    output, _ = start("ros_gz_sim", "gz_spawn_model.launch.py", *arguments).communicate(timeout=120)
     assert "Entity creation successful in world 'small'" in output
-    output, _ = start("ros_gz_sim", "gz_spawn_model.launch.py", *arguments).communicate(timeout=30)
+    output, _ = start("ros_gz_sim", "gz_spawn_model.launch.py", *arguments).communicate(timeout=120)
     assert "already has something called 'here'" in output
     assert "process has died" in output
 
@@ -172,6 +172,6 @@ def test_a_model_with_its_bridge(start, tmp_path):
 )
 def test_composition_is_refused(start, package, file, arguments):
     process = start(package, file, *arguments, "use_composition:=True")
-    output, _ = process.communicate(timeout=30)
+    output, _ = process.communicate(timeout=120)
     assert process.returncode == 1
     assert "LoadComposableNodes needs a full ROS 2 installation" in output

@@ -33,7 +33,7 @@ def python(tmp_path):
             cwd=cwd,
             capture_output=True,
             text=True,
-            timeout=60,
+            timeout=600,
             check=False,
         )
 
@@ -118,7 +118,7 @@ def test_a_colcon_workspace_can_source_the_prefix(shell):
     assert path.is_file()
     if not shutil.which(shell):
         pytest.skip(f"there is no {shell} here")
-    done = subprocess.run([shell, "-euc", f'. "{path}"'], capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run([shell, "-euc", f'. "{path}"'], capture_output=True, text=True, timeout=600, check=False)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
 
 
@@ -138,7 +138,7 @@ def test_an_executable_starts_with_the_course_python_whatever_the_path(path, tmp
         cwd=tmp_path,
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=600,
         check=False,
     )
     assert (done.returncode, done.stderr) == (0, "")
@@ -149,7 +149,7 @@ def test_an_executable_starts_with_the_course_python_whatever_the_path(path, tmp
 @pytest.mark.parametrize("path", EXECUTABLES, ids=lambda path: path.name)
 def test_an_executable_without_the_course_python_says_what_to_do(path):
     done = subprocess.run(
-        [path], env={"PATH": "/usr/bin:/bin"}, capture_output=True, text=True, timeout=60, check=False
+        [path], env={"PATH": "/usr/bin:/bin"}, capture_output=True, text=True, timeout=600, check=False
     )
     assert done.returncode != 0
     assert f"COURSE_PYTHON: is not set; start me with `ros2 run {path.parent.name} {path.name}`" in done.stderr

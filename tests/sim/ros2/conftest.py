@@ -13,7 +13,7 @@ import pytest
 from gz_course.grader.run.domain import Domain
 from gz_course.tests.sim.spinning import spin
 
-DEADLINE = 30.0
+DEADLINE = 120.0
 
 
 @pytest.fixture(scope="session")

@@ -85,7 +85,7 @@ complete -p ros2
 """
     command = Path(sys.executable).parent
     done = subprocess.run(
-        ["bash", "-c", asked], env={"PATH": f"{command}:/usr/bin:/bin"}, capture_output=True, text=True, timeout=30
+        ["bash", "-c", asked], env={"PATH": f"{command}:/usr/bin:/bin"}, capture_output=True, text=True, timeout=120
     )
     *lines, registered = done.stdout.splitlines()
     assert lines == [r"<\{data:\ false\} >", "<echo >", "<gz_args:=>", "<>"]

@@ -8,7 +8,7 @@ import threading
 
 import pytest
 
-DEADLINE = 20.0
+DEADLINE = 120.0
 CMD_VEL = "/robot/cmd_vel"
 ASKED = {
     "find": ["find", "geometry_msgs/Twist"],

@@ -9,7 +9,7 @@ import threading
 import pytest
 import yaml
 
-DEADLINE = 20.0
+DEADLINE = 120.0
 SYSTEM = ["/parameter_events", "/rosout"]
 
 

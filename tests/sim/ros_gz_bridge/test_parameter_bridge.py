@@ -13,12 +13,12 @@ from gz_course.sim.gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
 from gz_course.sim.gz.msgs.twist_pb2 import Twist as GzTwist
 from gz_course.sim.gz.transport import Node
 
-DEADLINE = 20.0
+DEADLINE = 120.0
 COMMAND = [sys.executable, "-m", "gz_course.sim.ros_gz_bridge.parameter_bridge"]
 
 
 def run(*arguments):
-    return subprocess.run([*COMMAND, *arguments], capture_output=True, text=True, timeout=60, check=False)
+    return subprocess.run([*COMMAND, *arguments], capture_output=True, text=True, timeout=600, check=False)
 
 
 CONFIG = """\

@@ -12,7 +12,7 @@ from sensor_msgs.msg import LaserScan
 from gz_course.sim.gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
 from gz_course.sim.gz.transport import Node
 
-DEADLINE = 20.0
+DEADLINE = 120.0
 PARAMETERS = """\
 /**:
   ros__parameters:
@@ -39,7 +39,7 @@ PARAMETERS = """\
 def fails(*arguments):
     """The sentences of a bridge that does not start."""
     command = [sys.executable, "-m", "gz_course.sim.ros_gz_bridge.parameter_bridge", *arguments]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False)
     assert done.returncode == 2, done.stderr
     assert "Traceback" not in done.stderr
     return [line.removeprefix("parameter_bridge: ") for line in done.stderr.splitlines()]
@@ -147,7 +147,7 @@ def test_parameters_are_shown_and_cannot_be_changed_while_it_runs(start):
         [*ros2, "set", "/ros_gz_bridge", "lazy", "true"],
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=600,
         check=False,
         env=environment,
     )

@@ -10,7 +10,7 @@ from std_msgs.msg import Int32
 
 from gz_course.sim.ros_gz_bridge.ros_listener import RosListener
 
-DEADLINE = 20.0
+DEADLINE = 120.0
 
 
 def fails(error):

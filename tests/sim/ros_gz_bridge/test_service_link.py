@@ -18,7 +18,7 @@ from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, BridgeError, Directio
 from gz_course.tests.sim.ros_gz_bridge.reading import parse_argument, parse_yaml
 
 TYPES = ("std_srvs/srv/SetBool", "gz.msgs.Boolean", "gz.msgs.StringMsg")
-DEADLINE = 20.0
+DEADLINE = 120.0
 
 
 @pytest.fixture(autouse=True)

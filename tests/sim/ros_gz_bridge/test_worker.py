@@ -4,7 +4,7 @@ import threading
 
 from gz_course.sim.ros_gz_bridge.worker import Worker
 
-DEADLINE = 20.0
+DEADLINE = 120.0
 
 
 def test_order_bound_and_count_of_what_gave_way():

@@ -5,7 +5,7 @@ import pytest
 from gz_course.sim.gz.msgs.image_pb2 import Image as GzImage
 from gz_course.sim.gz.msgs.image_pb2 import PixelFormatType
 
-DEADLINE = 30.0
+DEADLINE = 120.0
 
 
 def picture(stamp):

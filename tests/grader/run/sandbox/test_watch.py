@@ -14,7 +14,7 @@ from gz_course.grader.process.temporary_folder import remove
 from gz_course.grader.run.sandbox import watch as module
 from gz_course.grader.run.sandbox.watch import DISK, MEMORY, PROCESSES, Watch, descendants
 
-DEADLINE = 20.0
+DEADLINE = 120.0
 FAMILY = """
 import os, sys, time
 for _ in range(int(sys.argv[1])):

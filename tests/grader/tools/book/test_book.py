@@ -49,7 +49,7 @@ def book(course, out):
         cwd=course,
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=600,
     )
 
 
@@ -102,6 +102,6 @@ def test_a_chapter_that_does_not_run_is_named_with_its_error(course, tmp_path):
 @pytest.mark.parametrize("words", [[], ["a", "b"], ["--help"]])
 def test_without_a_folder_it_says_how_it_is_used(words):
     done = subprocess.run(
-        [sys.executable, "-m", "gz_course.grader.tools.book", *words], capture_output=True, text=True, timeout=60
+        [sys.executable, "-m", "gz_course.grader.tools.book", *words], capture_output=True, text=True, timeout=600
     )
     assert done.returncode == 2 and done.stderr.startswith("usage: ")

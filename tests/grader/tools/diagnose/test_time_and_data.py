@@ -5,7 +5,7 @@ import threading
 import pytest
 
 CLOCK = ("/clock", "/clock", "rosgraph_msgs/msg/Clock", "gz.msgs.Clock", "GZ_TO_ROS")
-DEADLINE = 20.0
+DEADLINE = 120.0
 
 
 @pytest.fixture(scope="module")

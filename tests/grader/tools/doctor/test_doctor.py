@@ -12,7 +12,7 @@ import pytest
 from gz_course.grader.registry import module_names
 from gz_course.grader.tools.doctor import checks
 
-DEADLINE = 60.0
+DEADLINE = 120.0
 
 
 @pytest.fixture

@@ -23,16 +23,19 @@ def test_every_file_can_be_imported_and_holds_its_types():
     assert {"gz.msgs.Scene", "gz.msgs.SerializedStepMap", "gz.msgs.PID", "gz.msgs.Marker_V"} <= found
 
 
-@pytest.mark.parametrize("name", type_names())
-def test_every_type_survives_a_round_trip(name):
+def survives_a_round_trip(name):
     kind = message_class(name)
-    assert kind.DESCRIPTOR.full_name == name
     message = kind()
     for field in kind.DESCRIPTOR.fields:
         if field.message_type is None and not field.is_repeated:
             default = field.default_value
             setattr(message, field.name, {str: "x", bytes: b"x", bool: True}.get(type(default), 1))
-    assert kind.FromString(message.SerializeToString()) == message
+    return kind.DESCRIPTOR.full_name == name and kind.FromString(message.SerializeToString()) == message
+
+
+def test_every_type_survives_a_round_trip():
+    lost = [name for name in type_names() if not survives_a_round_trip(name)]
+    assert not lost, "\n".join(lost)
 
 
 @pytest.mark.parametrize("name", ["gz.msgs.Twist", "gz_msgs.Twist", ".gz.msgs.Twist", "ignition.msgs.Twist", "Twist"])
@@ -108,7 +111,7 @@ def test_only_what_is_asked_for_is_built():
         "import gz.msgs.twist_pb2, gz.msgs.registry as registry\n"
         "assert registry._loaded == {'twist', 'header', 'time', 'vector3d'}, registry._loaded\n"
     )
-    subprocess.run([sys.executable, "-c", script], check=True, timeout=60)
+    subprocess.run([sys.executable, "-c", script], check=True, timeout=600)
 
 
 def test_the_definitions_are_inside_the_package():
@@ -151,4 +154,4 @@ def test_a_robot_state_does_not_read_every_file():
         "assert 'sensor' in registry._loaded and 'scene' not in registry._loaded, registry._loaded\n"
         "assert len(registry._loaded) < 70, len(registry._loaded)\n"
     )
-    subprocess.run([sys.executable, "-c", script], check=True, timeout=60)
+    subprocess.run([sys.executable, "-c", script], check=True, timeout=600)

@@ -35,7 +35,7 @@ def running() -> Iterator[Callable[..., threading.Event]]:
     yield start
     for thread, stop in threads:
         stop.set()
-        thread.join(20)
+        thread.join(120)
         assert not thread.is_alive()
 
 
@@ -133,10 +133,10 @@ def test_a_paused_server_does_not_step_but_keeps_telling(
     node.subscribe(WorldStatistics, "/stats", on_stats)
     server.paused = True
     running(server, real_time_factor=0.0)
-    assert paused.wait(20)
+    assert paused.wait(120)
     assert server.world.iterations == 0
     server.paused = False
-    assert resumed.wait(20)
+    assert resumed.wait(120)
 
 
 def test_the_command_of_a_thread_reaches_a_running_server(
@@ -151,4 +151,4 @@ def test_the_command_of_a_thread_reaches_a_running_server(
     command = Twist()
     command.linear.x = 0.3
     node.advertise("/model/robot/cmd_vel", Twist).publish(command)
-    assert moving.wait(20)
+    assert moving.wait(120)

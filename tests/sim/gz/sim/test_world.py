@@ -141,7 +141,7 @@ def test_commands_from_another_thread_do_not_disturb_stepping() -> None:
             world.step(2000)
         finally:
             stop.set()
-            thread.join(10)
+            thread.join(120)
         assert world.truth.velocity("robot").linear[0] == pytest.approx(0.3, rel=0.01)
 
 

@@ -23,7 +23,7 @@ from gz_course.sim.gz.sim.server import Server
 from gz_course.sim.gz.sim.world import World
 from gz_course.sim.gz.transport import Node
 
-DEADLINE = 20
+DEADLINE = 120
 
 
 def nanoseconds(time: Any) -> int:

@@ -62,7 +62,7 @@ def publish_from_forked_child(publisher, text):
         warnings.simplefilter("ignore", DeprecationWarning)  # newer Pythons warn of forking beside threads
         child = os.fork()
     if child == 0:
-        arrived = publisher.wait_for_subscribers(timeout=10)
+        arrived = publisher.wait_for_subscribers(timeout=120)
         publisher.publish(StringMsg(data=text))
         sys.exit(0 if arrived else 1)  # runs the exit handlers of the child
     return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])

@@ -34,7 +34,7 @@ QUIET = "for all in /proc/sys/net/ipv6/conf/all/disable_ipv6; do [ ! -e $all ] |
 
 def run(command, **environment):
     return subprocess.run(
-        command, capture_output=True, text=True, timeout=60, env={**os.environ, "GZ_PARTITION": "p", **environment}
+        command, capture_output=True, text=True, timeout=600, env={**os.environ, "GZ_PARTITION": "p", **environment}
     )
 
 

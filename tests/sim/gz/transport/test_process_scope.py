@@ -40,11 +40,11 @@ if "ALL" in sys.argv:
 
 
 def test_it_opens_no_socket_and_starts_no_thread():
-    subprocess.run([sys.executable, "-c", SCRIPT], check=True, timeout=60)
+    subprocess.run([sys.executable, "-c", SCRIPT], check=True, timeout=600)
 
 
 def test_the_check_above_would_see_a_socket():
-    subprocess.run([sys.executable, "-c", SCRIPT, "ALL"], check=True, timeout=60)
+    subprocess.run([sys.executable, "-c", SCRIPT, "ALL"], check=True, timeout=600)
 
 
 def test_it_hears_nothing_from_outside(start_peer, inbox, new_inbox):
@@ -71,7 +71,7 @@ def test_nobody_outside_hears_it(start_peer):
         limited = third.advertise("/chat", StringMsg, AdvertiseMessageOptions(scope=Scope.PROCESS))
         secret = hidden.advertise("/chat", StringMsg)
         publisher = public.advertise("/chat", StringMsg)
-        assert publisher.wait_for_subscribers(timeout=20)
+        assert publisher.wait_for_subscribers(timeout=120)
         assert not secret.has_connections()
         assert not limited.has_connections()
         secret.publish(StringMsg(data="secret"))

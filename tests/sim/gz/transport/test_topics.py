@@ -227,7 +227,7 @@ def test_waiting_for_a_subscriber_of_this_process(node):
     assert not publisher.wait_for_subscribers(timeout=0.01)
     subscriber = threading.Thread(target=lambda: node.subscribe(StringMsg, "/chat", print))
     subscriber.start()
-    assert publisher.wait_for_subscribers(timeout=20)
+    assert publisher.wait_for_subscribers(timeout=120)
     subscriber.join()
 
 

@@ -12,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gz_course.grader.process.temporary_folder import OWNER, TemporaryFolder, sweep
+from gz_course.grader.run.domain import Domain
 from gz_course.grader.tools.doctor.checks import (
     disk,
     installations,
@@ -183,7 +184,7 @@ def test_the_folder_of_a_killed_run_is_told_and_left_for_the_next_one(tmp_path, 
     monkeypatch.setattr(leftovers, "orphaned", lambda process: False)
     code = "import os\nfrom gz_course.grader.process.temporary_folder import *\nTemporaryFolder('course-')\n"
     code += "os.kill(os.getpid(), 9)"
-    subprocess.run([sys.executable, "-c", code], env=os.environ | {"TMPDIR": str(tmp_path)}, timeout=60)
+    subprocess.run([sys.executable, "-c", code], env=os.environ | {"TMPDIR": str(tmp_path)}, timeout=600)
     verdict = leftovers.examine(None)
     assert verdict.seen == f"1 folder in {tmp_path} of runs that were killed", verdict
     assert len(list(tmp_path.iterdir())) == 1
@@ -219,7 +220,8 @@ print(leftovers.unused_segments(Path("/dev/shm"), set()))
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root gets shared memory of its own here")
 def test_what_a_killed_node_leaves_is_found_and_goes_by_what_is_told():
-    environment = os.environ | {"ROS_DOMAIN_ID": "96", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
     command = [sys.executable, "-c", KILLED_NODE]
-    done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=120)
+    with Domain() as domain:
+        environment = os.environ | {"ROS_DOMAIN_ID": str(domain.id), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+        done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=600)
     assert done.stdout.split() == ["True", "[]"], done.stdout + done.stderr

@@ -36,7 +36,7 @@ def running() -> Iterator[None]:
         thread.start()
         yield
         stop.set()
-        thread.join(20)
+        thread.join(120)
         world.close()
 
 

@@ -23,7 +23,7 @@ from gz_course.sim.gz.msgs.world_stats_pb2 import WorldStatistics
 from gz_course.sim.gz.transport import Node
 
 GZ = [sys.executable, "-c", "import sys; from gz.command import main; sys.exit(main())", "sim"]
-DEADLINE = 30
+DEADLINE = 120
 
 
 @pytest.fixture(autouse=True)

@@ -88,7 +88,7 @@ def test_same_bytes_in_another_process() -> None:
         env={**os.environ, "PYTHONHASHSEED": "7", "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=600,
         check=True,
     )
     assert result.stdout.split() == [digests(3)[0]]

@@ -209,7 +209,7 @@ def test_a_blocking_request_that_nobody_serves_is_given_up_and_never_done(
     answers: list[bool] = []
     thread = threading.Thread(target=lambda: answers.append(ask("create/blocking", EntityFactory(sdf=BOX))))
     thread.start()
-    thread.join(20)
+    thread.join(120)
     assert answers == [False] and "was not stepped" in said.records[0].getMessage()
     world.step()
     assert world.truth.model_names() == []
@@ -219,7 +219,7 @@ def test_a_plain_request_is_answered_at_once_and_done_at_the_next_step(world: Wo
     answers: list[bool] = []
     thread = threading.Thread(target=lambda: answers.append(ask("create", EntityFactory(sdf=BOX))))
     thread.start()
-    thread.join(20)
+    thread.join(120)
     assert answers == [True] and world.truth.model_names() == []
     world.step()
     assert world.truth.model_names() == ["box"]

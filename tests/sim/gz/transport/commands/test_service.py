@@ -81,7 +81,7 @@ def test_a_provider_that_is_too_slow(gz, node):
     import threading
 
     go_on = threading.Event()
-    node.advertise_service("/slow", Empty, Boolean, lambda _: go_on.wait(20) and Boolean())
+    node.advertise_service("/slow", Empty, Boolean, lambda _: go_on.wait(120) and Boolean())
     call = gz("service", "-s", "/slow", "--reptype", "gz.msgs.Boolean", "--timeout", "200", "-r")
     code, _, error = call.end()
     go_on.set()

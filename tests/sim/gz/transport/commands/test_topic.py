@@ -27,7 +27,7 @@ def cmd_vel(node):
 
 
 def heard_by(publisher):
-    assert publisher.wait_for_subscribers(timeout=20)
+    assert publisher.wait_for_subscribers(timeout=120)
 
 
 def test_list_names_what_is_published_then_what_is_only_wanted(gz, node, cmd_vel):
@@ -145,7 +145,7 @@ def test_a_reader_that_leaves_ends_the_echo_quietly(cmd_vel, more_comes):
             os.close(read)
             if more_comes:
                 cmd_vel.publish(Twist())
-            assert echo.wait(20) == 0
+            assert echo.wait(120) == 0
             assert echo.stderr.read() == b""
         finally:
             echo.kill()
@@ -263,5 +263,5 @@ def test_without_a_command_there_is_help(capsys, arguments):
 
 def test_nothing_heavy_is_loaded():
     program = "import sys, gz.transport.commands.topic; print(int('mujoco' in sys.modules or 'numpy' in sys.modules))"
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=True)
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=600, check=True)
     assert done.stdout == "0\n"
