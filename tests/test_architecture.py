@@ -101,7 +101,7 @@ def imports(name, *, with_types=True):
             if node.level:
                 above = package.split("/")[: len(package.split("/")) - node.level + 1]
                 base = "/".join([*above, *(node.module or "").split(".")]).rstrip("/")
-            found |= {base} - {"sim"}  # the package of all packages: what is meant is in the names
+            found.update({base} - {"sim"})  # the package of all packages: what is meant is in the names
             found.update(f"{base}/{alias.name}" for alias in node.names)
         elif isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] in ("import_module", "__import__"):
             found.update(place(a.value) for a in node.args[:1] if isinstance(a, ast.Constant))
