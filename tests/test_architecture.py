@@ -105,12 +105,12 @@ def forbidden(name):
         tops |= {"gz.sim", "gz.transport", "gz.command"}
     if below(name, "grader.score", "grader.report"):
         tops |= {"rclpy", "mujoco", "grader.run", "gz", "ros_gz_bridge"}
-    if below(name, "grader.run.box"):
+    if below(name, "grader.run.agent"):
         tops |= {"mujoco", "rerun"}
         tops |= {
             n
             for n in MODULES
-            if below(n, "grader") and not below("grader.run.box", n) and not below(n, "grader.run.box")
+            if below(n, "grader") and not below("grader.run.agent", n) and not below(n, "grader.run.agent")
         }
     no_messages = below(name, "gz", "grader.score", "grader.report")
     return lambda imported: below(imported, *tops) or (no_messages and messages.match(imported) is not None)
@@ -118,9 +118,9 @@ def forbidden(name):
 
 def test_every_room_is_looked_at():
     assert {"gz", "ros_gz_bridge", "grader"} <= {name.split(".")[0] for name in MODULES}
-    assert "grader.run.box.course_box.participant" in MODULES
+    assert "grader.run.agent.course_agent.rclpy_7_1" in MODULES
     assert "grader.errors" in imports("grader.exercise")
-    assert "rclpy.context" in imports("grader.run.box.course_box.participant"), "imports inside functions count too"
+    assert "rclpy.context" in imports("grader.run.agent.course_agent.rclpy_7_1"), "imports inside functions count too"
 
 
 @pytest.mark.parametrize("name", sorted(MODULES))

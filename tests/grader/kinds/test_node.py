@@ -2,7 +2,7 @@
 
 from gz_course.grader.exercise import find_exercise
 from gz_course.grader.intake import take_in
-from gz_course.grader.kinds.node import cast
+from gz_course.grader.kinds.node import plan
 
 
 def test_suspicious_places_of_the_file_become_facts(root, tmp_path):
@@ -10,9 +10,9 @@ def test_suspicious_places_of_the_file_become_facts(root, tmp_path):
     text = (root / "solutions" / "03_teleop" / exercise.file).read_text()
     node = tmp_path / exercise.file
     node.write_text(text)
-    assert cast(exercise, take_in(exercise, node)).facts == {}
+    assert plan(exercise, take_in(exercise, node)).facts == {}
     node.write_text(f"import time\ntime.sleep(1)\ncommand.linear.x = 1\n{text}")
-    assert cast(exercise, take_in(exercise, node)).facts == {
+    assert plan(exercise, take_in(exercise, node)).facts == {
         "wall_clock": [{"file": exercise.file, "line": 2, "call": "time.sleep()", "waits": True}],
         "whole_numbers": [{"file": exercise.file, "line": 3, "field": "command.linear.x", "value": "1"}],
     }
