@@ -26,7 +26,7 @@ PACES = ("lockstep", "realtime")
 
 
 @dataclass(frozen=True)
-class Played:
+class TrialResult:
     """One trial, run and scored. `host` is None when it was scored from its recording alone."""
 
     recording: Recording
@@ -62,20 +62,20 @@ def grade(
     submission = take_in(exercise, submission_path)
     asked = numbered(trials or exercise.trials, seed)
     with sole_writer(out, exercise.name):
-        played = [play(exercise, submission, trial, pace, out, sandbox) for trial in asked]
-    facts = [each.host for each in played if each.host is not None]
+        results = [run_trial(exercise, submission, trial, pace, out, sandbox) for trial in asked]
+    facts = [each.host for each in results if each.host is not None]
     host = HostFacts(
         "; ".join(dict.fromkeys(each.sandbox for each in facts)),
         "; ".join(dict.fromkeys(each.pace for each in facts)),
         sum(each.run_wall_seconds for each in facts),
         time.monotonic() - started,
     )
-    return make_report(played, exercise, shown(str(submission.path), LONGEST_PATH), host)
+    return make_report(results, exercise, shown(str(submission.path), LONGEST_PATH), host)
 
 
-def play(
+def run_trial(
     exercise: Exercise, submission: Submission, trial: Trial, pace: str, out: Path, sandbox: str = "auto"
-) -> Played:
+) -> TrialResult:
     """Run one trial of a submission and score its recording, which is left in the folder `out`."""
     from gz_course.grader.run.session import record_unrunnable, run
 
@@ -90,7 +90,7 @@ def play(
         recording = Recording(recorder.part)
         verdict = score(recording, exercise)
         write_verdicts(recorder, verdict, exercise.max_score, in_trial.duration)
-    return Played(recording, path, verdict, HostFacts(result.sandbox, result.pace, result.run_wall_seconds, 0.0))
+    return TrialResult(recording, path, verdict, HostFacts(result.sandbox, result.pace, result.run_wall_seconds, 0.0))
 
 
 def recording_path(exercise: Exercise, trial: Trial, out: Path) -> Path:
@@ -104,16 +104,16 @@ def grade_again(paths: Path | Sequence[Path], root: Path | None = None) -> Repor
     The same score as the first time, unless the exercise has changed since. A folder stands for the recordings in it.
     Raises UsageError for recordings that do not belong together.
     """
-    given = [paths] if isinstance(paths, Path) else list(paths)
-    recordings = [(path, Recording(path)) for each in given for path in recordings_in(each)]
+    folders = [paths] if isinstance(paths, Path) else list(paths)
+    recordings = [(path, Recording(path)) for each in folders for path in recordings_in(each)]
     runs = [recording.properties("run") for _, recording in recordings]
     for (path, _), run in zip(recordings, runs, strict=True):
         if "exercise" not in run:
             raise UsageError(f"{path} is not a recording of a graded run")
     _check_trials([path for path, _ in recordings], runs)
     exercise = find_exercise(runs[0]["exercise"], root)
-    played = [Played(recording, path, score(recording, exercise)) for path, recording in recordings]
-    played.sort(key=lambda each: each.run.get("trial_number", 1))
+    results = [TrialResult(recording, path, score(recording, exercise)) for path, recording in recordings]
+    results.sort(key=lambda each: each.run.get("trial_number", 1))
     notes = []
     if any(run.get("manifest_sha256", exercise.manifest_sha256) != exercise.manifest_sha256 for run in runs):
         notes.append(f"The manifest of {exercise.name} has changed since this run; it is scored by what it says now.")
@@ -122,7 +122,7 @@ def grade_again(paths: Path | Sequence[Path], root: Path | None = None) -> Repor
             f"This is the trial {runs[0]['trial']} alone, one of {runs[0]['trial_count']} of its grading; give the "
             "folder of all recordings for the score that counts."
         )
-    return make_report(played, exercise, runs[0]["submission"], notes=notes)
+    return make_report(results, exercise, runs[0]["submission"], notes=notes)
 
 
 def recordings_in(path: Path) -> list[Path]:
@@ -155,7 +155,7 @@ def _check_trials(paths: list[Path], runs: list[dict[str, Any]]) -> None:
 
 
 def make_report(
-    played: Sequence[Played],
+    results: Sequence[TrialResult],
     exercise: Exercise,
     submission: str,
     host: HostFacts | None = None,
@@ -166,18 +166,18 @@ def make_report(
         exercise=exercise.name,
         title=exercise.title,
         submission=submission,
-        recording=played[0].path,
-        score=combined([(each.run.get("trial", "public"), each.score) for each in played]),
+        recording=results[0].path,
+        score=combined([(each.run.get("trial", "public"), each.score) for each in results]),
         max_score=exercise.max_score,
-        sim_seconds=sum(each.recording.facts().get("sim_seconds", 0.0) for each in played),
-        seed=played[0].run["seed"],
-        versions=played[0].recording.properties("versions"),
+        sim_seconds=sum(each.recording.facts().get("sim_seconds", 0.0) for each in results),
+        seed=results[0].run["seed"],
+        versions=results[0].recording.properties("versions"),
         host=host,
         trials=tuple(
             TrialReport(
                 each.run.get("trial", "public"), each.run["seed"], each.score, each.path, each.score.truth_sha256
             )
-            for each in played
+            for each in results
         ),
         notes=tuple(notes),
     )

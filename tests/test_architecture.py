@@ -21,7 +21,7 @@ LONGEST_FILE = 400
 VAGUE_NAMES = {"utils", "util", "helpers", "helper", "common", "misc"}
 HEAVY = {"mujoco", "rclpy", "rerun"}
 
-BOX = "grader/run/box"  # what is put before the student's own code, in the student's process
+AGENT = "grader/run/agent"  # what is put before the student's own code, in the student's process
 RUNNING = ("grader/run", "sim/gz", "sim/ros_gz_bridge")
 ROS = ("rclpy", "rosidl_runtime_py", "ament_index_python", "sim/launch", "sim/launch_ros", "sim/ros2")
 ROS_MESSAGES = r"\w+_(msgs|interfaces)(/|$)"
@@ -45,7 +45,7 @@ FORBIDDEN = {
     "sim/ros_gz_sim": ("sim/ros_gz_bridge", "mujoco", "sim/gz/sim/world", "sim/gz/sim/server"),
     "grader/score": ("rclpy", "mujoco", *RUNNING),
     "grader/report": ("rclpy", "mujoco", *RUNNING),
-    BOX: ("grader", "mujoco", "rerun"),
+    AGENT: ("grader", "mujoco", "rerun"),
 }
 # Exceptions: a room may import these, whatever is forbidden above.
 ALLOWED = {
@@ -53,7 +53,7 @@ ALLOWED = {
     "sim/launch_ros": ("sim/launch_ros", "sim/launch"),
     "sim/prefix": ("sim/prefix", "sim/launch", "sim/launch_ros"),
     "sim/ros2": ("sim/ros2", "sim/prefix", "sim/launch", "sim/launch_ros"),
-    BOX: (BOX,),
+    AGENT: (AGENT,),
 }
 NO_ROS_MESSAGES = ("sim/gz", "grader/score", "grader/report")
 
@@ -145,9 +145,9 @@ def test_an_import_is_found_however_it_is_written():
     assert place("gz_course.grader.score") == "grader/score"
     assert place("rclpy.node") == "rclpy/node"
     assert "grader/errors" in imports("grader/exercise/exercise")
-    inside = imports(next(name for name in modules() if name.endswith("/course_box/participant")))
+    inside = imports(next(name for name in modules() if name.endswith("/course_agent/rclpy_7_1")))
     assert "rclpy/context" in inside, "imports inside functions count too"
-    assert any(below(each, BOX) for each in inside), "relative imports count too"
+    assert any(below(each, AGENT) for each in inside), "relative imports count too"
 
 
 def test_no_forbidden_arrow():
@@ -169,7 +169,7 @@ def test_a_forbidden_arrow_is_seen():
         ("sim/launch/action", "sim/launch_ros/actions"),
         ("grader/score/score", "sim/gz/msgs"),
         ("grader/exercise", "solutions"),
-        (f"{BOX}/course_box/watch", "grader/errors"),
+        (f"{AGENT}/course_agent/executor_monitor", "grader/errors"),
     ]:
         assert is_forbidden(name, imported), (name, imported)
 

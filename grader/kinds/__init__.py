@@ -1,4 +1,5 @@
-"""Kinds of submissions, one a file: what students hand in, how it is read, and what plays when it is run.
+"""Kinds of submissions, a folder each: what students hand in, how it is read, run and diagnosed.
 
-`exercise.toml` names the kind (`kind = "node"`); `grader/kinds/node.py` holds it as `KIND`.
+`exercise.toml` names the kind (`kind = "node"`); the package `grader/kinds/node/` holds it as `KIND`, a `Kind`
+(`kind.py`). A folder with such a package is a kind; nothing lists them.
 """

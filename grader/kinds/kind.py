@@ -1,7 +1,7 @@
 """What a kind of submission is, and how the one an exercise names is found.
 
-Intake asks a kind what is wrong with a file (`fault`), before anything heavy is imported; a run asks it who plays
-(`cast`).
+Intake asks a kind what is wrong with a file (`fault`), before anything heavy is imported. A run asks it what to start
+(`plan`, `command`) and how to simulate it (`run_loop`). Scoring asks it how to explain a recording (`diagnosis`).
 """
 
 from __future__ import annotations
@@ -16,27 +16,30 @@ from gz_course.grader.errors import ManifestError, nearest
 
 if TYPE_CHECKING:
     from gz_course.grader.exercise import Exercise
+    from gz_course.grader.exercise.trial import Trial
+    from gz_course.grader.run.run_loop import RunLoop
+    from gz_course.grader.score.diagnosis import Diagnosis
     from gz_course.grader.submission import Submission
     from gz_course.sim.ros_gz_bridge.entry import BridgeEntry
 
 
 @dataclass(frozen=True)
-class Cast:
-    """Who plays in a run beside the simulator.
+class RunPlan:
+    """What runs beside the simulator.
 
-    `program` names the file among `files` that is started in the box. `entries` are the bridges that stand between the
-    simulator and ROS from the beginning. `facts` go into the recording as they are. `given`: the program comes with
-    the exercise, so what it does is never the student's fault, and both graphs are taken into the recording.
-    `launch`: the program is a launch file, which starts simulator and bridge itself; a trial's parameters are its
-    arguments.
+    `program` names the file among `files` that is started in the box. `entries` are the bridges between the simulator
+    and ROS that stand from the beginning. `facts` go into the recording as they are.
     """
 
     program: str
     files: dict[str, bytes]
     entries: list[BridgeEntry] = field(default_factory=list)
     facts: dict[str, Any] = field(default_factory=dict)
-    given: bool = False
-    launch: bool = False
+
+
+def no_variables(pace: str) -> dict[str, str]:
+    """Return no environment variables, whatever the pace."""
+    return {}
 
 
 @dataclass(frozen=True)
@@ -44,20 +47,26 @@ class Kind:
     """A kind of submission.
 
     `suffixes` are what its files end in. `fault(name, content)` returns one sentence with the line if a file can never
-    run, else None. `cast(exercise, submission)` raises ManifestError if the exercise's own files are wrong.
+    run, else None. `plan(exercise, submission)` raises ManifestError if the exercise's own files are wrong.
+    `command(program, trial)` starts the program in the box, with the variables `environment(pace)`.
+    `run_loop()` returns the class that simulates the run and `diagnosis()` what explains its recording; only these two
+    import what they need, the former rclpy and MuJoCo.
     `brings_bridge`: what stands between simulator and ROS is up to the submission, not to the exercise.
     """
 
     suffixes: tuple[str, ...]
     fault: Callable[[str, bytes], str | None]
-    cast: Callable[[Exercise, Submission], Cast]
+    plan: Callable[[Exercise, Submission], RunPlan]
+    command: Callable[[Path, Trial], list[str]]
+    run_loop: Callable[[], type[RunLoop]]
+    diagnosis: Callable[[], Diagnosis]
+    environment: Callable[[str], dict[str, str]] = no_variables
     brings_bridge: bool = False
 
 
 def kind_names() -> list[str]:
-    """Return the names of all kinds."""
-    folder = Path(__file__).parent
-    return sorted(path.stem for path in folder.glob("*.py") if path.stem not in ("__init__", "kind"))
+    """Return the names of all kinds, sorted."""
+    return sorted(path.parent.name for path in Path(__file__).parent.glob("*/__init__.py"))
 
 
 def find_kind(name: str) -> Kind:

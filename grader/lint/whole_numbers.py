@@ -23,7 +23,7 @@ def float_fields(ros_types: Iterable[str]) -> dict[str, set[str]]:
     Keys are a message's own name and those of its parts: {"Twist": {"linear.x", ...}, "Vector3": {"x", "y", "z"}}.
     A type that is not installed has none.
     """
-    from gz_course.grader.run.ears import message_class
+    from gz_course.grader.run.grader_endpoints import message_class
 
     found: dict[str, set[str]] = {}
     for name in ros_types:
@@ -35,7 +35,7 @@ def float_fields(ros_types: Iterable[str]) -> dict[str, set[str]]:
 
 
 def _walk(message: Any, found: dict[str, set[str]]) -> set[str]:
-    from gz_course.grader.run.ears import message_class
+    from gz_course.grader.run.grader_endpoints import message_class
 
     paths = set()
     for field, kind in message.get_fields_and_field_types().items():

@@ -1,4 +1,4 @@
-"""One run from start to recording: reserves a domain, starts the student's process, sets the stage, cleans up.
+"""One run from start to recording: reserves a domain, starts the student's process, runs the loop, cleans up.
 
 The student's process is started before anything heavy is imported here, so that both start up at the same time.
 """
@@ -18,11 +18,10 @@ from gz_course.grader.exercise.trial import Trial
 from gz_course.grader.kinds.kind import find_kind
 from gz_course.grader.printable import shown
 from gz_course.grader.process.temporary_folder import sweep
-from gz_course.grader.run.box.course_box.hooks import SERVE
-from gz_course.grader.run.box.course_box.watch import HOLD, RELIABLE
+from gz_course.grader.run.agent.course_agent.executor_monitor import RELIABLE
 from gz_course.grader.run.domain import Domain
+from gz_course.grader.run.processes.submission_processes import SubmissionProcesses
 from gz_course.grader.run.sandbox import AUTO, Sandbox
-from gz_course.grader.run.student import Student, launch_command, node_command
 from gz_course.grader.submission import Submission
 from gz_course.sim.ros_gz_bridge.qos_profile import reliable
 
@@ -61,48 +60,36 @@ def run(
     """
     sweep()  # what graders left that were killed
     kind = find_kind(exercise.kind)
-    cast = kind.cast(exercise, submission)
+    plan = kind.plan(exercise, submission)
     topics = {
-        "publisher": {e.ros_topic: e.ros_type for e in cast.entries if e.direction.to_gz} | exercise.observe,
-        "subscription": {e.ros_topic: e.ros_type for e in cast.entries if e.direction.to_ros},
-        RELIABLE: {e.ros_topic: e.ros_type for e in cast.entries if e.direction.to_ros and reliable(e.qos_profile)},
+        "publisher": {e.ros_topic: e.ros_type for e in plan.entries if e.direction.to_gz} | exercise.observe,
+        "subscription": {e.ros_topic: e.ros_type for e in plan.entries if e.direction.to_ros},
+        RELIABLE: {e.ros_topic: e.ros_type for e in plan.entries if e.direction.to_ros and reliable(e.qos_profile)},
     }
     with contextlib.ExitStack() as stack:
         domain = stack.enter_context(Domain())
         sandbox = Sandbox(domain.id, level)
         stack.callback(sandbox.close)
-        folder = sandbox.stage(cast.files)
-        if not cast.launch:
-            student = Student(node_command(folder / cast.program), sandbox, topics, shown=str(folder))
-        else:
-            variables = {SERVE: "1"} | ({HOLD: "1"} if pace == "lockstep" else {})
-            command = launch_command(folder / cast.program, trial.parameters)
-            student = Student(command, sandbox, topics, variables, shown=str(folder))
-        stack.callback(student.close)
+        folder = sandbox.put_files(plan.files)
+        command, variables = kind.command(folder / plan.program, trial), kind.environment(pace)
+        processes = SubmissionProcesses(command, sandbox, topics, variables, shown=str(folder))
+        stack.callback(processes.close)
         stack.enter_context(_environment(sandbox.grader_environment()))
 
         from gz_course.grader.record.recorder import Recorder
-        from gz_course.grader.run.launch_stage import LaunchStage
         from gz_course.grader.run.properties import write_properties
-        from gz_course.grader.run.stage import Stage
         from gz_course.sim.ros_gz_bridge.entry import BridgeError
 
         try:
-            kind_of_stage = LaunchStage if cast.launch else Stage
-            stage = kind_of_stage(exercise, trial, cast, domain.id, student, pace, stack)
+            loop = kind.run_loop()(exercise, trial, plan, domain.id, processes, pace, stack)
         except BridgeError as error:
             if not kind.brings_bridge:
                 raise ManifestError(f"{exercise.folder / MANIFEST}: {error.errors[0]}") from None
             return record_unrunnable(exercise, replace(submission, fault=shown(error.errors[0])), trial, path)
         with Recorder.begun(path, exercise.robot) as recorder:
-            facts = stage.play(recorder)
-            if cast.given and (facts["exit_at"] is not None or not facts["ready"]):
-                how = "did not start to spin" if facts["exit_at"] is None else f"ended (exit code {facts['exit_code']})"
-                raise ManifestError(
-                    f"{exercise.folder / cast.program}: the exercise's own node {how}; nothing is graded"
-                )
-            write_properties(recorder, exercise, submission, trial, cast.facts | facts)
-        return RunResult(recorder, sandbox.level, stage.pace_name, stage.wall_seconds)
+            facts = loop.run(recorder)
+            write_properties(recorder, exercise, submission, trial, plan.facts | facts)
+        return RunResult(recorder, sandbox.level, loop.pace_name, loop.wall_seconds)
 
 
 @contextlib.contextmanager

@@ -31,7 +31,7 @@ def clock_fault(recording: Recording, findings: Iterable[Finding]) -> str:
                 "clock, self.get_clock().now()"
             )
         return shown(f"{sentence}.")
-    endpoints = [] if facts.get("given") else facts.get("endpoints", [])
+    endpoints = facts.get("endpoints", [])
     follows = {e["node"] for e in endpoints if e["kind"] == "subscription" and e["topic"] == "/clock"}
     bridges = {each["node"] for each in launch_facts(recording).get("bridges_started", [])}  # have no use for time
     for node in sorted({e["node"] for e in endpoints} - follows - bridges):

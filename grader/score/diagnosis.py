@@ -1,4 +1,4 @@
-"""Names the fault behind a failed run, in the order in which one would look for it.
+"""Names the fault behind a failed run: a function a fault. Each kind of submission puts them into its own order.
 
 Works from the facts in the recording: which endpoints the node had, how its process ended, what was dropped.
 """
@@ -7,11 +7,14 @@ from __future__ import annotations
 
 import re
 import signal
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Any
 
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
+from gz_course.grader.score.check import Finding
 from gz_course.grader.score.launched import launch_fault
 from gz_course.grader.score.python_errors import meaning
 
@@ -29,6 +32,24 @@ LIMITS = {
 OWN_TOPICS = frozenset({"/rosout", "/parameter_events", "/clock"})
 
 
+# One sentence about a fault, or an empty string: of a recording and its facts, and of one with failed checks.
+Look = Callable[[Recording, dict[str, Any]], str]
+Remark = Callable[[Recording, Iterable[Finding]], str]
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """How a kind of submission explains a recording.
+
+    `outcome` names the kind of run. `looks` are asked in turn, until one has found a fault. If none has, `remarks` come
+    before what the first failed check says.
+    """
+
+    outcome: Callable[[Recording], str]
+    looks: tuple[Look, ...]
+    remarks: tuple[Remark, ...] = ()
+
+
 def outcome_of(recording: Recording) -> str:
     """Return what kind of run it was.
 
@@ -38,8 +59,6 @@ def outcome_of(recording: Recording) -> str:
     `graded`: none of these.
     """
     facts = recording.facts()
-    if facts.get("given"):
-        return "timeout" if _too_much(recording, facts) else "graded"
     if _reserved(facts):
         return "tamper"
     if facts.get("fault"):
@@ -58,17 +77,13 @@ def outcome_of(recording: Recording) -> str:
     return "graded"
 
 
-def diagnose(recording: Recording) -> str:
-    """Return one sentence on the first fault found, or an empty string if nothing structural is wrong."""
+def diagnose(recording: Recording, looks: Iterable[Look]) -> str:
+    """Return the first sentence that one of `looks` has to say, or an empty string if nothing structural is wrong."""
     facts = recording.facts()
-    looks = LOOKS_AT_GIVEN if facts.get("given") else LOOKS_AT_LAUNCH if facts.get("launch") else LOOKS
-    for look in looks:
-        if sentence := look(recording, facts):
-            return sentence
-    return ""
+    return next(filter(None, (look(recording, facts) for look in looks)), "")
 
 
-def whole_number_fault(recording: Recording) -> str:
+def whole_number_fault(recording: Recording, findings: Iterable[Finding] = ()) -> str:
     """Return one sentence about a field of floats that was given a whole number or a text; empty if none was."""
     for place in recording.facts().get("whole_numbers", []):
         return shown(
@@ -78,17 +93,20 @@ def whole_number_fault(recording: Recording) -> str:
     return ""
 
 
-def _cannot_run(recording: Recording, facts: dict[str, Any]) -> str:
+def cannot_run(recording: Recording, facts: dict[str, Any]) -> str:
+    """Say why the file cannot be run at all."""
     return str(facts["fault"]) if facts.get("fault") else ""
 
 
-def _broke_a_limit(recording: Recording, facts: dict[str, Any]) -> str:
+def broke_a_limit(recording: Recording, facts: dict[str, Any]) -> str:
+    """Name the limit of the box for which the program was ended."""
     limit = facts.get("limit")
     when = f" at {facts['exit_at']:.2f} s of simulated time" if facts.get("exit_at") is not None else ""
     return f"Your program {LIMITS[limit]}; it was ended{when}." if limit in LIMITS else ""
 
 
-def _died(recording: Recording, facts: dict[str, Any]) -> str:
+def died(recording: Recording, facts: dict[str, Any]) -> str:
+    """Name the error, or the signal, that ended the node's process, with file and line."""
     code = facts.get("exit_code")
     if code in (None, 0):
         return ""
@@ -129,7 +147,8 @@ def _signal_name(number: int) -> str:
         return f"signal {number}"
 
 
-def _ended_early(recording: Recording, facts: dict[str, Any]) -> str:
+def ended_early(recording: Recording, facts: dict[str, Any]) -> str:
+    """Say that nothing kept the node alive until simulated time began."""
     if facts.get("ready", True) or facts.get("exit_at") is None:
         return ""
     return (
@@ -138,7 +157,8 @@ def _ended_early(recording: Recording, facts: dict[str, Any]) -> str:
     )
 
 
-def _never_spun(recording: Recording, facts: dict[str, Any]) -> str:
+def never_spun(recording: Recording, facts: dict[str, Any]) -> str:
+    """Say that the node was never spun."""
     if facts.get("ready", True):
         return ""
     return "Your node's process ran but never spun: no timer and no callback can run before rclpy.spin(node) is called."
@@ -148,7 +168,8 @@ def _of(facts: dict[str, Any], kind: str) -> list[dict[str, str]]:
     return [e for e in facts.get("endpoints", []) if e["kind"] == kind and e["topic"] not in OWN_TOPICS]
 
 
-def _publishers(recording: Recording, facts: dict[str, Any]) -> str:
+def publishers(recording: Recording, facts: dict[str, Any]) -> str:
+    """Name the first topic that is not published as it should be, and what is published instead."""
     published = _of(facts, "publisher")
     topics = {e["topic"] for e in published}
     for topic, kind in facts.get("listened", {}).items():
@@ -171,7 +192,8 @@ def _publishers(recording: Recording, facts: dict[str, Any]) -> str:
     return ""
 
 
-def _subscriptions(recording: Recording, facts: dict[str, Any]) -> str:
+def subscriptions(recording: Recording, facts: dict[str, Any]) -> str:
+    """Name the first subscription that cannot receive anything."""
     offered: dict[str, str] = facts.get("offered", {})
     own = {e["topic"] for e in _of(facts, "publisher")}
     for e in _of(facts, "subscription"):
@@ -210,7 +232,8 @@ def _why(wanted: str, used: str, nodes: list[str]) -> str:
     return ""
 
 
-def _silent(recording: Recording, facts: dict[str, Any]) -> str:
+def silent(recording: Recording, facts: dict[str, Any]) -> str:
+    """Name the first topic with a publisher and no message."""
     for topic in facts.get("listened", {}):
         if not recording.has(f"topics/{topic.strip('/')}/count"):
             if facts.get("exit_at") is not None:
@@ -223,7 +246,8 @@ def _silent(recording: Recording, facts: dict[str, Any]) -> str:
     return ""
 
 
-def _dropped(recording: Recording, facts: dict[str, Any]) -> str:
+def dropped(recording: Recording, facts: dict[str, Any]) -> str:
+    """Count the messages that were not finite."""
     for topic, count in facts.get("dropped", {}).items():
         what = "1 message" if count == 1 else f"{count} messages"
         verb, pronoun = ("was", "it") if count == 1 else ("were", "they")
@@ -234,7 +258,8 @@ def _dropped(recording: Recording, facts: dict[str, Any]) -> str:
     return ""
 
 
-def _unstable(recording: Recording, facts: dict[str, Any]) -> str:
+def unstable(recording: Recording, facts: dict[str, Any]) -> str:
+    """Say why physics had no answer."""
     return f"The simulation ended early: {facts['unstable']}" if facts.get("unstable") else ""
 
 
@@ -244,7 +269,8 @@ def _reserved(facts: dict[str, Any]) -> list[str]:
     return sorted({e["topic"] for e in facts.get("endpoints", []) if e["kind"] == "publisher"} & set(offered))
 
 
-def _tampered(recording: Recording, facts: dict[str, Any]) -> str:
+def tampered(recording: Recording, facts: dict[str, Any]) -> str:
+    """Name a topic of the simulator on which the node publishes as well."""
     topics = _reserved(facts)
     if not topics:
         return ""
@@ -253,7 +279,8 @@ def _tampered(recording: Recording, facts: dict[str, Any]) -> str:
     )
 
 
-def _out_of_time(recording: Recording, facts: dict[str, Any]) -> str:
+def out_of_time(recording: Recording, facts: dict[str, Any]) -> str:
+    """Say that the node held the simulation up, and when it was ended."""
     if not facts.get("out_of_time"):
         return ""
     return (
@@ -262,35 +289,6 @@ def _out_of_time(recording: Recording, facts: dict[str, Any]) -> str:
     )
 
 
-def _too_much(recording: Recording, facts: dict[str, Any]) -> str:
-    if not facts.get("out_of_time"):
-        return ""
-    return (
-        f"The run took too long and was ended at {facts['sim_seconds']:.2f} s of simulated time: your bridges carry "
-        "far more than is asked for."
-    )
-
-
-def _launch_failed(recording: Recording, facts: dict[str, Any]) -> str:
+def launch_failed(recording: Recording, facts: dict[str, Any]) -> str:
+    """Say why the launch failed."""
     return launch_fault(recording)
-
-
-# In the order in which one would look.
-LOOKS = (
-    _tampered,
-    _cannot_run,
-    _broke_a_limit,
-    _died,
-    _ended_early,
-    _never_spun,
-    _out_of_time,
-    _publishers,
-    _subscriptions,
-    _silent,
-    _dropped,
-    _unstable,
-)
-# With a launch file.
-LOOKS_AT_LAUNCH = (_cannot_run, _broke_a_limit, _launch_failed, _out_of_time, _unstable)
-# With a node that is not the student's.
-LOOKS_AT_GIVEN = (_too_much, _unstable)

@@ -1,6 +1,6 @@
 """Facts about a run whose submission was a launch file: its arguments, and what it started.
 
-The facts come from `grader/run/launch_stage.py`.
+The facts come from `grader/kinds/launch/launch_run_loop.py`.
 """
 
 from __future__ import annotations

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from gz_course.grader.exercise import CheckSpec, Exercise
+from gz_course.grader.kinds.kind import find_kind
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, perform_all
-from gz_course.grader.score.clocks import clock_fault
-from gz_course.grader.score.diagnosis import diagnose, outcome_of, whole_number_fault
+from gz_course.grader.score.diagnosis import diagnose
 
 NOT_RUN = Finding(False, "a file that runs", "nothing was run")
 SPOILT: dict[str, Any] = {"passed": False, "measured": "not counted: the run was tampered with", "at_s": None}
@@ -53,16 +53,17 @@ def score(recording: Recording, exercise: Exercise) -> Score:
     specs = exercise.checks
     findings = [NOT_RUN] * len(specs) if never_ran else perform_all(specs, recording, exercise.folder)
     checks = tuple(map(CheckResult, specs, findings))
-    outcome = outcome_of(recording)
+    explained = find_kind(exercise.kind).diagnosis()
+    outcome = explained.outcome(recording)
     if outcome == "tamper":
         checks = tuple(CheckResult(check.spec, replace(check.finding, **SPOILT)) for check in checks)
     failed = [check for check in checks if not check.finding.passed]
-    diagnosis = diagnose(recording)
+    diagnosis = diagnose(recording, explained.looks)
     if failed and not diagnosis:
         worst = max(failed, key=lambda check: (not check.finding.gated, check.spec.points))
-        clock = clock_fault(recording, [check.finding for check in failed])
+        remarks = [remark(recording, [check.finding for check in failed]) for remark in explained.remarks]
         said = f"{worst.spec.title}: {worst.finding.measured}. {worst.spec.hint}"
-        diagnosis = " ".join(filter(None, (whole_number_fault(recording), clock, said)))
+        diagnosis = " ".join(filter(None, (*remarks, said)))
     return Score(checks, outcome, diagnosis if failed else "", truth_sha256(recording, exercise.robot))
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "public"))
 
-from gz_course.grader.run.inside import kernel  # noqa: E402
+from gz_course.grader.run.sandbox.init import kernel  # noqa: E402
 
 
 def open_up(needed):

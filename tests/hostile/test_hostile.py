@@ -12,9 +12,9 @@ from pathlib import Path
 
 import pytest
 
-from gz_course.grader.run.children import START_UP
+from gz_course.grader.run.processes.process_tree import START_UP
+from gz_course.grader.run.run_loop import WALL_FACTOR, WALL_GRACE
 from gz_course.grader.run.sandbox.probe import try_level
-from gz_course.grader.run.stage import WALL_FACTOR, WALL_GRACE
 
 from .conftest import ORDINARY
 

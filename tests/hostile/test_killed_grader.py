@@ -28,7 +28,7 @@ GRADER = f"""
 import sys
 from gz_course.grader.run.sandbox import Sandbox
 sandbox = Sandbox(101, sys.argv[1])
-file = sandbox.stage({{"stubborn.py": {STUBBORN.encode()!r}}}) / "stubborn.py"
+file = sandbox.put_files({{"stubborn.py": {STUBBORN.encode()!r}}}) / "stubborn.py"
 boxed = sandbox.start([sys.executable, "-I", "-S", str(file)], {{}})
 print((boxed.stdout.readline() + boxed.stdout.readline()).decode().split(), flush=True)
 sys.stdin.read()

@@ -18,7 +18,7 @@ enter_early(LEVEL)
 from gz_course.grader.exercise import find_exercise  # noqa: E402
 from gz_course.grader.grade import grade  # noqa: E402
 from gz_course.grader.record.reading import Recording  # noqa: E402
-from gz_course.grader.run.sandbox.watch import descendants  # noqa: E402
+from gz_course.grader.run.sandbox.resource_monitor import descendants  # noqa: E402
 
 EXERCISE = find_exercise("03_teleop")
 

@@ -9,7 +9,7 @@ from pathlib import Path
 KEPT_VARIABLES = ("PATH", "LANG", "LC_ALL", "TZ", "SSL_CERT_FILE")
 # Set by the ROS wheels when they restart Python; one without the other breaks `import rclpy`.
 WHEEL_VARIABLES = ("_ROS_WHEELS_BOOTSTRAP_COMPLETE", "LD_LIBRARY_PATH")
-PROFILES = Path(__file__).parents[1] / "inside"
+PROFILES = Path(__file__).parents[1] / "agent" / "fastdds"
 CONSOLE_FORMAT = "[{severity}] [{name}]: {message}"  # no wall-clock stamp: the same run gives the same lines
 
 
@@ -25,7 +25,7 @@ def ros_environment(domain: int, log_dir: Path) -> dict[str, str]:
 
 
 def box_environment(domain: int, log_dir: Path, private_network: bool) -> dict[str, str]:
-    """As `ros_environment`, for both ends of a box: UDP on loopback only.
+    """Return `ros_environment` for both ends of a box: UDP on loopback only.
 
     Asked for LOCALHOST, rmw_fastrtps uses shared memory, too, whatever FASTDDS_BUILTIN_TRANSPORTS says: a box has its
     own, so nothing would arrive; and elsewhere segments stay behind when a process is killed. In a private network

@@ -20,10 +20,11 @@ from pathlib import Path
 from typing import Protocol, cast
 
 from gz_course.grader.errors import InfrastructureError, UsageError, nearest
-from gz_course.grader.run.sandbox.order import Order
+from gz_course.grader.run.sandbox.spec import SandboxSpec
 
 AUTO = "auto"
-LEVELS = ("A", "B", "C", "D")  # from the firmest
+# From the firmest; a level is there by being a file of `levels/`.
+LEVELS = tuple(sorted(p.stem.upper() for p in Path(__file__).with_name("levels").glob("[a-z].py")))
 KEPT = 8  # answers: one process may be root, another in a user namespace
 CACHE = "gz-ros2-course/sandbox.json"  # below XDG_CACHE_HOME
 
@@ -33,13 +34,13 @@ class Level(Protocol):
 
     ABOUT: str  # in a few words
     PRIVATE_NETWORK: bool
-    WALLS: str  # who builds a box of namespaces: `bubblewrap`, `own` (walls.py), or nobody
+    NAMESPACES: str  # who builds the namespaces: `bubblewrap`, `own` (init/namespaces.py), or nobody
     LANDLOCK: bool
 
     def missing(self) -> str:
         """Say what this level lacks here; an empty text if it can be tried."""
 
-    def command(self, order: Order, init: list[str]) -> list[str]:
+    def command(self, spec: SandboxSpec, init: list[str]) -> list[str]:
         """Return the command that runs `init` in the box."""
 
 
@@ -116,7 +117,7 @@ def _fingerprint() -> str:
     with contextlib.suppress(OSError):
         parts += [Path("/proc/self/uid_map").read_text(), str(Path("/proc/self/ns/mnt").readlink())]
     here = Path(__file__).parent
-    for file in sorted([*here.rglob("*.py"), *(here.parent / "inside").glob("*.py")]):
+    for file in sorted(here.rglob("*.py")):
         parts.append(f"{file} {file.stat().st_mtime_ns}")
     with contextlib.suppress(OSError):
         parts.append(str(Path(sys.prefix, "lib").stat().st_mtime_ns))

@@ -57,7 +57,7 @@ class PrivateNetwork:
             raise NetworkError(f"its loopback stays down: {error.strerror}") from None
 
     def close(self) -> None:
-        """Back to the network of before, as root; the sockets opened meanwhile stay in the private one."""
+        """Return to the network of before, as root; the sockets opened meanwhile stay in the private one."""
         if self._before is not None:
             before, self._before = self._before, None
             try:

@@ -1,4 +1,4 @@
-"""Does a level work here? A node in a box of that level and one outside exchange a message over DDS.
+"""A trial of a level on this machine: a node in a box of that level and one outside exchange a message over DDS.
 
 Run as a program of its own (`python -m grader.run.sandbox.probe A`), because it enters a private network and loads
 ROS. Prints nothing if all is well, else why not, and ends with exit code 1.
@@ -71,7 +71,7 @@ def exchange(level: str, deadline: float) -> str:
     with Domain() as domain:
         sandbox = Sandbox(domain.id, level)
         try:
-            file = sandbox.stage({"inside.py": INSIDE.encode()}) / "inside.py"
+            file = sandbox.put_files({"inside.py": INSIDE.encode()}) / "inside.py"
             boxed = sandbox.start([sys.executable, "-P", str(file)], {})
             os.environ.update(sandbox.grader_environment())
             import rclpy

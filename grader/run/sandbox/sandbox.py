@@ -1,4 +1,4 @@
-"""The box a submission runs in: `Sandbox` is made for one run, filled with `stage`, started with `start`, and closed.
+"""The box a submission runs in: made for one run, filled with `put_files`, started with `start`, and closed.
 
 Called by `grader.run.session`, and by `probe.py` to find out which level works here.
 """
@@ -16,25 +16,24 @@ from pathlib import Path
 
 from gz_course.grader.errors import InfrastructureError
 from gz_course.grader.process.temporary_folder import TemporaryFolder
-from gz_course.grader.run.inside import seccomp
-from gz_course.grader.run.sandbox.boxed import Boxed
 from gz_course.grader.run.sandbox.environment import box_environment, student_environment
-from gz_course.grader.run.sandbox.level import AUTO, choose, level_module
+from gz_course.grader.run.sandbox.init import seccomp
+from gz_course.grader.run.sandbox.level import AUTO, LEVELS, choose, level_module
 from gz_course.grader.run.sandbox.network import NetworkError, PrivateNetwork
-from gz_course.grader.run.sandbox.order import (
+from gz_course.grader.run.sandbox.resource_monitor import ResourceMonitor, descendants
+from gz_course.grader.run.sandbox.sandboxed_process import SandboxedProcess
+from gz_course.grader.run.sandbox.spec import (
     HOST,
     LIMITS,
     MOST_PROCESSES,
     OPEN_DEVICES,
     OPEN_FOLDERS,
-    Order,
+    SandboxSpec,
     init_command,
 )
-from gz_course.grader.run.sandbox.view import DOOR, HOME, SUBMISSION, TMP_FILES, TMP_SIZE, view
-from gz_course.grader.run.sandbox.watch import Watch, descendants
+from gz_course.grader.run.sandbox.view import HOME, SOCKETS, SUBMISSION, TMP_FILES, TMP_SIZE, view
 
 PR_SET_CHILD_SUBREAPER = 36
-WITHOUT_NETWORK = "C"  # the best level for a process that cannot enter a private network (any more)
 FIRST_USER = 61_000  # + the ROS domain: nobody else's number, and another one for each run at the same time
 
 
@@ -69,30 +68,31 @@ class Sandbox:
             except NetworkError as error:
                 if level != AUTO:
                     raise InfrastructureError(f"no sandbox of level {level} here: {error}") from None
-                self.level = WITHOUT_NETWORK
+                # A process that cannot enter a private network (any more) takes the best level without one.
+                self.level = next(each for each in LEVELS if not level_module(each).PRIVATE_NETWORK)
                 self._module = level_module(self.level)
         self._temporary = TemporaryFolder("course-")
         self.folder = self._temporary.path
         for name in ("submission", "home", "door", "root", "etc"):
             (self.folder / name).mkdir()
             (self.folder / name).chmod(0o755)
-        self._boxes: list[Boxed] = []
+        self._boxes: list[SandboxedProcess] = []
 
     def grader_environment(self) -> dict[str, str]:
-        """What the grader's own ROS context needs."""
+        """Return the variables that the grader's own ROS context needs."""
         return box_environment(self.domain, self.folder / "grader-log", self._module.PRIVATE_NETWORK)
 
     def student_environment(self) -> dict[str, str]:
-        """The whole environment of the submission's process."""
+        """Return the whole environment of the submission's process."""
         return student_environment(self.domain, self.home, self._module.PRIVATE_NETWORK)
 
     @property
     def home(self) -> Path:
         """The submission's working folder, as it sees it."""
-        return HOME if self._module.WALLS else self.folder / "home"
+        return HOME if self._module.NAMESPACES else self.folder / "home"
 
-    def stage(self, files: Mapping[str, bytes]) -> Path:
-        """Put files (by name, relative, with `/` between parts) into the box; the folder as the box sees it."""
+    def put_files(self, files: Mapping[str, bytes]) -> Path:
+        """Put files (by relative name, with `/` between parts) into the box; return the folder as the box sees it."""
         folder = self.folder / "submission"
         for name, data in files.items():
             path = folder / name
@@ -101,44 +101,48 @@ class Sandbox:
                 (folder / parent).chmod(0o755)
             path.write_bytes(data)
             path.chmod(0o644)
-        return SUBMISSION if self._module.WALLS else folder
+        return SUBMISSION if self._module.NAMESPACES else folder
 
     @property
-    def door(self) -> tuple[Path, Path]:
+    def socket_folder(self) -> tuple[Path, Path]:
         """A folder for unix sockets of the grader: where to bind them, and where the box finds them (to connect)."""
         outside = self.folder / "door"
-        return outside, DOOR if self._module.WALLS else outside
+        return outside, SOCKETS if self._module.NAMESPACES else outside
 
-    def start(self, command: Sequence[str], environment: Mapping[str, str], pass_fds: Sequence[int] = ()) -> Boxed:
+    def start(
+        self, command: Sequence[str], environment: Mapping[str, str], pass_fds: Sequence[int] = ()
+    ) -> SandboxedProcess:
         """Start a command in the box, in a process group of its own, with stdout and stderr as pipes.
 
         `command` begins with the path of a program; `environment` is added to `student_environment()`; `pass_fds` keep
         their numbers. A box that cannot be built is an InfrastructureError when its process is asked for its end.
         """
         before = frozenset(descendants(os.getpid()))
-        order = self._order(list(command), self.student_environment() | dict(environment), tuple(pass_fds))
-        if not (self._module.WALLS or self._module.LANDLOCK):
-            boxed = Boxed(_spawn(order.command, order.environment, self.home, pass_fds), self.level, None, False)
+        spec = self._spec(list(command), self.student_environment() | dict(environment), tuple(pass_fds))
+        if not (self._module.NAMESPACES or self._module.LANDLOCK):
+            boxed = SandboxedProcess(
+                _spawn(spec.command, spec.environment, self.home, pass_fds), self.level, None, False
+            )
             with contextlib.suppress(ProcessLookupError):
                 limit(boxed.pid)
         else:
             ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
             with theirs:
                 ours.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, 1 << 20)
-                line = self._module.command(order, init_command(theirs.fileno()))
+                line = self._module.command(spec, init_command(theirs.fileno()))
                 process = _spawn(line, {"PATH": os.defpath}, Path("/"), (theirs.fileno(), *pass_fds))
-            boxed = Boxed(process, self.level, ours, bool(self._module.WALLS))
+            boxed = SandboxedProcess(process, self.level, ours, bool(self._module.NAMESPACES))
             with contextlib.suppress(OSError):  # it has ended already, and will be asked why
-                ours.send(order.for_init().as_bytes())
+                ours.send(spec.for_init().as_bytes())
         self._boxes.append(boxed)
-        if self._module.WALLS:  # what is in the box stays below its outermost process
-            boxed.watch = Watch(boxed.pid, boxed.kill)
+        if self._module.NAMESPACES:  # what is in the box stays below its outermost process
+            boxed.monitor = ResourceMonitor(boxed.pid, boxed.kill)
         else:
-            boxed.watch = Watch(os.getpid(), boxed.kill, before, self.home, TMP_SIZE, TMP_FILES)
+            boxed.monitor = ResourceMonitor(os.getpid(), boxed.kill, before, self.home, TMP_SIZE, TMP_FILES)
         return boxed
 
-    def _order(self, command: list[str], environment: dict[str, str], descriptors: tuple[int, ...]) -> Order:
-        walls, landlock = self._module.WALLS, self._module.LANDLOCK
+    def _spec(self, command: list[str], environment: dict[str, str], descriptors: tuple[int, ...]) -> SandboxSpec:
+        walls, landlock = self._module.NAMESPACES, self._module.LANDLOCK
         own_user = bool(walls) and os.geteuid() == 0
         user = FIRST_USER + self.domain if own_user else None
         places = (
@@ -149,7 +153,7 @@ class Sandbox:
         limits = {int(kind): most for kind, most in LIMITS.items()}
         if walls:  # elsewhere all processes of the same user count
             limits[int(resource.RLIMIT_NPROC)] = MOST_PROCESSES
-        return Order(
+        return SandboxSpec(
             walls=walls,
             places=places,
             root=str(self.folder / "root"),

@@ -16,14 +16,14 @@ from pathlib import Path
 import gz_course
 
 SUBMISSION = Path("/submission")
-DOOR = Path("/grader")  # holds the sockets on which the grader can be reached
+SOCKETS = Path("/grader")  # holds the sockets on which the grader can be reached
 HOME = Path("/tmp")
 SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
 SETTINGS = ("ld.so.cache", "alternatives", "localtime")  # of /etc
 DEVICES = ("null", "zero", "full", "random", "urandom")
 LINKS = {"/dev/fd": "/proc/self/fd", "/dev/stdin": "fd/0", "/dev/stdout": "fd/1", "/dev/stderr": "fd/2"}
 # Of the package `grader`: what is started as a script inside.
-OF_THE_GRADER = ("run/box", "run/inside")
+OF_THE_GRADER = ("run/agent", "run/sandbox/init")
 TMP_SIZE, TMP_FILES = 64 << 20, 20_000  # [bytes] and files of /tmp
 SHM_SIZE, SHM_FILES = 16 << 20, 1_000  # of /dev/shm
 
@@ -57,7 +57,7 @@ def view(submission: Path, door: Path, etc: Path) -> list[Place]:
         places.append(Place("mask", str(package)))
     places += [_bind(path, path) for path in (_package("gz_course.sim"), Path(gz_course.__file__).parents[1])]
     places += [_bind(path, path) for pattern in OF_THE_GRADER for path in package.glob(pattern)]
-    places += [_bind(SUBMISSION, submission), _bind(DOOR, door), Place("proc", "/proc")]
+    places += [_bind(SUBMISSION, submission), _bind(SOCKETS, door), Place("proc", "/proc")]
     places += [Place("device", f"/dev/{name}", f"/dev/{name}") for name in DEVICES]
     places += [Place("link", path, target) for path, target in LINKS.items()]
     places += [Place("tmpfs", str(HOME), size=TMP_SIZE, files=TMP_FILES)]

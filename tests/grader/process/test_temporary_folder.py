@@ -211,7 +211,7 @@ def test_folders_nested_deeper_than_python_can_call_are_removed(here, request):
 AS_A_USER = """
 import os, sys
 from pathlib import Path
-from gz_course.grader.run.inside import kernel
+from gz_course.grader.run.sandbox.init import kernel
 from gz_course.grader.process.temporary_folder import TemporaryFolder
 kernel.drop_capabilities(61_950, 61_950)
 with TemporaryFolder("course-", sys.argv[1]) as folder:
@@ -247,7 +247,7 @@ def test_what_may_not_be_read_or_written_is_removed(tmp_path_factory):
 MOUNTS = """
 import os, sys
 from pathlib import Path
-from gz_course.grader.run.inside import kernel
+from gz_course.grader.run.sandbox.init import kernel
 from gz_course.grader.process.temporary_folder import TemporaryFolder
 kernel.unshare(kernel.CLONE_NEWNS)
 kernel.mount("", "/", flags=kernel.MS_REC | kernel.MS_PRIVATE)

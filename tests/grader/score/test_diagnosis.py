@@ -2,7 +2,10 @@
 
 import pytest
 
+from gz_course.grader.kinds.kind import find_kind
 from gz_course.grader.score.diagnosis import diagnose, outcome_of
+
+LOOKS = find_kind("node").diagnosis().looks
 
 TWIST, SCAN = "geometry_msgs/msg/Twist", "sensor_msgs/msg/LaserScan"
 COUNT = {"topics/cmd_vel/count": [(0.1, 1.0)]}
@@ -36,7 +39,7 @@ def told(record):
         ends = [endpoint(), *endpoints] if publisher else list(endpoints)
         told_lines = [(0.5, line) for line in lines]
         recording = record(signals, facts=BASE | {"endpoints": ends} | facts, lines=told_lines, submission=submission)
-        return outcome_of(recording), diagnose(recording)
+        return outcome_of(recording), diagnose(recording, LOOKS)
 
     return call
 
@@ -248,4 +251,4 @@ def test_the_first_cause_is_told_first(told):
 def test_a_recording_without_facts_is_no_error(record):
     recording = record()
     assert outcome_of(recording) == "graded"
-    assert diagnose(recording) == ""
+    assert diagnose(recording, LOOKS) == ""

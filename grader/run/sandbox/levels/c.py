@@ -2,10 +2,20 @@
 
 from __future__ import annotations
 
-from gz_course.grader.run.sandbox.landlock import command as command
-from gz_course.grader.run.sandbox.landlock import missing as missing
+from gz_course.grader.run.sandbox.init import landlock
+from gz_course.grader.run.sandbox.spec import SandboxSpec
 
 ABOUT = "Landlock and limits; the network is not isolated"
 PRIVATE_NETWORK = False
-WALLS = ""
+NAMESPACES = ""
 LANDLOCK = True
+
+
+def missing() -> str:
+    """Say in a few words what this level lacks here; an empty text if it can be tried."""
+    return "" if landlock.abi() else "this kernel has no Landlock"
+
+
+def command(spec: SandboxSpec, init: list[str]) -> list[str]:
+    """Return the command that runs `init`, which locks itself in and becomes the submission."""
+    return init

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from gz_course.grader.run.sandbox.order import Order
+from gz_course.grader.run.sandbox.spec import SandboxSpec
 
 ABOUT = "limits and a process group of its own: keeps accidents in, no jail for hostile code"
 PRIVATE_NETWORK = False
-WALLS = ""
+NAMESPACES = ""
 LANDLOCK = False
 
 
@@ -15,6 +15,6 @@ def missing() -> str:
     return ""
 
 
-def command(order: Order, init: list[str]) -> list[str]:
+def command(spec: SandboxSpec, init: list[str]) -> list[str]:
     """Return the submission's own command; limits are put on it from outside."""
-    return order.command
+    return spec.command

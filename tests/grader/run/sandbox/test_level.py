@@ -136,7 +136,7 @@ def test_a_level_that_lacks_something_says_what(monkeypatch):
 
 @pytest.mark.parametrize("letter", ["B", "C"])
 def test_a_kernel_without_landlock_is_told(monkeypatch, letter):
-    monkeypatch.setattr("gz_course.grader.run.inside.landlock.abi", lambda: 0)
+    monkeypatch.setattr("gz_course.grader.run.sandbox.init.landlock.abi", lambda: 0)
     assert level.level_module(letter).missing() == "this kernel has no Landlock"
-    monkeypatch.setattr("gz_course.grader.run.inside.landlock.abi", lambda: 1)
+    monkeypatch.setattr("gz_course.grader.run.sandbox.init.landlock.abi", lambda: 1)
     assert level.level_module(letter).missing() == ""

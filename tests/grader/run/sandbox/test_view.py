@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from gz_course.grader.run.sandbox import view as module
-from gz_course.grader.run.sandbox.view import DOOR, SUBMISSION, Place, view
+from gz_course.grader.run.sandbox.view import SOCKETS, SUBMISSION, Place, view
 
 ROOT = Path(__file__).parents[4]
 
@@ -30,10 +30,10 @@ def shown(places, path):
 
 def test_what_a_node_needs_is_there(places):
     found = places()
-    for path in (sys.prefix, sys.base_prefix, ROOT / "sim/gz", "/usr/lib", ROOT / "grader/run/inside/init.py"):
+    for path in (sys.prefix, sys.base_prefix, ROOT / "sim/gz", "/usr/lib", ROOT / "grader/run/sandbox/init/main.py"):
         assert shown(found, Path(path)), path
     assert {found[path].kind for path in ("/tmp", "/dev/shm")} == {"tmpfs"}
-    assert {found[str(path)].kind for path in (SUBMISSION, DOOR)} == {"bind"}
+    assert {found[str(path)].kind for path in (SUBMISSION, SOCKETS)} == {"bind"}
 
 
 def test_what_is_to_stay_hidden_is_not(places):
@@ -46,7 +46,7 @@ def test_what_is_to_stay_hidden_is_not(places):
         ".git",
         "grader/score",
         "grader/grade.py",
-        "grader/run/stage.py",
+        "grader/run/run_loop.py",
     ):
         assert shown(found, ROOT / name) is None, name
     for path in ("/etc/shadow", "/root/.ssh", "/home", "/var", "/run", "/sys"):
@@ -66,12 +66,12 @@ def test_parents_come_first_and_every_place_has_them(places):
 def test_a_grader_that_is_installed_beside_the_libraries_is_masked(places, tmp_path, monkeypatch):
     site = tmp_path / "venv/lib/site-packages"
     package = site / "gz_course"
-    for name in ("grader/run/inside", "grader/run/box", "grader/score", "sim"):
+    for name in ("grader/run/sandbox/init", "grader/run/agent", "grader/score", "sim"):
         (package / name).mkdir(parents=True)
     monkeypatch.setattr(module, "_python", lambda: [tmp_path / "venv"])
     monkeypatch.setattr(module, "_package", lambda name: site.joinpath(*name.split(".")))
     found = places()
     assert found[str(package / "grader")] == Place("mask", str(package / "grader"))
     assert found[str(package / "grader/run")].kind == "folder"
-    assert shown(found, package / "grader/run/inside") and shown(found, package / "sim")
+    assert shown(found, package / "grader/run/sandbox/init") and shown(found, package / "sim")
     assert shown(found, package / "grader/score") is None

@@ -5,10 +5,12 @@ import json
 import pytest
 
 from gz_course.grader.exercise.toml_table import Table
+from gz_course.grader.kinds.kind import find_kind
 from gz_course.grader.score.check import check_kinds
 from gz_course.grader.score.diagnosis import diagnose, outcome_of
 from gz_course.grader.score.launched import deaths, launch_fault
 
+LOOKS = find_kind("launch").diagnosis().looks
 SIMULATOR = {"given": "a.sdf", "world": "a.sdf", "error": "", "paused": False, "iterations": 0, "ran": True}
 GOOD = {
     "simulators": [SIMULATOR],
@@ -142,10 +144,10 @@ def test_the_fault_of_a_launch_comes_with_file_and_line(record):
     facts = {"launch": GOOD | {"error": error, "exit_code": 1, "running": False}, "exit_code": 1, "exit_at": 0.0}
     recording = record(facts=facts)
     sentence = "The launch failed: bringup.launch.py, line 26: NameError: name 'x' is not defined"
-    assert launch_fault(recording) == diagnose(recording) == sentence
+    assert launch_fault(recording) == diagnose(recording, LOOKS) == sentence
     assert outcome_of(recording) == "student_error"
 
 
 def test_a_launch_without_fault_has_none(record):
-    assert launch_fault(record(facts={"launch": GOOD})) == diagnose(record(facts={"launch": GOOD})) == ""
+    assert launch_fault(record(facts={"launch": GOOD})) == diagnose(record(facts={"launch": GOOD}), LOOKS) == ""
     assert launch_fault(record()) == ""

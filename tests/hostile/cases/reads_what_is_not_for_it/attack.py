@@ -22,5 +22,5 @@ for found in Path("/tmp").iterdir():
 for found in {p.name for p in course.iterdir()} - {".venv", "sim", "grader"} if course.is_dir() else ():
     print("ESCAPED", found, flush=True)
 for found in {str(p.relative_to(course)) for p in (course / "grader").rglob("*.py")}:
-    if not found.startswith(("grader/run/inside", "grader/run/box")):
+    if not found.startswith(("grader/run/sandbox/init", "grader/run/agent")):
         print("ESCAPED", found, flush=True)

@@ -198,7 +198,7 @@ KILLED_NODE = """
 import subprocess, sys
 from pathlib import Path
 from gz_course.grader.tools.doctor.checks import leftovers
-from gz_course.grader.run.inside import kernel
+from gz_course.grader.run.sandbox.init import kernel
 kernel.unshare(kernel.CLONE_NEWNS)
 kernel.mount("", "/", flags=kernel.MS_REC | kernel.MS_PRIVATE)
 kernel.mount("shm", "/dev/shm", "tmpfs")

@@ -1,0 +1,77 @@
+"""`kind = "bridge"`: the submission is the YAML file of a ros_gz_bridge.
+
+Its entries stand between the simulator and the exercise's own node (`given_node.py`), which commands the robots and
+listens to their sensors. What `lint` says of the file goes into the recording as a fact; what the original
+ros_gz_bridge passes over is bridged as it would be there. A file of which no bridge at all can be made is the student's
+error.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from gz_course.grader.kinds.exercise_node import EXERCISE_NODE, diagnosis, exercise_node, run_loop
+from gz_course.grader.kinds.kind import Kind, RunPlan
+from gz_course.grader.kinds.programs import node_command
+from gz_course.grader.printable import shown
+
+if TYPE_CHECKING:
+    from gz_course.grader.exercise import Exercise
+    from gz_course.grader.submission import Submission
+    from gz_course.sim.ros_gz_bridge.config import Config
+    from gz_course.sim.ros_gz_bridge.entry import BridgeEntry
+
+NODE = "ros_gz_bridge"  # the node a bridge is; `~` in a ROS name stands for it
+MOST_BRIDGES = 100
+
+
+def read(name: str, content: bytes) -> Config:
+    """What the file holds, faults included."""
+    from gz_course.sim.ros_gz_bridge.checks import private_gz_names
+    from gz_course.sim.ros_gz_bridge.config import read_yaml
+
+    config = read_yaml(content, name)
+    config.findings += private_gz_names(config.topics, config.services)
+    return config
+
+
+def fault(name: str, content: bytes) -> str | None:
+    """Say why no bridge at all can be made of a file, with the line."""
+    config = read(name, content)
+    if len(config.topics) > MOST_BRIDGES:
+        return f"{name}: {len(config.topics)} bridges; at most {MOST_BRIDGES} are run here"
+    errors = [finding for finding in config.findings if not finding.warning]
+    return shown(str(errors[0])) if errors and not usable(config) else None
+
+
+def usable(config: Config) -> list[BridgeEntry]:
+    """The entries the original would bridge, with their names as both graphs will show them.
+
+    A graded run has its listeners from the beginning to the end, so a lazy entry is always connected.
+    """
+    return [
+        replace(entry, ros_topic=_ros_name(entry.ros_topic), gz_topic=f"/{entry.gz_topic.strip('/')}", lazy=False)
+        for entry in config.tolerant().topics
+        if not entry.gz_topic.startswith("~")
+    ]
+
+
+def _ros_name(name: str) -> str:
+    """A ROS name as it is resolved for the bridge's node, which has no namespace."""
+    for what, becomes in (("{node}", NODE), ("{namespace}", ""), ("{ns}", ""), ("~", f"/{NODE}")):
+        name = name.replace(what, becomes)
+    return f"/{name.lstrip('/')}"
+
+
+def plan(exercise: Exercise, submission: Submission) -> RunPlan:
+    """Run the exercise's own node beside the submission's bridges; what lint says of them becomes a fact."""
+    config = read(submission.main, submission.files[submission.main])
+    found = [
+        {"place": finding.place, "sentence": shown(finding.sentence), "warning": finding.warning}
+        for finding in config.findings
+    ]
+    return RunPlan(EXERCISE_NODE, exercise_node(exercise), usable(config), {"lint": found})
+
+
+KIND = Kind((".yaml", ".yml"), fault, plan, node_command, run_loop, diagnosis, brings_bridge=True)

@@ -1,0 +1,35 @@
+"""The run of an exercise's own node: its log is kept apart, and both graphs are taken into the recording at the end."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gz_course.grader.errors import ManifestError
+from gz_course.grader.kinds.exercise_node import EXERCISE_NODE
+from gz_course.grader.record.reading import GIVEN_LOG
+from gz_course.grader.record.recorder import Recorder
+from gz_course.grader.run.graph_snapshot import both_graphs
+from gz_course.grader.run.processes.progress import Endpoint
+from gz_course.grader.run.run_loop import RunLoop
+
+
+class ExerciseNodeRunLoop(RunLoop):
+    """A run in which a bridge's file or a table of topics is judged by both graphs."""
+
+    log = GIVEN_LOG
+
+    def run(self, recorder: Recorder) -> dict[str, Any]:
+        """As in any run. Raises ManifestError if the exercise's own node ended or never spun."""
+        facts = super().run(recorder)
+        if facts["exit_at"] is not None or not facts["ready"]:
+            how = "did not start to spin" if facts["exit_at"] is None else f"ended (exit code {facts['exit_code']})"
+            raise ManifestError(
+                f"{self._exercise.folder / EXERCISE_NODE}: the exercise's own node {how}; nothing is graded"
+            )
+        return facts
+
+    def _last_look(self) -> dict[str, Any]:
+        return both_graphs(self._gz_nodes[1], self._ros)
+
+    def _is_reserved(self, endpoint: Endpoint) -> bool:
+        return False

@@ -1,0 +1,66 @@
+"""`kind = "launch"`: the submission is a launch file that starts simulator, bridge and nodes itself.
+
+It is started with `ros2 launch`, in the folder that also holds what comes with the exercise (every file beside the
+manifest). The `parameters` of a trial are its arguments: `parameters = { paused = "true" }` is `paused:=true`.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gz_course.grader.kinds.kind import Kind, RunPlan
+from gz_course.grader.kinds.node import fault
+from gz_course.grader.kinds.programs import launch_command
+
+if TYPE_CHECKING:
+    from gz_course.grader.exercise import Exercise
+    from gz_course.grader.exercise.trial import Trial
+    from gz_course.grader.run.run_loop import RunLoop
+    from gz_course.grader.score.diagnosis import Diagnosis
+    from gz_course.grader.submission import Submission
+
+
+MANIFEST = "exercise.toml"
+
+
+def plan(exercise: Exercise, submission: Submission) -> RunPlan:
+    """Run the launch file, with what comes with the exercise beside it."""
+    own = (exercise.file, MANIFEST)
+    beside = [path for path in exercise.folder.iterdir() if path.is_file() and path.name not in own]
+    return RunPlan(submission.main, submission.files | {path.name: path.read_bytes() for path in beside})
+
+
+def command(program: Path, trial: Trial) -> list[str]:
+    """Hand the parameters of the trial to the launch file as its arguments."""
+    return launch_command(program, trial.parameters)
+
+
+def environment(pace: str) -> dict[str, str]:
+    """Let Gazebo's programs ask the grader; in lock-step, everybody holds what it sends from the beginning."""
+    from gz_course.grader.run.agent.course_agent.executor_monitor import HOLD
+    from gz_course.grader.run.agent.course_agent.import_hooks import REMOTE_GAZEBO
+
+    return {REMOTE_GAZEBO: "1"} | ({HOLD: "1"} if pace == "lockstep" else {})
+
+
+def run_loop() -> type[RunLoop]:
+    """Import what simulates such a run, with rclpy and MuJoCo."""
+    from gz_course.grader.kinds.launch.launch_run_loop import LaunchRunLoop
+
+    return LaunchRunLoop
+
+
+def diagnosis() -> Diagnosis:
+    """Explain runs by what the launch said and how it ended."""
+    from gz_course.grader.score import diagnosis as looks
+    from gz_course.grader.score.clocks import clock_fault
+
+    return looks.Diagnosis(
+        looks.outcome_of,
+        (looks.cannot_run, looks.broke_a_limit, looks.launch_failed, looks.out_of_time, looks.unstable),
+        (clock_fault,),
+    )
+
+
+KIND = Kind((".py",), fault, plan, command, run_loop, diagnosis, environment, brings_bridge=True)

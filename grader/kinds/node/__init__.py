@@ -1,0 +1,110 @@
+"""`kind = "node"`: the submission is a Python file with an rclpy node; the exercise's bridge joins it to the robot."""
+
+from __future__ import annotations
+
+import codecs
+import io
+import re
+import tokenize
+import warnings
+from typing import TYPE_CHECKING
+
+from gz_course.grader.kinds.kind import Kind, RunPlan
+from gz_course.grader.kinds.programs import node_command
+from gz_course.grader.lint.wall_clock import wall_clock
+from gz_course.grader.lint.whole_numbers import float_fields, whole_numbers
+from gz_course.grader.printable import shown
+
+if TYPE_CHECKING:
+    from gz_course.grader.exercise import Exercise
+    from gz_course.grader.run.run_loop import RunLoop
+    from gz_course.grader.score.diagnosis import Diagnosis
+    from gz_course.grader.submission import Submission
+
+
+def fault(name: str, content: bytes) -> str | None:
+    """Say why a file is not Python, with its line."""
+    if unreadable := _not_a_text(name, content):
+        return shown(unreadable)
+    try:
+        # compile() passes bytes in a comment that are not UTF-8; Python, which is given the file, does not.
+        content.decode(tokenize.detect_encoding(io.BytesIO(content).readline)[0])
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # an odd escape in a student's string is not our business
+            compile(content, name, "exec", dont_inherit=True)
+    except UnicodeDecodeError as error:
+        line = content[: error.start].count(b"\n") + 1
+        return shown(f"{name}, line {line}: this is not {error.encoding}: byte 0x{content[error.start]:02x}")
+    except SyntaxError as error:
+        line_number = f"{name}, line {error.lineno}" if error.lineno else name
+        code = f": {error.text.strip()}" if error.text and error.text.strip() else ""
+        return shown(f"{line_number}: {type(error).__name__}: {error.msg}{code}")
+    except (ValueError, RecursionError, MemoryError, LookupError) as error:
+        return shown(f"{name} cannot be read as Python: {type(error).__name__}: {error}")
+    return None
+
+
+def _not_a_text(name: str, content: bytes) -> str:
+    """Say which other encoding a file is in, where Python's own words do not."""
+    if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return f"{name} is saved as UTF-16, which Python does not read: save it as UTF-8"
+    head = content.splitlines()[:2]
+    if any(re.match(rb"[ \t\f]*#.*?coding[:=]", line) for line in head):
+        return ""  # it says itself how it is written
+    try:
+        content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        place = content[: error.start].count(b"\n") + 1
+        return f"{name}, line {place}: this is not UTF-8: byte 0x{content[error.start]:02x}; save the file as UTF-8"
+    return ""
+
+
+def plan(exercise: Exercise, submission: Submission) -> RunPlan:
+    """Run the student's node beside the bridge of the exercise; suspicious places in the file become facts."""
+    from gz_course.grader.run.exercise_bridge import exercise_bridge
+
+    entries, content = exercise_bridge(exercise), submission.files[submission.main]
+    heard = {e.ros_type for e in entries if e.direction.to_gz} | set(exercise.observe.values())
+    places = {
+        "wall_clock": wall_clock(content),
+        "whole_numbers": whole_numbers(content, float_fields(heard)),
+    }
+    facts = {
+        name: [{"file": shown(submission.main)} | place for place in found] for name, found in places.items() if found
+    }
+    return RunPlan(submission.main, submission.files, entries, facts)
+
+
+def run_loop() -> type[RunLoop]:
+    """Import what simulates such a run, with rclpy and MuJoCo."""
+    from gz_course.grader.run.run_loop import RunLoop
+
+    return RunLoop
+
+
+def diagnosis() -> Diagnosis:
+    """Explain runs by the student's own node: what it did wrong, in the order in which one would look."""
+    from gz_course.grader.score import diagnosis as looks
+    from gz_course.grader.score.clocks import clock_fault
+
+    return looks.Diagnosis(
+        looks.outcome_of,
+        (
+            looks.tampered,
+            looks.cannot_run,
+            looks.broke_a_limit,
+            looks.died,
+            looks.ended_early,
+            looks.never_spun,
+            looks.out_of_time,
+            looks.publishers,
+            looks.subscriptions,
+            looks.silent,
+            looks.dropped,
+            looks.unstable,
+        ),
+        (looks.whole_number_fault, clock_fault),
+    )
+
+
+KIND = Kind((".py",), fault, plan, node_command, run_loop, diagnosis)

@@ -1,0 +1,116 @@
+"""`kind = "table"`: the submission is a YAML table of topics as they are seen from ROS and from Gazebo.
+
+A row says what a topic is called on either side, its types, which way its messages travel and which ROS node publishes
+it. The exercise's world, its bridge and its own node (`given_node.py`) are run, both graphs are recorded as facts, and
+the checks compare row by row.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from gz_course.grader.errors import nearest
+from gz_course.grader.kinds.exercise_node import EXERCISE_NODE, diagnosis, exercise_node, run_loop
+from gz_course.grader.kinds.kind import Kind, RunPlan
+from gz_course.grader.kinds.programs import node_command
+from gz_course.grader.printable import shown
+
+if TYPE_CHECKING:
+    import yaml
+
+    from gz_course.grader.exercise import Exercise
+    from gz_course.grader.submission import Submission
+
+COLUMNS = ("ros_topic", "ros_type", "gz_topic", "gz_type", "direction", "publisher")
+MOST_BYTES = 64 * 1024
+MOST_ROWS = 200
+LONGEST = 200  # [characters] of one value
+
+
+class TableError(Exception):
+    """Why a file is no such table: `line` and one sentence."""
+
+    def __init__(self, line: int, sentence: str) -> None:
+        super().__init__(sentence)
+        self.line = line
+        self.sentence = sentence
+
+
+def fault(name: str, content: bytes) -> str | None:
+    """Say why a file is no such table, with its line."""
+    try:
+        read(name, content)
+    except TableError as error:
+        return shown(f"{name}, line {error.line}: {error.sentence}")
+    return None
+
+
+def read(name: str, content: bytes) -> list[dict[str, Any]]:
+    """Return the rows: a text for each column (empty if it is not filled in) and the `line` it begins in.
+
+    Raises TableError for the first thing that does not belong into such a table.
+    """
+    import yaml
+
+    from gz_course.sim.ros_gz_bridge.config import ConfigError, compose
+
+    if len(content) > MOST_BYTES:
+        raise TableError(1, f"the file has {len(content)} bytes; such a table needs no more than {MOST_BYTES}")
+    try:
+        root = compose(content, name)
+    except ConfigError as error:
+        place, _, sentence = error.errors[0].partition(": ")
+        raise TableError(int(place.rpartition(":")[2]), sentence) from None
+    if root is None or (isinstance(root, yaml.ScalarNode) and not root.value):
+        raise TableError(1, "the table is empty; each row begins with '- ros_topic:'")
+    if not isinstance(root, yaml.SequenceNode):
+        raise TableError(_line(root), "expected a list of rows; begin each row with '- '")
+    if len(root.value) > MOST_ROWS:
+        raise TableError(1, f"{len(root.value)} rows, more than the {MOST_ROWS} a table may have")
+    return [_row(node) for node in root.value]
+
+
+def _row(node: yaml.Node) -> dict[str, Any]:
+    import yaml
+
+    if not isinstance(node, yaml.MappingNode):
+        raise TableError(_line(node), f"expected a row (lines of 'column: value'): {', '.join(COLUMNS)}")
+    row: dict[str, Any] = {"line": _line(node)} | dict.fromkeys(COLUMNS, "")
+    first: dict[str, int] = {}
+    for key, value in node.value:
+        column = key.value if isinstance(key, yaml.ScalarNode) else ""
+        if column not in COLUMNS:
+            raise TableError(
+                _line(key), f"there is no column {shown(str(column), 60)!r}{nearest(str(column)[:LONGEST], COLUMNS)}"
+            )
+        if column in first:
+            raise TableError(_line(key), f"{column} stands twice in one row (first in line {first[column]})")
+        first[column] = _line(key)
+        row[column] = _text(column, value)
+    return row
+
+
+def _text(column: str, node: yaml.Node) -> str:
+    import yaml
+
+    if not isinstance(node, yaml.ScalarNode):
+        raise TableError(_line(node), f"{column} must be one value, not a list or a table of its own")
+    text = "" if node.tag.endswith(":null") else node.value.strip()
+    if len(text) > LONGEST:
+        raise TableError(_line(node), f"{column} has {len(text)} characters; no name is longer than {LONGEST}")
+    return shown(text)
+
+
+def _line(node: yaml.Node) -> int:
+    return int(node.start_mark.line) + 1
+
+
+def plan(exercise: Exercise, submission: Submission) -> RunPlan:
+    """Run the exercise's own node and bridge; the rows go into the recording."""
+    from gz_course.grader.run.exercise_bridge import exercise_bridge
+
+    rows = read(submission.main, submission.files[submission.main])
+    return RunPlan(EXERCISE_NODE, exercise_node(exercise), exercise_bridge(exercise), {"table": rows})
+
+
+KIND = Kind((".yaml", ".yml"), fault, plan, node_command, run_loop, diagnosis)

@@ -1,0 +1,85 @@
+"""What `parameter_bridge` finds in the box instead of `ros_gz_bridge.bridge.Bridge`: one that stands outside.
+
+The program itself is the real one, with its node, its parameters, its checks of the configuration and its output. Only
+the messages are carried by the grader, which has the simulator.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterable
+from typing import Any
+
+from .channel import channel
+from .grader_requests import ask
+
+
+class RemoteBridge:
+    """As `ros_gz_bridge.bridge.Bridge`, whose arguments it takes; those about threads and pace mean nothing here."""
+
+    def __init__(
+        self,
+        ros_node: Any,
+        gz_node: Any,
+        entries: Iterable[Any],
+        publish: Any = None,
+        *,
+        overrides: Any = None,
+        services: Iterable[Any] = (),
+        **options: Any,
+    ) -> None:
+        from gz_course.sim.ros_gz_bridge.entry import BridgeError
+
+        self.entries = list(entries)
+        self.services = list(services)
+        if self.services:
+            refused = "services of Gazebo are not offered to ROS while a submission is graded"
+            raise BridgeError([f"{service.name}: {refused}" for service in self.services])
+        rows = []
+        for entry in self.entries:
+            row = dataclasses.asdict(entry) | {"direction": entry.direction.value}
+            rows.append(row | {"ros_topic": ros_node.resolve_topic_name(entry.ros_topic)})
+        frame = getattr(overrides, "frame_id", None)
+        answer = ask({"bridge": {"entries": rows, "frame_id": frame, "node": ros_node.get_fully_qualified_name()}})
+        if errors := answer.get("errors") or ([answer["error"]] if "error" in answer else []):
+            raise BridgeError(errors)
+
+    def status(self) -> list[Any]:
+        """The counters of every entry; they are outside."""
+        from gz_course.sim.ros_gz_bridge.entry import EntryStatus
+
+        return [EntryStatus(entry) for entry in self.entries]
+
+    def say_unsaid(self, at_once: bool = False) -> None:
+        """Nothing is lost here."""
+
+    def close(self) -> None:
+        """Tell that it is over."""
+        channel().send({"stopped": True})
+
+
+class NoWatcher:
+    """As `ros_gz_bridge.monitor.Watcher`, which looks for publishers in Gazebo's graph; that is not to be seen here."""
+
+    def __init__(self, *arguments: Any) -> None:
+        pass
+
+    def start(self) -> None:
+        """Nothing to look at."""
+
+    def stop(self) -> None:
+        """Nothing was looked at."""
+
+
+def install() -> None:
+    """Put `RemoteBridge` in place; ros_gz_bridge.bridge has just been imported."""
+    from gz_course.sim.ros_gz_bridge import bridge
+
+    bridge.Bridge = RemoteBridge  # type: ignore[assignment, misc]
+
+
+def install_watcher() -> None:
+    """Put `NoWatcher` in place; ros_gz_bridge.watch has just been imported."""
+    from gz_course.sim.ros_gz_bridge import watch
+
+    watch.Watcher = NoWatcher  # type: ignore[assignment, misc]

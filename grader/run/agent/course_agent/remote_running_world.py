@@ -1,0 +1,62 @@
+"""What `create`, `remove` and their like find in the box instead of Gazebo's services: the grader, asked for the same.
+
+`import_hooks.py` puts `RemoteRunningWorld` in the place of `ros_gz_sim.running_world.RunningWorld`.
+"""
+
+from __future__ import annotations
+
+import base64
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from .grader_requests import ask
+
+LOOK_AGAIN = 0.05  # [s] until a world is asked for again
+
+
+class RemoteRunningWorld:
+    """As the original. `name` is that of the first world found when none is given."""
+
+    def __init__(
+        self, node: Any, name: str, timeout: float, warn: Callable[[str], object], *, start: float | None = None
+    ) -> None:
+        from gz_course.sim.ros_program.errors import Failure
+
+        end = (time.monotonic() if start is None else start) + timeout
+        worlds: list[str] = []
+        while not (worlds and (not name or name in worlds)):
+            worlds = ask({"worlds": True}).get("worlds", [])
+            if time.monotonic() > end:
+                if worlds:
+                    raise Failure(f"no world '{name}' appeared within {timeout:g} s; worlds that run are: {worlds[0]}")
+                raise Failure(f"no simulator answered within {timeout:g} s; start gz sim")
+            if not worlds or (name and name not in worlds):
+                threading.Event().wait(LOOK_AGAIN)
+        self.name = name or worlds[0]
+
+    def call(self, verb: str, request: Any) -> bool:
+        """Ask `/world/NAME/VERB` and wait until it is done; False when the simulator refuses."""
+        if getattr(request, "sdf_filename", ""):
+            request.sdf = Path(request.sdf_filename).read_text(encoding="utf-8")
+            request.sdf_filename = ""
+        data = base64.b64encode(request.SerializeToString()).decode()
+        answer = ask({"call": {"verb": verb, "type": request.DESCRIPTOR.full_name, "data": data}})
+        return bool(answer.get("done"))
+
+    def entities(self) -> tuple[list[str], list[str]]:
+        """Return the names of all models, and of no lights."""
+        return ask({"worlds": True}).get("models", []), []
+
+    def resolve(self, uri: str) -> str:
+        """Return the path the simulator finds for a URI: none beyond what is found here."""
+        return ""
+
+
+def install() -> None:
+    """Put `RemoteRunningWorld` in place; ros_gz_sim.running_world has just been imported."""
+    from gz_course.sim.ros_gz_sim import running_world
+
+    running_world.RunningWorld = RemoteRunningWorld  # type: ignore[assignment, misc]

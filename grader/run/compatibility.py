@@ -1,0 +1,28 @@
+"""Whether the agent's patches fit the libraries installed here; asked once at the beginning of a run.
+
+The submission's processes run the same Python with the same libraries, so the answer is found on this side of the
+walls, where no submission can forge it.
+"""
+
+from __future__ import annotations
+
+from importlib.metadata import version
+
+from gz_course.grader.errors import InfrastructureError
+from gz_course.grader.run.agent.course_agent import python_3, rclpy_7_1
+from gz_course.grader.run.agent.course_agent.self_check import misfits
+
+RCLPY = "ros-jazzy-rclpy"
+
+
+def check_compatibility() -> None:
+    """Raise InfrastructureError naming the first thing of rclpy or Python that is not as the patches expect it."""
+    installed = version(RCLPY)
+    found = misfits(rclpy_7_1.RELIED_UPON) + misfits(python_3.SUBPROCESS)
+    if not found and not installed.startswith(f"{rclpy_7_1.VERSION}."):
+        found = [f"rclpy has the version {installed}, and {rclpy_7_1.VERSION} is expected"]
+    if found:
+        raise InfrastructureError(
+            f"nodes cannot be kept in step with this rclpy {installed}: {found[0]}; "
+            "install the versions in constraints.txt"
+        )

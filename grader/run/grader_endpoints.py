@@ -1,0 +1,218 @@
+"""The grader's own end of the ROS graph: the bridge to its private simulator, and a tap on every student topic.
+
+The bridge is the real `ros_gz_bridge`; only the moment at which its ROS messages leave is decided here, because in
+lock-step they leave one at a time.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import time
+from collections import Counter
+from collections.abc import Callable
+from importlib import import_module
+from typing import Any
+
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.logging import LoggingSeverity, set_logger_level
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.serialization import serialize_message
+from rclpy.signals import SignalHandlerOptions
+
+from gz_course.grader.errors import ManifestError
+from gz_course.sim.gz.transport import Node as GzNode
+from gz_course.sim.ros_gz_bridge.bridge import Bridge, BridgeEntry, HeaderOverrides
+
+HOUSEKEEPING = ("/parameter_events", "/rosout")  # topics every node has
+UNKNOWN = "_NODE_NAME_UNKNOWN_"  # what rcl calls the node of an endpoint that has not told it yet
+NAMES, LOOK_AGAIN = 5.0, 0.02  # [s] of wall time for the nodes' names to arrive, and between two looks
+TAP_DEPTH = 1000
+LARGE = 60_000  # [bytes] which one UDP packet holds; a larger message goes in several, and some may be lost
+MOST_AT_ONCE = 1000  # messages taken in one go: a flood does not keep the grader from going on
+NODE = "ros_gz_bridge"
+
+
+def message_class(ros_type: str) -> Any:
+    """Return the Python class of a ROS type such as `std_msgs/msg/Float32`. Raises ManifestError if there is none."""
+    package, _, name = ros_type.partition("/msg/")
+    try:
+        return getattr(import_module(f"{package}.msg"), name)
+    except (ImportError, AttributeError):
+        raise ManifestError(f"there is no ROS message type {ros_type!r} here") from None
+
+
+class GraderEndpoints:
+    """Owns an rclpy context in `domain`, the bridge for `entries`, and a tap on each topic in `observe`.
+
+    `heard(topic, message)` is called for every message that arrives from the student.
+    """
+
+    def __init__(
+        self,
+        domain: int,
+        gz_node: GzNode,
+        entries: list[BridgeEntry],
+        observe: dict[str, str],
+        heard: Callable[[str, Any], None],
+    ) -> None:
+        kinds = {topic: message_class(kind) for topic, kind in observe.items()}
+        self.held: list[tuple[str, Any, Any]] = []
+        self._gz_node = gz_node
+        self._observe = observe
+        self.offered = {e.ros_topic: e.ros_type for e in entries if e.direction.to_ros}
+        self.listened = {e.ros_topic: e.ros_type for e in entries if e.direction.to_gz} | observe
+        self.received: Counter[str] = Counter()
+        self._heard = heard
+        self._context = Context()
+        # No arguments: ours are not meant for ROS.
+        rclpy.init(args=[], context=self._context, domain_id=domain, signal_handler_options=SignalHandlerOptions.NO)
+        with contextlib.ExitStack() as stack:  # an executor that nobody ends complains when Python does
+            stack.callback(rclpy.shutdown, context=self._context)
+            set_logger_level(NODE, LoggingSeverity.ERROR)  # what it would say is told in the report
+            self._node = rclpy.create_node(NODE, context=self._context, start_parameter_services=False)
+            stack.callback(self._node.destroy_node)
+            self._executor = SingleThreadedExecutor(context=self._context)
+            stack.callback(self._executor.shutdown)
+            self._executor.add_node(self._node)
+            self.bridge = Bridge(self._node, gz_node, entries, publish=self._hold, heard=self._bridge_heard)
+            stack.callback(lambda: self.bridge.close())
+            for topic, kind in kinds.items():
+                self._node.create_subscription(kind, topic, self._tap(topic), QoSProfile(depth=TAP_DEPTH))
+            self._look_at_own()
+            self._open = stack.pop_all()
+
+    def set_bridges(self, entries: list[BridgeEntry], overrides: HeaderOverrides | None = None) -> None:
+        """Replace the bridges. Raises BridgeError, and then there are none."""
+        self.bridge.close()
+        self.bridge = Bridge(self._node, self._gz_node, [])
+        self.bridge = Bridge(
+            self._node, self._gz_node, entries, publish=self._hold, heard=self._bridge_heard, overrides=overrides
+        )
+        self.offered = {e.ros_topic: e.ros_type for e in entries if e.direction.to_ros}
+        self.listened = {e.ros_topic: e.ros_type for e in entries if e.direction.to_gz} | self._observe
+        self._look_at_own()
+
+    def _look_at_own(self) -> None:
+        # One publisher and one subscription a topic, so one match on either side is a complete match.
+        self._publishers = {p.topic_name: p for p in self._node.publishers if p.topic_name in self.offered}
+        self._subscriptions = {s.topic_name: s for s in self._node.subscriptions if s.topic_name in self.listened}
+        # An entry that goes both ways hears itself; that is no match with the student.
+        self._own_publishers = Counter(p.topic_name for p in self._node.publishers)
+        self._own_subscriptions = Counter(s.topic_name for s in self._node.subscriptions)
+
+    def _hold(self, publisher: Any, message: Any) -> None:
+        self.held.append((publisher.topic_name, publisher, message))
+
+    def _bridge_heard(self, entry: BridgeEntry, message: Any) -> None:
+        self._count(entry.ros_topic, message)
+
+    def _tap(self, topic: str) -> Callable[[Any], None]:
+        return lambda message: self._count(topic, message)
+
+    def _count(self, topic: str, message: Any) -> None:
+        self.received[topic] += 1
+        self._heard(topic, message)
+
+    def take_held(self) -> list[tuple[str, Any, Any]]:
+        """Return what the simulator published since the last call: /clock first, then by topic name.
+
+        A node that looks at its clock when a scan arrives then finds the time of that scan, not the one before.
+        """
+        held, self.held = self.held, []
+        return sorted(held, key=lambda item: (item[0] != "/clock", item[0]))
+
+    def dropped(self) -> dict[str, int]:
+        """Return how many messages the bridge refused, by ROS topic."""
+        return {s.entry.ros_topic: s.dropped for s in self.bridge.status() if s.dropped}
+
+    def pump(self) -> None:
+        """Take what has arrived, without waiting and at most `MOST_AT_ONCE` messages."""
+        for _ in range(MOST_AT_ONCE):
+            before = self.received.total()
+            self._executor.spin_once(timeout_sec=0)
+            if self.received.total() == before:
+                return
+
+    def publishes(self, topic: str) -> str | None:
+        """Return the ROS type of what the bridge publishes on a topic, or None."""
+        return self.offered.get(topic)
+
+    def listens(self, topic: str) -> str | None:
+        """Return the ROS type of what the grader subscribes to on a topic, or None."""
+        return self.listened.get(topic)
+
+    def matched(self, topic: str, kind: str) -> int:
+        """Return how many of the student's endpoints of a kind (publisher, subscription) are matched on a topic."""
+        if kind == "subscription":
+            publisher, own = self._publishers.get(topic), self._own_subscriptions[topic]
+            return max(0, int(publisher.get_subscription_count()) - own) if publisher else 0
+        subscription, own = self._subscriptions.get(topic), self._own_publishers[topic]
+        return max(0, int(subscription.get_publisher_count()) - own) if subscription else 0
+
+    def reliable(self, topic: str) -> bool:
+        """Return whether the bridge publishes reliably on a topic, so that a reliable subscription receives it."""
+        publisher = self._publishers.get(topic)
+        return publisher is None or publisher.qos_profile.reliability != ReliabilityPolicy.BEST_EFFORT
+
+    def is_large(self, message: Any) -> bool:
+        """Return whether a message takes several packets, and has a stamp that tells it from the next."""
+        return hasattr(message, "header") and len(serialize_message(message)) > LARGE
+
+    def bridged(self) -> list[dict[str, Any]]:
+        """Return every bridge as it was set up and how many messages went through it each way."""
+        found = []
+        for status in self.bridge.status():
+            entry = status.entry
+            publisher, subscription = self._publishers.get(entry.ros_topic), self._subscriptions.get(entry.ros_topic)
+            found.append(
+                {
+                    "source": entry.source.rpartition("/")[2],  # the file's name: where it lies differs
+                    "ros_topic": entry.ros_topic,
+                    "ros_type": entry.ros_type,
+                    "gz_topic": entry.gz_topic,
+                    "gz_type": entry.gz_type,
+                    "direction": entry.direction.value,
+                    "to_ros": status.gz_to_ros,
+                    "to_gz": status.ros_to_gz,
+                    "publisher_qos": _qos(publisher) if entry.direction.to_ros else None,
+                    "subscription_qos": _qos(subscription) if entry.direction.to_gz else None,
+                }
+            )
+        return found
+
+    def ros_graph(self) -> dict[str, dict[str, list[str]]]:
+        """Return the ROS graph as it is seen from here: topic -> types, publishing and subscribing nodes.
+
+        Waits, for at most `NAMES` seconds, until every endpoint has told the name of its node.
+        """
+        deadline = time.monotonic() + NAMES
+        while True:
+            graph = self._graph()
+            unknown = any(UNKNOWN in ends["publishers"] + ends["subscribers"] for ends in graph.values())
+            if not unknown or time.monotonic() > deadline:
+                return graph
+            self._executor.spin_once(timeout_sec=LOOK_AGAIN)
+
+    def _graph(self) -> dict[str, dict[str, list[str]]]:
+        node = self._node
+        return {
+            topic: {
+                "types": sorted(types),
+                "publishers": sorted({end.node_name for end in node.get_publishers_info_by_topic(topic)}),
+                "subscribers": sorted({end.node_name for end in node.get_subscriptions_info_by_topic(topic)}),
+            }
+            for topic, types in sorted(node.get_topic_names_and_types())
+            if topic not in HOUSEKEEPING
+        }
+
+    def close(self) -> None:
+        """Leave the ROS graph."""
+        self._open.close()
+
+
+def _qos(endpoint: Any) -> dict[str, Any]:
+    """The QoS of a publisher or subscription of the bridge."""
+    profile = endpoint.qos_profile
+    return {"reliability": profile.reliability.name, "durability": profile.durability.name, "depth": profile.depth}

@@ -1,0 +1,47 @@
+"""Both graphs of a run as facts for its recording: who publishes what, as which type, in Gazebo and in ROS.
+
+Taken by `run_loop.py` at the end of a run whose submission is about the graphs (a table, a bridge); checks compare with
+them.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gz_course.grader.run.grader_endpoints import NODE, GraderEndpoints
+from gz_course.sim.gz.transport import MessagePublisher, Node
+
+SIMULATOR = "gz sim"
+
+
+def both_graphs(gz_node: Node, ros: GraderEndpoints) -> dict[str, Any]:
+    """Return the facts `gz_topics`, `ros_topics` and `bridges`. `gz_node` is the bridge's."""
+    return {
+        "gz_topics": gz_graph(gz_node),
+        "ros_topics": ros.ros_graph(),
+        "bridges": ros.bridged(),
+    }
+
+
+def gz_graph(gz_node: Node) -> dict[str, dict[str, list[str]]]:
+    """Return Gazebo's graph, seen from the bridge's node: topic -> types, publishing and subscribing programs."""
+    published, subscribed = gz_node.publishers_and_subscribers()
+    own = set(gz_node.advertised_topics()), set(gz_node.subscribed_topics())
+    return {
+        topic: {
+            "types": _types(topic, published) or _types(topic, subscribed),
+            "publishers": _who(topic, published, own[0]),
+            "subscribers": _who(topic, subscribed, own[1]),
+        }
+        for topic in sorted({end.topic for end in [*published, *subscribed]})
+    }
+
+
+def _types(topic: str, ends: list[MessagePublisher]) -> list[str]:
+    return sorted({end.msg_type_name for end in ends if end.topic == topic})
+
+
+def _who(topic: str, ends: list[MessagePublisher], own: set[str]) -> list[str]:
+    """The simulator has many Gazebo nodes, the bridge one, with the topics `own`."""
+    others = sum(end.topic == topic for end in ends) > (topic in own)
+    return [SIMULATOR] * others + [NODE] * (topic in own)

@@ -1,0 +1,283 @@
+"""Lock-step of simulated time and the student's nodes: a tick ends when nothing is left to do.
+
+The simulator publishes one message at a time and waits until the student's processes have taken it and are idle, and
+until everything they published has arrived. What several processes send to each other, or at the same time to the
+simulator, would be a race: they hold it, and are told to release it one message at a time, always in the same order.
+Nothing depends on the speed of the machine. A node that cannot be followed (it blocks, or never spins) is paced to the
+wall clock for as long as that lasts: it is never waited for in vain for more than `PATIENCE` at a time. `real_time.py`
+has the same interface without the waiting.
+"""
+
+from __future__ import annotations
+
+import time
+from collections import Counter
+from typing import TYPE_CHECKING, Any
+
+from gz_course.grader.run.agent.course_agent.executor_monitor import HOUSEKEEPING
+from gz_course.grader.run.pace.matching import can_match, will_match
+from gz_course.grader.run.pace.real_time import LOOK_ROUND, MATCHING, PATIENCE, RealTime
+from gz_course.grader.run.processes.participant import Participant
+from gz_course.grader.run.processes.submission_processes import SubmissionProcesses
+
+if TYPE_CHECKING:
+    from gz_course.grader.run.grader_endpoints import GraderEndpoints
+
+LONG_WAIT = 0.5  # [s] of wall time for one message: a busy machine alone hardly takes so long
+GIVING_UP = 3  # after so many times it is paced for the rest of the run
+CLOCK_AGAIN = 0.05  # [s] /clock is best effort on the student's side, so it is sent again until it was seen
+LOST = 0.1  # [s] nobody is at work, and a message was not taken: then it is sent again
+LOST_PATIENCE = 10.0  # [s] of wall time for a message that gets lost again and again, unless that has been in vain
+CLOCK = "/clock"
+
+
+class LockStep(RealTime):
+    """Waits after every message until the student's nodes have dealt with it.
+
+    `holding`: the processes have been started so that they hold what they send. Otherwise they are told when there is
+    more than one.
+    """
+
+    name = "lockstep"
+
+    def __init__(self, processes: SubmissionProcesses, ros: GraderEndpoints, holding: bool = False) -> None:
+        super().__init__(processes, ros)
+        self._holding = holding
+        self._sent: Counter[str] = Counter()  # messages the student's processes must have taken
+        self._untaken: Counter[str] = Counter()  # of those and their own: never taken (or taken and never counted)
+        self._layout: tuple[int, ...] = ()
+        self._participants: list[Participant] = []
+        self._pending: tuple[str, Any, Any] | None = None
+        self._now_ns = 0
+        self._free = False  # paced at the moment
+        self._failures = 0
+        self._copies = 0  # of the message just sent, because it was lost on its way
+        self._left: tuple[int, ...] = ()  # the layout in which a subscription has gone and its process has not
+
+    def await_ready(self) -> bool:
+        """Wait as in real time; a node that does not become ready is paced to the wall clock from the start."""
+        ready = super().await_ready()
+        if self._look_around():
+            self.await_matches(time.monotonic() + MATCHING)
+        self._free = not ready
+        return ready
+
+    def welcome(self) -> None:
+        """Hold simulated time while a process that has come meanwhile starts up."""
+        if self.processes.running and self.processes.starting and not self._free:
+            RealTime.await_ready(self)
+        if not self._free and self._look_around():
+            self.await_matches(time.monotonic() + MATCHING)
+
+    def _look_around(self) -> bool:
+        """Return whether processes or endpoints have come or gone since the last call, and follow those there are."""
+        if self.processes.layout == self._layout:
+            return False
+        self._layout = self.processes.layout
+        self._participants = self.processes.followed
+        self._holding |= len(self._participants) > 1
+        for each in self._participants if self._holding and not self._free else []:
+            if each.progress and not each.progress.holding:
+                each.tell({"hold": True})
+        if any(p.gone for p in self.processes.participants):
+            self._write_off()
+        return True
+
+    def _tell(self, order: dict[str, Any]) -> None:
+        for each in self.processes.participants:
+            if not each.gone:
+                each.tell(order)
+
+    def _matched(self) -> bool:
+        matched = super()._matched() and (not self._holding or self._matched_with_each_other())
+        if not matched and self._holding:
+            self._tell({"look": True})
+        return matched
+
+    def _matched_with_each_other(self) -> bool:
+        if not (self._free or all(each.progress and each.progress.holding for each in self._participants)):
+            return False
+        endpoints = [e for e in self.processes.endpoints if e.topic not in HOUSEKEEPING]
+        publishers = [e for e in endpoints if e.kind == "publisher"]
+        subscriptions = [e for e in endpoints if e.kind == "subscription"]
+        return all(
+            e.matched >= can_match(e, self.ros) + sum(will_match(e, other) for other in subscriptions)
+            for e in publishers
+        ) and all(
+            e.matched >= can_match(e, self.ros) + sum(will_match(other, e) for other in publishers)
+            for e in subscriptions
+        )
+
+    def send(self, topic: str, publisher: Any, message: Any, now_ns: int) -> None:
+        """Publish one message; what nobody subscribes to is not published at all."""
+        self._now_ns = now_ns
+        self._pending = None
+        if not self.processes.running:
+            return
+        if self._look_around():
+            self.await_matches(time.monotonic() + MATCHING)
+        readers = self.ros.matched(topic, "subscription") or self._await_leaving(topic)
+        if not readers:
+            # Nobody to wait for, but somebody to listen to: a node may come, go, or wait for an answer.
+            self.processes.wait(0)
+            self.everything_arrived()
+            return
+        publisher.publish(message)
+        if topic != CLOCK:
+            self._sent[topic] += readers
+        self._pending = (topic, publisher, message)
+
+    def _await_leaving(self, topic: str) -> int:
+        """Hold simulated time while a process ends whose subscription DDS has taken down already.
+
+        Return how many subscriptions are matched on the topic. A process that lives on without its subscription is
+        waited for once.
+        """
+        layout, deadline = self.processes.layout, time.monotonic() + PATIENCE
+        mine = (e for e in self.processes.endpoints if e.kind == "subscription" and e.topic == topic)
+        if self._free or layout == self._left or not any(can_match(e, self.ros) for e in mine):
+            return 0
+        while self.processes.running and self.processes.layout == layout:
+            if readers := self.ros.matched(topic, "subscription"):
+                return readers
+            if time.monotonic() > deadline:
+                self._left = layout
+                break
+            self.processes.wait(LOOK_ROUND)
+            self.everything_arrived()
+        return 0
+
+    def settle(self) -> None:
+        """Wait until the message just sent was taken and its consequences have arrived.
+
+        Then what the processes hold is released one message at a time, and waited for in the same way.
+        """
+        if self._free or not (self._pending or self._holding):
+            return
+        if not self._await_settled():
+            return
+        self._pending = None
+        while self._holding and (holder := next((p for p in self._participants if _holds(p)), None)) is not None:
+            holder.release()
+            if not self._await_settled():
+                return
+
+    def _await_settled(self) -> bool:
+        """Wait until nothing is on its way and everybody is idle; return False if that was in vain."""
+        began, self._copies = time.monotonic(), 0
+        settled = self._await_settled_until(began + PATIENCE)
+        waited = time.monotonic() - began
+        self.held_seconds += waited if waited > LONG_WAIT and not self._copies else 0.0
+        return settled
+
+    def _await_settled_until(self, deadline: float) -> bool:
+        resend = time.monotonic() + CLOCK_AGAIN
+        lost = time.monotonic() + LOST
+        give_up = time.monotonic() + (PATIENCE if self._failures else LOST_PATIENCE)
+        while not self._settled():
+            if not self.processes.running:
+                self._take_last_words()
+                return False
+            if not self.processes.wait(LOOK_ROUND):
+                self.ros.pump()
+            now = time.monotonic()
+            if now > deadline:
+                self._fall_out_of_step()
+                return False
+            if self._pending and self._pending[0] == CLOCK and now > resend:
+                _, publisher, message = self._pending
+                publisher.publish(message)
+                resend = now + CLOCK_AGAIN
+            if now > lost and self._is_lost():
+                self._send_again()
+                lost = now + LOST
+                deadline = min(now + PATIENCE, give_up) if self._copies else deadline
+        return True
+
+    def _is_lost(self) -> bool:
+        """Return whether everybody is idle and yet somebody has not taken the message just sent."""
+        if self._pending is None or self._pending[0] == CLOCK:
+            return False
+        topic = self._pending[0]
+        missing = self._due_to_be_taken()[topic] - self._total("taken")[topic] - self._untaken[topic]
+        return missing > 0 and all(p.progress and p.progress.idle for p in self._participants)
+
+    def _send_again(self) -> None:
+        """Send the message once more if all processes know that they may get it twice; else tell them so."""
+        assert self._pending is not None
+        topic, publisher, message = self._pending
+        if not self.ros.is_large(message):
+            return  # it was not lost; who is to take it does not look
+        unaware = [p for p in self._participants if p.progress and topic not in p.progress.again]
+        for each in unaware:
+            each.tell({"again": topic})
+        if not unaware:
+            publisher.publish(message)
+            self._copies += 1
+
+    def close_tick(self, tick: float) -> None:
+        """Let the wall clock move on by a tick if the nodes are out of step, and see whether they are in step again."""
+        if not self._free or not self.processes.running:
+            return
+        self.paced_ticks += 1
+        super().close_tick(tick)
+        if self._failures < GIVING_UP and self._settled():
+            self._free = False
+            self._due = None
+            if self._holding:
+                self._tell({"hold": True})
+
+    def _settled(self) -> bool:
+        """Return whether a tick may go on: all arrived, all idle, the clock seen by all, every message taken."""
+        if self._look_around():
+            self.await_matches(time.monotonic() + MATCHING)
+        if not self._participants or not self.everything_arrived():
+            return False
+        for each in self._participants:
+            progress = each.progress
+            if progress is None or not progress.idle or each.waiting_for_release:
+                return False
+            if progress.clock is not None and progress.clock < self._now_ns:
+                return False
+        taken = self._total("taken")
+        due = self._due_to_be_taken()
+        if any(taken[topic] + self._untaken[topic] < count for topic, count in due.items()):
+            return False
+        if self._holding:  # a late subscription may have got more than was sent to it
+            self._untaken.update({topic: count - taken[topic] - self._untaken[topic] for topic, count in due.items()})
+        return True
+
+    def _due_to_be_taken(self) -> Counter[str]:
+        """Count by topic the messages that the processes must have taken: the simulator's and each other's."""
+        if not self._holding:
+            return self._sent
+        due = self._sent + self._total("delivered")
+        for topic, count in self._total("published").items():
+            if self.ros.listens(topic):
+                due[topic] -= count  # one of the readers is ours
+        return due
+
+    def _write_off(self) -> None:
+        """Count as lost what was not taken by now: the process that was to take it has gone, or does not answer."""
+        taken = self._total("taken")
+        for topic, count in self._due_to_be_taken().items():
+            self._untaken[topic] = max(self._untaken[topic], count - taken[topic])
+
+    def _take_last_words(self) -> None:
+        """Wait for what the processes published just before they ended."""
+        deadline = time.monotonic() + PATIENCE
+        while time.monotonic() < deadline and not self.everything_arrived():
+            pass
+
+    def _fall_out_of_step(self) -> None:
+        """Stop waiting: count as lost what was not taken by now, and go on at the pace of the wall clock."""
+        self._free = True
+        self._failures += 1
+        self._tell({"free": True})
+        self._write_off()
+        for topic, count in self._total("published").items():
+            self._lost[topic] = max(0, count - self.ros.received[topic])
+
+
+def _holds(participant: Participant) -> bool:
+    return not participant.gone and participant.progress is not None and participant.progress.held > 0

@@ -1,0 +1,125 @@
+"""Simulated time at the pace of the wall clock, and what any pace needs: who is there, and what has arrived.
+
+Used by `run_loop.py` when a run is asked for in real time; `lockstep.py` builds on it.
+"""
+
+from __future__ import annotations
+
+import time
+from collections import Counter
+from typing import TYPE_CHECKING, Any
+
+from gz_course.grader.run.pace.matching import can_match
+from gz_course.grader.run.processes.process_tree import START_UP
+from gz_course.grader.run.processes.submission_processes import SubmissionProcesses
+
+if TYPE_CHECKING:
+    from gz_course.grader.run.grader_endpoints import GraderEndpoints
+
+PATIENCE = 3.0  # [s] of wall time a node may need for one message before it is paced
+MATCHING = 5.0  # [s] of wall time for DDS to match the endpoints of a new node; a lost announcement costs 3 s
+LOOK_ROUND = 0.002  # [s] how long to listen to the student before listening to ROS
+
+
+class RealTime:
+    """Paces simulated time to the wall clock and waits for nobody."""
+
+    name = "realtime"
+
+    def __init__(self, processes: SubmissionProcesses, ros: GraderEndpoints) -> None:
+        self.processes = processes
+        self.ros = ros
+        self.paced_ticks = 0
+        self.held_seconds = 0.0  # of wall time that went by in long waits for the student
+        self._due: float | None = None
+        self._lost: Counter[str] = Counter()  # published by the student, never arrived
+
+    def await_ready(self) -> bool:
+        """Wait until every node spins and DDS has matched its endpoints; False if none does within `START_UP`."""
+        deadline = time.monotonic() + START_UP
+        while self.processes.running and (not self.processes.participants or self.processes.starting):
+            now = time.monotonic()
+            for each in self.processes.participants:
+                if each.starting:
+                    each.tell({"ping": True})  # one that has closed its socket notices it only now
+                    each.follows = now < each.since + START_UP
+            if now > deadline and not self.processes.participants:
+                return False
+            self.processes.wait(LOOK_ROUND * 10)
+            self.ros.pump()
+            self.everything_arrived()
+        self.await_matches(time.monotonic() + MATCHING)
+        deadline = time.monotonic() + PATIENCE
+        while self.processes.running and not self.everything_arrived() and time.monotonic() < deadline:
+            self.processes.wait(LOOK_ROUND)  # what was sent before time began is also received before
+        return self.processes.running and bool(self.processes.endpoints)
+
+    def welcome(self) -> None:
+        """Let a process that has come meanwhile take part; in real time it is not waited for."""
+
+    def await_matches(self, deadline: float) -> None:
+        """Wait until every endpoint that can match has matched on both sides."""
+        while self.processes.running and time.monotonic() < deadline and not self._matched():
+            self.processes.wait(LOOK_ROUND)
+            self.ros.pump()
+
+    def _matched(self) -> bool:
+        endpoints = self.processes.endpoints
+        wanted = Counter((e.topic, e.kind) for e in endpoints if can_match(e, self.ros))
+        return all(self.ros.matched(topic, kind) >= n for (topic, kind), n in wanted.items()) and all(
+            e.matched for e in endpoints if can_match(e, self.ros)
+        )
+
+    def everything_arrived(self) -> bool:
+        """Return whether all that the processes say they published is here; answer those that wait for that."""
+
+        def arrived() -> bool:
+            received = self.ros.received
+            return all(
+                received[topic] + self._lost[topic] >= count
+                for topic, count in self._total("published").items()
+                if self.ros.listens(topic)
+            )
+
+        if not arrived():
+            self.ros.pump()
+            if not arrived():
+                return False
+        for each in self.processes.participants:
+            if each.wants_answer and not each.waiting_for_release:
+                if each.progress and each.progress.held:
+                    each.release()
+                else:
+                    each.answer()
+        return True
+
+    def _total(self, what: str) -> Counter[str]:
+        """Sum one of the counters over all processes, also those that have ended."""
+        total: Counter[str] = Counter()
+        for each in self.processes.participants:
+            if each.progress is not None:
+                total.update(getattr(each.progress, what))
+        return total
+
+    def send(self, topic: str, publisher: Any, message: Any, now_ns: int) -> None:
+        """Publish one message of the simulator at simulated time `now_ns` [ns]."""
+        publisher.publish(message)
+
+    def settle(self) -> None:
+        """Wait for what the last message sent brings about; in real time there is no waiting."""
+
+    def close_tick(self, tick: float) -> None:
+        """Listen until the wall clock has moved on by `tick` [s]."""
+        now = time.monotonic()
+        self._due = max(now - tick, self._due) + tick if self._due is not None else now + tick
+        while True:
+            left = self._due - time.monotonic()
+            if left <= 0:
+                break
+            if self.processes.running:
+                self.processes.wait(min(left, LOOK_ROUND))
+            else:
+                time.sleep(left)  # nobody to listen to; only the clock passes
+            self.ros.pump()
+            self.everything_arrived()
+        self.ros.pump()

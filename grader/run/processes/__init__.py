@@ -1,0 +1,1 @@
+"""The submission's processes as the grader sees them: their output, their connections, what they report."""

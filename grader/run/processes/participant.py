@@ -1,0 +1,124 @@
+"""One process of the submission at the other end of a socket: what it has said last, and what it is told.
+
+`SubmissionProcesses` accepts the connections, one of every process that imports rclpy (see
+`agent/course_agent/import_hooks.py`), and owns these. `LockStep` reads `progress` and gives the orders.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import socket
+import time
+from collections.abc import Callable
+from typing import Any
+
+from gz_course.grader.run.processes.progress import Progress
+
+LARGEST = 1 << 20  # [bytes] of one message
+MOST_AT_ONCE = 1_000  # messages taken in one go: who sends without end does not keep the grader from going on
+
+
+class Participant:
+    """A connection. `progress` is its latest report (None before the first), `gone` is set at its end.
+
+    `asked(participant, message)` is called with every message that is not a report.
+    """
+
+    def __init__(
+        self, channel: socket.socket, number: int, asked: Callable[[Participant, dict[str, Any]], None]
+    ) -> None:
+        self.channel = channel
+        self.number = number  # in the order of connecting, from 0
+        self.since = time.monotonic()
+        self.command: tuple[str, ...] = ()
+        self.pid = self.group = 0  # as it sees them in its box
+        self.progress: Progress | None = None
+        self.gone = False
+        self.follows = True  # False: no reports are expected of it
+        self.uses_ros = False  # it has imported rclpy
+        self.waits = False  # it does nothing but wait, for its children or for events
+        self._asked = asked
+        self._answered = 0
+        self._released = 0
+        channel.setblocking(False)
+        channel.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, LARGEST)
+
+    @property
+    def name(self) -> tuple[str, int]:
+        """What it is sorted by: its first node, or its command; two of one name by their order of connecting."""
+        nodes = sorted({e.node for e in self.progress.endpoints}) if self.progress else []
+        return (nodes[0] if nodes else " ".join(self.command), self.number)
+
+    @property
+    def program(self) -> str:
+        """What people call the program: the file or module a Python runs."""
+        words = [word for word in self.command[1:] if word not in ("-m", "-P", "-c")]
+        return words[0].rpartition("/")[2].removeprefix("gz_course.sim.") if words else ""
+
+    @property
+    def starting(self) -> bool:
+        """Whether a first report with endpoints is still to come."""
+        joined = self.progress is not None and bool(self.progress.endpoints)
+        return self.follows and not (joined or self.gone or (self.waits and not self.uses_ros))
+
+    @property
+    def waiting_for_release(self) -> bool:
+        """Whether a release it was told is not reported yet."""
+        return not self.gone and self.progress is not None and self.progress.released < self._released
+
+    @property
+    def wants_answer(self) -> bool:
+        """Whether it waits to be told that everything it published has arrived."""
+        return self.progress is not None and self.progress.flushes > self._answered
+
+    def answer(self) -> None:
+        """Tell it that everything it published has arrived."""
+        if self.progress is not None:
+            self._answered = self.progress.flushes
+            self.tell({"arrived": True})
+
+    def release(self) -> None:
+        """Let it send one of the messages it holds."""
+        if self.progress is not None:
+            self._released = self.progress.released + 1
+            self.tell({"release": 1})
+
+    def tell(self, order: dict[str, Any]) -> None:
+        """Send it a message."""
+        with contextlib.suppress(OSError):
+            self.channel.send(json.dumps(order).encode())
+
+    def read(self) -> None:
+        """Take what has come; at its end `gone` is set."""
+        for _ in range(MOST_AT_ONCE):
+            try:
+                data = self.channel.recv(LARGEST)
+            except BlockingIOError:
+                return
+            except OSError:
+                data = b""
+            if not data:
+                self.gone = True
+                return
+            self._take(data)
+
+    def _take(self, data: bytes) -> None:
+        progress = Progress.parse(data, self.progress)
+        if progress is not None:
+            self.progress = progress
+            return
+        try:
+            message = json.loads(data)
+            if hello := message.get("hello"):
+                self.pid, self.group = int(hello["pid"]), int(hello["group"])
+                self.command = tuple(str(word) for word in hello["command"])
+            self.uses_ros |= "ros" in message
+            self.waits = "waiting" in message
+            self._asked(self, message)
+        except (ValueError, KeyError, TypeError, AttributeError, RecursionError, OverflowError, OSError):
+            return  # nothing that anybody of ours would send: an infinite number, a name that is no file's
+
+    def close(self) -> None:
+        """Close the socket."""
+        self.channel.close()

@@ -1,0 +1,298 @@
+"""The submission's processes as the grader sees them: started in a sandbox, read from, and always ended.
+
+Everything they write comes through two pipes, the progress of each (see `participant.py`) through a socket of its own.
+The pipes are emptied before a progress report is read, so a log line is on record before the tick that produced it is
+closed.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import selectors
+import signal
+import socket
+import subprocess
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import psutil
+
+from gz_course.grader.run.agent.course_agent import channel, executor_monitor
+from gz_course.grader.run.processes.participant import Participant
+from gz_course.grader.run.processes.process_tree import ProcessTree
+from gz_course.grader.run.processes.progress import Endpoint
+from gz_course.grader.run.sandbox import Sandbox
+
+LONGEST_LINE = 2_000  # [characters] of one line that are kept
+MOST_LINES = 20_000  # kept per run; of the rest
+LAST_BYTES = 64 << 10  # that many are kept if it ends by itself: there stands why; what is between is counted
+MOST_READ = 1 << 20  # [bytes] of a pipe, taken at once: who writes without end does not keep the grader
+MOST_OUTPUT = 64 << 20  # [bytes] that may be written; more ends the submission
+SOCKET = "participants"  # its name
+MOST_PARTICIPANTS = 100  # processes that are followed
+SHOWN_FOLDER = b"/submission"  # what the folder of a submission is called in its log
+GRACE = 1.5  # [s] between SIGINT, SIGTERM and SIGKILL
+AGENT = Path(__file__).parents[1] / "agent"  # what runs in the submission's processes, seen there under the same name
+
+
+class SubmissionProcesses:
+    """One running submission: a process and whatever it starts.
+
+    `exit_code` is that of the first process, None while it runs. `participants` are the processes that have said
+    hello, the first process first. `asked(participant, message)` gets what they ask for.
+    """
+
+    def __init__(
+        self,
+        command: Sequence[str],
+        sandbox: Sandbox,
+        topics: dict[str, dict[str, str]],
+        environment: Mapping[str, str] | None = None,
+        asked: Callable[[Participant, dict[str, Any]], None] | None = None,
+        shown: str = "",
+    ) -> None:
+        """Start a command in a box.
+
+        `topics` says what the grader has an end for: for each kind of endpoint of a student's node (publisher,
+        subscription) the topics on which one is waited for, and their ROS types. `shown` is a folder that is called
+        `/submission` in the log.
+        """
+        outside, inside = sandbox.socket_folder
+        self._listener = _listener(outside)
+        variables = {
+            channel.SOCKET: str(inside / SOCKET),
+            executor_monitor.TOPICS: json.dumps(topics),
+            "PYTHONPATH": str(AGENT),
+            **(environment or {}),
+        }
+        self.asked = asked or _unasked
+        self._children_before = _children()
+        self.folder = shown
+        self._process = sandbox.start(list(command), variables)
+        self._selector = selectors.DefaultSelector()
+        self._partial: dict[int, bytes] = {}
+        self._pipes = [self._process.stdout, self._process.stderr]
+        for pipe in self._pipes:
+            os.set_blocking(pipe.fileno(), False)
+            self._partial[pipe.fileno()] = b""
+            self._selector.register(pipe, selectors.EVENT_READ)
+        self._selector.register(self._listener, selectors.EVENT_READ)
+        self.participants: list[Participant] = []
+        self._tree = ProcessTree()
+        self._lines: list[str] = []
+        self._line_count = 0
+        self._last = b""  # of what was written beyond the limit
+        self._last_taken = 0  # lines
+        self._written = 0  # [bytes]
+        self.exit_code: int | None = None
+        self.hid = False  # it closed its end of the socket and lived on
+
+    @property
+    def running(self) -> bool:
+        """Whether the first process was not seen to end."""
+        return self.exit_code is None
+
+    @property
+    def limit(self) -> str | None:
+        """The limit for which it was ended (memory, processes, disk or output), or None."""
+        return "output" if self._written > MOST_OUTPUT else self._process.broken_limit
+
+    @property
+    def dropped_lines(self) -> int:
+        """Lines beyond the limit that were read and thrown away."""
+        return max(0, self._line_count - MOST_LINES - self._last_taken)
+
+    def wait(self, timeout: float) -> bool:
+        """Wait at most `timeout` [s] for output, progress or the end; return whether something came."""
+        if not self.running:
+            return False
+        ready = self._selector.select(timeout)
+        for pipe in self._pipes:
+            self._drain(pipe.fileno())
+        self._read_participants()
+        if (self.participants and self.participants[0].gone) or self._process.poll() is not None:
+            self._reap()
+        return bool(ready)
+
+    @property
+    def followed(self) -> list[Participant]:
+        """The processes with nodes that spin, sorted by name: the same order in equal runs."""
+        return sorted((p for p in self.participants if p.progress and not p.gone), key=lambda p: p.name)
+
+    @property
+    def layout(self) -> tuple[int, ...]:
+        """Something that changes when a process or an endpoint comes or goes."""
+        return tuple(-1 if p.gone else id(p.progress.endpoints) if p.progress else 0 for p in self.participants)
+
+    @property
+    def starting(self) -> bool:
+        """Whether a process is on its way to become one that is followed."""
+        return not self.participants or self._tree.changing or any(p.starting for p in self.participants)
+
+    @property
+    def endpoints(self) -> tuple[Endpoint, ...]:
+        """All endpoints of the nodes of all processes, as last reported."""
+        return tuple(e for p in self.followed if p.progress for e in p.progress.endpoints)
+
+    def take_lines(self) -> list[str]:
+        """Return the lines written since the last call."""
+        lines, self._lines = self._lines, []
+        return lines
+
+    def _drain(self, fd: int) -> None:
+        left = MOST_READ
+        while fd in self._partial and left > 0:
+            try:
+                data = os.read(fd, 1 << 16)
+            except BlockingIOError:
+                return
+            left -= len(data)
+            self._written += len(data)
+            if self._written > MOST_OUTPUT:
+                self._process.kill()
+            if not data:
+                self._selector.unregister(fd)
+                rest = self._partial.pop(fd)
+                if rest:
+                    self._keep(rest)
+                return
+            if self._line_count > MOST_LINES:  # not line by line: who floods writes faster than that
+                self._line_count += data.count(b"\n")
+                self._last = (self._last + self._partial[fd] + data)[-LAST_BYTES:]
+                self._partial[fd] = b""
+                continue
+            *whole, rest = (self._partial[fd] + data).split(b"\n")
+            for line in whole:
+                self._keep(line)
+            self._partial[fd] = rest[: 4 * LONGEST_LINE]
+
+    def _keep(self, line: bytes) -> None:
+        self._line_count += 1
+        if self._line_count <= MOST_LINES:
+            self._note(line)
+        else:
+            self._last += line + b"\n"
+
+    def _note(self, line: bytes) -> None:
+        if self.folder:
+            line = line.replace(self.folder.encode(), SHOWN_FOLDER)  # where it lies differs between equal runs
+        self._lines.append(line.decode(errors="replace")[:LONGEST_LINE])
+
+    def _read_participants(self) -> None:
+        while True:
+            try:
+                accepted, _ = self._listener.accept()
+            except OSError:
+                break
+            if len(self.participants) >= MOST_PARTICIPANTS:
+                accepted.close()
+                continue
+            self.participants.append(Participant(accepted, len(self.participants), self._hear))
+            self._selector.register(accepted, selectors.EVENT_READ)
+        for each in self.participants:
+            if not each.gone:
+                each.read()
+                if each.gone:
+                    self._selector.unregister(each.channel)
+                    self._tree.leave(each.pid)
+
+    def _hear(self, who: Participant, message: dict[str, Any]) -> None:
+        self._tree.hear(message)
+        self.asked(who, message)
+
+    def _reap(self) -> None:
+        """Take the exit code of a process that has exited; end one that has closed its end of the socket to hide."""
+        try:
+            self._process.wait(GRACE)
+        except subprocess.TimeoutExpired:
+            self.hid = True
+            self.stop()
+        for pipe in self._pipes:
+            self._drain(pipe.fileno())
+        self._read_participants()
+        last = self._last.removesuffix(b"\n").split(b"\n") if self._last else []
+        if len(self._last) == LAST_BYTES:
+            del last[0]  # the rest of a line
+        for line in last:
+            self._note(line)
+        self._last, self._last_taken = b"", self._last_taken + len(last)
+        self.exit_code = self._process.returncode
+
+    def signal(self, number: signal.Signals) -> None:
+        """Send a signal as a terminal would: to the first process and what has stayed in its process group."""
+        self._process.signal(number)
+
+    def ended_programs(self) -> list[dict[str, Any]]:
+        """Return `program` and exit `code` of the programs that said hello and have ended, as their parents tell."""
+        codes = self._tree.codes()
+        return [{"program": p.program, "code": codes[p.pid]} for p in self.participants if p.pid in codes]
+
+    def stop(self) -> None:
+        """End the process group and every descendant: SIGINT, then SIGTERM, then SIGKILL."""
+        for each in self.participants:
+            with contextlib.suppress(OSError):
+                each.channel.shutdown(socket.SHUT_WR)  # nobody is going to answer it any more
+        if self._process.poll() is None:
+            for escalation in (signal.SIGINT, signal.SIGTERM):
+                self._process.signal(escalation)
+                try:
+                    self._process.wait(GRACE)
+                    break
+                except subprocess.TimeoutExpired:
+                    continue
+        self._process.kill()
+        self.exit_code = self._process.wait()
+        self._sweep()
+
+    def cpu_seconds(self) -> float:
+        """Return the processor time [s] of all its processes that still run, and of those they have waited for."""
+        total = 0.0
+        for process in _children() - self._children_before:
+            with contextlib.suppress(psutil.Error):
+                used = process.cpu_times()
+                total += used.user + used.system + used.children_user + used.children_system
+        return total
+
+    def _sweep(self) -> None:
+        """Kill what left the process group: as subreaper the grader inherits every orphan."""
+        while strays := _children() - self._children_before:
+            for stray in strays:
+                with contextlib.suppress(psutil.NoSuchProcess):
+                    stray.kill()
+            psutil.wait_procs(strays, timeout=GRACE)
+
+    def close(self) -> None:
+        """End the process if it still runs and close every descriptor."""
+        self.stop()
+        self._selector.close()
+        self._listener.close()
+        for each in self.participants:
+            each.close()
+        for pipe in self._pipes:
+            pipe.close()
+
+
+def _listener(folder: Path) -> socket.socket:
+    """Return a listening socket in a folder, which may have a long path."""
+    listener = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    (folder / SOCKET).unlink(missing_ok=True)
+    descriptor = os.open(folder, os.O_PATH | os.O_DIRECTORY)
+    try:
+        listener.bind(f"/proc/self/fd/{descriptor}/{SOCKET}")
+    finally:
+        os.close(descriptor)
+    (folder / SOCKET).chmod(0o666)  # the box may have a user of its own
+    listener.listen(MOST_PARTICIPANTS)
+    listener.setblocking(False)
+    return listener
+
+
+def _unasked(asking: Participant, message: dict[str, Any]) -> None:
+    """Ignore a request."""
+
+
+def _children() -> set[psutil.Process]:
+    return set(psutil.Process().children(recursive=True))

@@ -1,0 +1,87 @@
+"""Builds a box's walls from namespaces, without any program but this Python: what the box has is mounted, then it
+becomes the root.
+
+Called by `main.py` at level B; at level A bubblewrap has done the same before.
+"""
+
+from __future__ import annotations
+
+import os
+
+from . import kernel
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
+
+HERE = kernel.MS_NOSUID | kernel.MS_NODEV
+
+
+def build(root: str, host: str, places: list[dict[str, Any]]) -> None:
+    """Return in the box, as its process 1; the process that called waits for it and ends with it.
+
+    `root` is an empty folder to build in, `host` the name of the machine inside, `places` are those of `view.py`.
+    """
+    user, group = os.geteuid(), os.getegid()
+    spaces = kernel.CLONE_NEWNS | kernel.CLONE_NEWPID | kernel.CLONE_NEWIPC | kernel.CLONE_NEWUTS
+    if user:
+        kernel.unshare(spaces | kernel.CLONE_NEWUSER)
+        for name, text in (("setgroups", "deny"), ("uid_map", f"{user} {user} 1"), ("gid_map", f"{group} {group} 1")):
+            with open(f"/proc/self/{name}", "w") as file:  # noqa: PTH123
+                file.write(text)
+    else:
+        kernel.unshare(spaces)
+    kernel.prctl(kernel.PR_SET_PDEATHSIG, kernel.SIGKILL)
+    first = os.fork()
+    if first:
+        os.closerange(0, 65536)  # nothing is held open here: readers see the end when the box has ended
+        os.waitpid(first, 0)
+        os._exit(0)
+    kernel.prctl(kernel.PR_SET_PDEATHSIG, kernel.SIGKILL)
+    kernel.set_host_name(host)
+    kernel.mount("", "/", flags=kernel.MS_REC | kernel.MS_PRIVATE)
+    kernel.mount("box", root, "tmpfs", HERE, "size=1m,nr_inodes=4000,mode=755")
+    masks = [place for place in places if place["kind"] == "mask"]
+    os.umask(0o022)
+    for place in places:
+        _put(root, place)
+    for path in [*(root + place["path"] for place in masks), root]:
+        kernel.make_read_only(path, also_below=False)
+    kernel.pivot_root(root)
+
+
+def _put(root: str, place: dict[str, Any]) -> None:
+    """Make one place; a box's places are read-only but for its file systems in memory."""
+    target = root + place["path"]
+    kind, source = place["kind"], place["source"]
+    if kind == "link":
+        os.symlink(source, target)  # noqa: PTH211
+        return
+    if kind == "device" or (kind == "bind" and not os.path.isdir(source)):  # noqa: PTH112
+        if not os.path.exists(target):  # noqa: PTH110
+            os.close(os.open(target, os.O_CREAT | os.O_WRONLY, 0o644))
+    elif not os.path.isdir(target):  # noqa: PTH112
+        os.mkdir(target, 0o755)  # noqa: PTH102
+    if kind == "bind":
+        kernel.mount(source, target, flags=kernel.MS_BIND | kernel.MS_REC)
+        kernel.make_read_only(target, also_below=True)
+    elif kind == "device":
+        kernel.mount(source, target, flags=kernel.MS_BIND)
+    elif kind == "proc":
+        kernel.mount("proc", target, "proc", HERE | kernel.MS_NOEXEC)
+    elif kind == "mask":
+        kernel.mount("mask", target, "tmpfs", HERE, "size=1m,nr_inodes=100,mode=755")
+    elif kind == "tmpfs":
+        kernel.mount("tmpfs", target, "tmpfs", HERE, tmpfs_limits(place))
+
+
+def tmpfs_limits(place: dict[str, Any]) -> str:
+    """Mount options of a file system in memory that everybody in the box may write to."""
+    return f"size={place['size']},nr_inodes={place['files']},mode=1777"
+
+
+def limit_tmpfs(places: list[dict[str, Any]]) -> None:
+    """Limit the number of files where somebody else has mounted file systems in memory."""
+    for place in places:
+        if place["kind"] == "tmpfs":
+            kernel.mount("tmpfs", place["path"], "tmpfs", kernel.MS_REMOUNT | HERE, tmpfs_limits(place))

@@ -1,0 +1,74 @@
+"""The system calls a submission cannot make: those that reach out of a box or build a new one.
+
+A filter in the kernel's own language (classic BPF). A refused call fails as if the kernel had none, or with EPERM;
+nothing is killed for asking.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import errno
+import os
+import struct
+
+from .kernel import LIBC, checked
+
+PR_SET_SECCOMP, SECCOMP_MODE_FILTER = 22, 2
+AUDIT_ARCH_X86_64 = 0xC000003E
+X32_BIT = 0x40000000
+ALLOW, REFUSE = 0x7FFF0000, 0x00050000
+LOAD, JUMP_EQUAL, JUMP_ABOVE, JUMP_ANY_BIT, RETURN = 0x20, 0x15, 0x35, 0x45, 0x06
+NUMBER, ARCHITECTURE, FIRST_ARGUMENT = 0, 4, 16  # offsets in struct seccomp_data
+NAMESPACES = 0x7E020080  # every CLONE_NEW... flag
+CLONE, SOCKET, SOCKETPAIR, CLONE3 = 56, 41, 53, 435
+FAMILIES = (1, 2, 10, 16)  # AF_UNIX, AF_INET, AF_INET6, AF_NETLINK (asked for the network's interfaces)
+
+# By x86-64 number.
+REFUSED = {
+    101: "ptrace", 310: "process_vm_readv", 311: "process_vm_writev", 312: "kcmp", 438: "pidfd_getfd",
+    165: "mount", 166: "umount2", 155: "pivot_root", 161: "chroot", 272: "unshare", 308: "setns",
+    428: "open_tree", 429: "move_mount", 430: "fsopen", 431: "fsconfig", 432: "fsmount", 433: "fspick",
+    442: "mount_setattr", 248: "add_key", 249: "request_key", 250: "keyctl", 321: "bpf", 298: "perf_event_open",
+    323: "userfaultfd", 304: "open_by_handle_at", 175: "init_module", 313: "finit_module", 246: "kexec_load",
+    169: "reboot", 167: "swapon", 153: "vhangup", 172: "iopl", 173: "ioperm", 300: "fanotify_init",
+}  # fmt: skip
+# Memory that no limit counts (System V shared memory, files in memory) and rings that make calls past this filter.
+MISSING = {
+    29: "shmget", 64: "semget", 68: "msgget", 319: "memfd_create", 447: "memfd_secret",
+    425: "io_uring_setup", 426: "io_uring_enter", 427: "io_uring_register", CLONE3: "clone3",
+}  # fmt: skip
+
+
+def _step(code: int, value: int, then: int = 0, otherwise: int = 0) -> bytes:
+    return struct.pack("HBBI", code, then, otherwise, value)
+
+
+def program() -> bytes:
+    """Return the filter: an array of `struct sock_filter`."""
+    no, none = _step(RETURN, REFUSE | errno.EPERM), _step(RETURN, REFUSE | errno.ENOSYS)
+    yes = _step(RETURN, ALLOW)
+    steps = [_step(LOAD, ARCHITECTURE), _step(JUMP_EQUAL, AUDIT_ARCH_X86_64, 1, 0), none]
+    steps += [_step(LOAD, NUMBER), _step(JUMP_ABOVE, X32_BIT, 0, 1), none]
+    for numbers, answer in ((REFUSED, no), (MISSING, none)):
+        for number in numbers:
+            steps += [_step(JUMP_EQUAL, number, 0, 1), answer]
+    steps += [_step(JUMP_EQUAL, CLONE, 0, 4), _step(LOAD, FIRST_ARGUMENT)]
+    steps += [_step(JUMP_ANY_BIT, NAMESPACES, 0, 1), no, yes]
+    steps += [_step(JUMP_EQUAL, SOCKET, 1, 0), _step(JUMP_EQUAL, SOCKETPAIR, 0, len(FAMILIES) + 2)]
+    steps += [_step(LOAD, FIRST_ARGUMENT)]
+    steps += [_step(JUMP_EQUAL, family, len(FAMILIES) - i, 0) for i, family in enumerate(FAMILIES)]
+    steps += [_step(RETURN, REFUSE | errno.EAFNOSUPPORT), yes]
+    return b"".join(steps)
+
+
+def supported() -> bool:
+    """Whether this kernel and machine know such filters; both have since long, where there are ROS wheels."""
+    return os.uname().machine == "x86_64" and os.path.exists("/proc/sys/kernel/seccomp/actions_avail")  # noqa: PTH110
+
+
+def install() -> None:
+    """Put the filter on this process and all its children, for good; needs PR_SET_NO_NEW_PRIVS before."""
+    code = program()
+    buffer = ctypes.create_string_buffer(code, len(code))
+    header = struct.pack("HxxxxxxQ", len(code) // 8, ctypes.addressof(buffer))
+    checked(LIBC.prctl(PR_SET_SECCOMP, ctypes.c_ulong(SECCOMP_MODE_FILTER), header, 0, 0), "seccomp")

@@ -1,0 +1,230 @@
+"""Submissions that are launch files, really launched: what is served, what is told, and that everything ends."""
+
+import dataclasses
+import hashlib
+import textwrap
+import time
+from pathlib import Path
+
+import psutil
+import pytest
+
+from gz_course.grader.exercise import find_exercise
+from gz_course.grader.exercise.trial import Trial
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.run.session import run
+from gz_course.grader.submission import Submission
+
+ROOT = Path(__file__).parents[4]
+HEAD = """
+import sys
+from pathlib import Path
+from launch import LaunchDescription
+from launch.actions import *
+from launch.event_handlers import *
+from launch.substitutions import *
+from launch_ros.actions import Node
+HERE = Path(__file__).parent
+CLOCK = "/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock"
+def gz(*words): return ExecuteProcess(cmd=["gz", *words], output="screen")
+def bridge(*words): return Node(package="ros_gz_bridge", executable="parameter_bridge", arguments=[*words])
+def generate_launch_description():
+    return LaunchDescription([
+"""
+BOX = (
+    "<sdf version='1.9'><model name='parcel'><link name='l'><inertial><mass>1</mass></inertial><collision name='c'>"
+    "<geometry><box><size>1 1 1</size></box></geometry></collision></link></model></sdf>"
+)
+WORLD = "<sdf version='1.9'><world name='mine'>{}</world></sdf>"
+
+
+@dataclasses.dataclass
+class Launched:
+    """What is on record of one run."""
+
+    recording: Recording
+    pace: str
+
+    @property
+    def facts(self):
+        return self.recording.facts()["launch"]
+
+    @property
+    def log(self):
+        return "\n".join(line.text for line in self.recording.lines("log/student"))
+
+
+@pytest.fixture
+def launch(tmp_path, monkeypatch):
+    """Run the entities of a launch file; afterwards nothing is left of it."""
+    (tmp_path / "tmp").mkdir()
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "tmp"))
+    before = set(psutil.Process().children(recursive=True))
+    exercise = dataclasses.replace(find_exercise("02_launch", ROOT), duration=0.5)
+
+    def call(entities, duration=0.5, parameters=None, **files):
+        text = HEAD + textwrap.indent(textwrap.dedent(entities), "        ") + "\n    ])\n"
+        given = {name.replace("_dot_", "."): data.encode() for name, data in files.items()}
+        files = {"bringup.launch.py": text.encode()} | given
+        submission = Submission(tmp_path, "bringup.launch.py", hashlib.sha256(text.encode()).hexdigest(), None, files)
+        path = tmp_path / "run.rrd"
+        trial = Trial("made", 0, parameters=parameters or {})
+        made = run(dataclasses.replace(exercise, duration=duration), submission, trial, "lockstep", path, "D")
+        with made.recorder:
+            pass
+        return Launched(Recording(path), made.pace)
+
+    yield call
+    assert not set(psutil.Process().children(recursive=True)) - before
+    assert [path.name for path in (tmp_path / "tmp").iterdir()] == []
+
+
+def test_three_programs_and_what_became_of_them(launch):
+    run = launch(
+        """
+        gz("sim", "-s", "-r", "shapes.sdf"),
+        bridge(CLOCK),
+        ExecuteProcess(cmd=[sys.executable, str(HERE / "stopwatch.py"), "--ros-args", "-p", "use_sim_time:=true"]),
+        """
+    )
+    assert run.pace == "lockstep"
+    facts = run.facts
+    assert [s["world"] for s in facts["simulators"]] == ["shapes.sdf"]
+    assert (facts["simulator_at_end"], facts["bridges_at_end"], facts["running"]) == ("shapes.sdf", 1, True)
+    assert (facts["exit_code"], facts["ended_itself"], facts["left"], facts["escalated"]) == (0, True, [], [])
+    (entry,) = facts["bridges_started"][0]["entries"]
+    assert (entry["ros_topic"], entry["direction"]) == ("/clock", "GZ_TO_ROS")
+    told = run.recording.signal("topics/stopwatch/data")
+    assert told.values.tolist() == pytest.approx([0.1, 0.2, 0.3, 0.4, 0.5])
+    assert (told.times / 1e9).tolist() == pytest.approx(told.values.tolist())
+    assert "[parameter_bridge-2] [INFO] [ros_gz_bridge]: ready: 1 bridge" in run.log
+    assert "pid [...]" in run.log and "Traceback" not in run.log
+
+
+def test_a_paused_world_tells_its_time_and_stays_where_it_is(launch):
+    run = launch('gz("sim", "-s", "shapes.sdf"), bridge(CLOCK),')
+    assert run.facts["simulators"][0]["paused"]
+    assert run.recording.facts()["sim_seconds"] == 0.0
+    (bridge,) = run.recording.facts()["bridges"]
+    assert bridge["to_ros"] == 10
+    assert "world 'shapes' is paused; start it with -r" in run.log
+
+
+def test_programs_complain_as_they_always_do(launch):
+    run = launch(
+        """
+        gz("sim", "-s", "-r", "lidar_rom.sdf"),
+        gz("sim", "--nonsense"),
+        bridge("/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clok"),
+        bridge(),
+        """
+    )
+    assert "did you mean 'lidar_room.sdf'?" in run.log
+    assert "there is no option '--nonsense'" in run.log
+    assert "gz.msgs.Clok" in run.log and "gz.msgs.Clock" in run.log
+    codes = sorted((each["program"], each["code"]) for each in run.facts["ended_early"])
+    assert codes == [("gz", 1), ("gz", 109), *[("ros_gz_bridge.parameter_bridge", 2)] * 2]
+    assert run.facts["simulators"] == [] and run.facts["simulator_at_end"] == ""
+    assert not run.facts["running"], "a launch with nothing left to do ends"
+
+
+def test_a_world_is_one_that_was_handed_in_and_never_a_file_from_elsewhere(launch, tmp_path):
+    secret = tmp_path / "secret.sdf"
+    secret.write_text(WORLD.format("<!-- the answer is 42 -->"))
+    run = launch(f'gz("sim", "-s", "-r", {str(secret)!r}),')
+    assert [s["ran"] for s in run.facts["simulators"]] == [False]
+    assert "is neither a built-in world nor one of the files handed in" in run.log and "the answer" not in run.log
+
+
+def test_a_world_that_was_handed_in_is_run(launch):
+    run = launch('gz("sim", "-s", "-r", str(HERE / "mine.sdf")),', mine_dot_sdf=WORLD.format(""))
+    assert run.facts["simulator_at_end"] == "mine.sdf"
+    assert run.recording.facts()["sim_seconds"] == 0.5
+
+
+@pytest.mark.parametrize("uri", ["/etc/passwd", "file:///etc/passwd", "../../outside.sdf"])
+def test_a_world_that_was_handed_in_reaches_no_other_file(launch, uri):
+    world = WORLD.format(f"<include><uri>{uri}</uri></include>")
+    run = launch('gz("sim", "-s", "-r", str(HERE / "mine.sdf")),', mine_dot_sdf=world)
+    assert run.facts["simulator_at_end"] == ""
+    assert f"may use built-in models only; it names '{uri}'" in run.log
+
+
+def test_create_puts_a_model_into_the_world_and_others_start_when_it_has(launch):
+    run = launch(
+        f"""
+        gz("sim", "-s", "-r", "empty.sdf"),
+        create := Node(package="ros_gz_sim", executable="create", arguments=["-string", {BOX!r}, "-z", "3"]),
+        RegisterEventHandler(OnProcessExit(target_action=create, on_exit=[bridge(CLOCK)])),
+        """
+    )
+    assert run.facts["calls"] == ["create: done"]
+    assert run.facts["ended_early"] == [{"code": 0, "program": "ros_gz_sim.create"}]
+    (bridge,) = run.recording.facts()["bridges"]
+    assert bridge["to_ros"] == 50, "time had not begun before the bridge stood"
+    assert "Entity creation successful" in run.log
+
+
+def test_a_second_simulator_stands_still_beside_the_first(launch):
+    run = launch('gz("sim", "-s", "-r", "shapes.sdf"), gz("sim", "-s", "-r", "shapes.sdf"),')
+    assert [s["ran"] for s in run.facts["simulators"]] == [True, True]
+    assert run.facts["left"] == []
+
+
+def test_a_simulator_that_ends_by_itself_is_noticed(launch):
+    run = launch('gz("sim", "-s", "-r", "--iterations", "100", "shapes.sdf"), bridge(CLOCK),')
+    assert run.facts["simulator_at_end"] == ""
+    assert run.recording.facts()["sim_seconds"] == 0.1
+    assert run.facts["running"], "the bridge is still there"
+
+
+def test_nothing_of_the_simulator_can_be_reached_but_through_the_bridge(launch):
+    run = launch(
+        """
+        sim := gz("sim", "-s", "-r", "lidar_room.sdf"),
+        RegisterEventHandler(OnProcessStart(target_action=sim, on_start=[gz("topic", "-l"), gz("service", "-l")])),
+        """
+    )
+    assert run.facts["simulator_at_end"] == "lidar_room.sdf"
+    assert not [line for line in run.log.splitlines() if "/world/" in line or "/model/" in line or "/lidar" in line]
+
+
+def test_what_is_no_python_is_not_waited_for_and_ended(launch):
+    started = time.monotonic()
+    run = launch('gz("sim", "-s", "-r", "shapes.sdf"), ExecuteProcess(cmd=["sleep", "600"]),')
+    assert run.facts["simulator_at_end"] and run.facts["ended_itself"]
+    assert time.monotonic() - started < 300
+
+
+def test_one_that_does_not_listen_to_ctrl_c_is_named(launch):
+    run = launch(
+        """
+        gz("sim", "-s", "-r", "shapes.sdf"),
+        ExecuteProcess(cmd=["sh", "-c", "trap '' INT; while :; do sleep 1; done"], name="deaf", sigterm_timeout="1"),
+        """
+    )
+    assert run.facts["escalated"] == ["deaf-2"]
+    assert run.facts["ended_itself"]
+
+
+def test_a_simulator_that_runs_on_after_ctrl_c_is_named(launch):
+    run = launch(
+        """
+        ExecuteProcess(cmd=["setsid", "gz", "sim", "-s", "-r", "shapes.sdf"]),
+        ExecuteProcess(cmd=["sleep", "600"]),
+        """
+    )
+    assert run.facts["left"] == ["shapes.sdf"]
+
+
+def test_an_error_in_the_launch_file_is_on_record_with_its_line(launch):
+    run = launch('gz("sim", "-s", robot_description),')
+    assert run.facts["error"].startswith("/submission/bringup.launch.py:")
+    assert "NameError: name 'robot_description' is not defined" in run.facts["error"]
+    assert run.facts["exit_code"] == 1
+
+
+def test_what_a_timer_starts_is_waited_for(launch):
+    run = launch('gz("sim", "-s", "-r", "shapes.sdf"), TimerAction(period=1.5, actions=[bridge(CLOCK)]),')
+    (bridge,) = run.recording.facts()["bridges"]
+    assert bridge["to_ros"] == 50, "time had not begun before the bridge stood"

@@ -1,0 +1,98 @@
+"""A process that ends: DDS takes its endpoints down first, and until it has gone simulated time stands still."""
+
+from collections import Counter
+from types import SimpleNamespace
+
+import pytest
+
+from gz_course.grader.run.pace.lockstep import CLOCK, PATIENCE, LockStep
+from gz_course.grader.run.processes.progress import Endpoint
+
+TYPE = "rosgraph_msgs/msg/Clock"
+
+
+class Leaving:
+    """The submission and the grader's ros: a subscription that DDS does not match any more, and a process that lives.
+
+    Each wait takes a tenth of a second. After `waits` of them `then` happens.
+    """
+
+    participants = followed = ()
+    endpoints = (Endpoint("/node", "subscription", CLOCK, TYPE, "BEST_EFFORT", "VOLATILE", 1),)
+    layout = (1,)
+
+    def __init__(self, waits, then):
+        self.running = True
+        self.readers = 0
+        self.waits, self.then = waits, then
+        self.waited = 0
+        self.sent = []
+        self.received: Counter[str] = Counter()
+
+    def wait(self, timeout):
+        self.waited += timeout > 0
+        if self.waited == self.waits:
+            self.then(self)
+
+    def pump(self):
+        pass
+
+    def listens(self, topic):
+        return None
+
+    def publishes(self, topic):
+        return TYPE
+
+    def reliable(self, topic):
+        return False
+
+    def matched(self, topic, kind):
+        return self.readers
+
+    def publish(self, message):
+        self.sent.append(message)
+
+
+def ends(leaving):
+    leaving.running = False
+
+
+def is_back(leaving):
+    leaving.readers = 1
+
+
+def lives_on(leaving):
+    pass
+
+
+@pytest.fixture
+def tick(monkeypatch):
+    """Send the clock of some ticks to whoever leaves."""
+
+    def call(leaving, ticks=1):
+        now = SimpleNamespace(monotonic=lambda: leaving.waited / 10)
+        for module in ("lockstep", "real_time"):
+            monkeypatch.setattr(f"gz_course.grader.run.pace.{module}.time", now)
+        pace = LockStep(leaving, leaving)
+        pace._layout = leaving.layout
+        for number in range(ticks):
+            pace.send(CLOCK, leaving, f"tick {number}", number)
+        return leaving
+
+    return call
+
+
+def test_time_stands_still_until_it_has_gone(tick):
+    leaving = tick(Leaving(5, ends))
+    assert (leaving.waited, leaving.running, leaving.sent) == (5, False, [])
+
+
+def test_who_is_matched_again_gets_the_message(tick):
+    leaving = tick(Leaving(5, is_back))
+    assert (leaving.waited, leaving.sent) == (5, ["tick 0"])
+
+
+def test_who_lives_on_without_it_is_waited_for_once(tick):
+    leaving = tick(Leaving(5, lives_on), ticks=100)
+    assert leaving.waited == pytest.approx(PATIENCE * 10, abs=2)
+    assert leaving.sent == []

@@ -1,0 +1,59 @@
+"""What runs inside a box stands alone and starts quickly."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+from gz_course.grader.run.sandbox.init import seccomp
+
+SANDBOX = Path(__file__).parents[5] / "grader/run/sandbox"
+# Modules that take longer to import than all of ours; everybody who is graded would wait for them.
+SLOW = {"typing", "json", "re", "pathlib", "socket", "signal", "contextlib", "platform", "subprocess", "dataclasses"}
+
+
+def test_it_imports_nothing_of_ours_but_itself_and_nothing_slow():
+    code = f"import sys; sys.path.insert(0, {str(SANDBOX)!r}); before = set(sys.modules); import init.main"
+    code += "; print(*sorted(set(sys.modules) - before))"
+    done = subprocess.run([sys.executable, "-I", "-S", "-c", code], capture_output=True, text=True, check=True)
+    loaded = set(done.stdout.split())
+    ours = {name for name in loaded if name.startswith(("grader", "gz", "ros"))}
+    assert ours == set()
+    assert {"init.kernel", "init.namespaces"} <= loaded
+    assert loaded & SLOW == set()
+
+
+def filtered(code):
+    """What Python prints after it has put the filter on itself."""
+    program = f"""
+import ctypes, json, os, socket, sys
+sys.path.insert(0, {str(SANDBOX)!r})
+from init import kernel, seccomp
+kernel.prctl(kernel.PR_SET_NO_NEW_PRIVS, 1)
+seccomp.install()
+libc = ctypes.CDLL(None, use_errno=True)
+def error(call):
+    ctypes.set_errno(0)
+    return ctypes.get_errno() if call() < 0 else 0
+print(json.dumps({code}))
+"""
+    done = subprocess.run([sys.executable, "-I", "-S", "-c", program], capture_output=True, text=True, check=True)
+    return json.loads(done.stdout)
+
+
+def test_the_filter_refuses_every_call_it_names_and_says_how():
+    numbers = (
+        "{n: error(lambda: libc.syscall(n, -1, -1, -1, -1, -1, -1)) for n in (*seccomp.REFUSED, *seccomp.MISSING)}"
+    )
+    answers = {int(number): error for number, error in filtered(numbers).items()}
+    assert answers == dict.fromkeys(seccomp.REFUSED, 1) | dict.fromkeys(seccomp.MISSING, 38)
+
+
+def test_the_filter_lets_ordinary_work_through():
+    assert filtered("[os.getpid() > 0, os.waitpid(os.fork() or os._exit(7), 0)[1], len(os.listdir('/'))][0]") is True
+    families = "[error(lambda: libc.socket(family, 1, 0)) for family in (1, 2, 10, 17, 38, 40)]"
+    assert filtered(families) == [0, 0, 0, 97, 97, 97]
+    flags = "[error(lambda: libc.syscall(56, flag | 17, 0, 0, 0, 0)) for flag in (0x10000000, 0x40000000, 0x20000000)]"
+    assert filtered(flags) == [1, 1, 1]
+    threads = "(lambda t: (t.start(), t.join(), t.is_alive())[2])(__import__('threading').Thread(target=int))"
+    assert filtered(threads) is False

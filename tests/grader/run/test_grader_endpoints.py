@@ -1,0 +1,25 @@
+"""The grader's own end of the ROS graph."""
+
+import gc
+
+import pytest
+import rclpy.executors
+
+from gz_course.grader.run.domain import Domain
+from gz_course.grader.run.grader_endpoints import GraderEndpoints
+from gz_course.sim.gz.transport import Node, NodeOptions, Scope
+from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, BridgeError, Direction
+
+
+def executors():
+    return {each for each in gc.get_objects() if isinstance(each, rclpy.executors.Executor) and not each._is_shutdown}
+
+
+def test_nothing_stays_open_if_a_bridge_cannot_be_made():
+    before = executors()
+    wrong = BridgeEntry("/x", "/x", "std_msgs/msg/Flot32", "gz.msgs.Float", Direction.GZ_TO_ROS)
+    with Node(NodeOptions(scope=Scope.PROCESS)) as node, Domain() as domain:
+        with pytest.raises(BridgeError, match="std_msgs/msg/Float32") as told:
+            GraderEndpoints(domain.id, node, [wrong], {}, print)
+        assert executors() <= before
+    assert told.value  # and with it all that was alive when it was raised
