@@ -13,7 +13,8 @@ class LaunchIntrospector:
     """A formatter of launch descriptions."""
 
     def format_launch_description(self, launch_description: LaunchDescription) -> str:
-        return "\n".join([repr(launch_description), *_tree(launch_description.entities, ())])
+        name = repr(launch_description).replace("gz_course.sim.launch", "launch")  # as its public name is
+        return "\n".join([name, *_tree(launch_description.entities, ())])
 
 
 def _tree(entities: Iterable[LaunchDescriptionEntity], chain: tuple[IncludeLaunchDescription, ...]) -> list[str]:

@@ -1,4 +1,4 @@
-"""`python -m ros2 …` is `ros2 …`."""
+"""`python -m gz_course.sim.ros2 …` is `ros2 …`."""
 
 import sys
 

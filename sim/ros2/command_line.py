@@ -70,7 +70,7 @@ def _explained(arguments: list[str]) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     except Exception as error:
-        if sys.flags.dev_mode:  # `python -X dev -m ros2 …` shows where
+        if sys.flags.dev_mode:  # `python -X dev -m gz_course.sim.ros2 …` shows where
             raise
         sentence = str(error).partition("\n")[0]
         print(f"ros2: internal error: {type(error).__name__}: {sentence}", file=sys.stderr)

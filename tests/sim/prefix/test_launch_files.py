@@ -42,7 +42,7 @@ def start(tmp_path):
     def start(*arguments):
         running.append(
             subprocess.Popen(
-                [sys.executable, "-m", "ros2", "launch", *arguments],
+                [sys.executable, "-m", "gz_course.sim.ros2", "launch", *arguments],
                 env={
                     **os.environ,
                     "GZ_IP": "127.0.0.1",

@@ -30,7 +30,12 @@ class Command:
     """A running `ros2 …` in a session of its own whose lines are read as they come."""
 
     def __init__(
-        self, *arguments, command=(sys.executable, "-m", "ros2"), environment=None, stdin_text=None, **options
+        self,
+        *arguments,
+        command=(sys.executable, "-m", "gz_course.sim.ros2"),
+        environment=None,
+        stdin_text=None,
+        **options,
     ):
         if stdin_text is not None:
             options["stdin"] = subprocess.PIPE

@@ -239,7 +239,9 @@ def test_on_a_terminal_ctrl_c_needs_no_explanation(start, write):
         "-c",
         "import os, pty, sys; sys.exit(os.waitstatus_to_exitcode(pty.spawn(sys.argv[1:])))",
     )
-    command = start(*(sys.executable, "-m", "ros2", "launch", path), command=terminal, stdin=subprocess.PIPE)
+    command = start(
+        *(sys.executable, "-m", "gz_course.sim.ros2", "launch", path), command=terminal, stdin=subprocess.PIPE
+    )
     command.wait_for("[sh-1] up")
     command.wait_for("[stubborn-2] up")
     command.process.stdin.write("\x03")

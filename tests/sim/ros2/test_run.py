@@ -93,7 +93,7 @@ def test_a_signal_to_ros2_reaches_the_whole_group_of_the_child(start, workspace,
 
 def test_signals_the_parent_ignores_are_heard_all_the_same(start, workspace):
     environment = workspace("listener", LISTENER)
-    shell = ("sh", "-c", 'trap "" INT CHLD; exec "$@"', "sh", sys.executable, "-m", "ros2")
+    shell = ("sh", "-c", 'trap "" INT CHLD; exec "$@"', "sh", sys.executable, "-m", "gz_course.sim.ros2")
     command = start("run", "my_robot", "listener", command=shell, environment=environment)
     command.wait_for("up")
     os.kill(command.process.pid, signal.SIGINT)
@@ -118,7 +118,7 @@ sys.exit(f"heard {1 + (signal.SIGINT in signal.sigpending())}")
         "import os, pty, sys; sys.exit(os.waitstatus_to_exitcode(pty.spawn(sys.argv[1:])))",
     )
     command = start(
-        *(sys.executable, "-m", "ros2", "run", "my_robot", "keys"),
+        *(sys.executable, "-m", "gz_course.sim.ros2", "run", "my_robot", "keys"),
         command=terminal,
         environment=environment,
         stdin=subprocess.PIPE,

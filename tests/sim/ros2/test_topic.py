@@ -246,7 +246,12 @@ def test_an_interrupt_ends_echo_without_traceback(start, nodes, number):
 
 def test_echo_into_a_closed_pipe_ends_quietly(start, nodes):
     command = start(
-        command=("bash", "-c", '"$0" -m ros2 topic echo /count | head -n 2; echo "${PIPESTATUS[0]}"', sys.executable)
+        command=(
+            "bash",
+            "-c",
+            '"$0" -m gz_course.sim.ros2 topic echo /count | head -n 2; echo "${PIPESTATUS[0]}"',
+            sys.executable,
+        )
     )
     code, text, errors = command.wait()
     assert (code, errors) == (0, "")
