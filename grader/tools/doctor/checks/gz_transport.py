@@ -15,8 +15,8 @@ TOPIC = "/course_doctor"
 
 TALKER = """
 import sys
-from gz.msgs.stringmsg_pb2 import StringMsg
-from gz.transport import Node
+from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+from gz_course.sim.gz.transport import Node
 node = Node()
 publisher = node.advertise(sys.argv[1], StringMsg)
 message = StringMsg()
@@ -28,8 +28,8 @@ sys.stdin.read()
 """
 LISTENER = """
 import sys, threading
-from gz.msgs.stringmsg_pb2 import StringMsg
-from gz.transport import Node
+from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+from gz_course.sim.gz.transport import Node
 heard = threading.Event()
 node = Node()
 node.subscribe(StringMsg, sys.argv[1], lambda message: heard.set() if message.data == sys.argv[2] else None)

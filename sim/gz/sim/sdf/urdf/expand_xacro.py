@@ -1,7 +1,7 @@
 """Program that expands one xacro file to standard output, each element marked with its file and line.
 
 Source: https://wiki.ros.org/xacro
-Started by `xacro_file.expand`: `python -m gz.sim.sdf.urdf.expand_xacro FILE [NAME:=VALUE ...]`. Exit code 0 and the XML
+Started by `xacro_file.expand` as `python -m ... FILE [NAME:=VALUE ...]`. Exit code 0 and the XML
 on standard output, or 1 and a line of JSON, `{"error": sentence}`, as the last of standard error.
 """
 

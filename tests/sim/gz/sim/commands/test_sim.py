@@ -22,7 +22,7 @@ from gz_course.sim.gz.msgs.twist_pb2 import Twist
 from gz_course.sim.gz.msgs.world_stats_pb2 import WorldStatistics
 from gz_course.sim.gz.transport import Node
 
-GZ = [sys.executable, "-c", "import sys; from gz.command import main; sys.exit(main())", "sim"]
+GZ = [sys.executable, "-c", "import sys; from gz_course.sim.gz.command import main; sys.exit(main())", "sim"]
 DEADLINE = 120
 
 
