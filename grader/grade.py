@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import Exercise, find_exercise
 from gz_course.grader.intake import take_in
+from gz_course.grader.kinds.kind import find_kind
 from gz_course.grader.output_lock import sole_writer
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.report.report import HostFacts, Report, TrialReport
-from gz_course.grader.report.verdicts import write_verdicts
+from gz_course.grader.run.supervision import Mark, Supervised
 from gz_course.grader.score.combined import combined
 from gz_course.grader.score.score import Score, score
 from gz_course.grader.submission import Submission
@@ -62,7 +63,9 @@ def grade(
     submission = take_in(exercise, submission_path)
     asked = numbered(trials or exercise.trials, seed)
     with sole_writer(out, exercise.name):
-        played = [play(exercise, submission, trial, pace, out, sandbox) for trial in asked]
+        apart = find_kind(exercise.kind).brings_world and submission.fault is None
+        jobs = [_Trial(exercise, submission, trial, pace, out, sandbox) for trial in asked]
+        played = _played_apart(jobs) if apart else [job(Mark()) for job in jobs]
     facts = [each.host for each in played if each.host is not None]
     host = HostFacts(
         "; ".join(dict.fromkeys(each.sandbox for each in facts)),
@@ -73,18 +76,66 @@ def grade(
     return make_report(played, exercise, shown(str(submission.path), LONGEST_PATH), host)
 
 
+@dataclass(frozen=True)
+class _Trial:
+    """One trial that is to be played; a call plays it. `outcome` is that of a submission with a fault."""
+
+    exercise: Exercise
+    submission: Submission
+    trial: Trial
+    pace: str
+    out: Path
+    sandbox: str
+    outcome: str = "student_error"
+
+    def __call__(self, mark: Mark) -> Played:
+        return play(self.exercise, self.submission, self.trial, self.pace, self.out, self.sandbox, mark, self.outcome)
+
+
+def _played_apart(jobs: Sequence[_Trial]) -> list[Played]:
+    """Play trials in a process of their own; one that had to be ended is on record with the reason alone."""
+    played: list[Played] = []
+    while len(played) < len(jobs):
+        left = jobs[len(played) :]
+        try:
+            done, broken = Supervised(left, left[0].exercise.duration).run()
+        except BaseException:
+            for job in left:  # a child that was killed leaves the recording it had begun
+                path = recording_path(job.exercise, job.trial, job.out)
+                path.with_name(f"{path.name}.part").unlink(missing_ok=True)
+            raise
+        played += done
+        if broken is not None:
+            job = jobs[len(played)]
+            fault = replace(job.submission, fault=broken.sentence)
+            ended = replace(job, submission=fault, outcome=broken.outcome)
+            played += Supervised([ended], job.exercise.duration).run()[0]
+    return played
+
+
 def play(
-    exercise: Exercise, submission: Submission, trial: Trial, pace: str, out: Path, sandbox: str = "auto"
+    exercise: Exercise,
+    submission: Submission,
+    trial: Trial,
+    pace: str,
+    out: Path,
+    sandbox: str = "auto",
+    mark: Mark | None = None,
+    outcome: str = "student_error",
 ) -> Played:
-    """Run one trial of a submission and score its recording, which is left in the folder `out`."""
+    """Run one trial of a submission and score its recording, which is left in the folder `out`.
+
+    `mark` is told how far it has come; `outcome` is that of a submission with a fault.
+    """
+    from gz_course.grader.report.verdicts import write_verdicts
     from gz_course.grader.run.session import record_unrunnable, run
 
     path = recording_path(exercise, trial, out)
     in_trial = trial.applied_to(exercise)
     if submission.fault is None:
-        result = run(in_trial, submission, trial, pace, path, sandbox)
+        result = run(in_trial, submission, trial, pace, path, sandbox, mark)
     else:
-        result = record_unrunnable(in_trial, submission, trial, path)
+        result = record_unrunnable(in_trial, submission, trial, path, outcome)
     with result.recorder as recorder:
         recorder.flush()
         recording = Recording(recorder.part)

@@ -45,6 +45,7 @@ class Kind:
 
     `suffixes` are what its files end in. `fault(name, content)` returns one sentence with the line if a file can never
     run, else None. `cast(exercise, submission)` raises ManifestError if the exercise's own files are wrong.
+    `brings_world`: it may hand in worlds and models, which are simulated in a process that is watched.
     `brings_bridge`: what stands between simulator and ROS is up to the submission, not to the exercise.
     """
 
@@ -52,6 +53,7 @@ class Kind:
     fault: Callable[[str, bytes], str | None]
     cast: Callable[[Exercise, Submission], Cast]
     brings_bridge: bool = False
+    brings_world: bool = False
 
 
 def kind_names() -> list[str]:

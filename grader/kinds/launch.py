@@ -24,4 +24,4 @@ def cast(exercise: Exercise, submission: Submission) -> Cast:
 
 
 MANIFEST = "exercise.toml"
-KIND = Kind((".py",), fault, cast, brings_bridge=True)
+KIND = Kind((".py",), fault, cast, brings_bridge=True, brings_world=True)

@@ -19,7 +19,6 @@ from gz_course.grader.run.lockstep import LockStep
 from gz_course.grader.run.real_time import RealTime
 from gz_course.grader.run.served import Served
 from gz_course.grader.run.stage import Stage
-from gz_course.grader.temporary_folder import TemporaryFolder
 
 SIMULATOR_PATIENCE = 5.0  # [s] of wall time, once nobody is starting up, for a simulator to be started
 START_UP = 20.0  # [s] of wall time more than a single node gets
@@ -40,13 +39,10 @@ class LaunchStage(Stage):
     """Everything set up for one run of a launch file."""
 
     def _begin(self, cast: Cast, domain: int) -> None:
-        folder = self._stack.enter_context(TemporaryFolder("course-given-"))
-        for name, data in cast.files.items():  # a copy that the submission cannot reach
-            path = folder / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(data)
         shown = Path(self._student.folder)
-        self._served = Served(folder, shown, self._trial.seed, self._gz_nodes[0], self._open, lambda: self._ears)
+        self._served = Served(
+            cast.files.keys(), shown, self._trial.seed, self._gz_nodes[0], self._open, lambda: self._ears
+        )
         self._student.asked = self._served.asked
         self._lines: list[str] = []
         self._interrupted = False
@@ -59,7 +55,9 @@ class LaunchStage(Stage):
     def play(self, recorder: Recorder) -> dict[str, Any]:
         """Run until the exercise's time is over, interrupt the launch, record everything; return the facts."""
         self._recorder = recorder
+        self._served.building = self.mark.submitted
         self._gather()
+        self._served.over = True
         if self._world is not None:
             self._scene = Scene(recorder, self._world)
         started = time.monotonic()
@@ -80,7 +78,9 @@ class LaunchStage(Stage):
         while self._student.running and self._served.simulator is None and time.monotonic() < deadline:
             self._student.wait(0.05)
             self._ears.pump()
-            if self._student.starting:
+            if self._served.loading:
+                deadline = time.monotonic() + SIMULATOR_PATIENCE
+            elif self._student.starting:
                 self._pace.await_ready()
                 deadline = time.monotonic() + SIMULATOR_PATIENCE
         if self._student.running:

@@ -21,6 +21,7 @@ from gz_course.grader.run.box.course_box.watch import HOLD, RELIABLE
 from gz_course.grader.run.domain import Domain
 from gz_course.grader.run.sandbox import AUTO, Sandbox
 from gz_course.grader.run.student import Student, launch_command, node_command
+from gz_course.grader.run.supervision import Mark
 from gz_course.grader.submission import Submission
 from gz_course.grader.temporary_folder import sweep
 from gz_course.grader.trial import Trial
@@ -40,24 +41,33 @@ class RunResult:
     run_wall_seconds: float  # first tick to last
 
 
-def record_unrunnable(exercise: Exercise, submission: Submission, trial: Trial, path: Path) -> RunResult:
-    """Write the recording of a submission that cannot be started; it holds the reason and nothing else."""
+def record_unrunnable(
+    exercise: Exercise, submission: Submission, trial: Trial, path: Path, outcome: str = "student_error"
+) -> RunResult:
+    """Write the recording of a submission that cannot be started or finished; it holds the reason and nothing else."""
     from gz_course.grader.record.recorder import Recorder
     from gz_course.grader.run.properties import write_properties
 
     recorder = Recorder(path, exercise.robot)
     recorder.text("log/grader", submission.fault or "", "ERROR")
-    write_properties(recorder, exercise, submission, trial, {"fault": submission.fault})
+    write_properties(recorder, exercise, submission, trial, {"fault": submission.fault, "outcome": outcome})
     return RunResult(recorder, "none", "none", 0.0)
 
 
 def run(
-    exercise: Exercise, submission: Submission, trial: Trial, pace: str, path: Path, level: str = AUTO
+    exercise: Exercise,
+    submission: Submission,
+    trial: Trial,
+    pace: str,
+    path: Path,
+    level: str = AUTO,
+    mark: Mark | None = None,
 ) -> RunResult:
     """Run a submission and write its recording, still open for verdicts, to `path` (`.part` until closed).
 
     `pace` is `lockstep` or `realtime`, `level` that of the sandbox. Nothing is left running and no temporary file is
-    left behind, whatever happens. Raises ManifestError if the exercise's own files are wrong.
+    left behind, whatever happens. `mark` is told how far the run has come. Raises ManifestError if the
+    exercise's own files are wrong.
     """
     sweep()  # what graders left that were killed
     kind = find_kind(exercise.kind)
@@ -94,6 +104,7 @@ def run(
             if not kind.brings_bridge:
                 raise ManifestError(f"{exercise.folder / MANIFEST}: {error.errors[0]}") from None
             return record_unrunnable(exercise, replace(submission, fault=shown(error.errors[0])), trial, path)
+        stage.mark = mark or stage.mark
         with Recorder.begun(path, exercise.robot) as recorder:
             facts = stage.play(recorder)
             if cast.given and (facts["exit_at"] is not None or not facts["ready"]):

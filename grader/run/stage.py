@@ -24,6 +24,7 @@ from gz_course.grader.run.graphs import both_graphs
 from gz_course.grader.run.lockstep import LockStep
 from gz_course.grader.run.real_time import RealTime
 from gz_course.grader.run.student import Student
+from gz_course.grader.run.supervision import Mark
 from gz_course.grader.run.trial_world import load_trial_world
 from gz_course.grader.trial import ScriptedCommand, Trial
 from gz_course.sim.gz.msgs.twist_pb2 import Twist
@@ -79,6 +80,7 @@ class Stage:
         self._endpoints: dict[tuple[str, str, str, str], dict[str, Any]] = {}
         self._layout: tuple[int, ...] = ()
         self._messages: Counter[str] = Counter()
+        self.mark = Mark()
         self.wall_seconds = 0.0
 
     def _begin(self, cast: Cast, domain: int) -> None:
@@ -157,6 +159,7 @@ class Stage:
             self._recorder.text("log/grader", str(error), "ERROR")
             return
         now = self._now_ns
+        self.mark.at(now)
         self._recorder.set_time(now)
         self._deliver(now)
         self._pace.close_tick(self._exercise.tick)

@@ -1,7 +1,8 @@
 """The executable `create`: puts a model into a running world. `ros2 run ros_gz_sim create -file box.sdf -z 1`.
 
 `main` reads options and ROS parameters, then Gazebo's service `/world/W/create/blocking` is asked once. The text may be
-SDF or URDF, the file xacro too. Exit codes: 0 created, 1 not created, 2 the arguments make no sense.
+SDF or URDF, the file xacro too; expanding xacro runs the Python in it. Exit codes: 0 created, 1 not created, 2 the
+arguments make no sense.
 """
 
 from __future__ import annotations

@@ -27,6 +27,7 @@ from gz_course.sim.gz.sim.truth import Truth
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.entities import Entities
     from gz_course.sim.gz.sim.requests import Requests
+    from gz_course.sim.gz.sim.sdf.resources import Resources
 
 DEEP_M = 0.01
 """A model that starts this deep inside others is worth a sentence."""
@@ -39,6 +40,7 @@ class Editing(Truth):
     diagnostics: Diagnostics
     entities: Entities
     requests: Requests
+    resources: Resources
     _manager: SystemManager
 
     def _rebuild(self) -> None:
@@ -86,7 +88,7 @@ class Editing(Truth):
         with file and line for a bad text); the world is then as before.
         """
         self.requests.refuse_inside_step("take in a model")
-        made = read_model(what, file_name, self.diagnostics, name) if isinstance(what, str) else what
+        made = read_model(what, file_name, self.diagnostics, name, self.resources) if isinstance(what, str) else what
         _check_pose(pose, made.name)
         wanted = name or made.name
         free = self._free_name(wanted, allow_renaming)
