@@ -1,0 +1,23 @@
+"""Hands the description of a world or model to the grader, with everything it names: no path crosses, only content."""
+
+from __future__ import annotations
+
+import base64
+from typing import Any
+
+from .channel import channel
+
+PART = 96 << 10  # [bytes] sent at once; Linux takes messages of about 400 KiB
+
+
+def hand_over(text: str, file: str) -> str:
+    """Pack an SDF or URDF text of `file`, send it, and return its address. Raises SimError for what cannot be read."""
+    from gz_course.sim.gz.sim.sdf.packing import pack
+
+    packed = pack(text, file)
+    for name, data in packed.assets.items():
+        for at in range(0, len(data), PART):
+            part: dict[str, Any] = {"name": name, "size": len(data)}
+            part["data"] = base64.b64encode(data[at : at + PART]).decode()
+            channel().send({"asset": part})
+    return packed.description
