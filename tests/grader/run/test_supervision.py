@@ -1,8 +1,6 @@
 """A grading in a process of its own: what comes back, what ends it, and that nothing of it is left."""
 
-import faulthandler
 import functools
-import os
 import signal
 import subprocess
 import sys
@@ -15,62 +13,27 @@ import pytest
 from gz_course.grader.errors import InfrastructureError, UsageError
 from gz_course.grader.run import supervision
 from gz_course.grader.run.supervision import Supervised
+from gz_course.tests.grader.run.supervised_jobs import (
+    asks_for_all_memory,
+    complains,
+    computes,
+    crashes,
+    daemon,
+    doubled,
+    fills_memory,
+    sleeps,
+    starts_one_that_computes,
+)
 
-HOST = "import sys; sys.path.insert(0, {folder!r}); from {module} import {job}; "
-HOST += "from gz_course.grader.run.supervision import Supervised; "
-HOST += "print('ready', flush=True); Supervised([{job}], 1.0).run()"
-
-
-def doubled(number, heartbeat):
-    heartbeat.at(number)
-    return 2 * number
-
-
-def complains(heartbeat):
-    raise UsageError("this is no submission")
-
-
-def computes(heartbeat):
-    heartbeat.submitted()
-    while True:
-        pass
-
-
-def sleeps(heartbeat):
-    while True:
-        time.sleep(60)
-
-
-def starts_one_that_computes(heartbeat):
-    subprocess.run([sys.executable, "-c", "while True: pass"], check=False)
-
-
-def fills_memory(heartbeat):
-    heartbeat.submitted()
-    held = []
-    while True:
-        held.append(bytearray(os.urandom(1 << 20) * 16))
-
-
-def asks_for_all_memory(heartbeat):
-    heartbeat.submitted()
-    return bytearray(1 << 44)
-
-
-def crashes(number, handed_in, heartbeat):
-    faulthandler.disable()  # pytest's; the crash is meant
-    if handed_in:
-        heartbeat.submitted()
-    os.kill(os.getpid(), number)
-
-
-def daemon(heartbeat):
-    if os.fork() == 0:
-        os.setsid()
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
-        signal.signal(signal.SIGTERM, signal.SIG_IGN)
-        time.sleep(600)
-    sleeps(heartbeat)
+HOST = """
+import signal
+from gz_course.grader.process.interruption import end_on
+from gz_course.grader.run.supervision import Supervised
+from gz_course.tests.grader.run.supervised_jobs import {job}
+end_on(signal.SIGTERM)
+print("ready", flush=True)
+Supervised([{job}], 1.0).run()
+"""
 
 
 @pytest.fixture(autouse=True)
@@ -134,8 +97,7 @@ def test_a_crash_before_anything_was_handed_in_is_ours():
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 @pytest.mark.parametrize("job", [computes, sleeps, daemon, starts_one_that_computes])
 def test_an_interrupt_ends_it_and_all_it_started(job, number, tmp_path):
-    code = HOST.format(folder=str(Path(__file__).parent), module="test_supervision", job=job.__name__)
-    code = f"from gz_course.grader.process.interruption import end_on; import signal; end_on(signal.SIGTERM); {code}"
+    code = HOST.format(job=job.__name__)
     host = subprocess.Popen(
         [sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, start_new_session=True
     )
