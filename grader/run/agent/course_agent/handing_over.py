@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import base64
+import os
 from typing import Any
 
 from .channel import channel
 
 PART = 96 << 10  # [bytes] sent at once; Linux takes messages of about 400 KiB
+# The reader imports MuJoCo. Unless told so, MuJoCo looks for a display, and starts another Python to do it.
+os.environ.setdefault("MUJOCO_GL", "disabled")
 
 
 def hand_over(text: str, file: str) -> str:

@@ -66,11 +66,11 @@ class RemoteRunningWorld:
 
 def _handed_over(text: str, file: str) -> str:
     """Hand over a model that is given as a text or a file; return its address."""
+    from .handing_over import hand_over  # isort: skip - before anything imports MuJoCo
+
     from gz_course.sim.gz.sim.errors import Diagnostics
     from gz_course.sim.gz.sim.sdf.reader import read_model
     from gz_course.sim.gz.sim.sdf.resources import read_text
-
-    from .handing_over import hand_over
 
     text, file = (text, "<create>") if text else (read_text(Path(file)), file)
     read_model(text, file, Diagnostics())

@@ -59,10 +59,10 @@ class RemoteWorld:
 
 def _handed_over(file: Path, diagnostics: Any) -> str:
     """Read a world as the simulator does, with all its warnings, and hand it over; return its address."""
+    from .handing_over import hand_over  # isort: skip - before anything imports MuJoCo
+
     from gz_course.sim.gz.sim.sdf.reader import read_world
     from gz_course.sim.gz.sim.sdf.resources import read_text
-
-    from .handing_over import hand_over
 
     text = read_text(file)
     read_world(text, str(file), diagnostics)
