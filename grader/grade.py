@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import Exercise, find_exercise
 from gz_course.grader.exercise.trial import Trial, numbered
+from gz_course.grader.kinds.kind import find_kind
 from gz_course.grader.printable import shown
 from gz_course.grader.process.output_lock import sole_writer
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.report.report import HostFacts, Report, TrialReport
-from gz_course.grader.report.verdicts import write_verdicts
+from gz_course.grader.run.supervision import Heartbeat, Supervised
 from gz_course.grader.score.combined import combined
 from gz_course.grader.score.score import Score, score
 from gz_course.grader.submission import Submission
@@ -62,7 +63,9 @@ def grade(
     submission = take_in(exercise, submission_path)
     asked = numbered(trials or exercise.trials, seed)
     with sole_writer(out, exercise.name):
-        results = [run_trial(exercise, submission, trial, pace, out, sandbox) for trial in asked]
+        supervised = find_kind(exercise.kind).brings_world and submission.fault is None
+        runs = [_TrialRun(exercise, submission, trial, pace, out, sandbox) for trial in asked]
+        results = _run_supervised(runs) if supervised else [each(Heartbeat()) for each in runs]
     facts = [each.host for each in results if each.host is not None]
     host = HostFacts(
         "; ".join(dict.fromkeys(each.sandbox for each in facts)),
@@ -73,18 +76,68 @@ def grade(
     return make_report(results, exercise, shown(str(submission.path), LONGEST_PATH), host)
 
 
+@dataclass(frozen=True)
+class _TrialRun:
+    """A call of `run_trial` that another process can make. `outcome` is that of a submission with a fault."""
+
+    exercise: Exercise
+    submission: Submission
+    trial: Trial
+    pace: str
+    out: Path
+    sandbox: str
+    outcome: str = "student_error"
+
+    def __call__(self, heartbeat: Heartbeat) -> TrialResult:
+        return run_trial(
+            self.exercise, self.submission, self.trial, self.pace, self.out, self.sandbox, heartbeat, self.outcome
+        )
+
+
+def _run_supervised(runs: Sequence[_TrialRun]) -> list[TrialResult]:
+    """Run trials in a supervised child process; the recording of one that had to be ended holds only the reason."""
+    results: list[TrialResult] = []
+    while len(results) < len(runs):
+        left = runs[len(results) :]
+        try:
+            done, broken = Supervised(left, left[0].exercise.duration).run()
+        except BaseException:
+            for each in left:  # a child that was killed leaves the recording it had begun
+                path = recording_path(each.exercise, each.trial, each.out)
+                path.with_name(f"{path.name}.part").unlink(missing_ok=True)
+            raise
+        results += done
+        if broken is not None:
+            each = runs[len(results)]
+            fault = replace(each.submission, fault=broken.sentence)
+            ended = replace(each, submission=fault, outcome=broken.outcome)
+            results += Supervised([ended], each.exercise.duration).run()[0]
+    return results
+
+
 def run_trial(
-    exercise: Exercise, submission: Submission, trial: Trial, pace: str, out: Path, sandbox: str = "auto"
+    exercise: Exercise,
+    submission: Submission,
+    trial: Trial,
+    pace: str,
+    out: Path,
+    sandbox: str = "auto",
+    heartbeat: Heartbeat | None = None,
+    outcome: str = "student_error",
 ) -> TrialResult:
-    """Run one trial of a submission and score its recording, which is left in the folder `out`."""
+    """Run one trial of a submission and score its recording, which is left in the folder `out`.
+
+    `heartbeat` is told how far it has come; `outcome` is that of a submission with a fault.
+    """
+    from gz_course.grader.report.verdicts import write_verdicts
     from gz_course.grader.run.session import record_unrunnable, run
 
     path = recording_path(exercise, trial, out)
     in_trial = trial.applied_to(exercise)
     if submission.fault is None:
-        result = run(in_trial, submission, trial, pace, path, sandbox)
+        result = run(in_trial, submission, trial, pace, path, sandbox, heartbeat)
     else:
-        result = record_unrunnable(in_trial, submission, trial, path)
+        result = record_unrunnable(in_trial, submission, trial, path, outcome)
     with result.recorder as recorder:
         recorder.flush()
         recording = Recording(recorder.part)

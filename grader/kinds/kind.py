@@ -51,6 +51,7 @@ class Kind:
     `command(program, trial)` starts the program in the box, with the variables `environment(pace)`.
     `run_loop()` returns the class that simulates the run and `diagnosis()` what explains its recording; only these two
     import what they need, the former rclpy and MuJoCo.
+    `brings_world`: it may hand in worlds and models, which are simulated in a supervised child process.
     `brings_bridge`: what stands between simulator and ROS is up to the submission, not to the exercise.
     """
 
@@ -62,6 +63,7 @@ class Kind:
     diagnosis: Callable[[], Diagnosis]
     environment: Callable[[str], dict[str, str]] = no_variables
     brings_bridge: bool = False
+    brings_world: bool = False
 
 
 def kind_names() -> list[str]:

@@ -26,6 +26,7 @@ from gz_course.grader.run.pace.lockstep import LockStep
 from gz_course.grader.run.pace.real_time import RealTime
 from gz_course.grader.run.processes.progress import Endpoint
 from gz_course.grader.run.processes.submission_processes import SubmissionProcesses
+from gz_course.grader.run.supervision import Heartbeat
 from gz_course.grader.run.trial_world import load_trial_world
 from gz_course.sim.gz.msgs.twist_pb2 import Twist
 from gz_course.sim.gz.sim.errors import SimError
@@ -82,6 +83,7 @@ class RunLoop:
         self._endpoints: dict[tuple[str, str, str, str], dict[str, Any]] = {}
         self._layout: tuple[int, ...] = ()
         self._messages: Counter[str] = Counter()
+        self.heartbeat = Heartbeat()
         self.wall_seconds = 0.0
 
     def _begin(self, plan: RunPlan, domain: int) -> None:
@@ -160,6 +162,7 @@ class RunLoop:
             self._unstable = str(error)
             self._recorder.text("log/grader", str(error), "ERROR")
             return
+        self.heartbeat.at(self._now_ns)
         self._recorder.set_time(self._now_ns)
         self._deliver(self._now_ns)
         self._pace.close_tick(self._exercise.tick)  # who is not in step gets a tick of wall time

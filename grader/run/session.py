@@ -22,6 +22,7 @@ from gz_course.grader.run.agent.course_agent.executor_monitor import RELIABLE
 from gz_course.grader.run.domain import Domain
 from gz_course.grader.run.processes.submission_processes import SubmissionProcesses
 from gz_course.grader.run.sandbox import AUTO, Sandbox
+from gz_course.grader.run.supervision import Heartbeat
 from gz_course.grader.submission import Submission
 from gz_course.sim.ros_gz_bridge.qos_profile import reliable
 
@@ -39,24 +40,33 @@ class RunResult:
     run_wall_seconds: float  # first tick to last
 
 
-def record_unrunnable(exercise: Exercise, submission: Submission, trial: Trial, path: Path) -> RunResult:
-    """Write the recording of a submission that cannot be started; it holds the reason and nothing else."""
+def record_unrunnable(
+    exercise: Exercise, submission: Submission, trial: Trial, path: Path, outcome: str = "student_error"
+) -> RunResult:
+    """Write the recording of a submission that cannot be started or finished; it holds the reason and nothing else."""
     from gz_course.grader.record.recorder import Recorder
     from gz_course.grader.run.properties import write_properties
 
     recorder = Recorder(path, exercise.robot)
     recorder.text("log/grader", submission.fault or "", "ERROR")
-    write_properties(recorder, exercise, submission, trial, {"fault": submission.fault})
+    write_properties(recorder, exercise, submission, trial, {"fault": submission.fault, "outcome": outcome})
     return RunResult(recorder, "none", "none", 0.0)
 
 
 def run(
-    exercise: Exercise, submission: Submission, trial: Trial, pace: str, path: Path, level: str = AUTO
+    exercise: Exercise,
+    submission: Submission,
+    trial: Trial,
+    pace: str,
+    path: Path,
+    level: str = AUTO,
+    heartbeat: Heartbeat | None = None,
 ) -> RunResult:
     """Run a submission and write its recording, still open for verdicts, to `path` (`.part` until closed).
 
     `pace` is `lockstep` or `realtime`, `level` that of the sandbox. Nothing is left running and no temporary file is
-    left behind, whatever happens. Raises ManifestError if the exercise's own files are wrong.
+    left behind, whatever happens. `heartbeat` is told how far the run has come. Raises ManifestError if the exercise's
+    own files are wrong.
     """
     sweep()  # what graders left that were killed
     kind = find_kind(exercise.kind)
@@ -86,6 +96,7 @@ def run(
             if not kind.brings_bridge:
                 raise ManifestError(f"{exercise.folder / MANIFEST}: {error.errors[0]}") from None
             return record_unrunnable(exercise, replace(submission, fault=shown(error.errors[0])), trial, path)
+        loop.heartbeat = heartbeat or loop.heartbeat
         with Recorder.begun(path, exercise.robot) as recorder:
             facts = loop.run(recorder)
             write_properties(recorder, exercise, submission, trial, plan.facts | facts)

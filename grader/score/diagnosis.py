@@ -62,7 +62,7 @@ def outcome_of(recording: Recording) -> str:
     if _reserved(facts):
         return "tamper"
     if facts.get("fault"):
-        return "student_error"
+        return str(facts.get("outcome", "student_error"))
     if facts.get("hid"):
         return "protocol"
     if limit := facts.get("limit"):

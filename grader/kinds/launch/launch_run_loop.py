@@ -14,7 +14,6 @@ from typing import Any
 
 from gz_course.grader.kinds.kind import RunPlan
 from gz_course.grader.kinds.launch.simulated_programs import SimulatedPrograms
-from gz_course.grader.process.temporary_folder import TemporaryFolder
 from gz_course.grader.record.recorder import Recorder
 from gz_course.grader.record.scene import Scene
 from gz_course.grader.run.pace.lockstep import LockStep
@@ -40,14 +39,9 @@ class LaunchRunLoop(RunLoop):
     """Everything set up for one run of a launch file."""
 
     def _begin(self, plan: RunPlan, domain: int) -> None:
-        folder = self._stack.enter_context(TemporaryFolder("course-given-"))
-        for name, data in plan.files.items():  # a copy that the submission cannot reach
-            path = folder / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(data)
         shown = Path(self._processes.folder)
         self._programs = SimulatedPrograms(
-            folder, shown, self._trial.seed, self._gz_nodes[0], self._open, lambda: self._ros
+            plan.files.keys(), shown, self._trial.seed, self._gz_nodes[0], self._open, lambda: self._ros
         )
         self._processes.asked = self._programs.asked
         self._lines: list[str] = []
@@ -61,7 +55,9 @@ class LaunchRunLoop(RunLoop):
     def run(self, recorder: Recorder) -> dict[str, Any]:
         """Run until the exercise's time is over, interrupt the launch, record everything; return the facts."""
         self._recorder = recorder
+        self._programs.building = self.heartbeat.submitted
         self._gather()
+        self._programs.over = True
         if self._world is not None:
             self._scene = Scene(recorder, self._world)
         started = time.monotonic()
@@ -82,7 +78,9 @@ class LaunchRunLoop(RunLoop):
         while self._processes.running and self._programs.simulator is None and time.monotonic() < deadline:
             self._processes.wait(0.05)
             self._ros.pump()
-            if self._processes.starting:
+            if self._programs.loading:
+                deadline = time.monotonic() + SIMULATOR_PATIENCE
+            elif self._processes.starting:
                 self._pace.await_ready()
                 deadline = time.monotonic() + SIMULATOR_PATIENCE
         if self._processes.running:

@@ -1,30 +1,32 @@
 """Gazebo's programs that a submission starts, done here: one world, the bridges to it, and `create` and its like.
 
 The programs in the box are the real ones up to the point where they would begin to simulate or to carry messages
-(`agent/course_agent/remote_*.py`); from there on they ask. What they say is not trusted: a
-world is a built-in one or a file that was handed in, whatever path they name, and no truth goes back to them.
+(`agent/course_agent/remote_*.py`); from there on they ask. What they say is not trusted: a world is a built-in one, or
+it is read from what they have handed over (`submitted_world.py`). No file is opened here because of what they name, and
+no truth goes back to them.
 """
 
 from __future__ import annotations
 
 import base64
-import re
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import Any
 
+from gz_course.grader.kinds.launch.submitted_world import SubmittedWorld
 from gz_course.grader.run.grader_endpoints import GraderEndpoints
 from gz_course.grader.run.processes.participant import Participant
-from gz_course.sim.gz.sim.errors import SimError
+from gz_course.sim.gz.sim.errors import Diagnostics, SimError, one_line
+from gz_course.sim.gz.sim.sdf.reader import read_world_file
 from gz_course.sim.gz.sim.sdf.resources import BUILT_IN_WORLDS
 from gz_course.sim.gz.sim.world import World
 from gz_course.sim.gz.transport import Node
 from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, BridgeError, Direction, HeaderOverrides
 
 MOST_ENTRIES = 200  # of one bridge
-URI = re.compile(r"<(?:uri|filename)>\s*(.*?)\s*</")
-BUILT_IN_MODEL = re.compile(r"model://\w+")  # all that a world that was handed in may name: it is read outside the box
+MOST_WARNINGS = 50  # about a world that are shown to its owner
+BUILT_IN = frozenset(path.name for path in BUILT_IN_WORLDS.glob("*.sdf"))
 
 
 @dataclass
@@ -57,24 +59,34 @@ class SimulatedPrograms:
 
     def __init__(
         self,
-        files: Path,
+        files: Collection[str],
         shown: Path,
         seed: int,
         gz_node: Node,
         opened: Callable[[World], None],
         ros: Callable[[], GraderEndpoints],
     ) -> None:
-        """`files` holds a copy of what was handed in, which is called `shown` in the box."""
+        """`files` are the names of what was handed in, which lies in the folder `shown` of the box."""
         self._files = files
         self._shown = shown
         self._seed = seed
         self._gz_node = gz_node
         self._opened = opened
         self._ros = ros
+        self._submitted = SubmittedWorld()
+        self._warnings: list[str] = []  # about a world that was handed in
         self.world: World | None = None
+        self.over = False  # a world that is asked for now comes too late
+        self.building: Callable[[], None] = lambda: None  # called before the simulator gets what was handed over
         self.simulators: list[SimulatorProgram] = []
         self.bridges: list[BridgeProgram] = []
         self.calls: list[str] = []
+        self._loading: list[Participant] = []
+
+    @property
+    def loading(self) -> bool:
+        """Whether a `gz sim` is reading its world."""
+        return any(not each.gone for each in self._loading)
 
     @property
     def simulator(self) -> SimulatorProgram | None:
@@ -83,7 +95,12 @@ class SimulatedPrograms:
 
     def asked(self, who: Participant, message: dict[str, Any]) -> None:
         """Answer a message of one of the programs; others are none of ours."""
-        if world := message.get("world"):
+        if part := message.get("asset"):
+            self._submitted.take(who.number, part)
+        elif "loading" in message:
+            self._loading.append(who)
+        elif world := message.get("world"):
+            self._loading = [each for each in self._loading if each is not who]
             who.tell({"answer": self._load(who, world)})
         elif run := message.get("run"):
             for simulator in self.simulators:
@@ -97,7 +114,7 @@ class SimulatedPrograms:
             models = runs.model_names(static=True) if runs else []
             who.tell({"answer": {"worlds": [runs.name] if runs else [], "models": models}})
         elif call := message.get("call"):
-            who.tell({"answer": {"done": self._call(call)}})
+            who.tell({"answer": self._call(call)})
         elif "stopped" in message:
             for simulator in self.simulators:
                 simulator.stopped |= simulator.who is who
@@ -105,40 +122,47 @@ class SimulatedPrograms:
                 bridge.stopped |= bridge.who is who
 
     def _load(self, who: Participant, asked: dict[str, Any]) -> dict[str, Any]:
-        argument, built_in, path = str(asked["given"]), str(asked["built_in"]), Path(str(asked["path"]))
-        simulator = SimulatorProgram(who, argument)
+        argument, built_in, path = str(asked["given"]), str(asked["built_in"]), PurePath(str(asked["path"]))
+        simulator = SimulatorProgram(who, argument, error=str(asked.get("error", "")))
         self.simulators.append(simulator)
-        if built_in and (BUILT_IN_WORLDS / Path(built_in).name).is_file():
-            simulator.world = Path(built_in).name
-            file: Path = BUILT_IN_WORLDS / simulator.world
-        elif own := self._handed_in(path):
+        if built_in in BUILT_IN:
+            simulator.world = built_in
+        elif path.is_relative_to(self._shown) and path.relative_to(self._shown).as_posix() in self._files:
             simulator.world = path.relative_to(self._shown).as_posix()
-            file = own
-            foreign = [
-                uri for uri in URI.findall(file.read_text(errors="replace")) if not BUILT_IN_MODEL.fullmatch(uri)
-            ]
-            if foreign or file.suffix not in (".sdf", ".world"):
-                what = f"it names '{foreign[0][:200]}'" if foreign else f"{simulator.world} is no .sdf file"
-                simulator.error = f"a world that is graded may use built-in models only; {what}"
-        else:
+        elif not simulator.error:
             simulator.error = f"world file '{argument}' is neither a built-in world nor one of the files handed in"
         if not simulator.error and self.world is None:
-            try:
-                self.world = World.load(file, seed=self._seed, node=self._gz_node)
-            except SimError as error:
-                simulator.error = str(error).replace(str(self._files), str(self._shown))
-            else:
-                self._opened(self.world)
+            simulator.error = self._open(built_in if built_in in BUILT_IN else "", str(asked.get("description", "")))
         if simulator.error or self.world is None:
             return {"error": simulator.error}
-        return {"name": self.world.name, "models": self.world.model_names(static=True)}
+        models, warnings = self.world.model_names(static=True), self._warnings[:MOST_WARNINGS]
+        return {"name": self.world.name, "models": models, "warnings": warnings}
 
-    def _handed_in(self, path: Path) -> Path | None:
-        """Return our own copy of a file of the submission; None if the path means anything else."""
-        if not path.is_relative_to(self._shown) or ".." in path.parts:
-            return None
-        own = self._files / path.relative_to(self._shown)
-        return own if own.is_file() else None
+    def _open(self, built_in: str, description: str) -> str:
+        """Build a world, a built-in one or the one at an address; return why that cannot be, empty if it can."""
+        if self.over:
+            return "the world was asked for when the run was over"
+        diagnostics = Diagnostics(quiet=not built_in)  # a world that was handed in was warned about in the box
+        try:
+            if built_in:
+                read = read_world_file(BUILT_IN_WORLDS / built_in, diagnostics)
+            else:
+                self.building()
+                read = self._submitted.read(description, diagnostics)
+            assets = self._submitted.assets
+            self.world = World(read, diagnostics, seed=self._seed, node=self._gz_node, resources=assets)
+        except SimError as error:
+            return str(error)
+        except MemoryError:
+            raise
+        except Exception as error:  # a fault of the world that no check has foreseen
+            if built_in:
+                raise
+            return f"this world cannot be simulated ({type(error).__name__}: {one_line(str(error))[:200]})"
+        if not built_in:
+            self._warnings = diagnostics.warnings
+        self._opened(self.world)
+        return ""
 
     def _bridge(self, who: Participant, asked: dict[str, Any]) -> dict[str, Any]:
         bridge = BridgeProgram(who, str(asked["node"]))
@@ -155,18 +179,31 @@ class SimulatedPrograms:
             bridge.errors, bridge.entries = [str(error)], []
         return {"errors": bridge.errors}
 
-    def _call(self, asked: dict[str, Any]) -> bool:
+    def _call(self, asked: dict[str, Any]) -> dict[str, Any]:
         """Ask one of the world's services for what `create` and its like ask."""
+        from google.protobuf.message import DecodeError
+
         from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
+        from gz_course.sim.gz.msgs.entity_factory_pb2 import EntityFactory
 
         if self.world is None or asked["verb"] not in ("create", "remove", "set_pose"):
-            return False
+            return {"done": False}
         data = base64.b64decode(str(asked["data"]))
+        if asked["verb"] == "create":
+            self.building()
+            try:
+                factory = EntityFactory.FromString(data)
+                factory.ClearField("sdf_filename")
+                if description := asked.get("description"):
+                    factory.sdf = self._submitted.text(str(description))
+                data = factory.SerializeToString()
+            except (DecodeError, SimError) as error:
+                return {"done": False, "error": str(error)}
         service = f"{self.world.topic}/{asked['verb']}/blocking"
         outcome = self._gz_node.call_raw(service, data, str(asked["type"]), Boolean.DESCRIPTOR.full_name, 5000)
         done = bool(outcome.executed and outcome.result and Boolean.FromString(outcome.response).data)
         self.calls.append(f"{asked['verb']}: {'done' if done else 'refused'}")
-        return done
+        return {"done": done}
 
     def facts(self) -> dict[str, Any]:
         """Return what the programs were and did, for the recording; the same for equal runs."""

@@ -62,11 +62,12 @@ class Diagnostics:
 
     With `strict` nothing is logged while the world is being read and built: `refuse`, called when that is done, raises
     one error with all of them. After that call warnings are logged as they come, those within `refusing` excepted.
-    What is only a `doubt` is never refused.
+    What is only a `doubt` is never refused. With `quiet` nothing is logged at all.
     """
 
     warnings: list[str] = field(default_factory=list)
     strict: bool = False
+    quiet: bool = False
     _known: set[str] = field(default_factory=set, repr=False)
     _doubts: set[str] = field(default_factory=set, repr=False)
 
@@ -88,7 +89,7 @@ class Diagnostics:
         self.warnings.append(text)
         if doubt:
             self._doubts.add(text)
-        if doubt or not self.strict:
+        if (doubt or not self.strict) and not self.quiet:
             LOG.warning("%s", text)
 
     def warn_once(self, subject: str, where: str, sentence: str) -> None:

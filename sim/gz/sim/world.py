@@ -28,7 +28,7 @@ from gz_course.sim.gz.sim.requests import Requests
 from gz_course.sim.gz.sim.running_systems import RunningSystems, default_plugins
 from gz_course.sim.gz.sim.sdf.description import Plugin, WorldDescription
 from gz_course.sim.gz.sim.sdf.reader import read_world, read_world_file
-from gz_course.sim.gz.sim.sdf.resources import find_world
+from gz_course.sim.gz.sim.sdf.resources import FILES, Resources, find_world
 from gz_course.sim.gz.sim.truth import Truth
 
 if TYPE_CHECKING:
@@ -51,13 +51,16 @@ class World:
         render_engine: str = "raycast",
         initial_sim_time: float = 0.0,
         server_plugins: Sequence[Plugin] = (),
+        resources: Resources = FILES,
     ) -> None:
         """Build and start a world from its description; use `World.load` or `World.from_string`.
 
-        `server_plugins` are systems of the world that its file does not name.
+        `server_plugins` are systems of the world that its file does not name. What is created later opens the files it
+        names with `resources`.
         """
         self.description = description
         self.diagnostics = diagnostics
+        self.resources = resources
         self.seed = seed
         self.render_engine = check_engine(render_engine)
         """What the cameras see with: `raycast` or `mujoco`."""

@@ -32,11 +32,11 @@ def hear(message: dict[str, Any] | None) -> bool:
     return True
 
 
-def ask(question: dict[str, Any]) -> dict[str, Any]:
-    """Return the answer to a question."""
+def ask(question: dict[str, Any], patience: float | None = PATIENCE) -> dict[str, Any]:
+    """Return the answer to a question; wait for it at most `patience` seconds, or as long as the grader is there."""
     channel().send(question)
     try:
-        return _answers.get(timeout=PATIENCE)
+        return _answers.get(timeout=patience)
     except queue.Empty:
         return {"error": f"the simulator did not answer within {PATIENCE:g} s"}
 

@@ -39,11 +39,20 @@ class RemoteRunningWorld:
 
     def call(self, verb: str, request: Any) -> bool:
         """Ask `/world/NAME/VERB` and wait until it is done; False when the simulator refuses."""
-        if getattr(request, "sdf_filename", ""):
-            request.sdf = Path(request.sdf_filename).read_text(encoding="utf-8")
-            request.sdf_filename = ""
-        data = base64.b64encode(request.SerializeToString()).decode()
-        answer = ask({"call": {"verb": verb, "type": request.DESCRIPTOR.full_name, "data": data}})
+        from gz_course.sim.gz.sim.errors import SimError
+        from gz_course.sim.ros_program.errors import Failure
+
+        asked = {"verb": verb, "type": request.DESCRIPTOR.full_name, "description": ""}
+        sent = type(request).FromString(request.SerializeToString())
+        if getattr(request, "sdf", "") or getattr(request, "sdf_filename", ""):
+            try:
+                asked["description"] = _handed_over(request.sdf, request.sdf_filename)
+            except SimError:
+                return False  # the caller reads it again and says why
+            sent.ClearField("sdf" if request.sdf else "sdf_filename")
+        answer = ask({"call": asked | {"data": base64.b64encode(sent.SerializeToString()).decode()}})
+        if error := answer.get("error"):
+            raise Failure(f"the entity was not created: {error}" if verb == "create" else error)
         return bool(answer.get("done"))
 
     def entities(self) -> tuple[list[str], list[str]]:
@@ -53,6 +62,19 @@ class RemoteRunningWorld:
     def resolve(self, uri: str) -> str:
         """Return the path the simulator finds for a URI: none beyond what is found here."""
         return ""
+
+
+def _handed_over(text: str, file: str) -> str:
+    """Hand over a model that is given as a text or a file; return its address."""
+    from .handing_over import hand_over  # isort: skip - before anything imports MuJoCo
+
+    from gz_course.sim.gz.sim.errors import Diagnostics
+    from gz_course.sim.gz.sim.sdf.reader import read_model
+    from gz_course.sim.gz.sim.sdf.resources import read_text
+
+    text, file = (text, "<create>") if text else (read_text(Path(file)), file)
+    read_model(text, file, Diagnostics())
+    return hand_over(text, file)
 
 
 def install() -> None:

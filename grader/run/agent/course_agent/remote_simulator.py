@@ -23,16 +23,30 @@ class RemoteWorld:
 
     @classmethod
     def load(cls, path_or_name: str | Path, **options: Any) -> RemoteWorld:
-        """Have a world loaded outside: a built-in one, or a file that was handed in. Raises SimError as it would."""
-        from gz_course.sim.gz.sim.errors import SimError
+        """Have a world loaded outside: a built-in one by its name, a file that was handed in by its content.
+
+        Raises SimError as it would.
+        """
+        from gz_course.sim.gz.sim.errors import LOG, Diagnostics, SimError
         from gz_course.sim.gz.sim.sdf.resources import BUILT_IN_WORLDS, find_world
 
         channel().listen(hear)
         found = find_world(path_or_name).resolve()
         built_in = found.name if found.parent == BUILT_IN_WORLDS else ""
-        answer = ask({"world": {"given": str(path_or_name), "path": str(found), "built_in": built_in}})
-        if error := answer.get("error"):
-            raise SimError(error)
+        channel().send({"loading": True})
+        asked = {"given": str(path_or_name), "path": str(found), "built_in": built_in, "description": "", "error": ""}
+        diagnostics = Diagnostics(strict=bool(options.get("strict")))
+        if not built_in:
+            try:
+                asked["description"] = _handed_over(found, diagnostics)
+            except SimError as error:
+                asked["error"] = str(error)
+        answer = ask({"world": asked}, patience=None)
+        if "error" in answer:
+            raise SimError(answer["error"])
+        for warning in answer.get("warnings", []):
+            if warning not in diagnostics.warnings:  # from building the world, not from reading it
+                LOG.warning("%s", warning)
         return cls(answer["name"], answer["models"])
 
     def model_names(self, static: bool = False) -> list[str]:
@@ -41,6 +55,19 @@ class RemoteWorld:
 
     def close(self) -> None:
         """It is closed outside."""
+
+
+def _handed_over(file: Path, diagnostics: Any) -> str:
+    """Read a world as the simulator does, with all its warnings, and hand it over; return its address."""
+    from .handing_over import hand_over  # isort: skip - before anything imports MuJoCo
+
+    from gz_course.sim.gz.sim.sdf.reader import read_world
+    from gz_course.sim.gz.sim.sdf.resources import read_text
+
+    text = read_text(file)
+    read_world(text, str(file), diagnostics)
+    diagnostics.refuse()
+    return hand_over(text, str(file))
 
 
 class RemoteServer:

@@ -78,8 +78,9 @@ class Editor:
         bit. From then on one solver serves all, so that last digits (1e-20 m) may differ. Raises `SimError` (`SdfError`
         with file and line for a bad text); the world is then as before.
         """
-        self._world.requests.refuse_inside_step("take in a model")
-        made = read_model(what, file_name, self._world.diagnostics, name) if isinstance(what, str) else what
+        world = self._world
+        world.requests.refuse_inside_step("take in a model")
+        made = read_model(what, file_name, world.diagnostics, name, world.resources) if isinstance(what, str) else what
         _check_pose(pose, made.name)
         wanted = name or made.name
         free = self._free_name(wanted, allow_renaming)

@@ -9,7 +9,6 @@ from __future__ import annotations
 import copy
 import math
 from collections.abc import Callable
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,7 +18,6 @@ from gz_course.sim.gz.sim.pose import Pose
 from gz_course.sim.gz.sim.sdf.description import Light, Model
 from gz_course.sim.gz.sim.sdf.element import Element
 from gz_course.sim.gz.sim.sdf.reader import read_model
-from gz_course.sim.gz.sim.sdf.resources import find_model, read_text
 from gz_course.sim.gz.sim.sdf.writer import pose_element
 
 if TYPE_CHECKING:
@@ -71,11 +69,11 @@ def create(world: WorldAccess, message: Any) -> Callable[[], None]:
     renaming = message.allow_renaming
     made: Model | Light | None = None
     if source == "sdf":
-        made = read_model(message.sdf, "<create>", world.diagnostics, message.name)
+        made = read_model(message.sdf, "<create>", world.diagnostics, message.name, world.resources)
     elif source == "sdf_filename":
-        path = Path(message.sdf_filename)
-        path = path if path.is_file() else find_model(message.sdf_filename, None)
-        made = read_model(read_text(path), str(path), world.diagnostics, message.name)
+        path = world.resources.find_model(message.sdf_filename, None)
+        text = world.resources.read_text(path)
+        made = read_model(text, str(path), world.diagnostics, message.name, world.resources)
     elif source == "light":
         made = _light(message.light, message.name)
     elif source == "clone_name":

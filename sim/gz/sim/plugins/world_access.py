@@ -13,6 +13,7 @@ import mujoco
 
 from gz_course.sim.gz.sim.errors import Diagnostics
 from gz_course.sim.gz.sim.sdf.description import WorldDescription
+from gz_course.sim.gz.sim.sdf.resources import Resources
 
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.editing.editor import Editor
@@ -27,6 +28,7 @@ class WorldAccess(Protocol):
 
     description: WorldDescription
     diagnostics: Diagnostics
+    resources: Resources
     seed: int
     render_engine: str
     iterations: int

@@ -109,8 +109,7 @@ class _SceneWriter:
         message.canonical = link.name == model.canonical_link
         _fill_inertial(message.inertial, link.inertial)
 
-    @staticmethod
-    def _visual(message: Any, vertex: Vertex) -> None:
+    def _visual(self, message: Any, vertex: Vertex) -> None:
         visual = vertex.described
         _parent(message, vertex)
         message.visible = True
@@ -119,17 +118,16 @@ class _SceneWriter:
         message.cast_shadows = visual.element.flag("cast_shadows", True)
         message.transparency = transparency(visual)
         message.laser_retro = visual.element.number("laser_retro", 0.0)
-        fill_geometry(message.geometry, visual)
-        material = fill_material(visual)
+        fill_geometry(message.geometry, visual, self._world.resources)
+        material = fill_material(visual, self._world.resources)
         if material is not None:
             message.material.CopyFrom(material)
 
-    @staticmethod
-    def _collision(message: Any, vertex: Vertex) -> None:
+    def _collision(self, message: Any, vertex: Vertex) -> None:
         collision = vertex.described
         message.laser_retro = collision.element.number("laser_retro", 0.0)
         message.max_contacts = collision.element.number("max_contacts", 10.0)
-        fill_geometry(message.geometry, collision)
+        fill_geometry(message.geometry, collision, self._world.resources)
         fill_surface(message.surface, collision)
 
     def _sensor(self, message: Any, vertex: Vertex) -> None:

@@ -15,14 +15,14 @@ from gz_course.sim.gz.sim.scene.fields import set_colour, set_vector
 from gz_course.sim.gz.sim.sdf.description import Collision, Geometry, Visual
 from gz_course.sim.gz.sim.sdf.element import Element
 from gz_course.sim.gz.sim.sdf.materials import GREY
-from gz_course.sim.gz.sim.sdf.resources import find_file
+from gz_course.sim.gz.sim.sdf.resources import Resources
 
 _MAPS = ("normal_map", "environment_map", "ambient_occlusion_map", "emissive_map", "light_map")
 _METAL_MAPS = ("metalness_map", "roughness_map")
 _SPECULAR_MAPS = ("glossiness_map", "specular_map")
 
 
-def fill_geometry(message: Any, owner: Collision | Visual) -> None:
+def fill_geometry(message: Any, owner: Collision | Visual, resources: Resources) -> None:
     """Write the shape of a collision or visual into a gz.msgs.Geometry; lengths in metres."""
     geometry, kinds = owner.geometry, GeometryMessage
     x, y, z = geometry.size
@@ -41,17 +41,17 @@ def fill_geometry(message: Any, owner: Collision | Visual) -> None:
         set_vector(message.plane.normal, geometry.normal)
         set_vector(message.plane.size, (x, y))
     else:
-        _fill_from_file(message, geometry, owner.element.find("geometry") or owner.element)
+        _fill_from_file(message, geometry, owner.element.find("geometry") or owner.element, resources)
 
 
-def _fill_from_file(message: Any, geometry: Geometry, element: Element) -> None:
+def _fill_from_file(message: Any, geometry: Geometry, element: Element, resources: Resources) -> None:
     """Write a mesh, heightmap or polyline: what the SDF says about it, not its triangles."""
     shape = element.find(geometry.kind)
     if shape is None:
         message.type = GeometryMessage.EMPTY
     elif geometry.kind == "mesh":
         message.type = GeometryMessage.MESH
-        message.mesh.filename = _path(shape, "uri")
+        message.mesh.filename = _path(shape, "uri", resources)
         set_vector(message.mesh.scale, shape.vector("scale", (1.0, 1.0, 1.0)))
         submesh = shape.find("submesh")
         if submesh is not None:
@@ -59,7 +59,7 @@ def _fill_from_file(message: Any, geometry: Geometry, element: Element) -> None:
             message.mesh.center_submesh = submesh.flag("center", False)
     elif geometry.kind == "heightmap":
         message.type = GeometryMessage.HEIGHTMAP
-        _fill_heightmap(message.heightmap, geometry, shape)
+        _fill_heightmap(message.heightmap, geometry, shape, resources)
     elif geometry.kind == "polyline":
         message.type = GeometryMessage.POLYLINE
         for each in element.all("polyline"):
@@ -68,27 +68,29 @@ def _fill_from_file(message: Any, geometry: Geometry, element: Element) -> None:
                 set_vector(added.point.add(), point.floats(2))
 
 
-def _fill_heightmap(message: Any, geometry: Geometry, shape: Element) -> None:
+def _fill_heightmap(message: Any, geometry: Geometry, shape: Element, resources: Resources) -> None:
     """Write a heightmap; its `<pos>` is part of the pose of its visual, so the origin stays zero."""
-    message.filename = _path(shape, "uri")
+    message.filename = _path(shape, "uri", resources)
     set_vector(message.size, geometry.size)
     message.use_terrain_paging = shape.flag("use_terrain_paging", False)
     message.sampling = max(0, shape.integer("sampling", 1))
     for texture in shape.all("texture"):
         message.texture.add(
-            diffuse=_path(texture, "diffuse"), normal=_path(texture, "normal"), size=texture.number("size", 10.0)
+            diffuse=_path(texture, "diffuse", resources),
+            normal=_path(texture, "normal", resources),
+            size=texture.number("size", 10.0),
         )
     for blend in shape.all("blend"):
         message.blend.add(min_height=blend.number("min_height", 0.0), fade_dist=blend.number("fade_dist", 0.0))
 
 
-def _path(element: Element, tag: str) -> str:
+def _path(element: Element, tag: str, resources: Resources) -> str:
     """Return the file a child names as an absolute path, or its text when there is no such file."""
     uri = element.text_of(tag)
     if not uri:
         return ""
     try:
-        return str(find_file(uri, element.folder).resolve())
+        return str(resources.real(resources.find_file(uri, element.folder)))
     except ResourceError:
         return uri
 
@@ -98,7 +100,7 @@ def transparency(visual: Visual) -> float:
     return min(1.0, max(0.0, visual.element.number("transparency", 0.0)))
 
 
-def fill_material(visual: Visual) -> Material | None:
+def fill_material(visual: Visual, resources: Resources) -> Material | None:
     """Return what a visual looks like, or None if nothing was said about it.
 
     Diffuse is the colour the visual has now; where the SDF gives no other, ambient is the same.
@@ -130,7 +132,7 @@ def fill_material(visual: Visual) -> Material | None:
         message.script.uri.extend(each.text for each in script.all("uri"))
     pbr = element.find("pbr")
     if pbr is not None:
-        _fill_pbr(message.pbr, pbr)
+        _fill_pbr(message.pbr, pbr, resources)
     return message
 
 
@@ -141,7 +143,7 @@ def _colour(element: Element, tag: str, default: tuple[float, ...]) -> tuple[flo
     return tuple(child.floats(4 if len(child.text.split()) == 4 else 3))
 
 
-def _fill_pbr(message: Any, pbr: Element) -> None:
+def _fill_pbr(message: Any, pbr: Element, resources: Resources) -> None:
     """Write the metal workflow, or the specular one when there is no other."""
     workflow = pbr.find("metal") or pbr.find("specular")
     if workflow is None:
@@ -150,7 +152,7 @@ def _fill_pbr(message: Any, pbr: Element) -> None:
     message.type = Material.PBR.METAL if metal else Material.PBR.SPECULAR
     for name in ("albedo_map", *_MAPS, *(_METAL_MAPS if metal else _SPECULAR_MAPS)):
         if workflow.find(name) is not None:
-            setattr(message, name, _path(workflow, name))
+            setattr(message, name, _path(workflow, name, resources))
     light_map = workflow.find("light_map")
     if light_map is not None:
         uv_set = light_map.attributes.get("uv_set", "0")

@@ -17,6 +17,7 @@ from gz_course.sim.gz.sim.sdf.element import Element
 from gz_course.sim.gz.sim.sdf.heightmap import read_heightmap
 from gz_course.sim.gz.sim.sdf.mesh_shape import read_mesh_shape
 from gz_course.sim.gz.sim.sdf.polyline import read_polyline
+from gz_course.sim.gz.sim.sdf.resources import Resources
 
 SHAPES = ("box", "sphere", "cylinder", "capsule", "ellipsoid", "cone", "plane", "mesh", "heightmap", "polyline")
 _LARGEST = 1e6  # [m]
@@ -24,7 +25,7 @@ _SMALLEST = 1e-7
 _SIDES = 32  # of a cone
 
 
-def read_geometry(owner: Element, moving: bool, diagnostics: Diagnostics) -> Geometry | None:
+def read_geometry(owner: Element, moving: bool, diagnostics: Diagnostics, resources: Resources) -> Geometry | None:
     """Return the shape of a `<collision>` or `<visual>`, or None after a warning when there is none to build.
 
     `moving` tells whether the link can move.
@@ -38,9 +39,9 @@ def read_geometry(owner: Element, moving: bool, diagnostics: Diagnostics) -> Geo
     if shape.tag == "empty":
         return None
     if shape.tag == "mesh":
-        return read_mesh_shape(shape, owner, moving, diagnostics)
+        return read_mesh_shape(shape, owner, moving, diagnostics, resources)
     if shape.tag == "heightmap":
-        return read_heightmap(shape, owner, moving, diagnostics)
+        return read_heightmap(shape, owner, moving, diagnostics, resources)
     if shape.tag == "image":
         text = f"<image> geometry is not simulated here, so <{owner.tag}> '{owner.name}' is left out; use boxes"
         diagnostics.warn(shape.where, text)

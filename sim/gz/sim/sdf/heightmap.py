@@ -18,12 +18,14 @@ from numpy.typing import NDArray
 from gz_course.sim.gz.sim.errors import Diagnostics, ResourceError
 from gz_course.sim.gz.sim.sdf.description import Geometry, TriangleMesh
 from gz_course.sim.gz.sim.sdf.element import Element
-from gz_course.sim.gz.sim.sdf.resources import find_file
+from gz_course.sim.gz.sim.sdf.resources import Resources
 
-_MOST_PIXELS = 4_200_000
+MOST_PIXELS = 4_200_000
 
 
-def read_heightmap(shape: Element, owner: Element, moving: bool, diagnostics: Diagnostics) -> Geometry | None:
+def read_heightmap(
+    shape: Element, owner: Element, moving: bool, diagnostics: Diagnostics, resources: Resources
+) -> Geometry | None:
     """Return the terrain without its `<pos>`, its heights beginning at zero, or None after a warning."""
     left_out = f"so <{owner.tag}> '{owner.name}' is left out"
     uri = shape.text_of("uri")
@@ -37,9 +39,8 @@ def read_heightmap(shape: Element, owner: Element, moving: bool, diagnostics: Di
         diagnostics.warn(shape.where, f"<heightmap> has no <uri>, {left_out}")
         return None
     try:
-        path = find_file(uri, shape.folder)
-        stat = path.stat()
-        heights, mesh = _terrain(path, stat.st_mtime_ns, (size[0], size[1], size[2]))
+        path = resources.find_file(uri, shape.folder)
+        heights, mesh = _terrain(resources, path, resources.stamp(path), (size[0], size[1], size[2]))
     except (ResourceError, OSError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else error
         diagnostics.warn((shape.find("uri") or shape).where, f"{reason}, {left_out}")
@@ -48,12 +49,14 @@ def read_heightmap(shape: Element, owner: Element, moving: bool, diagnostics: Di
 
 
 @lru_cache(maxsize=8)
-def _terrain(path: Path, _stamp: int, size: tuple[float, float, float]) -> tuple[NDArray[np.float64], TriangleMesh]:
+def _terrain(
+    resources: Resources, path: Path, _stamp: tuple[int, ...], size: tuple[float, float, float]
+) -> tuple[NDArray[np.float64], TriangleMesh]:
     """Return the heights (rows, columns) [m] and their surface.
 
-    `_stamp`, the time of the file's last change, makes the cache read a changed file again.
+    `_stamp`, which changes with the content, makes the cache read a changed file again.
     """
-    pixels = _grey(path)
+    pixels = resources.read_image(path).astype(np.float64)
     brightest = float(pixels.max())
     heights = pixels[::-1] / brightest if brightest > 0.0 else pixels
     if size[2] < 0.0:
@@ -62,8 +65,8 @@ def _terrain(path: Path, _stamp: int, size: tuple[float, float, float]) -> tuple
     return heights, _surface(heights, size)
 
 
-def _grey(path: Path) -> NDArray[np.float64]:
-    """Return the first channel of an image, (rows, columns) of 0..255."""
+def read_image(path: Path) -> NDArray[np.uint8]:
+    """Return the first channel of a PNG file, (rows, columns) of 0..255. Raises ResourceError if it cannot be read."""
     try:
         data = path.read_bytes()
     except OSError as error:
@@ -71,7 +74,7 @@ def _grey(path: Path) -> NDArray[np.float64]:
     if not data.startswith(b"\x89PNG\r\n\x1a\n") or len(data) < 33:
         raise ResourceError(f"the image {path} is not a PNG file; convert it to one")
     width, height = (int.from_bytes(data[at : at + 4], "big") for at in (16, 20))
-    if width < 2 or height < 2 or width * height > _MOST_PIXELS:
+    if width < 2 or height < 2 or width * height > MOST_PIXELS:
         raise ResourceError(f"the image {path} has {width} x {height} pixels; 2 x 2 to 2049 x 2049 are possible")
     spec = mujoco.MjSpec()
     spec.assets = {"image.png": data}
@@ -80,7 +83,7 @@ def _grey(path: Path) -> NDArray[np.float64]:
         model = spec.compile()
     except (ValueError, mujoco.FatalError) as error:
         raise ResourceError(f"the image {path} cannot be decoded ({' '.join(str(error).split())})") from None
-    return np.array(model.tex_data[: width * height], dtype=np.float64).reshape(height, width)
+    return np.array(model.tex_data[: width * height], dtype=np.uint8).reshape(height, width)
 
 
 def _surface(heights: NDArray[np.float64], size: tuple[float, ...]) -> TriangleMesh:

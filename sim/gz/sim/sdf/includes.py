@@ -15,7 +15,7 @@ from gz_course.sim.gz.sim.errors import Diagnostics, ResourceError, SdfError
 from gz_course.sim.gz.sim.pose import Pose
 from gz_course.sim.gz.sim.sdf import plausibility, vocabulary
 from gz_course.sim.gz.sim.sdf.element import Element, parse
-from gz_course.sim.gz.sim.sdf.resources import find_model, read_text
+from gz_course.sim.gz.sim.sdf.resources import Resources
 from gz_course.sim.gz.sim.sdf.urdf.convert import sdf_of_robot
 from gz_course.sim.gz.sim.sdf.urdf.xacro_file import restore_places
 
@@ -72,7 +72,8 @@ def read_root(text: str, file: str, diagnostics: Diagnostics) -> Element:
 class Includes:
     """The includes of one world, and the names of those that were not found."""
 
-    def __init__(self, diagnostics: Diagnostics) -> None:
+    def __init__(self, diagnostics: Diagnostics, resources: Resources) -> None:
+        self.resources = resources
         self._diagnostics = diagnostics
         self._roots: dict[Path, Element] = {}
         self._count = 0
@@ -92,12 +93,12 @@ class Includes:
         if self._count > MOST_INCLUDES:
             raise child.error(f"the world opens more than {MOST_INCLUDES} includes; do files include each other twice?")
         try:
-            path = find_model(uri, child.folder)
+            path = self.resources.find_model(uri, child.folder)
         except ResourceError as error:
             self._diagnostics.warn(child.where, f"the include is skipped: {error}")
             self.skipped.add(child.text_of("name") or uri.rstrip("/").rsplit("/", 1)[-1])
             return None
-        real = path.resolve()
+        real = self.resources.real(path)
         if real in chain:
             names = " -> ".join(f"{each.parent.name}/{each.name}" for each in (*chain[chain.index(real) :], real))
             raise child.error(f"'{uri}' is included inside itself: {names}")
@@ -110,7 +111,7 @@ class Includes:
     def _root(self, path: Path) -> Element:
         root = self._roots.get(path)
         if root is None:
-            root = self._roots[path] = read_root(read_text(path), str(path), self._diagnostics)
+            root = self._roots[path] = read_root(self.resources.read_text(path), str(path), self._diagnostics)
         return root
 
     def _entity(self, root: Element, include: Element, uri: str, path: Path) -> Element | None:

@@ -17,10 +17,11 @@ from gz_course.sim.gz.sim.sdf.geometry import read_geometry
 from gz_course.sim.gz.sim.sdf.inertia import WATER, automatic_inertial, is_automatic, read_inertial
 from gz_course.sim.gz.sim.sdf.lights import read_light
 from gz_course.sim.gz.sim.sdf.materials import read_bitmask, read_colour, read_friction
+from gz_course.sim.gz.sim.sdf.resources import Resources
 from gz_course.sim.gz.sim.sdf.sensors import part_pose, read_sensor
 
 
-def read_link(element: Element, scope: Scope, model: Model, diagnostics: Diagnostics) -> Link:
+def read_link(element: Element, scope: Scope, model: Model, diagnostics: Diagnostics, resources: Resources) -> Link:
     """Return the link; its pose is in the frame of `model`, the poses of its parts are in the frame of the link."""
     link = Link(element.name, scope.pose_of(element.name, element), element, static=model.static)
     link.gravity = element.flag("gravity", True)
@@ -37,7 +38,7 @@ def read_link(element: Element, scope: Scope, model: Model, diagnostics: Diagnos
         elif part.tag == "light":
             link.lights.append(read_light(part, part_pose(part, link.name, scope), diagnostics))
         else:
-            _add_shape(part, link, model, scope, diagnostics)
+            _add_shape(part, link, model, scope, diagnostics, resources)
     inertial = element.find("inertial")
     if inertial is not None:
         pose = part_pose(inertial, link.name, scope)
@@ -49,8 +50,10 @@ def read_link(element: Element, scope: Scope, model: Model, diagnostics: Diagnos
     return link
 
 
-def _add_shape(part: Element, link: Link, model: Model, scope: Scope, diagnostics: Diagnostics) -> None:
-    geometry = read_geometry(part, not model.static, diagnostics)
+def _add_shape(
+    part: Element, link: Link, model: Model, scope: Scope, diagnostics: Diagnostics, resources: Resources
+) -> None:
+    geometry = read_geometry(part, not model.static, diagnostics, resources)
     if geometry is None:
         return
     pose = part_pose(part, link.name, scope)

@@ -1,6 +1,6 @@
 """`<mesh>` of a `<geometry>`: file, scale and submesh as a surface of triangles.
 
-Part of the reader: `gz.sim.sdf.geometry` calls it, `gz.sim.sdf.meshes` reads the file, `gz.sim.sdf.convex` makes the
+Part of the reader: `gz.sim.sdf.geometry` calls it, `gz.sim.sdf.resources` opens the file, `gz.sim.sdf.convex` makes the
 convex pieces that collide. Equal meshes (file, submesh, scale) are read once and shared.
 Source: SDFormat, element `<mesh>`, http://sdformat.org/spec
 """
@@ -18,8 +18,7 @@ from gz_course.sim.gz.sim.errors import Diagnostics, ResourceError
 from gz_course.sim.gz.sim.sdf.convex import convex_pieces
 from gz_course.sim.gz.sim.sdf.description import Geometry, TriangleMesh
 from gz_course.sim.gz.sim.sdf.element import Element
-from gz_course.sim.gz.sim.sdf.meshes import read_mesh
-from gz_course.sim.gz.sim.sdf.resources import find_file
+from gz_course.sim.gz.sim.sdf.resources import Resources
 
 FULLER = 0.1
 """A hull whose volume exceeds that of its mesh by more than this part causes a warning."""
@@ -28,7 +27,9 @@ _LONGEST_MOVING = 20.0  # [m]; a longer thing that moves is more likely a drawin
 _SMALLEST_AREA = 1e-12  # [m^2]
 
 
-def read_mesh_shape(shape: Element, owner: Element, moving: bool, diagnostics: Diagnostics) -> Geometry | None:
+def read_mesh_shape(
+    shape: Element, owner: Element, moving: bool, diagnostics: Diagnostics, resources: Resources
+) -> Geometry | None:
     """Return the mesh of a `<collision>` or `<visual>`, or None after a warning when its file cannot be used."""
     left_out = f"so <{owner.tag}> '{owner.name}' is left out"
     uri = shape.text_of("uri")
@@ -42,12 +43,11 @@ def read_mesh_shape(shape: Element, owner: Element, moving: bool, diagnostics: D
     part = submesh.text_of("name") if submesh is not None else ""
     center = submesh.flag("center", False) if submesh is not None else False
     try:
-        path = find_file(uri, shape.folder)
-        stat = path.stat()
-        stamp = (stat.st_mtime_ns, stat.st_size)
+        path = resources.find_file(uri, shape.folder)
+        stamp = resources.stamp(path)
         hull = shape.attributes.get("optimization") == "convex_hull"
         touching = "" if owner.tag != "collision" else "hull" if hull else "moving" if moving else "static"
-        mesh, fuller = _load(path, stamp, part, center, (scale[0], scale[1], scale[2]), touching)
+        mesh, fuller = _load(resources, path, stamp, part, center, (scale[0], scale[1], scale[2]), touching)
     except (ResourceError, OSError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else error
         diagnostics.warn((shape.find("uri") or shape).where, f"{reason}, {left_out}")
@@ -71,15 +71,16 @@ def read_mesh_shape(shape: Element, owner: Element, moving: bool, diagnostics: D
 
 @lru_cache(maxsize=256)
 def _load(
+    resources: Resources,
     path: Path,
-    _stamp: tuple[int, int],
+    _stamp: tuple[int, ...],
     submesh: str,
     center: bool,
     scale: tuple[float, float, float],
     touching: str,
 ) -> tuple[TriangleMesh, float]:
-    """Read and scale a mesh. `_stamp` (time of change, size) makes the cache read a changed file again."""
-    read = read_mesh(path, submesh, center)
+    """Read and scale a mesh. `_stamp`, which changes with the content, makes the cache read a changed file again."""
+    read = resources.read_mesh(path, submesh, center)
     vertices = np.asarray(read.vertices, dtype=np.float64) * np.array(scale)
     triangles = np.asarray(read.triangles, dtype=np.int32)
     if np.prod(np.sign(scale)) < 0.0:

@@ -78,7 +78,7 @@ class ModelReader:
                 self._diagnostics.warn(child.where, _UNHEARD[child.tag])
         for part in parts:
             if part.element.tag == "link":
-                model.links.append(read_link(part.element, scope, model, self._diagnostics))
+                model.links.append(read_link(part.element, scope, model, self._diagnostics, self._includes.resources))
         for name, inner in nested:
             _flatten(model, inner, name, scope.pose_of(name, inner.element))
         if model.links:

@@ -22,7 +22,7 @@ from gz_course.sim.gz.sim.sdf.includes import Includes, Opened, read_root, sdf_v
 from gz_course.sim.gz.sim.sdf.joints import read_world_joint
 from gz_course.sim.gz.sim.sdf.lights import read_light, read_rgb
 from gz_course.sim.gz.sim.sdf.models import ModelReader, add_frame, joint_to_skipped, pose_and_base, read_plugin
-from gz_course.sim.gz.sim.sdf.resources import read_text
+from gz_course.sim.gz.sim.sdf.resources import FILES, Resources, read_text
 from gz_course.sim.gz.sim.spherical_coordinates import SphericalCoordinates
 
 FARTHEST = 1e7  # [m]
@@ -41,8 +41,11 @@ def read_world_file(path: Path, diagnostics: Diagnostics) -> WorldDescription:
     return read_world(read_text(path), str(path), diagnostics)
 
 
-def read_world(text: str, file: str, diagnostics: Diagnostics) -> WorldDescription:
-    """Read the world of an SDF text; `file` names it in messages and is where relative includes start."""
+def read_world(text: str, file: str, diagnostics: Diagnostics, resources: Resources = FILES) -> WorldDescription:
+    """Read the world of an SDF text; `file` names it in messages and is where relative includes start.
+
+    Whatever else it names is opened with `resources`.
+    """
     root = read_root(text, file, diagnostics)
     world = root.find("world")
     if world is None and root.find("model") is not None:
@@ -54,10 +57,12 @@ def read_world(text: str, file: str, diagnostics: Diagnostics) -> WorldDescripti
         raise root.error("the file has no <world>; a world file reads <sdf version='1.10'><world name='...'>")
     if not world.name:
         raise world.error("<world> needs a name attribute")
-    return _WorldReader(sdf_version(root), diagnostics).read(world)
+    return _WorldReader(sdf_version(root), diagnostics, resources).read(world)
 
 
-def read_model(text: str, file: str, diagnostics: Diagnostics, name: str = "") -> Model | Light:
+def read_model(
+    text: str, file: str, diagnostics: Diagnostics, name: str = "", resources: Resources = FILES
+) -> Model | Light:
     """Read the one model (or light) of an SDF text that comes into a running world; `name` replaces its own.
 
     It is read as if it stood in a world of its own, so its pose is in the world frame.
@@ -76,7 +81,7 @@ def read_model(text: str, file: str, diagnostics: Diagnostics, name: str = "") -
     elif name:
         entity.attributes["name"] = name
     around = Element("world", {"name": "spawned"}, children=[entity], file=root.file, line=root.line)
-    world = _WorldReader(sdf_version(root), diagnostics).read(around)
+    world = _WorldReader(sdf_version(root), diagnostics, resources).read(around)
     if not world.models and not world.lights:
         raise entity.error("what this <include> names was not found, so nothing is created")
     return world.models[0] if world.models else world.lights[0]
@@ -85,10 +90,10 @@ def read_model(text: str, file: str, diagnostics: Diagnostics, name: str = "") -
 class _WorldReader:
     """Walks one `<world>`; holds what every level needs: the SDF version and where warnings go."""
 
-    def __init__(self, version: tuple[int, int], diagnostics: Diagnostics) -> None:
+    def __init__(self, version: tuple[int, int], diagnostics: Diagnostics, resources: Resources) -> None:
         self._version = version
         self._diagnostics = diagnostics
-        self._includes = Includes(diagnostics)
+        self._includes = Includes(diagnostics, resources)
         self._models = ModelReader(self._includes, diagnostics)
 
     def read(self, world: Element) -> WorldDescription:
@@ -158,7 +163,7 @@ class _WorldReader:
             plausibility.check_model(model, model.name in held, self._diagnostics)
 
     def _parts(self, world: Element) -> list[Opened]:
-        chain = () if world.folder is None else (Path(world.file).resolve(),)
+        chain = () if world.folder is None else (self._includes.resources.real(Path(world.file)),)
         found: list[Opened] = []
         for child in world.children:
             part = self._includes.open(child, self._version, chain)

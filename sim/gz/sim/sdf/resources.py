@@ -5,6 +5,10 @@ GZ_SIM_RESOURCE_PATH, then of SDF_PATH and IGN_GAZEBO_RESOURCE_PATH, then the bu
 into `share/` of every prefix in AMENT_PREFIX_PATH. Nothing is ever downloaded: an address of Gazebo Fuel means the
 model of that name in one of those folders (`Ground Plane` and `Sun` are built in).
 Source: Finding resources, https://gazebosim.org/api/sim/8/resources.html
+
+The reader opens nothing by itself: it asks the `Resources` object it was handed. `FILES` opens the files of this
+machine; `gz.sim.sdf.assets` opens nothing and knows only what was put into it. A xacro file is expanded when it is
+read, and its expressions are Python: read xacro files of people you trust only.
 """
 
 from __future__ import annotations
@@ -12,10 +16,17 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING, Protocol
 from urllib.parse import unquote
 
 from gz_course.sim.gz.sim.errors import ResourceError, SdfError, nearest
 from gz_course.sim.gz.sim.sdf.element import parse
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from gz_course.sim.gz.sim.sdf.meshes import Mesh
 
 BUILT_IN_WORLDS = Path(__file__).resolve().parent.parent / "worlds"
 BUILT_IN_MODELS = Path(__file__).resolve().parent.parent / "models"
@@ -231,3 +242,79 @@ def _listed(folder: Path) -> list[Path]:
         return [path for path in folder.iterdir() if path.is_file()]
     except (OSError, ValueError):
         return []
+
+
+class Resources(Protocol):
+    """What a reader opens the models, meshes and images with that a description names.
+
+    Paths are only handed back to the object they came from; they need not be files.
+    """
+
+    def __hash__(self) -> int:
+        """Return a number for caches; each object counts as another."""
+
+    opens_files: bool
+    """Whether there are files behind it: only then may a description write some, too."""
+
+    def find_model(self, uri: str, relative_to: Path | None) -> Path:
+        """Return what the `<uri>` of an `<include>` means; raise `ResourceError` when there is no such thing."""
+
+    def find_file(self, uri: str, relative_to: Path | None) -> Path:
+        """Return the mesh or image a `<uri>` means; raise `ResourceError` when there is no such thing."""
+
+    def real(self, path: Path) -> Path:
+        """Return the one path of a thing that has several."""
+
+    def stamp(self, path: Path) -> tuple[int, ...]:
+        """Return numbers that change with the content; raise OSError when there is none."""
+
+    def read_text(self, path: Path) -> str:
+        """Return the text of an SDF or URDF file; raise `SdfError` when it cannot be read."""
+
+    def read_mesh(self, path: Path, submesh: str, center: bool) -> Mesh:
+        """Return a mesh, as `gz.sim.sdf.meshes.read_mesh` does."""
+
+    def read_image(self, path: Path) -> NDArray[np.uint8]:
+        """Return the first channel (rows, columns) of an image; raise `ResourceError` when it cannot be read."""
+
+
+class Files:
+    """The files of this machine, found by the rules of this module."""
+
+    opens_files = True
+
+    def find_model(self, uri: str, relative_to: Path | None) -> Path:
+        """Return the file of a model."""
+        return find_model(uri, relative_to)
+
+    def find_file(self, uri: str, relative_to: Path | None) -> Path:
+        """Return a mesh or image."""
+        return find_file(uri, relative_to)
+
+    def real(self, path: Path) -> Path:
+        """Return the path without links."""
+        return path.resolve()
+
+    def stamp(self, path: Path) -> tuple[int, ...]:
+        """Return when it was changed last [ns] and its size [bytes]."""
+        stat = path.stat()
+        return stat.st_mtime_ns, stat.st_size
+
+    def read_text(self, path: Path) -> str:
+        """Return the text; a xacro file is expanded, which runs what it says."""
+        return read_text(path)
+
+    def read_mesh(self, path: Path, submesh: str, center: bool) -> Mesh:
+        """Return a mesh in one of the formats of `gz.sim.sdf.meshes`."""
+        from gz_course.sim.gz.sim.sdf.meshes import read_mesh
+
+        return read_mesh(path, submesh, center)
+
+    def read_image(self, path: Path) -> NDArray[np.uint8]:
+        """Return the first channel of a PNG file."""
+        from gz_course.sim.gz.sim.sdf.heightmap import read_image
+
+        return read_image(path)
+
+
+FILES = Files()

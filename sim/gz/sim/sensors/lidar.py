@@ -50,6 +50,8 @@ class _Sweep:
             if not (math.isfinite(self.minimum) and math.isfinite(self.maximum)) or self.minimum > self.maximum:
                 raise element.error(f"<min_angle> ({self.minimum}) must not be above <max_angle> ({self.maximum})")
             self.count = max(1, int(samples * resolution))
+            if self.count > MOST_RAYS:
+                raise element.error(f"a lidar may have {MOST_RAYS} beams at most, this one has {self.count}")
         self.step = (self.maximum - self.minimum) / (self.count - 1) if self.count > 1 else 0.0
         self.angles: Floats = self.minimum + self.step * np.arange(self.count, dtype=np.float64)
 

@@ -40,9 +40,13 @@ class LogRecord(System):
         if model is not None:
             raise element.error("LogRecord belongs directly in the <world>, not inside a <model>")
         self._world = world
+        self._allowed = world.resources.opens_files
+        if not self._allowed:
+            world.diagnostics.warn(element.where, "LogRecord writes no file here, nothing is recorded")
         self._writer: LogWriter | None = None
         self._patterns = [re.compile(re.escape(f"{world.topic}/") + "(dynamic_)?pose/info")]
-        self._patterns += (_pattern(each) for each in element.all("record_topic") if each.text)
+        if self._allowed:
+            self._patterns += (_pattern(each) for each in element.all("record_topic") if each.text)
         self._state = self._patterns[0]
         path = element.text_of("record_path") or element.text_of("path")
         self.folder = Path(path) if path else _default_folder()
@@ -58,6 +62,8 @@ class LogRecord(System):
         from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
 
         self._node, self._known, self._next_look_ns = node, set[str](), 0
+        if not self._allowed:
+            return
         self.folder = _free_folder(self.folder, self._overwrite)
         self._writer = LogWriter(self.folder / FILE_NAME)
         LOG.info("recording into %s", self.folder)

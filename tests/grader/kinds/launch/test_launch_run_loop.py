@@ -142,12 +142,60 @@ def test_a_world_that_was_handed_in_is_run(launch):
     assert run.recording.facts()["sim_seconds"] == 0.5
 
 
-@pytest.mark.parametrize("uri", ["/etc/passwd", "file:///etc/passwd", "../../outside.sdf"])
-def test_a_world_that_was_handed_in_reaches_no_other_file(launch, uri):
-    world = WORLD.format(f"<include><uri>{uri}</uri></include>")
-    run = launch('gz("sim", "-s", "-r", str(HERE / "mine.sdf")),', mine_dot_sdf=world)
-    assert run.facts["simulator_at_end"] == ""
-    assert f"may use built-in models only; it names '{uri}'" in run.log
+def test_a_world_brings_models_of_its_own(launch):
+    run = launch(
+        """
+        SetEnvironmentVariable("GZ_SIM_RESOURCE_PATH", str(HERE)),
+        gz("sim", "-s", "-r", str(HERE / "mine.sdf")),
+        """,
+        **{
+            "mine_dot_sdf": WORLD.format(
+                "<include><uri>model://parcel</uri></include><include><uri>heap.sdf</uri></include>"
+                "<include><uri>model://nothing</uri></include><include><uri>model://crate</uri></include>"
+            ),
+            "parcel/model_dot_config": "<model><sdf version='1.9'>model.sdf</sdf></model>",
+            "parcel/model_dot_sdf": BOX,
+            "heap_dot_sdf": BOX.replace("parcel", "heap"),
+        },
+    )
+    assert run.facts["simulator_at_end"] == "mine.sdf" and run.recording.facts()["sim_seconds"] == 0.5
+    assert run.recording.signals() and run.recording.has("truth/parcel/x") and run.recording.has("truth/heap/x")
+    assert "mine.sdf:1: the include is skipped: model 'model://nothing' was not found" in run.log
+
+
+ROBOT = """<robot name='robot' xmlns:xacro='http://ros.org/wiki/xacro'><xacro:property name='m' value='1'/>
+<link name='l'><inertial><mass value='${m * 2}'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>
+<collision><geometry><mesh filename='part.stl'/></geometry></collision></link></robot>"""
+STL = """solid part
+{}endsolid part
+"""
+FACET = "facet normal 0 0 0\nouter loop\n{}endloop\nendfacet\n"
+CORNERS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+
+
+CREATE = 'Node(package="ros_gz_sim", executable="create", arguments=[{}])'
+WAYS = {
+    "file": CREATE.format('"-file", str(HERE / "robot.urdf.xacro")'),
+    "string": CREATE.format(f'"-string", {BOX!r}'),
+    "param": CREATE.format('"-param", "model"').replace("])", f'], parameters=[{{"model": {BOX!r}}}])'),
+    "spawn_entity": CREATE.replace("create", "spawn_entity").format(
+        '"--name", "box", "--sdf_filename", str(HERE / "box.sdf"), "--pos", "1", "0", "3"'
+    ),
+}
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_models_come_in_every_way_that_create_knows(launch, way):
+    faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    loops = ("".join("vertex {} {} {}\n".format(*CORNERS[corner]) for corner in face) for face in faces)
+    run = launch(
+        f'gz("sim", "-s", "-r", "empty.sdf"), {WAYS[way]},',
+        robot_dot_urdf_dot_xacro=ROBOT,
+        part_dot_stl=STL.format("".join(map(FACET.format, loops))),
+        box_dot_sdf=BOX,
+    )
+    assert run.facts["calls"] == ["create: done"], run.log
+    assert "Entity creation successful" in run.log and "is left out" not in run.log
 
 
 def test_create_puts_a_model_into_the_world_and_others_start_when_it_has(launch):

@@ -1,5 +1,6 @@
 """What a process of the submission may ask the grader for when it does not keep to the rules."""
 
+import base64
 import json
 import math
 import os
@@ -11,10 +12,22 @@ from hypothesis import strategies as st
 
 from gz_course.grader.kinds.launch.simulated_programs import SimulatedPrograms
 from gz_course.grader.run.processes.participant import Participant
+from gz_course.sim.gz.msgs.entity_factory_pb2 import EntityFactory
+from gz_course.sim.gz.sim.sdf.assets import LONGEST_TEXT, MOST_BYTES, address
 from gz_course.sim.gz.transport import Node, NodeOptions, Scope
 
 WORLD = "<sdf version='1.9'><world name='{}'/></sdf>"
+EMPTY = {"warnings": []}
+MINE = WORLD.format("mine")
+LIDAR = (
+    "<sdf version='1.9'><world name='mine'><model name='m'><static>1</static><link name='l'><sensor name='s' "
+    "type='lidar'><lidar><scan><horizontal><samples>1000000</samples><resolution>999</resolution></horizontal></scan><range><min>0.1"
+    "</min><max>1</max></range></lidar></sensor></link></model>"
+    "<plugin name='gz::sim::systems::Sensors' filename='gz-sim-sensors-system'/></world></sdf>"
+)
+MODEL = "<sdf version='1.9'><model name='m'><static>1</static><link name='l'/></model></sdf>"
 WORDS = (
+    *("asset", "name", "size", "description"),
     *("hello", "ros", "waiting", "world", "run", "bridge", "worlds", "call", "stopped", "pid", "group", "command"),
     *("given", "built_in", "path", "paused", "iterations", "node", "entries", "frame_id", "verb", "data", "type"),
 )
@@ -23,7 +36,7 @@ WORDS = (
 class Asking:
     """A process that asks."""
 
-    gone = False
+    gone, number = False, 0
 
     def __init__(self):
         self.answers = []
@@ -34,13 +47,11 @@ class Asking:
 
 @pytest.fixture
 def served(tmp_path):
-    """SimulatedPrograms programs, with `mine.sdf` handed in and `theirs.sdf` beside that folder."""
-    (tmp_path / "files").mkdir()
-    (tmp_path / "files" / "mine.sdf").write_text(WORLD.format("mine"))
+    """Simulated programs, with `mine.sdf` handed in and `theirs.sdf` lying elsewhere."""
     (tmp_path / "theirs.sdf").write_text(WORLD.format("theirs"))
     opened = []
     with Node(NodeOptions(scope=Scope.PROCESS, partition=f"served-{os.getpid()}")) as node:
-        yield SimulatedPrograms(tmp_path / "files", tmp_path / "shown", 0, node, opened.append, lambda: None)
+        yield SimulatedPrograms({"mine.sdf"}, tmp_path / "shown", 0, node, opened.append, lambda: None)
     for world in opened:
         world.close()
 
@@ -51,12 +62,85 @@ def ask(served, **message):
     return asking.answers[0]
 
 
-def load(served, path, built_in=""):
-    return ask(served, world={"given": str(path), "path": str(path), "built_in": built_in})
+def hand_over(served, data, kind="sdf", name=None, size=None):
+    name = name or address(data, kind)
+    part = {"name": name, "size": len(data) if size is None else size, "data": base64.b64encode(data).decode()}
+    served.asked(Asking(), {"asset": part})
+    return name
+
+
+def load(served, path, built_in="", text=MINE):
+    description = hand_over(served, text.encode())
+    return ask(served, world={"given": "w", "path": str(path), "built_in": built_in, "description": description})
 
 
 def test_a_file_that_was_handed_in(served, tmp_path):
-    assert load(served, tmp_path / "shown" / "mine.sdf") == {"name": "mine", "models": []}
+    assert load(served, tmp_path / "shown" / "mine.sdf") == {"name": "mine", "models": []} | EMPTY
+
+
+def test_what_a_world_includes_is_what_was_handed_over(served, tmp_path):
+    model = hand_over(served, b"<sdf version='1.9'><model name='m'><static>1</static></model></sdf>")
+    text = WORLD.replace("/></sdf>", f"><include><uri>{model}</uri></include></world></sdf>").format("mine")
+    assert load(served, tmp_path / "shown" / "mine.sdf", text=text) == {"name": "mine", "models": ["m"]} | EMPTY
+
+
+@pytest.mark.parametrize("uri", ["theirs.sdf", "file:///etc/passwd", "model://sun", "asset:" + 64 * "0" + ".sdf"])
+def test_an_include_of_anything_else_brings_nothing(served, tmp_path, uri):
+    for closing in ("</uri>", "</uri >"):
+        include = f"<include><uri >{uri if '//' in uri else tmp_path / uri}{closing}</include>"
+        text = WORLD.replace("/></sdf>", f">{include}</world></sdf>").format("mine")
+        assert load(served, tmp_path / "shown" / "mine.sdf", text=text)["models"] == []
+
+
+@pytest.mark.parametrize(
+    ("data", "name", "says"),
+    [
+        (b"<sdf/>", "asset:" + 64 * "0" + ".sdf", "not what its address says"),
+        (b"<sdf/>", "/etc/passwd", "not what its address says"),
+        (b" " * (LONGEST_TEXT + 1), None, "MiB is too large"),
+        (b" " * (MOST_BYTES + 1), None, "were handed over"),
+    ],
+)
+def test_what_is_not_taken_in_is_said(served, tmp_path, data, name, says):
+    name = hand_over(served, data, name=name)
+    path = str(tmp_path / "shown" / "mine.sdf")
+    answer = ask(served, world={"given": "w", "path": path, "built_in": "", "description": name})
+    assert says in answer["error"] and served.world is None
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("<!DOCTYPE a [<!ENTITY b 'c'>]><sdf version='1.9'><world name='&b;'/></sdf>", "the entity 'b' is declared"),
+        ("<a>" * 5000, "deep inside each other"),
+        ("<sdf version='1.9'><world name='w'><gravity>0 0 nan</gravity></world></sdf>", "NaN"),
+        (WORLD.replace("/></sdf>", "><a/>" + "<b/>" * 600_000 + "</world></sdf>").format("w"), "more than 500000"),
+    ],
+)
+def test_a_bomb_is_one_sentence(served, tmp_path, text, says):
+    assert says in load(served, tmp_path / "shown" / "mine.sdf", text=text)["error"]
+
+
+def test_a_lidar_of_a_thousand_million_rays_is_left_out_with_a_word(served, tmp_path):
+    answer = load(served, tmp_path / "shown" / "mine.sdf", text=LIDAR)
+    assert any("beams at most" in each for each in answer["warnings"])
+
+
+def test_a_model_is_created_from_a_text_and_never_from_a_path(served, tmp_path):
+    load(served, "/anywhere", built_in="empty.sdf")
+    (tmp_path / "box.sdf").write_text(MODEL)
+    for factory in (
+        EntityFactory(sdf_filename=str(tmp_path / "box.sdf")),
+        EntityFactory(sdf=f"<sdf version='1.9'><include><uri >{tmp_path / 'box.sdf'}</uri ></include></sdf>"),
+    ):
+        data = base64.b64encode(factory.SerializeToString()).decode()
+        assert not ask(served, call={"verb": "create", "type": "gz.msgs.EntityFactory", "data": data})["done"]
+    assert served.calls == ["create: refused"] * 2
+
+
+def test_a_world_that_comes_when_the_run_is_over_is_refused(served, tmp_path):
+    served.over = True
+    assert "the run was over" in load(served, tmp_path / "shown" / "mine.sdf")["error"]
 
 
 def test_a_built_in_world(served):

@@ -1,0 +1,130 @@
+"""Things that a description names, held in memory under the hash of their content: resources without any file.
+
+`gz.sim.sdf.packing` makes them from files; a reader that is given `Assets` opens nothing else, expands no xacro, and
+knows no other models. An address is `asset:SHA256` with an ending that says what the bytes are:
+
+    .sdf    the text of a model, light or world that an `<include>` brings (UTF-8)
+    .mesh   uint32 vertices, uint32 triangles, float64 (vertices, 3) [m], int32 (triangles, 3) indices; little-endian
+    .grey   uint32 rows, uint32 columns, uint8 (rows, columns): the heights of a `<heightmap>`
+"""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gz_course.sim.gz.sim.errors import ResourceError
+from gz_course.sim.gz.sim.sdf.heightmap import MOST_PIXELS
+from gz_course.sim.gz.sim.sdf.meshes import Mesh
+
+MOST_BYTES = 64 << 20  # of all together
+MOST_ASSETS = 500
+LONGEST_TEXT = 8 << 20  # [bytes]
+MOST_OPENED = 256 << 20  # [bytes] of texts, each counted as often as it is included
+ADDRESS = re.compile(r"asset:([0-9a-f]{64})\.(sdf|mesh|grey)", re.ASCII)
+_LARGEST = 1e9  # [m]
+
+
+def address(data: bytes, kind: str) -> str:
+    """Return the address of some bytes; `kind` is `sdf`, `mesh` or `grey`."""
+    return f"asset:{hashlib.sha256(data).hexdigest()}.{kind}"
+
+
+def mesh_bytes(mesh: Mesh) -> bytes:
+    """Return a mesh as the bytes of an asset."""
+    head = np.array([len(mesh.vertices), len(mesh.triangles)], dtype="<u4").tobytes()
+    return head + mesh.vertices.astype("<f8").tobytes() + mesh.triangles.astype("<i4").tobytes()
+
+
+def image_bytes(image: NDArray[np.uint8]) -> bytes:
+    """Return an image of one channel (rows, columns) as the bytes of an asset."""
+    return np.array(image.shape, dtype="<u4").tobytes() + image.tobytes()
+
+
+class Assets:
+    """A collection of assets that a reader can be given as its resources."""
+
+    opens_files = False
+
+    def __init__(self) -> None:
+        self._held: dict[str, bytes] = {}
+        self._bytes = self._opened = 0
+
+    def add(self, name: str, data: bytes) -> None:
+        """Take bytes in under their address. Raises `ResourceError` if that is not theirs, or for too many."""
+        match = ADDRESS.fullmatch(name)
+        if match is None or name != address(data, match[2]):
+            raise ResourceError("what was handed over is not what its address says")
+        if name in self._held:
+            return
+        if match[2] == "sdf" and len(data) > LONGEST_TEXT:
+            raise ResourceError(f"a description of {len(data) >> 20} MiB is too large; {LONGEST_TEXT >> 20} are read")
+        if len(self._held) >= MOST_ASSETS or self._bytes + len(data) > MOST_BYTES:
+            raise ResourceError(
+                f"the world names more than {MOST_ASSETS} files or {MOST_BYTES >> 20} MiB of models, meshes and images"
+            )
+        self._held[name] = data
+        self._bytes += len(data)
+
+    def text(self, name: str) -> str:
+        """Return the text at an address; raise `ResourceError` when there is none."""
+        data = self._data(Path(name), "sdf")
+        self._opened += len(data)
+        if self._opened > MOST_OPENED:
+            raise ResourceError(f"the world includes more than {MOST_OPENED >> 20} MiB of models")
+        return data.decode("utf-8", "replace")
+
+    def find_model(self, uri: str, relative_to: Path | None) -> Path:
+        """Return the address of a text that is held."""
+        return self._found(uri, "sdf")
+
+    def find_file(self, uri: str, relative_to: Path | None) -> Path:
+        """Return the address of a mesh or image that is held."""
+        return self._found(uri, "mesh", "grey")
+
+    def real(self, path: Path) -> Path:
+        """Return the address: each thing has but one."""
+        return path
+
+    def stamp(self, path: Path) -> tuple[int, ...]:
+        """Return nothing: the content at an address never changes."""
+        return ()
+
+    def read_text(self, path: Path) -> str:
+        """Return the text at an address."""
+        return self.text(str(path))
+
+    def read_mesh(self, path: Path, submesh: str, center: bool) -> Mesh:
+        """Return a mesh; its part was picked and moved when it was packed."""
+        data = self._data(path, "mesh")
+        count, faces = (int(number) for number in np.frombuffer(data[:8].ljust(8, b"\0"), "<u4"))
+        if len(data) != 8 + 24 * count + 12 * faces or not faces:
+            raise ResourceError("a mesh was handed over in pieces that do not fit")
+        vertices = np.frombuffer(data, "<f8", 3 * count, 8).reshape(-1, 3)
+        triangles = np.frombuffer(data, "<i4", 3 * faces, 8 + 24 * count).reshape(-1, 3)
+        if not np.all(np.abs(vertices) <= _LARGEST):
+            raise ResourceError(f"a mesh has a vertex that is not finite or is farther than {_LARGEST:g} away")
+        if triangles.min() < 0 or triangles.max() >= count:
+            raise ResourceError("a triangle of a mesh names a vertex that is not there")
+        return Mesh(vertices, triangles)
+
+    def read_image(self, path: Path) -> NDArray[np.uint8]:
+        """Return an image of one channel."""
+        data = self._data(path, "grey")
+        rows, columns = (int(number) for number in np.frombuffer(data[:8].ljust(8, b"\0"), "<u4"))
+        if min(rows, columns) < 2 or rows * columns > MOST_PIXELS or len(data) != 8 + rows * columns:
+            raise ResourceError("an image was handed over in pieces that do not fit")
+        return np.frombuffer(data, np.uint8, rows * columns, 8).reshape(rows, columns)
+
+    def _found(self, uri: str, *kinds: str) -> Path:
+        match = ADDRESS.fullmatch(uri)
+        if match is None or match[2] not in kinds or uri not in self._held:
+            raise ResourceError(f"'{uri[:200]}' is not among what was handed over")
+        return Path(uri)
+
+    def _data(self, path: Path, kind: str) -> bytes:
+        return self._held[str(self._found(str(path), kind))]

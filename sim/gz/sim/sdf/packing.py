@@ -1,0 +1,106 @@
+"""A description packed together with everything it names, so that it can be read where its files are not.
+
+The opposite end is `gz.sim.sdf.assets`. A URDF has become SDF, xacro is expanded, meshes and images are decoded; every
+`<uri>` of an `<include>`, `<mesh>` or `<heightmap>` is the address of an asset. Elements keep the file and line they
+come from, for messages (as those of an expanded xacro file do).
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from gz_course.sim.gz.sim.errors import Diagnostics, ResourceError, SdfError
+from gz_course.sim.gz.sim.sdf.assets import address, image_bytes, mesh_bytes
+from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sdf.includes import read_root
+from gz_course.sim.gz.sim.sdf.resources import FILES
+from gz_course.sim.gz.sim.sdf.urdf.xacro_file import FILES as FILES_ATTRIBUTE
+from gz_course.sim.gz.sim.sdf.urdf.xacro_file import PLACE
+from gz_course.sim.gz.sim.sdf.writer import to_xml
+
+NOT_FOUND = "missing:"
+"""Begins the `<uri>` of what was not found; a reader leaves it out as the one that looked for it did."""
+
+
+@dataclass
+class Packed:
+    """The address of a description among the `assets` that belong to it, by address."""
+
+    description: str
+    assets: dict[str, bytes] = field(default_factory=dict)
+
+
+def pack(text: str, file: str) -> Packed:
+    """Pack an SDF or URDF text; `file` names it in messages and is where relative addresses start.
+
+    Raises `SdfError` where a reader would.
+    """
+    return _Packer().pack(text, file)
+
+
+class _Packer:
+    def __init__(self) -> None:
+        self._assets: dict[str, bytes] = {}
+        self._models: dict[Path, str] = {}
+        self._open: list[Path] = []
+        self._silent = Diagnostics(quiet=True)  # the warnings are the reader's to say
+
+    def pack(self, text: str, file: str) -> Packed:
+        return Packed(self._text(text, file), self._assets)
+
+    def _text(self, text: str, file: str) -> str:
+        root = read_root(text, file, self._silent)
+        files: dict[str, int] = {}
+        waiting = [root]
+        while waiting:
+            element = waiting.pop()
+            number = files.setdefault(element.file, len(files))
+            element.attributes[PLACE] = f"{number}:{element.line}"
+            if element.tag == "include":
+                self._resolve(element, self._model)
+            elif element.tag == "mesh":
+                self._resolve(element, self._mesh)
+            elif element.tag == "heightmap":
+                self._resolve(element, self._image)
+            waiting.extend(element.children)
+        root.attributes[FILES_ATTRIBUTE] = json.dumps(list(files))
+        return self._keep(to_xml(root).encode(), "sdf")
+
+    def _resolve(self, owner: Element, packed: Callable[[str, Element], str]) -> None:
+        uri = owner.find("uri")
+        if uri is None or not uri.text:
+            return
+        try:
+            uri.text = packed(uri.text, owner)
+        except (ResourceError, OSError):
+            uri.text = NOT_FOUND + uri.text.rstrip("/").rsplit("/", 1)[-1]
+
+    def _model(self, uri: str, include: Element) -> str:
+        path = FILES.find_model(uri, include.folder)
+        real = path.resolve()
+        if real in self._open:
+            raise SdfError(f"{include.where}: '{uri}' is included inside itself")
+        if real not in self._models:
+            self._open.append(real)
+            self._models[real] = self._text(FILES.read_text(path), str(path))
+            self._open.pop()
+        return self._models[real]
+
+    def _mesh(self, uri: str, mesh: Element) -> str:
+        submesh = mesh.find("submesh")
+        part = submesh.text_of("name") if submesh is not None else ""
+        center = submesh.flag("center", False) if submesh is not None else False
+        read = FILES.read_mesh(FILES.find_file(uri, mesh.folder), part, center)
+        mesh.children = [child for child in mesh.children if child is not submesh]
+        return self._keep(mesh_bytes(read), "mesh")
+
+    def _image(self, uri: str, heightmap: Element) -> str:
+        return self._keep(image_bytes(FILES.read_image(FILES.find_file(uri, heightmap.folder))), "grey")
+
+    def _keep(self, data: bytes, kind: str) -> str:
+        name = address(data, kind)
+        self._assets[name] = data
+        return name
