@@ -109,7 +109,8 @@ def find_exercise(name: str, root: Path | None = None) -> Exercise:
                 f"folder, is given with --submission; did you mean '{meant[-1]}'?"
             )
         reason = "several exercises begin with" if len(matches) > 1 else "no exercise is called"
-        raise UsageError(f"{reason} {name!r}; `course list` shows them all{did_you_mean(name, matches or names)}")
+        hint = did_you_mean(name, matches or names, listing="known")
+        raise UsageError(f"{reason} {name!r}; `course list` shows them all{hint}")
     return load_exercise(root / "exercises" / matches[0])
 
 
