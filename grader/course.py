@@ -16,9 +16,10 @@ import typer
 from typer.core import TyperGroup
 
 from gz_course.grader import commands
-from gz_course.grader.errors import CourseError, UsageError, nearest
+from gz_course.grader.errors import CourseError, UsageError
 from gz_course.grader.process.interruption import end_on
 from gz_course.grader.registry import module_names
+from gz_course.sim.did_you_mean import did_you_mean
 
 
 class Commands(TyperGroup):
@@ -32,7 +33,7 @@ class Commands(TyperGroup):
 
     def get_command(self, context: Any, name: str) -> Any:
         if name not in (known := self.list_commands(context)):
-            raise UsageError(f"there is no command {name!r}{nearest(name, known)}; `course --help` shows them all")
+            raise UsageError(f"there is no command {name!r}; `course --help` shows them all{did_you_mean(name, known)}")
         app = typer.Typer(add_completion=False, rich_markup_mode=None)
         app.command(name)(importlib.import_module(f"{commands.__name__}.{name.replace('-', '_')}").command)
         return typer.main.get_command(app)

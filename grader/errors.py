@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from difflib import get_close_matches
-
-FEW = 8  # names that can be listed in one sentence
-
 
 class CourseError(Exception):
     """Base of all errors the `course` command prints as one sentence; `exit_code` goes to the shell."""
@@ -37,15 +32,3 @@ class ManifestError(CourseError):
 
 class InfrastructureError(CourseError):
     """The machine or the grader failed (exit code 3, never the student's loss)."""
-
-
-def nearest(name: str, known: Iterable[str]) -> str:
-    """Return a closing clause for an error text: ` (did you mean X?)`, the known names if they are few, or nothing."""
-    names = sorted(known)
-    lowered: dict[str, str] = {}  # capitals are the commonest mistake of all
-    for each in names:
-        lowered.setdefault(each.lower(), each)
-    close = get_close_matches(name, names, n=1, cutoff=0.9) or get_close_matches(name.lower(), lowered, n=1, cutoff=0.6)
-    if close:
-        return f" (did you mean {lowered[close[0].lower()] if close[0] not in names else close[0]}?)"
-    return f" (known: {', '.join(names)})" if 0 < len(names) <= FEW else ""

@@ -9,7 +9,7 @@ from heapq import heapify, heappop, heappush
 from pathlib import Path
 from types import ModuleType
 
-from gz_course.grader.errors import nearest
+from gz_course.sim.did_you_mean import did_you_mean
 
 
 def module_names(package: ModuleType) -> list[str]:
@@ -31,7 +31,8 @@ def in_order(before: Mapping[str, Iterable[str]]) -> list[str]:
     for name, others in before.items():
         for other in others:
             if other not in before:
-                raise ValueError(f"{name} stands before {other!r}, which does not exist{nearest(other, before)}")
+                hint = did_you_mean(other, before, listing="known")
+                raise ValueError(f"{name} stands before {other!r}, which does not exist{hint}")
             sorter.add(other, name)
     sorter.prepare()
     ready, order = list(sorter.get_ready()), []

@@ -8,10 +8,11 @@ from typing import Annotated
 
 import typer
 
-from gz_course.grader.errors import UsageError, nearest
+from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import find_exercise
 from gz_course.grader.exercise.trial import chosen_trials, numbered
 from gz_course.grader.report.format import with_report_files
+from gz_course.sim.did_you_mean import did_you_mean
 
 STARTED = time.monotonic()
 
@@ -59,7 +60,7 @@ def command(
     from gz_course.grader.report.terminal import print_report
 
     if pace not in PACES:
-        raise UsageError(f"there is no pace {pace!r}{nearest(pace, PACES)}")
+        raise UsageError(f"there is no pace {pace!r}{did_you_mean(pace, PACES, listing='known')}")
     chosen = find_exercise(exercise)
     own = out is None  # a folder for recordings alone belongs to whoever named it
     out = out or RUNS / chosen.name

@@ -11,8 +11,9 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from gz_course.grader.errors import ManifestError, UsageError, nearest
+from gz_course.grader.errors import ManifestError, UsageError
 from gz_course.grader.exercise import course_root, exercise_names, find_exercise
+from gz_course.sim.did_you_mean import did_you_mean
 
 if TYPE_CHECKING:
     from gz_course.grader.verify.proof import Verification
@@ -43,7 +44,7 @@ def command(
     if not (root / "solutions").is_dir():
         raise UsageError(f"there is no folder {root / 'solutions'}: a student's copy has no solutions to prove")
     if strays := orphans(root, known):
-        named = ", ".join(f"solutions/{path.name}{nearest(path.name, known)}" for path in strays)
+        named = ", ".join(f"solutions/{path.name}{did_you_mean(path.name, known, listing='known')}" for path in strays)
         raise ManifestError(f"no public half in exercises/: {named}")
     names = [find_exercise(exercise).name] if exercise else known
     sweep()

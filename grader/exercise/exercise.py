@@ -12,10 +12,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from gz_course.grader.errors import ManifestError, UsageError, nearest
+from gz_course.grader.errors import ManifestError, UsageError
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.exercise.trial import PUBLIC, ScriptedCommand, Trial, read_trials
 from gz_course.grader.kinds.kind import find_kind, kind_names
+from gz_course.sim.did_you_mean import did_you_mean
 
 MANIFEST = "exercise.toml"
 
@@ -104,11 +105,12 @@ def find_exercise(name: str, root: Path | None = None) -> Exercise:
     if len(matches) != 1:
         if meant := [part for part in Path(name).parts if part in names]:
             raise UsageError(
-                f"{name!r} is a path (did you mean {meant[-1]}?): first comes an exercise's name; what is to be "
-                "graded, if not the file in its folder, is given with --submission"
+                f"{name!r} is a path: first comes an exercise's name; what is to be graded, if not the file in its "
+                f"folder, is given with --submission; did you mean '{meant[-1]}'?"
             )
         reason = "several exercises begin with" if len(matches) > 1 else "no exercise is called"
-        raise UsageError(f"{reason} {name!r}{nearest(name, matches or names)}; `course list` shows them all")
+        hint = did_you_mean(name, matches or names, listing="known")
+        raise UsageError(f"{reason} {name!r}; `course list` shows them all{hint}")
     return load_exercise(root / "exercises" / matches[0])
 
 

@@ -12,7 +12,8 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NoReturn
 
-from gz_course.grader.errors import ManifestError, nearest
+from gz_course.grader.errors import ManifestError
+from gz_course.sim.did_you_mean import did_you_mean
 
 
 class Table:
@@ -110,7 +111,7 @@ class Table:
         value = self.text(key)
         names = list(known)
         if value not in names:
-            raise ManifestError(f"{self.where}: {key} is {value!r}{nearest(value, names)}")
+            raise ManifestError(f"{self.where}: {key} is {value!r}{did_you_mean(value, names, listing='known')}")
         return value
 
     def regex(self, key: str) -> re.Pattern[str]:
@@ -162,4 +163,5 @@ class Table:
         """Raise ManifestError for a key that was never asked for: probably a typing mistake."""
         for key in self._raw:
             if key not in self._asked:
-                raise ManifestError(f"{self.where}: unknown {self._noun} {key!r}{nearest(key, self._asked)}")
+                hint = did_you_mean(key, self._asked, listing="known")
+                raise ManifestError(f"{self.where}: unknown {self._noun} {key!r}{hint}")

@@ -12,7 +12,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gz_course.grader.errors import ManifestError, nearest
+from gz_course.grader.errors import ManifestError
+from gz_course.sim.did_you_mean import did_you_mean
 
 if TYPE_CHECKING:
     from gz_course.grader.exercise import Exercise
@@ -75,6 +76,7 @@ def find_kind(name: str) -> Kind:
     """Return a kind by its name. Raises ManifestError naming the nearest if there is none."""
     names = kind_names()
     if name not in names:
-        raise ManifestError(f"there is no kind of submission called {name!r}{nearest(name, names)}")
+        hint = did_you_mean(name, names, listing="known")
+        raise ManifestError(f"there is no kind of submission called {name!r}{hint}")
     kind: Kind = importlib.import_module(f"gz_course.grader.kinds.{name}").KIND
     return kind

@@ -15,7 +15,8 @@ from typing import Any
 
 import numpy as np
 
-from gz_course.grader.errors import UsageError, nearest
+from gz_course.grader.errors import UsageError
+from gz_course.sim.did_you_mean import did_you_mean
 
 STUDENT_LOG, GIVEN_LOG = "log/student", "log/given_node"  # what the submission said; what the exercise's own node said
 
@@ -116,7 +117,7 @@ class Recording:
         times = np.concatenate([t for t, _ in parts])
         values = np.concatenate([column.flatten().to_numpy(zero_copy_only=False) for _, column in parts])
         if len(values) != len(times):
-            raise UsageError(f"{name} holds lists, not single numbers{nearest(name, self.signals())}")
+            raise UsageError(f"{name} holds lists, not single numbers{did_you_mean(name, self.signals())}")
         order = np.argsort(times, kind="stable")
         return Signal(times[order], values[order])
 

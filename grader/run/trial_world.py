@@ -7,9 +7,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from gz_course.grader.errors import ManifestError, nearest
+from gz_course.grader.errors import ManifestError
 from gz_course.grader.exercise import MANIFEST, Exercise
 from gz_course.grader.exercise.trial import Trial
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.errors import Diagnostics, SimError
 from gz_course.sim.gz.sim.pose import Pose
 from gz_course.sim.gz.sim.sdf.reader import read_world_file
@@ -30,7 +31,8 @@ def load_trial_world(exercise: Exercise, trial: Trial, node: Node | None) -> Wor
         models = {model.name: model for model in description.models}
         for name, pose in trial.poses.items():
             if name not in models:
-                raise ManifestError(f"{where}: {exercise.world} has no model {name!r} to place{nearest(name, models)}")
+                hint = did_you_mean(name, models, listing="known")
+                raise ManifestError(f"{where}: {exercise.world} has no model {name!r} to place{hint}")
             models[name].pose = Pose.from_rpy(pose[:3], pose[3:])
         world = World(description, diagnostics, seed=trial.seed, node=node)
     except SimError as error:
@@ -40,6 +42,6 @@ def load_trial_world(exercise: Exercise, trial: Trial, node: Node | None) -> Wor
         world.close()
         raise ManifestError(
             f"{where}: the world {exercise.world} has no moving model {exercise.robot!r}"
-            f"{nearest(exercise.robot, names)}"
+            f"{did_you_mean(exercise.robot, names, listing='known')}"
         )
     return world

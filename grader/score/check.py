@@ -17,11 +17,12 @@ from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
-from gz_course.grader.errors import ManifestError, nearest
+from gz_course.grader.errors import ManifestError
 from gz_course.grader.exercise import CheckSpec
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.registry import modules
+from gz_course.sim.did_you_mean import did_you_mean
 
 
 @dataclass(frozen=True)
@@ -94,7 +95,8 @@ def perform_all(specs: Sequence[CheckSpec], recording: Recording, folder: Path |
                 f"the gates of the checks {', '.join(waiting[waiting.index(id) :])} wait for each other"
             )
         if id not in known:
-            raise ManifestError(f"check {waiting[-1]!r}: its gate names no check: {id!r}{nearest(id, known)}")
+            hint = did_you_mean(id, known, listing="known")
+            raise ManifestError(f"check {waiting[-1]!r}: its gate names no check: {id!r}{hint}")
         waiting.append(id)
         found[id] = perform(known[id], recording, folder, finding_of)
         waiting.pop()
@@ -115,7 +117,8 @@ def perform(
     """
     kinds = check_kinds()
     if spec.kind not in kinds:
-        raise ManifestError(f"check {spec.id!r} is of unknown kind {spec.kind!r}{nearest(spec.kind, kinds)}")
+        hint = did_you_mean(spec.kind, kinds, listing="known")
+        raise ManifestError(f"check {spec.id!r} is of unknown kind {spec.kind!r}{hint}")
     parameters = Table(spec.parameters, f"check {spec.id!r}", "parameter", folder)
     gates: list[Table] = []
     if parameters.has("gate"):

@@ -9,7 +9,6 @@ import re
 import signal
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from difflib import get_close_matches
 from typing import Any
 
 from gz_course.grader.printable import shown
@@ -17,6 +16,7 @@ from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.launched import launch_fault
 from gz_course.grader.score.python_errors import meaning
+from gz_course.sim.did_you_mean import nearest_name
 
 FRAME = re.compile(r'\s+File "(.*)", line (\d+)')
 
@@ -184,10 +184,9 @@ def publishers(recording: Recording, facts: dict[str, Any]) -> str:
         if mine:
             return f"{topic} is published as {mine[0]['type']}, but {kind} is expected; DDS connects equal types only."
         twins = [e["topic"] for e in published if e["type"] == kind]
-        if near := get_close_matches(topic, topics, n=1, cutoff=0.6) or twins:
-            nodes = [e["node"] for e in published if e["topic"] == near[0]]
-            why = _why(topic, near[0], nodes)
-            return f"Nothing is published on {topic}; your node publishes on {near[0]} instead.{why}"
+        if near := nearest_name(topic, topics) or next(iter(twins), ""):
+            why = _why(topic, near, [e["node"] for e in published if e["topic"] == near])
+            return f"Nothing is published on {topic}; your node publishes on {near} instead.{why}"
         return f"Your node has no publisher on {topic} ({kind})."
     return ""
 
@@ -201,10 +200,10 @@ def subscriptions(recording: Recording, facts: dict[str, Any]) -> str:
         if kind is None and e["topic"] in own:
             continue
         if kind is None:
-            near = get_close_matches(e["topic"], offered, n=1, cutoff=0.3)
-            near = near or [topic for topic, offer in offered.items() if offer == e["type"]]
-            hint = f"; did you mean {near[0]}?" if near else ""
-            why = _why(near[0], e["topic"], [e["node"]]) if near else ""
+            near = nearest_name(e["topic"], offered, 0.3)
+            near = near or next((topic for topic, offer in offered.items() if offer == e["type"]), "")
+            hint = f"; did you mean '{near}'?" if near else ""
+            why = _why(near, e["topic"], [e["node"]]) if near else ""
             return f"Your node subscribes to {e['topic']}, where nobody publishes{hint}{why}"
         if kind != e["type"]:
             return f"Your node subscribes to {e['topic']} as {e['type']}, but it carries {kind}."

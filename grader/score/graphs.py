@@ -7,7 +7,6 @@ exercise's own node leaves (`run/graphs.py`).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from difflib import get_close_matches
 from typing import Any
 
 from gz_course.grader.record.reading import Recording
@@ -92,9 +91,3 @@ def links(recording: Recording) -> list[Link]:
             )
         )
     return found
-
-
-def did_you_mean(word: str, words: list[str], cutoff: float = 0.6) -> str:
-    """Return a clause that names the nearest of `words`, or nothing. Among equals the first in order wins."""
-    near = get_close_matches(word, sorted(set(words)), n=1, cutoff=cutoff)
-    return f" (did you mean {near[0]}?)" if near else ""

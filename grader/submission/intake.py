@@ -14,7 +14,7 @@ from functools import partial
 from pathlib import Path, PurePosixPath
 from typing import NamedTuple
 
-from gz_course.grader.errors import RefusedError, UnreadableError, UsageError, nearest
+from gz_course.grader.errors import RefusedError, UnreadableError, UsageError
 from gz_course.grader.exercise import Exercise
 from gz_course.grader.kinds.kind import find_kind
 from gz_course.grader.printable import shown
@@ -29,6 +29,7 @@ from gz_course.grader.submission.archive import (
     is_archive,
     open_archive,
 )
+from gz_course.sim.did_you_mean import did_you_mean
 
 LARGEST = 1 << 20  # [bytes] of a submitted file
 LARGEST_FOLDER = 16 << 20  # [bytes] of all files of a submitted folder
@@ -175,7 +176,7 @@ def _main(tree: Tree, exercise: Exercise, where: str) -> str:
     names = [name for name in tree if name.endswith(suffixes)]
     if len(names) == 1:
         return names[0]
-    near = nearest(wanted, [shown(PurePosixPath(name).name) for name in names])
+    near = did_you_mean(wanted, [shown(PurePosixPath(name).name) for name in names], listing="files in it are")
     raise UsageError(f"{where} holds no {wanted}, the file {exercise.name} asks for{near}")
 
 
@@ -212,7 +213,8 @@ def _read(path: Path, wanted: str, suffixes: tuple[str, ...], largest: int) -> b
         with path.open("rb") as stream:
             return stream.read(largest + 1)
     except FileNotFoundError:
-        raise UsageError(f"there is no file {path}{nearest(path.name, _files(path.parent, suffixes))}") from None
+        hint = did_you_mean(path.name, _files(path.parent, suffixes), listing="files there are")
+        raise UsageError(f"there is no file {path}{hint}") from None
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise UnreadableError(f"{str(path)[:200]!r} cannot be read: {reason}") from None

@@ -32,11 +32,12 @@ import time
 from pathlib import Path
 from types import TracebackType
 
-from gz_course.grader.errors import UsageError, nearest
+from gz_course.grader.errors import UsageError
 from gz_course.grader.printable import shown
 from gz_course.grader.process.temporary_folder import TemporaryFolder, sweep
 from gz_course.grader.run.domain import Domain
 from gz_course.grader.run.sandbox import ros_environment
+from gz_course.sim.did_you_mean import did_you_mean
 
 GRACE = 3.0  # [s] between SIGINT, SIGTERM and SIGKILL
 LONGEST_COMMAND = 100  # [characters] of a command in the list of what runs
@@ -184,7 +185,7 @@ class Playground:
         executable = shutil.which(words[0])
         if executable is None:
             known = [path.name for path in Path(sys.executable).parent.iterdir()]
-            raise UsageError(f"there is no command {words[0]!r}{nearest(words[0], known)}")
+            raise UsageError(f"there is no command {words[0]!r}{did_you_mean(words[0], known, listing='known')}")
         for before in self.running:
             if before.command.startswith(command if instead_of is None else instead_of):
                 before.stop()

@@ -19,10 +19,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from gz_course.grader.errors import ManifestError, nearest
+from gz_course.grader.errors import ManifestError
 from gz_course.grader.exercise import Exercise
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.exercise.trial import chosen_trials
+from gz_course.sim.did_you_mean import did_you_mean
 
 FEWEST_ACCEPTED = 2
 FEWEST_REJECTED = 6
@@ -58,22 +59,24 @@ def variants(exercise: Exercise) -> list[Variant]:
     declared = expected.names()
     for name in declared:
         if name not in rejected:
-            raise ManifestError(f"{path}: no folder rejected/{name}{nearest(name, rejected)}")
+            raise ManifestError(f"{path}: no folder rejected/{name}{did_you_mean(name, rejected, listing='known')}")
     for name, variant in rejected.items():
         if name not in declared:
-            raise ManifestError(f"{variant} is not declared in {EXPECT}{nearest(name, declared)}")
+            raise ManifestError(f"{variant} is not declared in {EXPECT}{did_you_mean(name, declared, listing='known')}")
         entry = expected.table(name)
         entry.where = f"{path}: rejected.{name}"
         loses, words = frozenset(entry.texts("fails")), tuple(entry.texts("words"))
         trial = _hidden_trial(exercise, entry) if entry.has("trial") else None
         entry.end()
         for check in sorted(loses - every):
-            raise ManifestError(f"{entry.where} names no check of {exercise.name}: {check}{nearest(check, every)}")
+            hint = did_you_mean(check, every, listing="known")
+            raise ManifestError(f"{entry.where} names no check of {exercise.name}: {check}{hint}")
         found.append(Variant(f"rejected/{name}", variant / exercise.file, loses, words, trial))
     for each in found:
         if not each.file.is_file():
             names = [p.name for p in each.file.parent.iterdir()] if each.file.parent.is_dir() else []
-            raise ManifestError(f"{each.file.parent} has no {exercise.file}{nearest(exercise.file, names)}")
+            hint = did_you_mean(exercise.file, names, listing="known")
+            raise ManifestError(f"{each.file.parent} has no {exercise.file}{hint}")
     return found
 
 

@@ -9,7 +9,6 @@ Source: CLI11, `enum class ExitCodes`, https://github.com/CLIUtils/CLI11/blob/ma
 from __future__ import annotations
 
 import argparse
-import difflib
 import math
 import os
 import signal
@@ -18,6 +17,8 @@ import threading
 from collections.abc import Sequence
 from importlib import import_module
 from typing import Any, NoReturn
+
+from gz_course.sim.did_you_mean import did_you_mean
 
 BAD_VALUE, NEEDS_OTHER, EXCLUDES_OTHER, UNKNOWN_OPTION, NO_VALUE = 104, 107, 108, 109, 114
 _INTERRUPTED = 130
@@ -128,17 +129,10 @@ def whole_number(text: str) -> int:
     return int(text)
 
 
-def nearest(name: str, known: Sequence[str]) -> str:
-    """Half a sentence about the known name that is most like `name`, or an empty text."""
-    found = difflib.get_close_matches(name, known, n=1, cutoff=0.6)
-    return f"; did you mean {found[0]!r}?" if found else ""
-
-
 def unknown_option(name: str, known: Sequence[str], program: str, kind: str = "option") -> str:
     """Return the sentence about an option or a command that does not exist."""
-    close = difflib.get_close_matches(name, known, n=1, cutoff=0.5)
-    hint = f"did you mean {close[0]}?" if close else f"see {program} --help"
-    return f"there is no {kind} {name!r}; {hint}"
+    hint = did_you_mean(name, known, cutoff=0.5) or f"; see {program} --help"
+    return f"there is no {kind} {name!r}{hint}"
 
 
 def run(module_name: str, program: str, arguments: Sequence[str], description: str) -> int:

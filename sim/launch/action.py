@@ -6,8 +6,9 @@ import inspect
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.launch.condition import Condition
-from gz_course.sim.launch.errors import locate, nearest, place_of_caller
+from gz_course.sim.launch.errors import locate, place_of_caller
 from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
@@ -20,7 +21,8 @@ class Action(LaunchDescriptionEntity):
     def __init__(self, *, condition: Condition | None = None, **unknown: Any) -> None:
         if unknown:
             name = next(iter(unknown))
-            raise TypeError(f"{type(self).__name__} has no argument '{name}'{nearest(name, _arguments(type(self)))}")
+            hint = did_you_mean(name, _arguments(type(self)), listing="there are")
+            raise TypeError(f"{type(self).__name__} has no argument '{name}'{hint}")
         if condition is not None and not isinstance(condition, Condition):
             raise TypeError(
                 f"condition={condition!r} is of type {type(condition).__name__}; "

@@ -5,10 +5,11 @@ Only for the sentences of errors. What a launch file needs from a package, `laun
 
 from __future__ import annotations
 
-import difflib
 import os
 import re
 from pathlib import Path
+
+from gz_course.sim.did_you_mean import did_you_mean
 
 _INDEX = "share/ament_index/resource_index/packages"
 
@@ -33,5 +34,4 @@ def nearest_package_of(sentence: str) -> str:
     unknown = re.search(r"package '([^']+)' not found", sentence)
     if unknown is None or "did you mean" in sentence:
         return ""
-    close = difflib.get_close_matches(unknown[1], package_names(), n=1, cutoff=0.6)
-    return f"; did you mean '{close[0]}'?" if close else ""
+    return did_you_mean(unknown[1], package_names())

@@ -7,12 +7,10 @@ question was made (`place_of_caller`, `locate`).
 
 from __future__ import annotations
 
-import difflib
 import os
 import sys
 import sysconfig
 import traceback
-from collections.abc import Iterable
 
 from gz_course.sim.launch.ament_prefix import nearest_package_of
 
@@ -47,17 +45,6 @@ class NotAvailableError(LaunchError, NotImplementedError):
 
 class NotTextError(LaunchError, TypeError):
     """A value stands where text or a substitution is expected."""
-
-
-def nearest(name: str, known: Iterable[str], listing: str = "there are") -> str:
-    """Return `; did you mean 'x'?`, or a list of `known` when none of them is close; empty when there is none."""
-    names = sorted(set(known))
-    close = difflib.get_close_matches(name, names, n=1, cutoff=0.6)
-    if close:
-        return f"; did you mean '{close[0]}'?"
-    if not names:
-        return ""
-    return f"; {listing}: {', '.join(names[:12])}{', ...' if len(names) > 12 else ''}"
 
 
 def place_of_caller() -> Place | None:

@@ -21,7 +21,8 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from gz_course.sim.launch.errors import LaunchError, nearest
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.launch.errors import LaunchError
 from gz_course.sim.launch.logging import launch_config, stamp
 
 _LONGEST_LINE = 65536  # bytes; what comes without any newline is cut, not kept for ever
@@ -44,7 +45,7 @@ def sinks(output: str | dict[str, Any]) -> dict[str, set[str]]:
     output = os.environ.get(_OVERRIDE) or output
     if isinstance(output, str):
         if output not in _WORDS:
-            raise LaunchError(f"output='{output}' means nothing{nearest(output, _WORDS, 'it can be')}")
+            raise LaunchError(f"output='{output}' means nothing{did_you_mean(output, _WORDS, listing='it can be')}")
         chosen = _WORDS[output]
     elif isinstance(output, dict):
         chosen = output
@@ -53,10 +54,11 @@ def sinks(output: str | dict[str, Any]) -> dict[str, set[str]]:
     result: dict[str, set[str]] = {stream: set() for stream in STREAMS}
     for key, words in chosen.items():
         if key not in (*STREAMS, "both"):
-            raise LaunchError(f"output has the key '{key}'{nearest(str(key), (*STREAMS, 'both'), 'it can have')}")
+            hint = did_you_mean(str(key), (*STREAMS, "both"), listing="it can have")
+            raise LaunchError(f"output has the key '{key}'{hint}")
         for word in [words] if isinstance(words, str) else words:
             if word not in _SINKS:
-                raise LaunchError(f"output of {key} is '{word}'{nearest(str(word), _SINKS, 'it can be')}")
+                raise LaunchError(f"output of {key} is '{word}'{did_you_mean(str(word), _SINKS, listing='it can be')}")
             for stream in STREAMS if key == "both" else (key,):
                 result[stream].add(_OWN_OF_BOTH if key == "both" and word == "own_log" else word)
     return result

@@ -12,7 +12,8 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from gz_course.sim.gz.sim.errors import Diagnostics, nearest
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.gz.sim.errors import Diagnostics
 from gz_course.sim.gz.sim.pose import Pose
 from gz_course.sim.gz.sim.sdf.element import Element, parse
 from gz_course.sim.gz.sim.sdf.urdf.robot import UrdfJoint, numbers, read_robot
@@ -109,8 +110,8 @@ class Kinematics:
             leader = self.moving.get(joint.mimic.joint)
             place: Element = joints[name].element
             if leader is None:
-                hint = nearest(joint.mimic.joint, self.moving, listing="joints that move are")
-                raise place.error(f"joint '{name}' mimics '{joint.mimic.joint}', which is no joint that moves; {hint}")
+                hint = did_you_mean(joint.mimic.joint, self.moving, listing="joints that move are")
+                raise place.error(f"joint '{name}' mimics '{joint.mimic.joint}', which is no joint that moves{hint}")
             if leader.mimic is not None:
                 raise place.error(f"joint '{name}' mimics '{leader.name}', which mimics another; name that one")
 

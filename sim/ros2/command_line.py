@@ -19,9 +19,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.prefix import local_setup
 from gz_course.sim.ros2 import completion, interruption
-from gz_course.sim.ros2.errors import CommandError, UsageError, did_you_mean
+from gz_course.sim.ros2.errors import CommandError, UsageError
 from gz_course.sim.ros2.hand_over import hand_over
 
 COMMANDS = Path(__file__).parent / "command"

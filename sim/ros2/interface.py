@@ -14,7 +14,8 @@ from typing import Any
 
 from ament_index_python import get_resource, get_resources
 
-from gz_course.sim.ros2.errors import CommandError, did_you_mean
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.ros2.errors import CommandError
 from gz_course.sim.ros2.packages import package_share
 
 KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}

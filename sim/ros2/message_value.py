@@ -23,7 +23,8 @@ from rosidl_parser.definition import (
     NamespacedType,
 )
 
-from gz_course.sim.ros2.errors import CommandError, did_you_mean
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.ros2.errors import CommandError
 
 _TIME, _HEADER = "builtin_interfaces/Time", "std_msgs/Header"
 _LARGEST_FLOAT32 = 3.4028234663852886e38

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from gz_course.sim.ros2.errors import CommandError, did_you_mean
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.ros2.errors import CommandError
 from gz_course.sim.ros2.graph import Graph
 from gz_course.sim.ros2.topic import warn
 

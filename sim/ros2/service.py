@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from gz_course.sim.ros2.errors import CommandError, did_you_mean
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.ros2.errors import CommandError
 from gz_course.sim.ros2.graph import Graph
 from gz_course.sim.ros2.topic import full_name
 

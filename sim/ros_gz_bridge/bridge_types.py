@@ -10,12 +10,12 @@ import os
 import sys
 from collections.abc import Iterable, Sequence
 
+from gz_course.sim.did_you_mean import nearest_name
 from gz_course.sim.ros_gz_bridge.type_pairs import (
     TypePair,
     UnknownPairError,
     canonical_gz_type,
     missing_packages,
-    nearest_type,
     need_package,
     pairs,
 )
@@ -63,7 +63,7 @@ def _answer(chosen: argparse.Namespace) -> list[str]:
 def _partners_of_gz(known: list[TypePair], gz_type: str) -> list[str]:
     partners = [pair.ros_type for pair in known if pair.gz_type == gz_type]
     if not partners:
-        hint = nearest_type(gz_type, (pair.gz_type for pair in known))
+        hint = nearest_name(gz_type, (pair.gz_type for pair in known), 0.0)
         absent = ", ".join(missing_packages())
         also = f" (a ROS package that is not installed may have one: {absent})" if absent else ""
         raise UnknownPairError(f"no ROS type is known for {gz_type}{also}; the nearest Gazebo type is {hint}")
@@ -74,7 +74,7 @@ def _partners_of_ros(known: list[TypePair], ros_type: str) -> list[str]:
     need_package(ros_type)
     partners = [pair.gz_type for pair in known if pair.ros_type == ros_type]
     if not partners:
-        hint = nearest_type(ros_type, (pair.ros_type for pair in known))
+        hint = nearest_name(ros_type, (pair.ros_type for pair in known), 0.0)
         raise UnknownPairError(f"no Gazebo type is known for {ros_type}; the nearest ROS type is {hint}")
     return partners
 

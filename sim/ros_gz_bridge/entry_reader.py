@@ -12,9 +12,10 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction, ServiceEntry
 from gz_course.sim.ros_gz_bridge.finding import Finding
-from gz_course.sim.ros_gz_bridge.names import gz_name_fault, nearest, ros_name_fault
+from gz_course.sim.ros_gz_bridge.names import gz_name_fault, ros_name_fault
 from gz_course.sim.ros_gz_bridge.qos_profile import QOS_PROFILES, depth_of
 from gz_course.sim.ros_gz_bridge.type_pairs import UnknownPairError, canonical_gz_type, find_pair, find_service
 
@@ -147,7 +148,7 @@ class EntryReader:
             return Direction.BIDIRECTIONAL
         words = [direction.value for direction in Direction]
         if text not in words:
-            guess = nearest(text.upper(), words)
+            guess = did_you_mean(text.upper(), words)
             self._wrong("direction", f"the direction '{text}' is none of {', '.join(words)}{guess}")
             return Direction.BIDIRECTIONAL
         return Direction(text)
@@ -157,7 +158,7 @@ class EntryReader:
         if text is None:
             return None
         if text not in QOS_PROFILES:
-            guess = nearest(text.upper(), QOS_PROFILES)
+            guess = did_you_mean(text.upper(), QOS_PROFILES)
             self._wrong("qos_profile", f"the QoS profile '{text}' is none of {', '.join(QOS_PROFILES)}{guess}")
             return None
         self._warn(
@@ -219,7 +220,7 @@ def unknown_key(key: str | None) -> str:
     """Return the sentence about a key that does not exist."""
     if key is None:
         return f"a key must be one of {', '.join(KEYS)}"
-    guess = nearest(key, (*KEYS, *_OF_SERVICES_ONLY))
+    guess = did_you_mean(key, (*KEYS, *_OF_SERVICES_ONLY))
     return f"the key '{key}' is not known{guess or '; known keys: ' + ', '.join(KEYS)}"
 
 

@@ -7,9 +7,7 @@ Source: https://design.ros2.org/articles/topic_and_service_names.html
 
 from __future__ import annotations
 
-import difflib
 import re
-from collections.abc import Iterable
 
 from gz_course.sim.gz.transport import naming
 
@@ -45,9 +43,3 @@ def expand_gz_name(name: str, namespace: str, node_name: str) -> str:
     if name.startswith("~/"):
         return f"{prefix}/{node_name}/{name[2:]}"
     return f"{prefix}/{name}"
-
-
-def nearest(word: str, words: Iterable[str], cutoff: float = 0.6) -> str:
-    """Return the end of a sentence that names the closest of `words`, or an empty text."""
-    close = difflib.get_close_matches(word[:200], list(words), n=1, cutoff=cutoff)
-    return f"; did you mean {close[0]}?" if close else ""

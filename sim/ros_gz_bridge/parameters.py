@@ -13,12 +13,12 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from gz_course.sim.did_you_mean import did_you_mean, nearest_name
 from gz_course.sim.ros_gz_bridge import bridged_topics
 from gz_course.sim.ros_gz_bridge.config import Config
 from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction
 from gz_course.sim.ros_gz_bridge.entry_reader import KEYS, SERVICE_KEYS, EntryReader, Value, unknown_key
 from gz_course.sim.ros_gz_bridge.finding import Finding
-from gz_course.sim.ros_gz_bridge.names import nearest
 from gz_course.sim.ros_gz_bridge.qos_profile import PUBLISHER_POLICIES
 from gz_course.sim.ros_program.parameters import OF_EVERY_NODE, TYPE_WORDS
 
@@ -92,7 +92,7 @@ def _read_bridges(given: dict[str, Any], read: Parameters) -> None:
     for parameter in given:
         if parameter.startswith("bridges.") and not any(parameter.startswith(f"bridges.{name}.") for name in names):
             name = parameter.split(".")[1]
-            sentence = f"{name} is not in bridge_names, so it is not bridged{nearest(name, names)}"
+            sentence = f"{name} is not in bridge_names, so it is not bridged{did_you_mean(name, names)}"
             findings.append(Finding(f"parameter {parameter}", sentence, tolerated=True))
 
 
@@ -117,7 +117,7 @@ def advice(node: Node, entries: Iterable[BridgeEntry]) -> Iterator[str]:
         if name.startswith("qos_overrides."):
             yield from _qos_advice(name, endpoints)
         elif name not in known and not name.startswith("bridges."):
-            hint = nearest(name, [*DEFAULTS, "bridge_names"])
+            hint = did_you_mean(name, [*DEFAULTS, "bridge_names"])
             yield f"the parameter {name} is not known here and changes nothing{hint}"
 
 
@@ -126,11 +126,11 @@ def _qos_advice(name: str, endpoints: dict[str, tuple[str, ...]]) -> Iterator[st
     policy = name.rpartition(".")[2]
     if own is None:
         words = re.sub(r"\.(subscriber|sub)\.", ".subscription.", re.sub(r"\.pub\.", ".publisher.", name))
-        close = nearest(words, endpoints, cutoff=0.0).removesuffix("?")
-        hint = f"{close}{policy}?" if close else ""
+        close = nearest_name(words, endpoints, cutoff=0.0)
+        hint = f"; did you mean '{close}{policy}'?" if close else ""
         yield f"the parameter {name} names no endpoint of this bridge and changes nothing{hint}"
     elif name.removeprefix(own) not in endpoints[own]:
-        hint = nearest(policy, endpoints[own]) or f"; it may be {', '.join(endpoints[own])}"
+        hint = did_you_mean(policy, endpoints[own]) or f"; it may be {', '.join(endpoints[own])}"
         yield f"the parameter {name} names no QoS policy that can be set there and changes nothing{hint}"
 
 

@@ -14,9 +14,9 @@ from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.node import Node as RosNode
 from rclpy.task import Future
 
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.transport import Node as GzNode
 from gz_course.sim.ros_gz_bridge.entry import ServiceEntry
-from gz_course.sim.ros_gz_bridge.names import nearest
 from gz_course.sim.ros_gz_bridge.type_pairs import find_service
 
 TIMEOUT_S = 5.0
@@ -96,7 +96,7 @@ class ServiceLink:
         wanted = (self._types.gz_request_type, self._types.gz_reply_type)
         offered = {(each.req_type_name, each.rep_type_name) for each in self._gz_node.service_info(self._gz_name)}
         if not offered:
-            return f"it offers no service {self._gz_name}{nearest(self._gz_name, self._gz_node.service_list())}"
+            return f"it offers no service {self._gz_name}{did_you_mean(self._gz_name, self._gz_node.service_list())}"
         if wanted not in offered:
             seen = " or ".join(f"{request} and {reply}" for request, reply in sorted(offered))
             return f"it offers {self._gz_name} with {seen}, not with {wanted[0]} and {wanted[1]}"

@@ -7,17 +7,17 @@ there adds a package. The pairs of a package that is not installed are left out.
 
 from __future__ import annotations
 
-import difflib
 import importlib
 import importlib.util
 import pkgutil
 import re
 import threading
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import gz_course.sim.ros_gz_bridge.convert as ros_gz_bridge_convert
+from gz_course.sim.did_you_mean import nearest_name
 from gz_course.sim.gz.msgs import message_class
 
 _GZ_PREFIXES = ("ignition.msgs.", "gz_msgs.", "ign_msgs.")
@@ -183,11 +183,6 @@ def _installed(package: str) -> bool:
     return importlib.util.find_spec(package) is not None
 
 
-def nearest_type(name: str, known: Iterable[str]) -> str:
-    """Return the name among `known` (not empty) that is most like `name`."""
-    return difflib.get_close_matches(name, sorted(set(known)), n=1, cutoff=0.0)[0]
-
-
 def need_package(ros_type: str) -> None:
     """Load the conversions of a type's ROS package. Raises MissingPackageError if the package is not installed."""
     package = ros_type.split("/")[0]
@@ -221,7 +216,7 @@ def _explain_unknown(ros_type: str, gz_type: str) -> str:
         return f"{seen}; {gz_type} pairs with {_either(partners)}"
     wanted = f"{ros_type}@{gz_type}"
     by_text = {f"{pair.ros_type}@{pair.gz_type}": pair for pair in known}
-    pair = by_text[nearest_type(wanted, by_text)]
+    pair = by_text[nearest_name(wanted, by_text, 0.0)]
     return f"{seen}, nor for {gz_type}; the nearest pair is {pair.ros_type} with {pair.gz_type}"
 
 
@@ -236,7 +231,7 @@ def _explain_unknown_service(ros_type: str, wanted: tuple[str, str]) -> str:
         absent = ", ".join(missing_packages())
         return f"{seen}; none is known without these ROS packages, which are not installed: {absent}"
     names = [service.ros_type for service in known]
-    return f"{seen}; the nearest is {nearest_type(ros_type, names)}"
+    return f"{seen}; the nearest is {nearest_name(ros_type, names, 0.0)}"
 
 
 def _either(names: list[str]) -> str:

@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from gz_course.sim.ros_gz_bridge.names import nearest
+from gz_course.sim.did_you_mean import did_you_mean
 
 if TYPE_CHECKING:
     from rclpy.impl.rcutils_logger import RcutilsLogger
@@ -86,7 +86,7 @@ class Watch:
         self._reported.update(("missing", topic) for topic in missing)
         for topic in missing[:_MOST_NAMED]:
             self._logger.warning(
-                f"nobody in Gazebo publishes {topic} so far{nearest(topic, topics)}"
+                f"nobody in Gazebo publishes {topic} so far{did_you_mean(topic, topics)}"
                 if topics
                 else f"nobody in Gazebo publishes {topic} so far: no simulator runs in this partition (GZ_PARTITION)"
             )

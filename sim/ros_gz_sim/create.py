@@ -16,6 +16,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.ros_gz_sim.flags import Flag, read, usage, with_parameters
 from gz_course.sim.ros_program.errors import Failure, UsageError, first_line
 from gz_course.sim.ros_program.program import run
@@ -161,14 +162,12 @@ def _text(node: Node, source: str, value: str, timeout: float) -> str:
 
 
 def _from_parameter(node: Node, name: str) -> str:
-    from gz_course.sim.gz.sim.errors import nearest
-
     value = node.get_parameter(name).value if node.has_parameter(name) else None
     if not isinstance(value, str) or not value:
         known = sorted(node.get_parameters_by_prefix(""))
         raise UsageError(
             f"-param names the parameter '{name}', which this node does not have as a text; give it with "
-            f"--ros-args -p {name}:=... ({nearest(name, known, listing='its parameters are')})"
+            f"--ros-args -p {name}:=...{did_you_mean(name, known, listing='its parameters are')}"
         )
     return value
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING, Any
 
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.ros_gz_sim.flags import Flag, read, usage
 from gz_course.sim.ros_program.errors import Failure, UsageError
 from gz_course.sim.ros_program.program import run
@@ -51,9 +52,7 @@ def which(values: dict[str, Any]) -> dict[str, Any]:
     word = str(values.get("type", "model")).lower()
     number = TYPES.get(word, int(word) if word.isascii() and word.isdigit() and len(word) < 3 else -1)
     if number not in TYPES.values():
-        from gz_course.sim.gz.sim.errors import nearest
-
-        raise UsageError(f"there is no type '{word}'; {nearest(word, TYPES, listing='types are')}")
+        raise UsageError(f"there is no type '{word}'{did_you_mean(word, TYPES, listing='types are')}")
     if word == str(_ORIGINAL_MODEL):
         number = MODEL
     if number not in (MODEL, TYPES["light"]):
@@ -79,8 +78,6 @@ def delete(node: Node, values: dict[str, Any], entity: dict[str, Any]) -> int:
 
 def missing(world: RunningWorld, entity: dict[str, Any]) -> str:
     """Return the sentence about an entity that the world does not have; empty if it has it."""
-    from gz_course.sim.gz.sim.errors import nearest
-
     name = entity.get("name", "")
     if not name:
         return f"world '{world.name}' has no model or light with the number {entity['id']}"
@@ -91,7 +88,7 @@ def missing(world: RunningWorld, entity: dict[str, Any]) -> str:
     if name in others:
         other = "model" if kind == "light" else "light"
         return f"'{name}' in world '{world.name}' is a {other}: use delete_entity --name {name} --type {other}"
-    return f"world '{world.name}' has no {kind} '{name}'; {nearest(name, names, listing=f'its {kind}s are')}"
+    return f"world '{world.name}' has no {kind} '{name}'{did_you_mean(name, names, listing=f'its {kind}s are')}"
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.ros_program.errors import UsageError
 
 if TYPE_CHECKING:
@@ -53,7 +54,7 @@ def read(arguments: Sequence[str], flags: Iterable[Flag]) -> dict[str, Any]:
             values[name[2:]] = False
             continue
         if name not in known:
-            raise UsageError(f"there is no option '{word.partition('=')[0]}'; {_nearest(word, known)}")
+            raise UsageError(f"there is no option '{word.partition('=')[0]}'{_nearest(word, known)}")
         flag = known[name]
         if equals:
             words = text.split() if flag.count > 1 else [text]
@@ -104,7 +105,5 @@ def _value(flag: Flag, text: str, what: str) -> Any:
 
 
 def _nearest(word: str, known: Iterable[str]) -> str:
-    from gz_course.sim.gz.sim.errors import nearest
-
     dashes = "--" if word.startswith("--") else "-"
-    return nearest(word.partition("=")[0], [dashes + name for name in known], listing="options are")
+    return did_you_mean(word.partition("=")[0], [dashes + name for name in known], listing="options are")

@@ -13,7 +13,7 @@ from collections.abc import Callable
 
 from google.protobuf.message import Message
 
-from gz_course.sim.gz.sim.errors import nearest
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.plugins.topics import valid_topic
 from gz_course.sim.gz.transport import Node
 from gz_course.sim.ros_gz_sim.flags import Flag
@@ -99,9 +99,7 @@ class RunningWorld:
 
     def _others(self) -> str:
         worlds = sorted(self._worlds())
-        close = nearest(self.name, worlds)
-        hint = f"; {close}" if close.startswith("did you mean") else ""
-        return f"worlds that run are: {', '.join(worlds) or 'none'}{hint}"
+        return f"worlds that run are: {', '.join(worlds) or 'none'}{did_you_mean(self.name, worlds)}"
 
     def _why_silent(self, service: str, verb: str) -> str:
         if service in self._node.service_list():

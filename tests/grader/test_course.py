@@ -52,7 +52,7 @@ def test_the_list_of_one_exercise_is_its_rubric(course):
     assert "Velocity commands go to /cmd_vel" in outcome.words and "file: teleop_node.py" in outcome.stdout
     assert re.search(r"20 +Stops and stays stopped +truth/robot/distance reaches 0.5", outcome.stdout)
     assert re.search(r"100 +in all", outcome.stdout)
-    refused(course("list", "03_telepo"), "did you mean 03_teleop?")
+    refused(course("list", "03_telepo"), "did you mean '03_teleop'?")
 
 
 def test_trials_that_are_not_there(grade, root):
@@ -60,11 +60,13 @@ def test_trials_that_are_not_there(grade, root):
 
 
 def test_an_unknown_exercise_names_the_nearest(grade, root):
-    refused(grade("03_telepo", root / SOLUTION), "'03_telepo'", "did you mean 03_teleop?")
+    refused(grade("03_telepo", root / SOLUTION), "'03_telepo'", "did you mean '03_teleop'?")
 
 
 def test_a_missing_file(grade, root):
-    refused(grade("03", root / "solutions/03_teleop/teleop_nod.py"), "there is no file", "did you mean teleop_node.py?")
+    refused(
+        grade("03", root / "solutions/03_teleop/teleop_nod.py"), "there is no file", "did you mean 'teleop_node.py'?"
+    )
 
 
 def test_a_folder_without_the_file(grade, root):
@@ -72,7 +74,7 @@ def test_a_folder_without_the_file(grade, root):
 
 
 def test_an_unknown_pace(grade, root):
-    refused(grade("03", root / SOLUTION, "--pace", "realtme"), "realtme", "did you mean realtime?")
+    refused(grade("03", root / SOLUTION, "--pace", "realtme"), "realtme", "did you mean 'realtime'?")
 
 
 def test_a_seed_that_is_no_number(grade, root):
@@ -156,7 +158,7 @@ def spoilt(root, folder, old, new):
         ('world = "lidar_room.sdf"', 'world = "lidar_rom.sdf"', ["lidar_rom.sdf"]),
         ('robot = "robot"', 'robot = "robbi"', ["robbi", "robot"]),
         ("[run]", '[run]\nobserve = { "/x" = "std_msgs/msg/Flot32" }', ["std_msgs/msg/Flot32"]),
-        ('kind = "change"', 'kind = "chnage"', ["chnage", "did you mean change?"]),
+        ('kind = "change"', 'kind = "chnage"', ["chnage", "did you mean 'change'?"]),
     ],
 )
 def test_an_exercise_that_is_wrong_is_our_fault_and_says_where(grade, root, tmp_path, old, new, words):

@@ -64,7 +64,7 @@ def test_a_file_that_is_no_table_is_graded_without_a_run(grade, tmp_path):
     file.write_text("- ros_topic: /clock\n  ros_tpye: x\n")
     outcome = grade(TABLES, file)
     assert (outcome.code, outcome.report["score"], outcome.report["outcome"]) == (1, 0, "student_error")
-    assert "topics.yaml, line 2: there is no column 'ros_tpye' (did you mean ros_type?)" in outcome.words
+    assert "topics.yaml, line 2: there is no column 'ros_tpye'; did you mean 'ros_type'?" in outcome.words
 
 
 def test_a_bridge_without_a_clock_still_leaves_a_recorded_world(grade, root):

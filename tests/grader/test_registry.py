@@ -21,7 +21,7 @@ def test_the_alphabet_orders_what_nothing_else_does():
 
 
 def test_an_unknown_name_is_an_error_with_the_nearest_one():
-    with pytest.raises(ValueError, match=r"'no_clok', which does not exist \(did you mean no_clock\?\)"):
+    with pytest.raises(ValueError, match=r"'no_clok', which does not exist; did you mean 'no_clock'\?"):
         in_order({"a": ("no_clok",), "no_clock": ()})
 
 

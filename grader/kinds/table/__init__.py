@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from gz_course.grader.errors import nearest
 from gz_course.grader.kinds.exercise_node import EXERCISE_NODE, diagnosis, exercise_node, run_loop
 from gz_course.grader.kinds.kind import Kind, RunPlan
 from gz_course.grader.kinds.programs import node_command
 from gz_course.grader.printable import shown
+from gz_course.sim.did_you_mean import did_you_mean
 
 if TYPE_CHECKING:
     import yaml
@@ -80,9 +80,8 @@ def _row(node: yaml.Node) -> dict[str, Any]:
     for key, value in node.value:
         column = key.value if isinstance(key, yaml.ScalarNode) else ""
         if column not in COLUMNS:
-            raise TableError(
-                _line(key), f"there is no column {shown(str(column), 60)!r}{nearest(str(column)[:LONGEST], COLUMNS)}"
-            )
+            hint = did_you_mean(str(column), COLUMNS, listing="known")
+            raise TableError(_line(key), f"there is no column {shown(str(column), 60)!r}{hint}")
         if column in first:
             raise TableError(_line(key), f"{column} stands twice in one row (first in line {first[column]})")
         first[column] = _line(key)

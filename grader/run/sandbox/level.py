@@ -19,8 +19,9 @@ from functools import cache
 from pathlib import Path
 from typing import Protocol, cast
 
-from gz_course.grader.errors import InfrastructureError, UsageError, nearest
+from gz_course.grader.errors import InfrastructureError, UsageError
 from gz_course.grader.run.sandbox.spec import SandboxSpec
+from gz_course.sim.did_you_mean import did_you_mean
 
 AUTO = "auto"
 # From the firmest; a level is there by being a file of `levels/`.
@@ -47,7 +48,7 @@ class Level(Protocol):
 def level_module(level: str) -> Level:
     """Return a level by its letter. Raises UsageError if there is none."""
     if level not in LEVELS:
-        raise UsageError(f"there is no sandbox level {level!r}{nearest(level, (AUTO, *LEVELS))}")
+        raise UsageError(f"there is no sandbox level {level!r}{did_you_mean(level, (AUTO, *LEVELS), listing='known')}")
     return cast(Level, importlib.import_module(f"gz_course.grader.run.sandbox.levels.{level.lower()}"))
 
 

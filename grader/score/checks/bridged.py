@@ -19,8 +19,9 @@ from typing import Any
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
-from gz_course.grader.score.graphs import WAYS, Bridged, bridges, did_you_mean
+from gz_course.grader.score.graphs import WAYS, Bridged, bridges
 from gz_course.grader.score.launched import deaths
+from gz_course.sim.did_you_mean import did_you_mean, nearest_name
 
 KEYS = ("ros_topic", "ros_type", "gz_topic", "gz_type", "direction")
 CLOCK = "/clock"
@@ -63,8 +64,8 @@ def _not_there(wanted: dict[str, str], made: list[Bridged]) -> str:
             return f"{bridge.place}: the names are the wrong way round: {gz} is Gazebo's name, {ros} is that of ROS"
         if bridge.gz_topic == gz:
             return f"{bridge.place}: {gz} is called {bridge.ros_topic} in ROS here; the node uses {ros}"
-    near = did_you_mean(ros, [bridge.ros_topic for bridge in made], 0.8)
-    return f"no bridge has the ROS topic {ros}{near.replace('did you mean', 'is it')}"
+    near = nearest_name(ros, [bridge.ros_topic for bridge in made], 0.8)
+    return f"no bridge has the ROS topic {ros}" + (f"; is it '{near}'?" if near else "")
 
 
 def _fault(bridge: Bridged, wanted: dict[str, str], same: list[str], facts: dict[str, Any]) -> str:
@@ -87,7 +88,7 @@ def _wrong_gz_topic(bridge: Bridged, wanted: dict[str, str], gz: dict[str, Any])
     does = "listens to" if wanted["direction"] == "ROS_TO_GZ" else "publishes"
     if "gz sim" in gz.get(bridge.gz_topic, {}).get(kind, []):
         return f"{bridge.gz_topic} is not the Gazebo topic that belongs to {bridge.ros_topic}"
-    near = did_you_mean(bridge.gz_topic, [wanted["gz_topic"]], 0.3)
+    near = did_you_mean(bridge.gz_topic, [wanted["gz_topic"]], cutoff=0.3)
     return f"nobody in Gazebo {does} {bridge.gz_topic}{near}"
 
 

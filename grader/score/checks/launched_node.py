@@ -7,12 +7,11 @@ program = "stopwatch.py"      # what it is started from
 
 from __future__ import annotations
 
-from difflib import get_close_matches
-
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.launched import deaths, launch_facts
+from gz_course.sim.did_you_mean import nearest_name
 
 _OTHERS = ("gz", "parameter_bridge", "create")  # processes that are no node of the student's
 
@@ -33,8 +32,8 @@ def launched_node(recording: Recording, parameters: Table) -> Finding:
             False, expected, f"{program} had ended with exit code {code} before the launch was interrupted{said}"
         )
     if node not in nodes:
-        near = get_close_matches(node, sorted(nodes), n=1)
-        return Finding(False, expected, f"the node {node} never ran" + (f"; {near[0]} did" if near else ""))
+        near = nearest_name(node, nodes)
+        return Finding(False, expected, f"the node {node} never ran" + (f"; {near} did" if near else ""))
     if not any(each["node"] == node and each["topic"] == "/clock" for each in endpoints):
         return Finding(False, expected, f"{node} ran without use_sim_time: it does not follow /clock")
     return Finding(True, expected, "so it was")

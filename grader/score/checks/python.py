@@ -23,10 +23,11 @@ import traceback
 from pathlib import Path
 from typing import Any
 
-from gz_course.grader.errors import ManifestError, nearest
+from gz_course.grader.errors import ManifestError
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
+from gz_course.sim.did_you_mean import did_you_mean
 
 
 @check_kind("python")
@@ -45,7 +46,8 @@ def python(recording: Recording, parameters: Table) -> Finding:
         raise ManifestError(f"{_place(error, path)}: {type(error).__name__}: {error}") from None
     if not callable(names.get(name)):
         known = [key for key, value in names.items() if callable(value) and not key.startswith("_")]
-        raise ManifestError(f"{parameters.where}: {path} has no function {name!r}{nearest(name, known)}")
+        hint = did_you_mean(name, known, listing="known")
+        raise ManifestError(f"{parameters.where}: {path} has no function {name!r}{hint}")
     try:
         finding: Any = names[name](recording, given)
     except Exception as error:

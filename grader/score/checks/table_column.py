@@ -15,7 +15,8 @@ from typing import Any
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
-from gz_course.grader.score.graphs import WAYS, Link, did_you_mean, links
+from gz_course.grader.score.graphs import WAYS, Link, links
+from gz_course.sim.did_you_mean import did_you_mean
 
 WORDS = {
     "ros_type": "the ROS type",
@@ -80,7 +81,7 @@ def _gz_topic(said: str, link: Link, facts: dict[str, Any]) -> str:
     name = f"/{said.lstrip('/')}"
     if name in facts["gz_topics"]:
         return f"{name} is a topic of Gazebo, but not the one that {link.ros_topic} is joined with"
-    near = did_you_mean(name, [link.gz_topic], 0.3)
+    near = did_you_mean(name, [link.gz_topic], cutoff=0.3)
     if name == link.ros_topic:
         return f"{name} is what ROS calls it; Gazebo has no topic of that name{near}"
     return f"Gazebo has no topic {name}{near}"
@@ -88,7 +89,7 @@ def _gz_topic(said: str, link: Link, facts: dict[str, Any]) -> str:
 
 def _direction(said: str, link: Link, facts: dict[str, Any]) -> str:
     if said not in WAYS:
-        return f"{said} is no direction{did_you_mean(said.upper(), list(WAYS))}; they are {', '.join(WAYS)}"
+        return f"{said} is no direction, they are {', '.join(WAYS)}{did_you_mean(said, WAYS)}"
     if said == "BIDIRECTIONAL":
         return f"messages of {link.ros_topic} travel one way only, not both"
     return f"messages of {link.ros_topic} travel the other way, not {said}"
@@ -102,7 +103,8 @@ def _publisher(said: str, link: Link, facts: dict[str, Any]) -> str:
         return f"{name} listens to {link.ros_topic}; it does not publish there"
     if name in nodes:
         return f"{name} is a node, but it does not publish on {link.ros_topic}"
-    return f"no node called {name} is in the ROS graph; Gazebo itself is not in it{did_you_mean(name, nodes, 0.5)}"
+    hint = did_you_mean(name, nodes, cutoff=0.5)
+    return f"no node called {name} is in the ROS graph; Gazebo itself is not in it{hint}"
 
 
 EXPLAIN: dict[str, Callable[[str, Link, dict[str, Any]], str]] = {

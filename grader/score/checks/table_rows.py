@@ -11,7 +11,8 @@ from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.diagnosis import OWN_TOPICS
-from gz_course.grader.score.graphs import did_you_mean, links
+from gz_course.grader.score.graphs import links
+from gz_course.sim.did_you_mean import did_you_mean
 
 
 @check_kind("table_rows")

@@ -6,12 +6,12 @@ kept apart from those of others: a bridge connects topics, it does not use them.
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
 from gz_course.grader.tools.diagnose.world_text import WorldText
+from gz_course.sim.did_you_mean import nearest_name
 from gz_course.sim.gz.transport import MessagePublisher, ServicePublisher
 from gz_course.sim.ros_gz_bridge.entry import BridgeEntry
 
@@ -213,5 +213,4 @@ def nearest_topic(name: str, known: Iterable[str], cutoff: float = 0.6) -> str:
     others = sorted(set(known) - {name})
     tail = name.rpartition("/")[2]
     alike = [other for other in others if other.rpartition("/")[2] == tail] or others
-    close = difflib.get_close_matches(name, alike, n=1, cutoff=0.0 if alike is not others else cutoff)
-    return close[0] if close else ""
+    return nearest_name(name, alike, cutoff=0.0 if alike is not others else cutoff)

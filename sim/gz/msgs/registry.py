@@ -7,7 +7,6 @@ package installed beside this one.
 
 from __future__ import annotations
 
-import difflib
 import functools
 import re
 import threading
@@ -18,6 +17,7 @@ from google.protobuf import message_factory
 from google.protobuf.descriptor_pool import DescriptorPool
 from google.protobuf.message import Message
 
+from gz_course.sim.did_you_mean import nearest_name
 from gz_course.sim.gz.msgs.proto_reader import read_proto
 
 PROTO_FOLDER = Path(__file__).with_name("proto")
@@ -124,13 +124,6 @@ def message_class(name: str) -> type[Message]:
             return message_factory.GetMessageClass(_pool.FindMessageTypeByName(_PACKAGE + bare))
         except KeyError:
             pass
-    raise UnknownTypeError(f"There is no message type {name!r} in gz.msgs{_nearest(bare)}")
-
-
-def _nearest(bare: str) -> str:
-    names = {full.removeprefix(_PACKAGE) for full in type_names()}
-    by_folded = {name.casefold(): name for name in names}
-    found = difflib.get_close_matches(bare.rpartition(".")[2].casefold(), by_folded, n=3, cutoff=0.6)
-    if not found:
-        return "; `gz.msgs.type_names()` lists them all."
-    return "; did you mean " + " or ".join(_PACKAGE + by_folded[folded] for folded in found) + "?"
+    near = nearest_name(bare.rpartition(".")[2], (full.removeprefix(_PACKAGE) for full in type_names()))
+    hint = f"did you mean '{_PACKAGE}{near}'?" if near else "`gz.msgs.type_names()` lists them all."
+    raise UnknownTypeError(f"There is no message type {name!r} in gz.msgs; {hint}")

@@ -10,7 +10,6 @@ https://protobuf.dev/programming-guides/json/
 from __future__ import annotations
 
 import base64
-import difflib
 import json
 import math
 import re
@@ -20,6 +19,8 @@ from typing import Any, TypeVar
 
 from google.protobuf.descriptor import FieldDescriptor
 from google.protobuf.message import Message
+
+from gz_course.sim.did_you_mean import did_you_mean
 
 AnyMessage = TypeVar("AnyMessage", bound=Message)
 
@@ -141,9 +142,8 @@ def _explained(error: str, message: Message) -> str:
     if unknown := _NO_FIELD.search(what):
         owner, name = unknown.groups()
         fields = _fields_of(message.DESCRIPTOR, owner)
-        nearest = difflib.get_close_matches(name, fields, n=1, cutoff=0.5)
-        hint = f"did you mean {nearest[0]!r}?" if nearest else f"its fields are {', '.join(fields)}."
-        return f"The text is no {message.DESCRIPTOR.full_name}{where}: {owner} has no field {name!r}; {hint}"
+        hint = did_you_mean(name, fields, cutoff=0.5) or f"; its fields are {', '.join(fields)}."
+        return f"The text is no {message.DESCRIPTOR.full_name}{where}: {owner} has no field {name!r}{hint}"
     return f"The text is no {message.DESCRIPTOR.full_name}{where}: {' '.join(what.split()).rstrip('.')}."
 
 

@@ -6,14 +6,12 @@ Used by the SDF reader, the model builder, the systems and the `gz sim` command.
 
 from __future__ import annotations
 
-import difflib
 import logging
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
 LOG = logging.getLogger("gz.sim")
-_MOST_NAMES = 5000  # comparing one name with more takes seconds
 _MOST_WARNINGS = 1000
 _LONGEST = 1000  # characters of one sentence
 
@@ -37,23 +35,6 @@ def one_line(sentence: str) -> str:
     """Return the sentence without line breaks; what it quotes from a file may have them, and may be very long."""
     words = " ".join(sentence.split())
     return words if len(words) <= _LONGEST else f"{words[: _LONGEST // 2]} ... {words[-_LONGEST // 2 :]}"
-
-
-def nearest(name: str, known: Iterable[str], *, listing: str = "known names are") -> str:
-    """Return the tail of a sentence that points to the closest of `known`, or lists them when none is
-    close.
-    """
-    names = sorted(set(known))[:_MOST_NAMES]
-    lowered: dict[str, str] = {}
-    for each in names:
-        lowered.setdefault(each.lower(), each)
-    close = difflib.get_close_matches(name.lower(), list(lowered), n=1, cutoff=0.6)
-    if close:
-        return f"did you mean '{lowered[close[0]]}'?"
-    if not names:
-        return f"{listing}: none"
-    shown = ", ".join(names[:12]) + (", ..." if len(names) > 12 else "")
-    return f"{listing}: {shown}"
 
 
 @dataclass

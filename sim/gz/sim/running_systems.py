@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from gz_course.sim.gz.sim.errors import nearest
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.physics.servos import JointServo
 from gz_course.sim.gz.sim.plugins.sensor import KNOWN_TYPES, SensorBase, sensor_types
 from gz_course.sim.gz.sim.plugins.sensor_system import SensorSystem
@@ -206,8 +206,8 @@ def _why_silent(sensor: Sensor, running: set[str]) -> str:
         )
     if kind in KNOWN_TYPES:
         return f"sensor type '{kind}' is not simulated here, sensor '{sensor.name}' stays silent"
-    hint = nearest(kind, types, listing="types that run here are")
-    return f"sensor '{sensor.name}' has type '{kind}', which is not known; {hint}"
+    hint = did_you_mean(kind, types, listing="types that run here are")
+    return f"sensor '{sensor.name}' has type '{kind}', which is not known{hint}"
 
 
 def default_plugins(world: Element) -> list[Plugin]:

@@ -16,7 +16,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gz_course.sim.gz.sim.errors import Diagnostics, nearest
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.gz.sim.errors import Diagnostics
 from gz_course.sim.gz.sim.pose import Vector
 from gz_course.sim.gz.sim.sdf.element import Element
 
@@ -51,8 +52,8 @@ class SphericalCoordinates:
             return None
         surface = element.text_of("surface_model", "EARTH_WGS84")
         if surface not in SURFACES:
-            hint = nearest(surface, SURFACES, listing="surfaces are")
-            raise element.error(f"<surface_model> '{surface}' is not known; {hint}")
+            hint = did_you_mean(surface, SURFACES, listing="surfaces are")
+            raise element.error(f"<surface_model> '{surface}' is not known{hint}")
         equatorial, polar = SURFACES[surface]
         if surface == "CUSTOM_SURFACE":
             equatorial = element.number("surface_axis_equatorial", 0.0)

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from gz_course.sim.gz.sim.errors import SimError, nearest
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.gz.sim.errors import SimError
 from gz_course.sim.gz.sim.physics.builder import scoped
 from gz_course.sim.gz.sim.pose import Pose, Velocity, rotate
 from gz_course.sim.gz.sim.sdf.description import Link, Model, WorldDescription
@@ -117,8 +118,8 @@ class Truth:
     def _nested_pose(self, model: Model, name: str) -> Pose:
         nested = next((each for each in model.nested if each.name == name), None)
         if nested is None:
-            hint = nearest(name, [each.name for each in model.nested], listing="its models are")
-            raise SimError(f"model '{model.name}' has no model '{name}'; {hint}")
+            hint = did_you_mean(name, [each.name for each in model.nested], listing="its models are")
+            raise SimError(f"model '{model.name}' has no model '{name}'{hint}")
         canonical = model.link(nested.canonical_link)
         if canonical is None:
             return self.pose(model.name) * nested.pose
@@ -128,8 +129,8 @@ class Truth:
         """Return a model of the world."""
         found = self.models.get(name)
         if found is None:
-            hint = nearest(name, self.models, listing="its models are")
-            raise SimError(f"world '{self._description.name}' has no model '{name}'; {hint}")
+            hint = did_you_mean(name, self.models, listing="its models are")
+            raise SimError(f"world '{self._description.name}' has no model '{name}'{hint}")
         return found
 
     @staticmethod
@@ -137,8 +138,8 @@ class Truth:
         """Return a link of a model by its scoped name."""
         found = model.link(name)
         if found is None:
-            hint = nearest(name, [each.name for each in model.links], listing="its links are")
-            raise SimError(f"model '{model.name}' has no link '{name}'; {hint}")
+            hint = did_you_mean(name, [each.name for each in model.links], listing="its links are")
+            raise SimError(f"model '{model.name}' has no link '{name}'{hint}")
         return found
 
     def _link_pose(self, model: Model, link: Link) -> Pose:

@@ -6,8 +6,9 @@ from collections.abc import Iterable
 from typing import Any
 
 import gz_course.sim.launch.logging as launch_logging
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.launch.action import Action
-from gz_course.sim.launch.errors import InvalidArgumentError, MissingArgumentError, nearest
+from gz_course.sim.launch.errors import InvalidArgumentError, MissingArgumentError
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
 from gz_course.sim.launch.substitutions import TextSubstitution
@@ -67,9 +68,8 @@ class DeclareLaunchArgument(Action):
             sentence = (
                 f'Argument "{self.name}" provided value "{value}" is not valid. Valid options are: {self.choices}'
             )
-            hint = nearest(str(value), self.choices)
             launch_logging.get_logger("launch").error(sentence)
-            raise InvalidArgumentError(sentence + (hint if "did you mean" in hint else ""))
+            raise InvalidArgumentError(sentence + did_you_mean(str(value), self.choices))
 
     def _description_with_choices(self, description: str | None) -> str:
         text = "no description given" if description is None else description

@@ -9,11 +9,12 @@ from pathlib import Path
 from typing import Any
 
 import gz_course.sim.launch.logging as launch_logging
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.launch.action import Action
 from gz_course.sim.launch.actions.opaque_coroutine import OpaqueCoroutine
 from gz_course.sim.launch.actions.opaque_function import OpaqueFunction
 from gz_course.sim.launch.actions.set_launch_configuration import SetLaunchConfiguration
-from gz_course.sim.launch.errors import LaunchError, MissingArgumentError, nearest
+from gz_course.sim.launch.errors import LaunchError, MissingArgumentError
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.launch_description import LaunchDescription
 from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity
@@ -126,7 +127,7 @@ class IncludeLaunchDescription(Action):
         source = file.read_text(encoding="utf-8", errors="replace")
         for name in unknown:
             if not re.search(rf"""["']{re.escape(name)}["']""", source):
-                listing = nearest(name, known, "its arguments are") or "; it has no arguments"
+                listing = did_you_mean(name, known, listing="its arguments are") or "; it has no arguments"
                 launch_logging.get_logger("launch").warning(
                     f"'{name}' is not an argument of {file} and has no effect there{listing}"
                 )

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from gz_course.sim.launch.errors import nearest
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.launch.substitution import Substitution
 from gz_course.sim.launch.substitutions import (
     AnonName,
@@ -106,7 +106,8 @@ def _make(words: list[list[Substitution]], source: str) -> Substitution:
     if not isinstance(first, TextSubstitution):
         raise SubstitutionFailure(f"{source!r} does not begin with the name of a substitution")
     if first.text not in _makers:
-        raise SubstitutionFailure(f"there is no substitution $({first.text} ...){nearest(first.text, _makers)}")
+        hint = did_you_mean(first.text, _makers, listing="there are")
+        raise SubstitutionFailure(f"there is no substitution $({first.text} ...){hint}")
     at_least, at_most, make = _makers[first.text]
     if not at_least <= len(words) - 1 <= at_most:
         wanted = str(at_least) if at_least == at_most else f"{at_least} to {at_most}"

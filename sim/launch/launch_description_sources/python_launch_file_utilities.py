@@ -6,8 +6,8 @@ import os
 from pathlib import Path
 from types import ModuleType
 
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.launch.ament_prefix import packages_with_launch_file
-from gz_course.sim.launch.errors import nearest
 from gz_course.sim.launch.invalid_launch_file_error import InvalidLaunchFileError
 from gz_course.sim.launch.launch_description import LaunchDescription
 
@@ -51,10 +51,9 @@ def get_launch_description_from_python_launch_file(python_launch_file_path: str)
     function = getattr(module, _FUNCTION, None)
     if not callable(function):
         own = [name for name, value in vars(module).items() if getattr(value, "__module__", "") == module.__name__]
-        hint = nearest(_FUNCTION, own)
         raise InvalidPythonLaunchFileError(
             f"launch file at '{python_launch_file_path}' does not contain the required function "
-            f"'{_FUNCTION}()'{hint if 'did you mean' in hint else ''}"
+            f"'{_FUNCTION}()'{did_you_mean(_FUNCTION, own)}"
         )
     description = function()
     if not isinstance(description, LaunchDescription):
@@ -81,8 +80,7 @@ def _not_readable(path: Path, error: OSError) -> str:
     if not path.is_absolute():
         sentence += f" in the current folder {Path.cwd()}"
     folder = path.parent if path.parent.is_dir() else None
-    hint = nearest(path.name, os.listdir(folder)) if folder else ""  # noqa: PTH208
-    return sentence + (hint if "did you mean" in hint else "")
+    return sentence + (did_you_mean(path.name, os.listdir(folder)) if folder else "")  # noqa: PTH208
 
 
 def _a_package_has(path: Path) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 
-from gz_course.sim.launch.errors import nearest
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
 from gz_course.sim.launch.substitution import Substitution
@@ -42,5 +42,4 @@ def nearest_program(name: str, context: LaunchContext) -> str:
     for folder in context.environment.get("PATH", os.defpath).split(os.pathsep):
         if folder and os.path.isdir(folder):  # noqa: PTH112
             known += os.listdir(folder)  # noqa: PTH208
-    hint = nearest(name, known)
-    return hint if "did you mean" in hint else ""
+    return did_you_mean(name, known)

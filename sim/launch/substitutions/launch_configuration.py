@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from gz_course.sim.launch.errors import nearest
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
 from gz_course.sim.launch.substitution import Substitution
@@ -33,7 +33,7 @@ class LaunchConfiguration(Substitution):
             value = context.launch_configurations[name]
             return value if isinstance(value, str) else str(value)
         if self.__default is None:
-            known = nearest(name, context.launch_configurations, "these exist")
+            known = did_you_mean(name, context.launch_configurations, listing="these exist")
             raise SubstitutionFailure(f"launch configuration '{name}' does not exist{known}")
         return perform_substitutions(context, self.__default)
 

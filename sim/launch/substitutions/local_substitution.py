@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from gz_course.sim.launch.errors import nearest
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.substitution import Substitution
 from gz_course.sim.launch.substitutions.substitution_failure import SubstitutionFailure
@@ -26,7 +26,9 @@ class LocalSubstitution(Substitution):
         value = local_value(context, name, f"there is no '{name}' in the launch file's locals")
         for attribute in attributes:
             if not hasattr(value, attribute):
-                known = nearest(attribute, [each for each in dir(value) if not each.startswith("_")])
+                known = did_you_mean(
+                    attribute, [each for each in dir(value) if not each.startswith("_")], listing="there are"
+                )
                 raise SubstitutionFailure(f"{type(value).__name__} has no '{attribute}'{known}")
             value = getattr(value, attribute)
         return str(value)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from gz_course.sim.launch.errors import nearest
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
 from gz_course.sim.launch.substitutions import SubstitutionFailure
@@ -43,6 +43,5 @@ class ExecutableInPackage(FindPackagePrefix):
         if path.is_file():
             raise SubstitutionFailure(f"'{path}' is not executable; chmod +x makes it so")
         known = [each.name for each in folder.iterdir() if each.is_file() and os.access(each, os.X_OK)]
-        raise SubstitutionFailure(
-            f"executable '{executable}' not found on the libexec directory '{folder}'{nearest(executable, known)}"
-        )
+        hint = did_you_mean(executable, known, listing="there are")
+        raise SubstitutionFailure(f"executable '{executable}' not found on the libexec directory '{folder}'{hint}")

@@ -10,7 +10,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gz_course.sim.ros2.errors import CommandError, UsageError, did_you_mean
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.ros2.errors import CommandError, UsageError
 from gz_course.sim.ros2.packages import package_names
 
 if TYPE_CHECKING:

@@ -6,8 +6,9 @@ import argparse
 import shlex
 import signal
 
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.ros2.child import ChildError, run_child
-from gz_course.sim.ros2.errors import CommandError, did_you_mean
+from gz_course.sim.ros2.errors import CommandError
 from gz_course.sim.ros2.packages import executables
 
 

@@ -78,4 +78,4 @@ def test_a_copy_without_solutions_says_so_in_one_sentence(copy, course):
 
 def test_an_unknown_exercise(course):
     outcome = course("diff", "03_telepo")
-    assert outcome.code == 2 and "did you mean 03_teleop?" in outcome.words
+    assert outcome.code == 2 and "did you mean '03_teleop'?" in outcome.words

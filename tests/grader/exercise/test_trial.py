@@ -115,7 +115,7 @@ def test_an_empty_script_is_a_robot_nobody_drives(read):
     ("old", "new", "told"),
     [
         ("seed = 7", "seed = 7.5", "trial 'north': seed must be a whole number"),
-        ("seed = 7", "sed = 7", "trial 'north': unknown key 'sed' .did you mean seed"),
+        ("seed = 7", "sed = 7", "trial 'north': unknown key 'sed'; did you mean 'seed'"),
         ("duration = 3", "duration = 0", "duration must be a finite number greater than 0"),
         ("tick = 0.25", "tick = 0", "tick must be a finite number greater than 0"),
         ("[-2, 1, 0, 0, 0, 1.5]", "[-2, 1]", "poses: robot must be a list of 6 numbers"),
@@ -174,7 +174,7 @@ def test_models_stand_where_the_trial_puts_them(root):
 @pytest.mark.parametrize(
     ("change", "told"),
     [
-        ({"poses": {"robt": (0,) * 6}}, r"trial bad: .* has no model 'robt' to place.*did you mean robot"),
+        ({"poses": {"robt": (0,) * 6}}, r"trial bad: .* has no model 'robt' to place.*did you mean 'robot'"),
         ({"world": "lidar_rom.sdf"}, r"trial bad: .*lidar_rom\.sdf.*lidar_room"),
         ({"world": "empty.sdf"}, r"trial bad: .*no moving model 'robot'"),
     ],

@@ -17,7 +17,7 @@ GATE = {"signal": "truth/robot/distance", "reaches": 0.5, "otherwise": "it never
 
 
 def test_an_unknown_kind_is_answered_with_the_nearest(record):
-    with pytest.raises(ManifestError, match=r"'it'.*'chnage'.*did you mean change\?"):
+    with pytest.raises(ManifestError, match=r"'it'.*'chnage'.*did you mean 'change'\?"):
         perform(spec("chnage"), record())
 
 
@@ -141,7 +141,7 @@ def test_gates_that_wait_for_each_other_or_for_nothing(record):
     recording = record({SIGNAL: [(0, 0.0), (8, 1.0)]})
     with pytest.raises(ManifestError, match="the gates of the checks a, b wait for each other"):
         perform_all(chained(("a", [0, 2], "b"), ("b", [0, 2], "a")), recording)
-    with pytest.raises(ManifestError, match=r"check 'alpha': its gate names no check: 'alph' .did you mean alpha"):
+    with pytest.raises(ManifestError, match=r"check 'alpha': its gate names no check: 'alph'; did you mean 'alpha'"):
         perform_all(chained(("alpha", [0, 2], "alph")), recording)
 
 

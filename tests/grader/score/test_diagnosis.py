@@ -190,11 +190,11 @@ def test_one_good_publisher_of_two_is_enough(told):
 
 def test_a_subscription_to_nothing(told):
     _, sentence = told(endpoint("/lidar/scn", SCAN, "subscription"))
-    assert sentence == "Your node subscribes to /lidar/scn, where nobody publishes; did you mean /lidar/scan?"
+    assert sentence == "Your node subscribes to /lidar/scn, where nobody publishes; did you mean '/lidar/scan'?"
     _, sentence = told(endpoint("/q", SCAN, "subscription"))
-    assert "did you mean /lidar/scan?" in sentence, "by its type"
+    assert "did you mean '/lidar/scan'?" in sentence, "by its type"
     _, sentence = told(endpoint("/robot1/lidar/scan", SCAN, "subscription") | {"node": "/robot1/listener"})
-    assert "did you mean /lidar/scan? Your node lives in the namespace /robot1" in sentence
+    assert "did you mean '/lidar/scan'? Your node lives in the namespace /robot1" in sentence
 
 
 def test_a_subscription_to_its_own_publisher_is_nobodys_fault(told):

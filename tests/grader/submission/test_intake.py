@@ -143,7 +143,7 @@ def refused(exercise, path, *words):
 def test_a_folder_without_the_file(exercise, tmp_path):
     write(tmp_path / "teleop.py", "")
     write(tmp_path / "other.py", "")
-    refused(exercise, tmp_path, str(tmp_path), "teleop_node.py", "did you mean teleop.py?")
+    refused(exercise, tmp_path, str(tmp_path), "teleop_node.py", "did you mean 'teleop.py'?")
 
 
 def test_an_empty_folder(exercise, tmp_path):
@@ -157,7 +157,7 @@ def test_a_folder_in_place_of_the_file(exercise, tmp_path):
 
 def test_a_missing_file_names_its_neighbour(exercise, tmp_path):
     write(tmp_path / "teleop_node.py", "")
-    refused(exercise, tmp_path / "teleop_nod.py", "teleop_nod.py", "did you mean teleop_node.py?")
+    refused(exercise, tmp_path / "teleop_nod.py", "teleop_nod.py", "did you mean 'teleop_node.py'?")
 
 
 def test_a_missing_file_in_a_missing_folder(exercise, tmp_path):

@@ -212,7 +212,7 @@ def test_programs_end_with_a_process_that_is_killed(tmp_path):
 
 
 def test_an_unknown_command_is_named_with_the_nearest(room):
-    with pytest.raises(UsageError, match=r"there is no command 'paramter_bridge' \(did you mean parameter_bridge\?\)"):
+    with pytest.raises(UsageError, match=r"there is no command 'paramter_bridge'; did you mean 'parameter_bridge'\?"):
         room.start("paramter_bridge --help")
 
 

@@ -54,7 +54,7 @@ def wrong(copy, *words):
 
 def test_a_declared_variant_without_a_folder(copy):
     (copy.private / "rejected/never_stops").rename(copy.private / "rejected/never_stop")
-    wrong(copy, "expect.toml", "rejected/never_stops", "did you mean never_stop?")
+    wrong(copy, "expect.toml", "rejected/never_stops", "did you mean 'never_stop'?")
 
 
 def test_a_folder_nobody_declared(copy):
@@ -78,7 +78,7 @@ def test_an_unknown_check(copy):
         '[rejected.never_stops]\nfails = ["five_seconds", "stops"]',
         '[rejected.never_stops]\nfails = ["stopps"]',
     )
-    wrong(copy, "expect.toml", "rejected.never_stops", "stopps", "did you mean stops?")
+    wrong(copy, "expect.toml", "rejected.never_stops", "stopps", "did you mean 'stops'?")
 
 
 def test_no_expectations_at_all(copy):
@@ -129,7 +129,7 @@ def test_a_hidden_trial_that_nobody_has(copy):
     edit(copy.expect, 'words = ["left"]', 'words = ["left"]\ntrial = "norht"')
     trials = copy.private / "trials.toml"
     trials.write_text(trials.read_text() + '\n[[trial]]\nname = "north"\nseed = 3\n')
-    wrong(copy, "rejected.turns_right", "trial is 'norht'", "did you mean north?")
+    wrong(copy, "rejected.turns_right", "trial is 'norht'", "did you mean 'north'?")
     edit(copy.expect, 'trial = "norht"', 'trial = "north"')
     assert {v.name: v.trial for v in copy.declared()}["rejected/turns_right"] == "north"
 

@@ -57,7 +57,7 @@ def test_a_sub_command_among_commands_is_run_with_its_options(count, capsys, arg
     ("arguments", "code", "words"),
     [
         (["--to", "1"], 107, "--to requires --from"),
-        (["--form", "1"], 109, "did you mean --from?"),
+        (["--form", "1"], 109, "did you mean '--from'?"),
         (["--to"], 114, "--to"),
         (["--to", "x"], 104, "'x'"),
     ],
@@ -89,8 +89,8 @@ def test_help_lists_sub_commands_without_importing_them(count, capsys, arguments
 @pytest.mark.parametrize(
     ("wrong", "code", "words"),
     [
-        ("cuont", 2, "there is no command 'cuont'; did you mean count?"),
-        ("--version5", 109, "there is no option '--version5'; did you mean --versions?"),
+        ("cuont", 2, "there is no command 'cuont'; did you mean 'count'?"),
+        ("--version5", 109, "there is no option '--version5'; did you mean '--versions'?"),
         ("xyzzy", 2, "see gz --help"),
     ],
 )
@@ -107,7 +107,7 @@ def test_an_unknown_option_is_one_sentence_and_one_code_for_every_command(name, 
         command.main([name, "--hepl"])
     out, error = capsys.readouterr()
     assert (end.value.code, out) == (109, "")
-    assert error == f"gz {name}: there is no option '--hepl'; did you mean --help?\n"
+    assert error == f"gz {name}: there is no option '--hepl'; did you mean '--help'?\n"
 
 
 def test_versions_names_the_engines(capsys):

@@ -192,9 +192,9 @@ def test_no_text_does_worse_than_a_config_error(text):
         (
             bridge(directon="GZ_TO_ROS"),
             "b.yaml:5:",
-            "the key 'directon' is not known; did you mean direction?",
+            "the key 'directon' is not known; did you mean 'direction'?",
         ),
-        (bridge(gz_topic="/a"), "b.yaml:5:", "the key 'gz_topic' is not known; did you mean gz_topic_name?"),
+        (bridge(gz_topic="/a"), "b.yaml:5:", "the key 'gz_topic' is not known; did you mean 'gz_topic_name'?"),
         (bridge(zzz="1"), "b.yaml:5:", "the key 'zzz' is not known; known keys: topic_name"),
         (
             bridge(direction="gz_to_ros"),

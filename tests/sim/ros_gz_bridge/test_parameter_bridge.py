@@ -122,9 +122,9 @@ def test_parameters_that_change_nothing_are_named(start):
     process.wait_for("ready: 1 bridge")
     warnings = [line.split("]: ", 1)[1] for line in process.lines if "[WARN]" in line]
     assert warnings == [
-        "the parameter confg_file is not known here and changes nothing; did you mean config_file?",
+        "the parameter confg_file is not known here and changes nothing; did you mean 'config_file'?",
         "the parameter qos_overrides./odm.publisher.depth names no endpoint of this bridge and changes "
-        "nothing; did you mean qos_overrides./odom.publisher.depth?",
+        "nothing; did you mean 'qos_overrides./odom.publisher.depth'?",
     ]
     assert process.stop() == 0
 

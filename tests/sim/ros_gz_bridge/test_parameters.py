@@ -95,11 +95,11 @@ def test_every_fault_of_every_source_at_once(ros_domain):
     found = "\n".join(sentences)
     for words in (
         "the parameter lazy must be true or false, not 3",
-        "parameter bridges.scan.directon: the key 'directon' is not known; did you mean direction?",
+        "parameter bridges.scan.directon: the key 'directon' is not known; did you mean 'direction'?",
         "parameter bridges.scan.lazy: 'lazy' must be true or false, not maybe",
         "parameter bridges.scan: 'ros_type_name' is missing",
         "parameter bridges.empty: bridge_names has this name, but there are no parameters of it",
-        "parameter bridges.scna.lazy: scna is not in bridge_names, so it is not bridged; did you mean scan?",
+        "parameter bridges.scna.lazy: scna is not in bridge_names, so it is not bridged; did you mean 'scan'?",
         "the option --nope is not known",
         "argument 'x': has no '@'",
     ):

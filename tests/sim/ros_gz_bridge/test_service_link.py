@@ -78,7 +78,7 @@ def test_a_service_that_fails_or_is_absent_is_answered_and_explained(stage, capf
         assert call(True).success is False
     warnings = [line for line in capfd.readouterr().err.splitlines() if "[WARN]" in line]
     assert len(warnings) == 3
-    assert f"offers no service {entry.name}; did you mean {entry.name}s?" in warnings[0]
+    assert f"offers no service {entry.name}; did you mean '{entry.name}s'?" in warnings[0]
     assert "with gz.msgs.Boolean and gz.msgs.Boolean, not with gz.msgs.Boolean and gz.msgs.StringMsg" in warnings[1]
     assert "Gazebo could not do what was asked" in warnings[2]
 

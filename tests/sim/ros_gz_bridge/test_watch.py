@@ -70,7 +70,7 @@ def test_a_topic_that_nobody_publishes_is_said_once_with_the_nearest(nodes):
     now[0] += MISSING_AFTER_S
     watch.look()
     watch.look()
-    assert log == ["warning: nobody in Gazebo publishes /lidar/scna so far; did you mean /lidar/scan?"]
+    assert log == ["warning: nobody in Gazebo publishes /lidar/scna so far; did you mean '/lidar/scan'?"]
 
 
 def test_without_any_simulator_the_partition_is_named(nodes):

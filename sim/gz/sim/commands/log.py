@@ -9,7 +9,8 @@ import argparse
 import sys
 from pathlib import Path
 
-from gz_course.sim.gz.command_line import Parser, nearest, whole_number
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.gz.command_line import Parser, whole_number
 from gz_course.sim.gz.sim.errors import SimError
 from gz_course.sim.gz.sim.tlog import Log
 
@@ -56,7 +57,7 @@ def _echo(log: Log, topic: str, most: int) -> int:
 
     known = [each.topic for each in log.topics()]
     if topic not in known:
-        raise ValueError(f"{log.path} has nothing of topic [{topic}]{nearest(topic, known)}")
+        raise ValueError(f"{log.path} has nothing of topic [{topic}]{did_you_mean(topic, known)}")
     for number, entry in enumerate(log.messages(topic)):
         if most and number >= most:
             break

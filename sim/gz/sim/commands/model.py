@@ -12,7 +12,8 @@ import math
 import threading
 from typing import Any
 
-from gz_course.sim.gz.command_line import Parser, nearest
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.gz.command_line import Parser
 from gz_course.sim.gz.sim.plugins.topics import valid_topic
 from gz_course.sim.gz.transport.node import Node
 
@@ -73,7 +74,7 @@ def _scene(node: Node, world: str) -> Any:
 def _named(parts: Any, name: str, sentence: str) -> Any:
     found = next((each for each in parts if each.name == name), None)
     if found is None:
-        raise ValueError(f"{sentence} '{name}'{nearest(name, [each.name for each in parts])}")
+        raise ValueError(f"{sentence} '{name}'{did_you_mean(name, [each.name for each in parts])}")
     return found
 
 

@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING, Any
 import mujoco
 import numpy as np
 
-from gz_course.sim.gz.sim.errors import SimError, nearest
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.gz.sim.errors import SimError
 from gz_course.sim.gz.sim.physics.builder import scoped
 from gz_course.sim.gz.sim.pose import Pose, multiply, rotate
 from gz_course.sim.gz.sim.sdf.description import Collision, Light, Model, Visual
@@ -161,8 +162,8 @@ class Editor:
             self._world.entities.remove("light", name)
         else:
             known = [*self._truth.models, *(each.name for each in self._description.lights)]
-            hint = nearest(name, known, listing="what can be removed is")
-            raise SimError(f"world '{self._description.name}' has no model or light '{name}'; {hint}")
+            hint = did_you_mean(name, known, listing="what can be removed is")
+            raise SimError(f"world '{self._description.name}' has no model or light '{name}'{hint}")
         self._world.rebuild()
 
     def _forget(self, model: Model) -> None:
@@ -239,12 +240,13 @@ class Editor:
         light = next((each for each in self._description.lights if each.name == name), None)
         if light is None:
             known = [each.name for each in self._description.lights]
-            hint = nearest(name, known, listing="its lights are")
-            raise SimError(f"world '{self._description.name}' has no light '{name}'; {hint}")
+            hint = did_you_mean(name, known, listing="its lights are")
+            raise SimError(f"world '{self._description.name}' has no light '{name}'{hint}")
         known_fields = {field.name for field in fields(Light)}
         for attribute, value in changes.items():
             if attribute not in known_fields:
-                raise SimError(f"a light has no {attribute}; {nearest(attribute, known_fields)}")
+                hint = did_you_mean(attribute, known_fields, listing="known names are")
+                raise SimError(f"a light has no {attribute}{hint}")
             self._change(light, attribute, value)
         self._world.rebuild()
 

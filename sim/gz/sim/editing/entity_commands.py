@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gz_course.sim.gz.sim.errors import SimError, nearest
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.gz.sim.errors import SimError
 from gz_course.sim.gz.sim.pose import Pose
 from gz_course.sim.gz.sim.sdf.description import Light, Model
 from gz_course.sim.gz.sim.sdf.element import Element
@@ -135,7 +136,8 @@ def name_of(world: WorldAccess, number: int, name: str, kind: str = "") -> str:
     if not number:
         if kind and not world.entities.number(kind, name):
             known = [each.path[0] for each in world.entities if each.kind == kind and len(each.path) == 1]
-            raise SimError(f"world '{world.name}' has no {kind} '{name}'; {nearest(name, known)}")
+            hint = did_you_mean(name, known, listing="known names are")
+            raise SimError(f"world '{world.name}' has no {kind} '{name}'{hint}")
         return name
     entity = world.entities.find(number)
     if entity is None:

@@ -10,8 +10,9 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.editing.entity_commands import Command, light_changes, name_of, place_on_planet, pose_of
-from gz_course.sim.gz.sim.errors import SimError, nearest
+from gz_course.sim.gz.sim.errors import SimError
 from gz_course.sim.gz.sim.sdf.description import Collision, Visual
 from gz_course.sim.gz.sim.spherical_coordinates import SURFACES, SphericalCoordinates
 
@@ -107,7 +108,8 @@ def _visuals(world: WorldAccess, number: int, parent: str, name: str) -> list[Vi
                 ):
                     found.append(visual)
     if not found:
-        raise SimError(f"world '{world.name}' has no visual '{name}'; {nearest(name, known)}")
+        hint = did_you_mean(name, known, listing="known names are")
+        raise SimError(f"world '{world.name}' has no visual '{name}'{hint}")
     return found
 
 
@@ -121,7 +123,8 @@ def _collide(world: WorldAccess, message: Any, enabled: bool) -> Callable[[], No
         found = [collision for name, collision in _collisions(world) if f"{name}::".startswith(f"{path}::")]
         if not found:
             names = [name for name, _ in _collisions(world)]
-            raise SimError(f"world '{world.name}' has no collision '{path}'; {nearest(path, names)}")
+            hint = did_you_mean(path, names, listing="known names are")
+            raise SimError(f"world '{world.name}' has no collision '{path}'{hint}")
         world.editor.enable_collisions(found, enabled)
 
     return work
@@ -158,7 +161,8 @@ def set_spherical_coordinates(world: WorldAccess, message: Any) -> Callable[[], 
         return move
     surface = message.SurfaceModel.Name(message.surface_model) if message.surface_model in (0, 1, 2) else ""
     if surface not in SURFACES:
-        raise SimError(f"surface model {message.surface_model} is not known; {nearest(surface, SURFACES)}")
+        hint = did_you_mean(surface, SURFACES, listing="known names are")
+        raise SimError(f"surface model {message.surface_model} is not known{hint}")
     axes = SURFACES[surface]
     if surface == "CUSTOM_SURFACE":
         axes = (message.surface_axis_equatorial, message.surface_axis_polar)

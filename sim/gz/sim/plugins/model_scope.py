@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import mujoco
 
-from gz_course.sim.gz.sim.errors import nearest
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.physics.builder import scoped
 from gz_course.sim.gz.sim.pose import IDENTITY, Pose
 from gz_course.sim.gz.sim.sdf.description import Joint, Link, Model, Plugin
@@ -87,9 +87,9 @@ class ModelScope:
 
     def _warn_missing(self, child: Element, kind: str, parts: Sequence[Joint | Link]) -> None:
         known = [self.own_name(part.name) for part in parts if part.name.startswith(self._prefix)]
-        hint = nearest(child.text, known, listing=f"its {kind}s are")
+        hint = did_you_mean(child.text, known, listing=f"its {kind}s are")
         text = f"{self.system}'s <{child.tag}> names {kind} '{child.text}', which model '{self.full_name}' "
-        self.world.diagnostics.warn(child.where, f"{text}does not have, it is left out; {hint}")
+        self.world.diagnostics.warn(child.where, f"{text}does not have, it is left out{hint}")
 
     def body(self, link: str) -> int:
         """Return MuJoCo's body of a link (scoped name), -1 when the world holds it."""

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from gz_course.sim.gz.sim.errors import nearest
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.sdf.element import Element
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ class Noise:
         if kind == "none":
             return cls()
         if kind not in KINDS:
-            raise element.error(f"noise type '{kind}' is not known; {nearest(kind, KINDS, listing='types are')}")
+            raise element.error(f"noise type '{kind}' is not known{did_you_mean(kind, KINDS, listing='types are')}")
         values = {tag: element.number(tag, 0.0) for tag in cls.__dataclass_fields__}
         for tag, value in values.items():
             if not math.isfinite(value) or (value < 0.0 and tag not in ("mean", "bias_mean")):

@@ -18,7 +18,8 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
-from gz_course.sim.gz.sim.errors import Diagnostics, nearest
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.gz.sim.errors import Diagnostics
 from gz_course.sim.gz.sim.physics.servos import JointServo
 from gz_course.sim.gz.sim.sdf.description import Model, Plugin
 
@@ -228,13 +229,13 @@ def find_system(plugin: Plugin, diagnostics: Diagnostics) -> type[System] | None
     elif name in OTHER_GAZEBO_SYSTEMS:
         diagnostics.warn(where, f"system '{name}' exists in Gazebo but not in this simulator, it is ignored")
     else:
-        hint = nearest(name, {*systems(), *BUILT_IN}, listing="systems that run here are")
-        diagnostics.warn(where, f"no system is called '{plugin.name or plugin.filename}', it is ignored; {hint}")
+        hint = did_you_mean(name, {*systems(), *BUILT_IN}, listing="systems that run here are")
+        diagnostics.warn(where, f"no system is called '{plugin.name or plugin.filename}', it is ignored{hint}")
     return None
 
 
 def _check_parameters(plugin: Plugin, found: type[System], diagnostics: Diagnostics) -> None:
     for child in plugin.element.children:
         if found.parameters and child.tag not in found.parameters and ":" not in child.tag:
-            hint = nearest(child.tag, found.parameters, listing="its parameters are")
-            diagnostics.warn(child.where, f"{found.name} has no parameter <{child.tag}>, it is ignored; {hint}")
+            hint = did_you_mean(child.tag, found.parameters, listing="its parameters are")
+            diagnostics.warn(child.where, f"{found.name} has no parameter <{child.tag}>, it is ignored{hint}")

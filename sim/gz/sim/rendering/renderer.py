@@ -16,7 +16,8 @@ from typing import TYPE_CHECKING, Any, Protocol
 import mujoco
 import numpy as np
 
-from gz_course.sim.gz.sim.errors import LOG, SimError, nearest
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.gz.sim.errors import LOG, SimError
 from gz_course.sim.gz.sim.physics.builder import VISUAL_GROUP
 from gz_course.sim.gz.sim.rendering.shading import Colours, Shader
 
@@ -150,7 +151,8 @@ def check_engine(name: str) -> str:
         LOG.info("render engine '%s' is Gazebo's; cameras and lidars are ray-cast here", name)
         return RAYCAST
     if name != MUJOCO:
-        raise SimError(f"there is no render engine '{name}'; {nearest(name, (RAYCAST, MUJOCO, *OF_GAZEBO))}")
+        hint = did_you_mean(name, (RAYCAST, MUJOCO, *OF_GAZEBO), listing="known names are")
+        raise SimError(f"there is no render engine '{name}'{hint}")
     if gl_backend() is None:
         raise SimError(
             "render engine 'mujoco' needs OpenGL without a screen, which does not work on this machine; "

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from gz_course.sim.gz.sim.errors import nearest
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.pose import IDENTITY, Pose
 from gz_course.sim.gz.sim.sdf.element import Element
 
@@ -138,4 +138,4 @@ class Scope:
 
     def _unknown(self, name: str, asker: Element) -> Exception:
         what = "the world" if self.own == "world" else f"model '{self.element.name}'"
-        return asker.error(f"{what} has no frame '{name}'; {nearest(name, self.frames, listing='its frames are')}")
+        return asker.error(f"{what} has no frame '{name}'{did_you_mean(name, self.frames, listing='its frames are')}")

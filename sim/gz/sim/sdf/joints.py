@@ -12,7 +12,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from gz_course.sim.gz.sim.errors import Diagnostics, nearest
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.gz.sim.errors import Diagnostics
 from gz_course.sim.gz.sim.pose import Pose, matrix
 from gz_course.sim.gz.sim.sdf.description import UNLIMITED, Axis, Joint, Mimic, Model
 from gz_course.sim.gz.sim.sdf.element import Element
@@ -46,7 +47,8 @@ def read_world_joint(element: Element, scope: Scope, models: list[Model], versio
 def _joint(element: Element, scope: Scope, places: Mapping[str, Pose], version: tuple[int, int]) -> Joint:
     kind = element.attributes.get("type", "")
     if kind not in KINDS:
-        raise element.error(f"joint '{element.name}' has type '{kind}'; {nearest(kind, KINDS)}")
+        hint = did_you_mean(kind, KINDS, listing="known names are")
+        raise element.error(f"joint '{element.name}' has type '{kind}'{hint}")
     child = _link(element, "child", scope, places)
     parent = _link(element, "parent", scope, places)
     if child == "world":
@@ -77,15 +79,15 @@ def _link(element: Element, role: str, scope: Scope, places: Mapping[str, Pose])
     if stated is None or not stated.text:
         raise element.error(f"joint '{element.name}' needs a <{role}> that names a link")
     if stated.text not in ("world", "__model__") and stated.text.split("::")[0] not in scope.frames:
-        hint = nearest(stated.text, places, listing="its links are")
+        hint = did_you_mean(stated.text, places, listing="its links are")
         owner = "the world" if scope.own == "world" else f"model '{scope.element.name}'"
         raise stated.error(
-            f"<{role}> of joint '{element.name}' names link '{stated.text}', which {owner} does not have; {hint}"
+            f"<{role}> of joint '{element.name}' names link '{stated.text}', which {owner} does not have{hint}"
         )
     found = scope.link_behind(stated.text, stated)
     if found != "world" and found not in places:
-        hint = nearest(found, places, listing="its links are")
-        raise stated.error(f"<{role}> of joint '{element.name}' leads to no link ('{found}'); {hint}")
+        hint = did_you_mean(found, places, listing="its links are")
+        raise stated.error(f"<{role}> of joint '{element.name}' leads to no link ('{found}'){hint}")
     return found
 
 
@@ -191,10 +193,10 @@ def check_mimics(model: Model) -> None:
                 continue
             leader = joints.get(axis.mimic.joint)
             if leader is None:
-                hint = nearest(axis.mimic.joint, joints, listing="its joints are")
+                hint = did_you_mean(axis.mimic.joint, joints, listing="its joints are")
                 raise joint.element.error(
                     f"<mimic> of joint '{joint.name}' names joint '{axis.mimic.joint}', which model "
-                    f"'{model.name}' does not have; {hint}"
+                    f"'{model.name}' does not have{hint}"
                 )
             if (leader.axis if axis.mimic.axis == "axis" else leader.axis2) is None:
                 text = f"'{leader.name}' is a {leader.kind} joint without <{axis.mimic.axis}>"

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import math
 
-from gz_course.sim.gz.sim.errors import Diagnostics, nearest
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.gz.sim.errors import Diagnostics
 from gz_course.sim.gz.sim.pose import Pose
 from gz_course.sim.gz.sim.sdf.description import Light
 from gz_course.sim.gz.sim.sdf.element import Element
@@ -22,7 +23,8 @@ def read_light(element: Element, pose: Pose, diagnostics: Diagnostics) -> Light:
         raise element.error("<light> needs a name attribute")
     kind = element.attributes.get("type", "point")
     if kind not in KINDS:
-        text = f"light '{element.name}' has type '{kind}', a point light is used; {nearest(kind, KINDS)}"
+        hint = did_you_mean(kind, KINDS, listing="known names are")
+        text = f"light '{element.name}' has type '{kind}', a point light is used{hint}"
         diagnostics.warn(element.where, text)
         kind = "point"
     light = Light(element.name, kind, pose, _direction(element), read_rgb(element, "diffuse", (1.0, 1.0, 1.0)))

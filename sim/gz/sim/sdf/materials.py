@@ -10,7 +10,8 @@ from __future__ import annotations
 
 import math
 
-from gz_course.sim.gz.sim.errors import Diagnostics, nearest
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.gz.sim.errors import Diagnostics
 from gz_course.sim.gz.sim.sdf.element import Element
 
 Rgba = tuple[float, float, float, float]
@@ -115,8 +116,8 @@ def _script_colour(script: Element, diagnostics: Diagnostics) -> Rgba:
     if found is not None:
         return found[0], found[1], found[2], found[3] if len(found) == 4 else 1.0
     if name.startswith("Gazebo/"):
-        hint = nearest(name.rsplit("/", 1)[-1].lower(), _SCRIPT_COLOURS, listing="colours that are known are")
-        diagnostics.warn(script.where, f"material script '{name}' is not known, grey is used; {hint}")
+        hint = did_you_mean(name.rsplit("/", 1)[-1].lower(), _SCRIPT_COLOURS, listing="colours that are known are")
+        diagnostics.warn(script.where, f"material script '{name}' is not known, grey is used{hint}")
     else:
         text = f"material script '{name}' is a file of its own, which is not read; grey is used, give a <diffuse>"
         diagnostics.warn(script.where, text)

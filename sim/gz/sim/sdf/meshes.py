@@ -16,7 +16,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from gz_course.sim.gz.sim.errors import ResourceError, nearest
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.gz.sim.errors import ResourceError
 
 Vertices = NDArray[np.float64]
 Triangles = NDArray[np.int32]
@@ -71,9 +72,8 @@ def read_mesh(path: Path, submesh: str = "", center: bool = False) -> Mesh:
         chosen = [part for part in parts if submesh in part.names]
         if not chosen:
             known = [name for part in parts for name in part.names if name]
-            raise ResourceError(
-                f"{path}: the mesh has no submesh '{submesh}'; {nearest(submesh, known, listing='its submeshes are')}"
-            )
+            hint = did_you_mean(submesh, known, listing="its submeshes are")
+            raise ResourceError(f"{path}: the mesh has no submesh '{submesh}'{hint}")
         parts = chosen
     return _finished(path, vertices, [part.triangles for part in parts], center)
 
@@ -82,8 +82,8 @@ def _bytes_of(path: Path) -> bytes:
     try:
         if not path.is_file():
             siblings = [each.name for each in _listed(path.parent) if each.suffix.lower() in READABLE]
-            hint = nearest(path.name, siblings, listing="meshes in that folder are")
-            raise ResourceError(f"{path}: there is no such mesh file; {hint}")
+            hint = did_you_mean(path.name, siblings, listing="meshes in that folder are")
+            raise ResourceError(f"{path}: there is no such mesh file{hint}")
         size = path.stat().st_size
         if size > _MOST_BYTES:
             raise ResourceError(f"{path}: the mesh has {size // 2**20} MiB, at most {_MOST_BYTES // 2**20} are read")

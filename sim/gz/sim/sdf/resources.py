@@ -19,7 +19,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 from urllib.parse import unquote
 
-from gz_course.sim.gz.sim.errors import ResourceError, SdfError, nearest
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.gz.sim.errors import ResourceError, SdfError
 from gz_course.sim.gz.sim.sdf.element import parse
 
 if TYPE_CHECKING:
@@ -67,8 +68,8 @@ def find_world(name: str | Path) -> Path:
         raise ResourceError(f"'{text}' is a folder, not a world file; name a file in it{hint}")
     known = {path.name for folder in folders for path in _worlds_in(folder)}
     raise ResourceError(
-        f"world file '{text}' was not found as a path, in GZ_SIM_RESOURCE_PATH, or among the built-in worlds; "
-        f"{nearest(Path(text).name, known, listing='worlds that exist are')}"
+        f"world file '{text}' was not found as a path, in GZ_SIM_RESOURCE_PATH, or among the built-in worlds"
+        f"{did_you_mean(Path(text).name, known, listing='worlds that exist are')}"
     )
 
 
@@ -101,8 +102,8 @@ def find_model(uri: str, relative_to: Path | None) -> Path:
         for pattern in ("*/model.config", "models/*/model.config"):
             known |= {path.parent.name for path in folder.glob(pattern)}
     raise ResourceError(
-        f"model '{uri}' was not found in GZ_SIM_RESOURCE_PATH or among the built-in models; "
-        f"{_path_hint(name, relative_to) or nearest(name, known, listing='models that exist are')}"
+        f"model '{uri}' was not found in GZ_SIM_RESOURCE_PATH or among the built-in models"
+        f"{_path_hint(name, relative_to) or did_you_mean(name, known, listing='models that exist are')}"
     )
 
 
@@ -120,12 +121,10 @@ def find_file(uri: str, relative_to: Path | None) -> Path:
     rest = uri.rpartition("://")[2].strip("/")
     hint = _path_hint(rest, relative_to) if uri.startswith(("model://", "package://")) else ""
     siblings = {path.name for candidate in candidates for path in _listed(candidate.parent)}
-    close = nearest(Path(rest).name, siblings) if siblings else ""
-    if not hint and close.startswith("did you mean"):
-        hint = close
+    hint = hint or did_you_mean(Path(rest).name, siblings)
     if not hint:
-        hint = "it was looked for in " + ", ".join(dict.fromkeys(str(each.parent) for each in candidates))
-    raise ResourceError(f"'{uri}' was not found; {hint}")
+        hint = "; it was looked for in " + ", ".join(dict.fromkeys(str(each.parent) for each in candidates))
+    raise ResourceError(f"'{uri}' was not found{hint}")
 
 
 def _candidates(uri: str, relative_to: Path | None) -> Iterator[Path]:
@@ -176,7 +175,7 @@ def _path_hint(path: str, relative_to: Path | None) -> str:
     for folder in (relative_to, *relative_to.resolve().parents) if relative_to is not None else ():
         for each in (folder, folder / name):
             if name and each.name == name and _exists(each) and each.is_dir():
-                return f"there is {each}: add {each.parent} to GZ_SIM_RESOURCE_PATH"
+                return f"; there is {each}: add {each.parent} to GZ_SIM_RESOURCE_PATH"
     return ""
 
 

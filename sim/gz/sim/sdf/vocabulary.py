@@ -11,7 +11,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from gz_course.sim.gz.sim.errors import Diagnostics, nearest
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.gz.sim.errors import Diagnostics
 from gz_course.sim.gz.sim.sdf.element import Element
 
 _MOST_REPORTED = 100
@@ -279,15 +280,15 @@ def check(root: Element, diagnostics: Diagnostics) -> None:
         if count >= _MOST_REPORTED:
             diagnostics.warn(root.where, f"more than {_MOST_REPORTED} words are unknown to SDF, the rest is not named")
             return
-        diagnostics.warn(where, f"{sentence}, it is ignored; {_hint(word, known, listing)}")
+        diagnostics.warn(where, f"{sentence}, it is ignored{_hint(word, known, listing)}")
 
 
 def _hint(word: str, known: frozenset[str], listing: str) -> str:
     """Return the elements to which a word belongs, else the nearest word that is known at its place."""
     homes = sorted(parent for parent, children in CHILDREN.items() if word in children and parent not in _RARE_HOMES)
     if listing == _CHILDREN_LISTING and 0 < len(homes) <= _MOST_HOMES:
-        return f"it belongs into {' or '.join(f'<{home}>' for home in homes)}"
-    return nearest(word, known, listing=listing)
+        return f"; it belongs into {' or '.join(f'<{home}>' for home in homes)}"
+    return did_you_mean(word, known, listing=listing)
 
 
 def _unknown(root: Element) -> Iterator[tuple[str, str, str, frozenset[str], str]]:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gz_course.sim.gz.sim.errors import nearest
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.plugins.sensor import sensor_type
 from gz_course.sim.gz.sim.rendering.camera_sensor import CameraSensor
 from gz_course.sim.gz.sim.rendering.renderer import renderer_for
@@ -72,7 +72,9 @@ class Camera(CameraSensor):
         """The name of the images' gz.msgs.PixelFormatType."""
         if image is not None and stated not in FORMATS:
             world.diagnostics.warn(
-                image.where, f"image format '{stated}' is not one cameras make, R8G8B8 is; {nearest(stated, FORMATS)}"
+                image.where,
+                f"image format '{stated}' is not one cameras make, R8G8B8 is"
+                f"{did_you_mean(stated, FORMATS, listing='known names are')}",
             )
         self._renderer = renderer_for(self)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from gz_course.sim.gz.sim.errors import nearest
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.physics.contacts import CollisionGeoms, CollisionPath, ContactPoint, contact_points
 from gz_course.sim.gz.sim.plugins.sensor import SensorBase, sensor_type
 from gz_course.sim.gz.sim.plugins.sensor_system import sensor_system
@@ -53,12 +53,12 @@ class Contact(SensorBase):
             if child.text in names:
                 self.collisions.append((description.model, description.link, child.text))
             elif child.text:
-                hint = nearest(child.text, names, listing="its collisions are")
+                hint = did_you_mean(child.text, names, listing="its collisions are")
                 text = f"contact sensor '{description.name}' names collision '{child.text}', which link "
-                world.diagnostics.warn(child.where, f"{text}'{description.link}' does not have; {hint}")
+                world.diagnostics.warn(child.where, f"{text}'{description.link}' does not have{hint}")
         if not contact.text_of("collision"):
-            hint = nearest("", names, listing="the collisions of its link are")
-            text = f"contact sensor '{description.name}' names no <collision>, so it never feels anything; {hint}"
+            hint = did_you_mean("", names, listing="the collisions of its link are")
+            text = f"contact sensor '{description.name}' names no <collision>, so it never feels anything{hint}"
             world.diagnostics.warn(contact.where, text)
         self._publisher: Any = None
 

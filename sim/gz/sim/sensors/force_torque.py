@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import mujoco
 import numpy as np
 
-from gz_course.sim.gz.sim.errors import nearest
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.physics.builder import scoped
 from gz_course.sim.gz.sim.physics.motion import start_of_step
 from gz_course.sim.gz.sim.plugins.noise import Noise
@@ -128,5 +128,5 @@ def _choice(element: Element, tag: str, known: tuple[str, ...]) -> str:
     if found is None or not found.text:
         return known[0]
     if found.text not in known:
-        raise found.error(f"<{tag}> '{found.text}' is not known; {nearest(found.text, known, listing='it may be')}")
+        raise found.error(f"<{tag}> '{found.text}' is not known{did_you_mean(found.text, known, listing='it may be')}")
     return found.text

@@ -16,7 +16,8 @@ from typing import TYPE_CHECKING, Any
 import mujoco
 import numpy as np
 
-from gz_course.sim.gz.sim.errors import SimError, nearest
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.gz.sim.errors import SimError
 from gz_course.sim.gz.sim.plugins.noise import Noise
 from gz_course.sim.gz.sim.plugins.sensor import sensor_type
 from gz_course.sim.gz.sim.plugins.sensor_system import sensor_system
@@ -54,8 +55,8 @@ class Imu(SiteSensor):
         self._frame = element.find("imu/orientation_reference_frame")
         self.localization = self._frame.text_of("localization", "CUSTOM") if self._frame is not None else ""
         if self._frame is not None and self.localization not in LOCALIZATIONS:
-            hint = nearest(self.localization, LOCALIZATIONS, listing="localizations are")
-            self._warn(f"<localization> '{self.localization}' is not known; {hint}")
+            hint = did_you_mean(self.localization, LOCALIZATIONS, listing="localizations are")
+            self._warn(f"<localization> '{self.localization}' is not known{hint}")
         variances = [noise.stddev**2 for _, noise in self.read_noises(element)]
         self._covariances = [np.diag(variances[start : start + 3]).ravel().tolist() for start in (0, 3)]
         self.reference: Vector = quaternion_from_rpy(0.0, 0.0, 0.0)
@@ -139,8 +140,8 @@ class Imu(SiteSensor):
             return self.world.truth.link_pose(model, link).quaternion
         except SimError:
             links = [f"{each.name}::{part.name}" for each in self.world.description.models for part in each.links]
-            hint = nearest(name, ["world", *links], listing="frames are")
-            self._warn(f"parent_frame '{name}' of <{tag}> names no link; {hint}")
+            hint = did_you_mean(name, ["world", *links], listing="frames are")
+            self._warn(f"parent_frame '{name}' of <{tag}> names no link{hint}")
             return None
 
     def _warn(self, sentence: str) -> None:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gz_course.sim.gz.sim.errors import nearest
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.physics.builder import VISUAL_GROUP
 from gz_course.sim.gz.sim.plugins.sensor import sensor_type
 from gz_course.sim.gz.sim.rendering.camera_sensor import CameraSensor
@@ -47,7 +47,8 @@ class SegmentationCamera(CameraSensor):
         super().__init__(world, description)
         kind = self.camera.text_of("segmentation_type", "semantic").lower()
         if kind not in _PANOPTIC:
-            raise self.camera.error(f"<segmentation_type> '{kind}' is not known; {nearest(kind, _PANOPTIC)}")
+            hint = did_you_mean(kind, _PANOPTIC, listing="known names are")
+            raise self.camera.error(f"<segmentation_type> '{kind}' is not known{hint}")
         self.panoptic = _PANOPTIC[kind]
 
     def topic_suffix(self) -> str:

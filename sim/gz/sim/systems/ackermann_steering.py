@@ -13,9 +13,9 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.driving.odometry_reports import OdometryReports
 from gz_course.sim.gz.sim.driving.speed_limiter import SpeedLimiter
-from gz_course.sim.gz.sim.errors import nearest
 from gz_course.sim.gz.sim.physics.servos import MAX_WHEEL_SPEED, VELOCITY, WHEEL, Drive, JointServo, find_drive
 from gz_course.sim.gz.sim.plugins.model_scope import ModelScope
 from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, system
@@ -257,9 +257,9 @@ def _joints(model: Model, plugin: Plugin, tag: str) -> list[str]:
         joint = model.joint(prefix + child.text)
         if joint is None:
             known = [each.name.removeprefix(prefix) for each in model.joints]
-            hint = nearest(child.text, known, listing="its joints are")
+            hint = did_you_mean(child.text, known, listing="its joints are")
             text = f"AckermannSteering's <{tag}> names joint '{child.text}', which model '{model.name}' does not have"
-            raise child.error(f"{text}; {hint}")
+            raise child.error(f"{text}{hint}")
         if joint.kind not in ("revolute", "continuous"):
             raise child.error(f"AckermannSteering's <{tag}> '{child.text}' is a {joint.kind} joint; it must turn")
         found.append(joint.name)

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import mujoco
 import numpy as np
 
-from gz_course.sim.gz.sim.errors import nearest
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, system
 from gz_course.sim.gz.sim.plugins.topics import valid_topic
 from gz_course.sim.gz.sim.pose import Vector, rotate
@@ -142,9 +142,9 @@ class ApplyLinkWrench(System):
             body = int(mujoco.mj_name2id(self.world.model, mujoco.mjtObj.mjOBJ_BODY, found))
         elif warn:
             known = (each.name for each in self.world.description.models)
-            hint = nearest(wrench.name.split("::")[0], known, listing="models are")
+            hint = did_you_mean(wrench.name.split("::")[0], known, listing="models are")
             self.world.diagnostics.warn(
-                "", f"a wrench is for '{wrench.name or wrench.number}', which is not there; {hint}"
+                "", f"a wrench is for '{wrench.name or wrench.number}', which is not there{hint}"
             )
         if body <= 0:
             return

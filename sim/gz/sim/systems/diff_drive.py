@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.driving.odometry_reports import OdometryReports
 from gz_course.sim.gz.sim.driving.speed_limiter import SpeedLimiter
 from gz_course.sim.gz.sim.driving.wheel_odometry import WheelOdometry
-from gz_course.sim.gz.sim.errors import nearest
 from gz_course.sim.gz.sim.physics.servos import MAX_WHEEL_SPEED, WHEEL, JointServo
 from gz_course.sim.gz.sim.plugins.model_scope import ModelScope
 from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, system
@@ -217,9 +217,8 @@ def _joints(model: Model, plugin: Plugin, side: str) -> list[str]:
         if joint is None:
             known = [each.name.removeprefix(prefix) for each in model.joints]
             raise element.error(
-                f"DiffDrive's <{side}> names joint '{element.text}', which model '{model.name}' does not "
-                "have; "
-                f"{nearest(element.text, known, listing='its joints are')}"
+                f"DiffDrive's <{side}> names joint '{element.text}', which model '{model.name}' does not have"
+                f"{did_you_mean(element.text, known, listing='its joints are')}"
             )
         if joint.kind not in ("revolute", "continuous"):
             raise element.error(

@@ -10,7 +10,8 @@ from __future__ import annotations
 import argparse
 import sys
 
-from gz_course.sim.gz.command_line import Parser, nearest, whole_number
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.gz.command_line import Parser, whole_number
 from gz_course.sim.gz.msgs import canonical_name, message_class
 from gz_course.sim.gz.transport.node import Node
 from gz_course.sim.gz.transport.service import EMPTY_TYPE
@@ -106,7 +107,7 @@ def _why_not(node: Node, service: str, request_type: str, response_type: str, ti
 
 
 def _nearest_service(node: Node, service: str) -> str:
-    return nearest(service, node.service_list()) or "; see gz service -l"
+    return did_you_mean(service, node.service_list()) or "; see gz service -l"
 
 
 def _say(sentence: str) -> None:

@@ -16,7 +16,8 @@ from collections.abc import Sequence
 
 from google.protobuf.message import DecodeError, Message
 
-from gz_course.sim.gz.command_line import Parser, nearest, positive_number, whole_number
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.gz.command_line import Parser, positive_number, whole_number
 from gz_course.sim.gz.msgs import canonical_name, message_class
 from gz_course.sim.gz.transport.echo_queue import Arrival, EchoQueue
 from gz_course.sim.gz.transport.message_info import MessagePublisher
@@ -185,7 +186,7 @@ def _say_when_unpublished(node: Node, topic: str, heard: int) -> None:
 
 def _nearest_topic(node: Node, topic: str) -> str:
     own = {topic, f"/{topic}"}
-    return nearest(topic, [each for each in node.topic_list() if each not in own])
+    return did_you_mean(topic, [each for each in node.topic_list() if each not in own])
 
 
 def _say(sentence: str) -> None:

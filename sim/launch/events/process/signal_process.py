@@ -5,7 +5,7 @@ from __future__ import annotations
 import signal
 from typing import Any
 
-from gz_course.sim.launch.errors import nearest
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.launch.events.process.process_targeted_event import ProcessTargetedEvent
 
 
@@ -18,6 +18,7 @@ class SignalProcess(ProcessTargetedEvent):
         super().__init__(**kwargs)
         names = signal.Signals.__members__
         if isinstance(signal_number, str) and signal_number not in names:
-            raise ValueError(f"there is no signal {signal_number!r}{nearest(signal_number, names)}")
+            hint = did_you_mean(signal_number, names, listing="there are")
+            raise ValueError(f"there is no signal {signal_number!r}{hint}")
         self.signal = names[signal_number] if isinstance(signal_number, str) else signal.Signals(signal_number)
         self.signal_name = self.signal.name

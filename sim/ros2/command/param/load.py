@@ -8,7 +8,8 @@ from typing import Any
 
 import yaml
 
-from gz_course.sim.ros2.errors import CommandError, did_you_mean
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.ros2.errors import CommandError
 from gz_course.sim.ros2.message_value import parse_yaml
 from gz_course.sim.ros2.parameter import add_node_options, flat, node_parameters, parameter_value
 from gz_course.sim.ros2.topic import warn

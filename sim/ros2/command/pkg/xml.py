@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 from xml.etree import ElementTree
 
-from gz_course.sim.ros2.errors import CommandError, did_you_mean
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.ros2.errors import CommandError
 from gz_course.sim.ros2.packages import package_share
 
 

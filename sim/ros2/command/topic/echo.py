@@ -9,7 +9,8 @@ from typing import Any
 
 import yaml
 
-from gz_course.sim.ros2.errors import CommandError, did_you_mean
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.ros2.errors import CommandError
 from gz_course.sim.ros2.graph import Graph, add_graph_options
 from gz_course.sim.ros2.interface import message_class, message_type_name
 from gz_course.sim.ros2.message_text import TextFormat, is_message, to_csv, to_yaml

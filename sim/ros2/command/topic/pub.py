@@ -12,7 +12,8 @@ from rclpy.exceptions import InvalidNodeNameException
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.validate_node_name import validate_node_name
 
-from gz_course.sim.ros2.errors import CommandError, did_you_mean
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.ros2.errors import CommandError
 from gz_course.sim.ros2.graph import Graph, add_graph_options
 from gz_course.sim.ros2.interface import message_class, message_type_name
 from gz_course.sim.ros2.message_value import fill

@@ -82,8 +82,8 @@ def test_right_bridges_pass(found):
     [
         ({"ros_topic": "/laser"}, ["line 6", "/lidar is called /laser in ROS here", "/scan"]),
         ({"ros_topic": "/lidar", "gz_topic": "/scan"}, ["line 6", "the wrong way round", "/lidar is Gazebo's name"]),
-        ({"ros_topic": "/scans", "gz_topic": "/x"}, ["no bridge has the ROS topic /scan", "is it /scans?"]),
-        ({"gz_topic": "/lidarr"}, ["line 6", "nobody in Gazebo publishes /lidarr", "did you mean /lidar?"]),
+        ({"ros_topic": "/scans", "gz_topic": "/x"}, ["no bridge has the ROS topic /scan", "is it '/scans'?"]),
+        ({"gz_topic": "/lidarr"}, ["line 6", "nobody in Gazebo publishes /lidarr", "did you mean '/lidar'?"]),
         ({"gz_topic": "/imu"}, ["line 6", "/imu is not the Gazebo topic that belongs to /scan"]),
         ({"ros_type": "sensor_msgs/msg/Range"}, ["line 6", "but the node uses sensor_msgs/msg/LaserScan"]),
         ({"gz_type": "gz.msgs.IMU"}, ["line 6", "in Gazebo it is gz.msgs.LaserScan"]),
@@ -136,7 +136,7 @@ def test_nothing_at_all_fails(found):
 
 
 def test_a_direction_that_is_none_is_the_authors_mistake(found):
-    with pytest.raises(ManifestError, match="did you mean GZ_TO_ROS"):
+    with pytest.raises(ManifestError, match="did you mean 'GZ_TO_ROS'"):
         found(SCAN, direction="GZ_TO_RSO")
 
 

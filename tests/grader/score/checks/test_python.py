@@ -45,7 +45,7 @@ def test_the_function_decides(checked, tmp_path):
         ("checks.py", r"FILE.py:FUNCTION"),
         ("../checks.py:circles", r"own folder"),
         ("cheks.py:circles", r"cheks\.py, which does not exist"),
-        ("checks.py:circle", r"no function 'circle' .did you mean circles"),
+        ("checks.py:circle", r"no function 'circle'; did you mean 'circles'"),
         ("checks.py:wrong", r"wrong\(\) must return a Finding, not True"),
         ("checks.py:breaks", r"checks\.py, line 15: KeyError: 'trns'"),
     ],

@@ -10,7 +10,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from gz_course.sim.gz.sim.errors import Diagnostics, nearest
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.gz.sim.errors import Diagnostics
 from gz_course.sim.gz.sim.pose import Pose
 from gz_course.sim.gz.sim.sdf.element import Element
 from gz_course.sim.gz.sim.sdf.urdf.making import make, place, set_value
@@ -96,10 +97,10 @@ def read_gazebo_tags(robot: Robot, diagnostics: Diagnostics) -> GazeboTags:
     for element in robot.element.all("gazebo"):
         reference = element.attributes.get("reference", "")
         if reference and reference not in robot.links and reference not in robot.joints:
-            hint = nearest(reference, [*robot.links, *robot.joints], listing="its links and joints are")
+            hint = did_you_mean(reference, [*robot.links, *robot.joints], listing="its links and joints are")
             diagnostics.warn(
                 element.where,
-                f"<gazebo reference='{reference}'> names no link or joint of the robot, so it does nothing; {hint}",
+                f"<gazebo reference='{reference}'> names no link or joint of the robot, so it does nothing{hint}",
             )
         if reference:
             for plugin in element.all("plugin"):

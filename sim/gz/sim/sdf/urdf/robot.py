@@ -11,7 +11,8 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from gz_course.sim.gz.sim.errors import Diagnostics, nearest
+from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.gz.sim.errors import Diagnostics
 from gz_course.sim.gz.sim.pose import Pose
 from gz_course.sim.gz.sim.sdf.element import Element
 
@@ -172,8 +173,8 @@ def _warn_of_unknown(root: Element, diagnostics: Diagnostics) -> None:
                 if child.tag != "gazebo":
                     waiting.append(child)
             elif ":" not in child.tag:
-                hint = nearest(child.tag, known, listing="elements that can stand there are")
-                diagnostics.warn(child.where, f"URDF's <{element.tag}> has no <{child.tag}>, it is ignored; {hint}")
+                hint = did_you_mean(child.tag, known, listing="elements that can stand there are")
+                diagnostics.warn(child.where, f"URDF's <{element.tag}> has no <{child.tag}>, it is ignored{hint}")
 
 
 Colour = tuple[float, float, float, float]
@@ -248,8 +249,8 @@ def _visual_colour(visual: Element, colours: dict[str, Colour | None], diagnosti
     if material.name in colours:
         return colours[material.name]
     if own is None and material.find("texture") is None:
-        hint = nearest(material.name, colours, listing="materials that are defined before it are")
-        diagnostics.warn(material.where, f"material '{material.name}' is not defined, grey is used; {hint}")
+        hint = did_you_mean(material.name, colours, listing="materials that are defined before it are")
+        diagnostics.warn(material.where, f"material '{material.name}' is not defined, grey is used{hint}")
         return None
     colours[material.name] = own
     return own
@@ -260,8 +261,8 @@ def _joint(element: Element, robot: Robot) -> UrdfJoint:
         raise element.error("<joint> needs a name attribute")
     kind = element.attributes.get("type", "")
     if kind not in JOINT_KINDS:
-        hint = nearest(kind, JOINT_KINDS, listing="types are")
-        raise element.error(f"joint '{element.name}' has type '{kind}'; {hint}")
+        hint = did_you_mean(kind, JOINT_KINDS, listing="types are")
+        raise element.error(f"joint '{element.name}' has type '{kind}'{hint}")
     ends = [_end(element, role, robot) for role in ("parent", "child")]
     if ends[0] == ends[1]:
         raise element.error(f"joint '{element.name}' connects link '{ends[0]}' with itself")
@@ -274,8 +275,8 @@ def _end(joint: Element, role: str, robot: Robot) -> str:
     if end is None or not name:
         raise (end or joint).error(f"joint '{joint.name}' needs <{role} link='...'/>")
     if name not in robot.links:
-        hint = nearest(name, robot.links, listing="its links are")
-        raise end.error(f"<{role}> of joint '{joint.name}' names link '{name}', which the robot does not have; {hint}")
+        hint = did_you_mean(name, robot.links, listing="its links are")
+        raise end.error(f"<{role}> of joint '{joint.name}' names link '{name}', which the robot does not have{hint}")
     return name
 
 

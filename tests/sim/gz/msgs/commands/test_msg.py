@@ -35,7 +35,7 @@ def test_an_unknown_type_is_one_line_with_the_nearest_name(capsys):
     assert main(["msg", "-i", "gz.msgs.Twits"]) == 1
     out, error = capsys.readouterr()
     assert out == ""
-    assert error == "gz msg: There is no message type 'gz.msgs.Twits' in gz.msgs; did you mean gz.msgs.Twist?\n"
+    assert error == "gz msg: There is no message type 'gz.msgs.Twits' in gz.msgs; did you mean 'gz.msgs.Twist'?\n"
 
 
 def test_the_version_is_one_line(capsys):

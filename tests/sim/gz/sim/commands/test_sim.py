@@ -137,7 +137,7 @@ def test_errors_are_one_sentence(start: Callable[..., subprocess.Popen[str]], tm
 @pytest.mark.parametrize(
     ("arguments", "code", "sentence"),
     [
-        (["--iteratons", "5", "empty.sdf"], 109, "did you mean --iterations?"),
+        (["--iteratons", "5", "empty.sdf"], 109, "did you mean '--iterations'?"),
         (["--iterations", "-5", "empty.sdf"], 104, "zero or more"),
         (
             ["--iterations", "some", "empty.sdf"],
@@ -151,7 +151,7 @@ def test_errors_are_one_sentence(start: Callable[..., subprocess.Popen[str]], tm
         (["--playback", "log"], 2, "gz log -i"),
         (["--initial-sim-time", "-3", "empty.sdf"], 104, "zero or more"),
         (["--initial-sim-time"], 114, "--initial-sim-time"),
-        (["--record-pth", "x", "empty.sdf"], 109, "did you mean --record-path?"),
+        (["--record-pth", "x", "empty.sdf"], 109, "did you mean '--record-path'?"),
         ([], 2, "which world"),
     ],
 )

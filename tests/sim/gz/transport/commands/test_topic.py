@@ -118,7 +118,7 @@ def test_echo_of_a_type_that_is_not_known_says_which(gz, node):
     code, out, error = echo.end()
     assert (code, out) == (1, "")
     assert "'gz.msgs.Twizt'" in error
-    assert "did you mean gz.msgs.Twist" in error
+    assert "did you mean 'gz.msgs.Twist" in error
 
 
 def test_broken_bytes_are_reported_and_do_not_end_the_echo(gz, node):
@@ -225,7 +225,7 @@ def test_publishing_another_type_than_wanted_says_so(gz, node):
         (["-l", "--json-output"], 107, "--json-output requires --echo"),
         (["-e", "-t", "/a", "-n", "1", "-d", "1"], 108, "--duration excludes --num"),
         (["-l", "-e", "-t", "/a"], 108, "--list excludes --echo"),
-        (["--eco"], 109, "did you mean --echo?"),
+        (["--eco"], 109, "did you mean '--echo'?"),
         (["-l", "/scan"], 109, "'/scan' belongs to no option"),
         (["-e", "-t", "/a", "-n", "many"], 104, "'many'"),
         (["-e", "-t", "/a", "-d", "-1"], 104, "'-1'"),
@@ -233,7 +233,7 @@ def test_publishing_another_type_than_wanted_says_so(gz, node):
         (["-e", "-t"], 114, "-t/--topic"),
         (["-e", "-t", "/a b"], 1, "must not contain a space"),
         (["-e", "-t", ""], 1, "must not be empty"),
-        (["-p", "", "-t", "/a", "-m", "gz.msgs.Twits"], 1, "did you mean gz.msgs.Twist"),
+        (["-p", "", "-t", "/a", "-m", "gz.msgs.Twits"], 1, "did you mean 'gz.msgs.Twist"),
         (["-p", "linaer: {}", "-t", "/a", "-m", "gz.msgs.Twist"], 1, "did you mean 'linear'?"),
         (["-p", "linear: {x: fast}", "-t", "/a", "-m", "gz.msgs.Twist"], 1, "line 1, column 13"),
     ],
