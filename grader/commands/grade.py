@@ -51,7 +51,7 @@ def command(
     from gz_course.grader.run.sandbox import choose, enter_early
 
     level = choose(sandbox, demand)
-    enter_early(level)  # before there are threads
+    enter_early(level)  # before any thread exists
 
     from gz_course.grader.grade import PACES, grade, recording_path
     from gz_course.grader.report.best import BEST, RUNS, keep_best
@@ -61,7 +61,7 @@ def command(
     if pace not in PACES:
         raise UsageError(f"there is no pace {pace!r}{nearest(pace, PACES)}")
     chosen = find_exercise(exercise)
-    own = out is None  # a folder for recordings alone belongs to whoever named it
+    own = out is None  # best.json is kept only in the default folder
     out = out or RUNS / chosen.name
     asked = numbered(chosen_trials(chosen, trials))
     outputs = Outputs(reports)
@@ -72,7 +72,7 @@ def command(
     report = grade(chosen, submission, out, seed=seed, pace=pace, trials=asked, sandbox=level, started=STARTED)
     try:
         print_report(report)
-    finally:  # also for a terminal that has gone
+    finally:  # also if the terminal has been closed
         outputs.write(report)
         if own:
             keep_best(report, out)

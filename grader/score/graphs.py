@@ -1,7 +1,7 @@
-"""The two graphs as a recording has them: the bridges between them, and which way messages went.
+"""The two graphs in a recording: the bridges between them, and the direction of messages.
 
-Read by the checks on tables and bridges (`checks/table_*.py`, `checks/bridge*.py`) from the facts that a run with the
-exercise's own node leaves (`run/graphs.py`).
+The checks on tables and bridges (`checks/table_*.py`, `checks/bridge*.py`) read them from the facts that
+`run/graph_snapshot.py` recorded.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ WAYS = ("GZ_TO_ROS", "ROS_TO_GZ", "BIDIRECTIONAL")
 
 @dataclass(frozen=True)
 class Qos:
-    """What an endpoint offers or asks for."""
+    """The quality of service an endpoint offers or requests."""
 
     reliability: str
     durability: str
@@ -26,7 +26,7 @@ class Qos:
 
 @dataclass(frozen=True)
 class Bridged:
-    """One bridge of a run: as it was configured (`source` is `file:line`), and the messages that went each way."""
+    """One bridge of a run: its configuration (`source` is `file:line`), and the messages it passed each way."""
 
     source: str
     ros_topic: str
@@ -41,7 +41,7 @@ class Bridged:
 
     @property
     def place(self) -> str:
-        """Return in words where it is written."""
+        """Where it is configured, in words."""
         file, _, line = self.source.rpartition(":")
         return f"{file}, line {line}" if file else self.source
 
@@ -60,18 +60,18 @@ def bridges(recording: Recording) -> list[Bridged]:
 
 @dataclass(frozen=True)
 class Link:
-    """One topic as it really was on both sides: a row of the table a student is to write."""
+    """One bridged topic as it was on both sides: the correct row of a student's table."""
 
     ros_topic: str
     ros_type: str
     gz_topic: str
     gz_type: str
-    direction: str  # which way messages went; empty if none did
+    direction: str  # direction of the messages; empty if there were none
     publisher: tuple[str, ...]  # ROS nodes that published on it
 
 
 def links(recording: Recording) -> list[Link]:
-    """Return the bridged topics, by ROS name. Types and publishers are those of the live graphs."""
+    """Return the bridged topics, sorted by ROS name. Types and publishers are those of the live graphs."""
     facts = recording.facts()
     ros, gz = facts.get("ros_topics", {}), facts.get("gz_topics", {})
     found = []
@@ -95,6 +95,6 @@ def links(recording: Recording) -> list[Link]:
 
 
 def did_you_mean(word: str, words: list[str], cutoff: float = 0.6) -> str:
-    """Return a clause that names the nearest of `words`, or nothing. Among equals the first in order wins."""
+    """Return a clause that names the nearest of `words`, the first of equals, or nothing."""
     near = get_close_matches(word, sorted(set(words)), n=1, cutoff=cutoff)
     return f" (did you mean {near[0]}?)" if near else ""

@@ -1,4 +1,4 @@
-"""`launched_simulator`: does the launch start one simulator, which is there to the end?
+"""`launched_simulator`: does the launch start exactly one simulator, which runs to the end?
 
 kind = "launched_simulator"
 """
@@ -13,7 +13,7 @@ from gz_course.grader.score.launched import complaint, launch_facts, ran
 
 @check_kind("launched_simulator")
 def launched_simulator(recording: Recording, parameters: Table) -> Finding:
-    """Pass if exactly one `gz sim` had a world to run and was still there when the launch was interrupted."""
+    """Pass if exactly one `gz sim` had a world and was still running when the launch was interrupted."""
     expected = "one gz sim with a world, from the start to the end"
     facts, running = launch_facts(recording), ran(recording)
     if not running:

@@ -1,4 +1,4 @@
-"""`order`: did things happen one after another, in this order?
+"""`order`: did events happen in this order?
 
 kind = "order"
 events = [                # at least two; see grader/score/events.py
@@ -7,7 +7,7 @@ events = [                # at least two; see grader/score/events.py
     { log = "arrived", name = "the node says that it arrived" },
 ]
 
-What counts is the first time each of them happens. Two at the same moment are in order.
+The first occurrence of each event counts. Two at the same time are in order.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from gz_course.grader.score.steps import told
 
 @check_kind("order")
 def order(recording: Recording, parameters: Table) -> Finding:
-    """Pass if every event happens and none happens before the one that stands before it."""
+    """Pass if every event happens and none happens before its predecessor in the list."""
     events = [Event.read(table) for table in parameters.tables("events")]
     if len(events) < 2:
         parameters.refuse("events", "a list of at least two events")

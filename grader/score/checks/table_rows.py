@@ -16,7 +16,7 @@ from gz_course.grader.score.graphs import did_you_mean, links
 
 @check_kind("table_rows")
 def table_rows(recording: Recording, parameters: Table) -> Finding:
-    """Pass if the topics of the rows are exactly those that the bridge joins."""
+    """Pass if the topics of the rows are exactly those that the bridge connects."""
     facts = recording.facts()
     rows = facts.get("table", [])
     wanted = [link.ros_topic for link in links(recording)]

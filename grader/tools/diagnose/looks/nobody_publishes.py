@@ -1,4 +1,4 @@
-"""A node or a bridge waits for a topic nobody publishes; the name that was meant is often near."""
+"""A node or a bridge that subscribes to a topic without publishers; often the intended name is similar."""
 
 from __future__ import annotations
 

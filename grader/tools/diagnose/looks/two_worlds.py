@@ -1,4 +1,4 @@
-"""Two simulators in one Gazebo partition: commands and clocks of both mix."""
+"""Several simulators in one Gazebo partition: their commands and clocks mix."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ BEFORE = ("clock_loop", "no_clock", "two_clocks")
 
 
 def look(system: System) -> Iterator[Finding]:
-    """Find more than one world, or one world served twice."""
+    """Find more than one world, or one world with several servers."""
     worlds = system.gz.worlds
     servers = sum(len(world.servers) for world in worlds)
     if servers < 2:
