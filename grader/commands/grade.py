@@ -36,7 +36,7 @@ def command(
     ] = "public",
     sandbox: Annotated[
         str,
-        typer.Option(help="How firmly the submission is locked in: auto (the best that works here), A, B, C or D."),
+        typer.Option(help="Sandbox level: auto (the best that works here), A, B, C or D."),
     ] = "auto",
     demand: Annotated[
         str | None, typer.Option(help="Refuse to grade in a sandbox below this level, such as B for official grading.")

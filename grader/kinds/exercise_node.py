@@ -24,7 +24,7 @@ def exercise_node(exercise: Exercise) -> dict[str, bytes]:
         return {EXERCISE_NODE: (exercise.folder / EXERCISE_NODE).read_bytes()}
     except OSError as error:
         raise ManifestError(
-            f"{exercise.folder} has no {EXERCISE_NODE}, the node that plays in it: {error.strerror}"
+            f"{exercise.folder} has no {EXERCISE_NODE}, the exercise's own node: {error.strerror}"
         ) from None
 
 

@@ -22,12 +22,10 @@ def clock_fault(recording: Recording, findings: Iterable[Finding]) -> str:
     for place in facts.get("wall_clock", []):
         where = f"{place['file']}, line {place['line']}"
         if place["waits"]:
-            sentence = (
-                f"{where}: {place['call']} waits by the clock on the wall, but time is simulated here: use a timer"
-            )
+            sentence = f"{where}: {place['call']} waits by the wall clock, but time is simulated here: use a timer"
         else:
             sentence = (
-                f"{where}: {place['call']} asks the clock on the wall, but time is simulated here: ask the node's own "
+                f"{where}: {place['call']} reads the wall clock, but time is simulated here: read the node's own "
                 "clock, self.get_clock().now()"
             )
         return shown(f"{sentence}.")
@@ -38,7 +36,7 @@ def clock_fault(recording: Recording, findings: Iterable[Finding]) -> str:
     for node in sorted({e["node"] for e in endpoints} - follows - bridges):
         return shown(
             f"Your node {node} does not follow simulated time: its parameter use_sim_time is not true, so its clock "
-            "and its timers run by the clock on the wall. Call rclpy.init() without arguments of your own, and leave "
+            "and its timers follow the wall clock. Call rclpy.init() without arguments of your own, and leave "
             "use_sim_time as it was given."
         )
     return ""

@@ -25,7 +25,7 @@ LIMITS = {
     "memory": "and all it started used more than 2 GiB of memory together",
     "processes": "started more than 128 processes",
     "disk": "wrote more files, or larger ones, than its folder may hold (64 MiB)",
-    "output": "printed more than 64 MiB: more than anybody can read",
+    "output": "printed more than 64 MiB",
 }
 
 # Topics of every ROS 2 node, which say nothing about the exercise.
@@ -252,7 +252,7 @@ def dropped(recording: Recording, facts: dict[str, Any]) -> str:
         verb, pronoun = ("was", "it") if count == 1 else ("were", "they")
         return (
             f"{what} on {topic} {verb} dropped because {pronoun} held NaN or infinite numbers; "
-            "the robot never saw them."
+            "the robot did not receive them."
         )
     return ""
 

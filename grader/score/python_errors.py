@@ -83,7 +83,7 @@ MEANINGS = (
         "rclpy.spin() takes a node, not its class: with brackets, MyNode(), it is one",
     ),
     (re.compile(r"RuntimeError: Context\.init\(\) must only be called once"), "call rclpy.init() once, at the start"),
-    (re.compile(r"EOFError: EOF when reading a line"), "nobody sits at a keyboard here: do without input()"),
+    (re.compile(r"EOFError: EOF when reading a line"), "there is no keyboard here: do not call input()"),
 )
 
 

@@ -221,7 +221,7 @@ class ClassRun:
             if self._hopeless >= HOPELESS:
                 raise InfrastructureError(
                     f"nothing can be graded here: {HOPELESS} gradings in a row failed, the last because "
-                    f"{graded.fault}; nobody has lost anything, `course doctor` may know more"
+                    f"{graded.fault}; no student loses points; `course doctor` may show the cause"
                 )
 
     def _keep(self, result: Result, graded: Graded, key: str, journal: Journal) -> None:

@@ -22,7 +22,9 @@ def launched_simulator(recording: Recording, parameters: Table) -> Finding:
         return Finding(False, expected, f"gz sim said: {said}" if said else "no simulator was started")
     if len(running) > 1:
         worlds = ", ".join(each["world"] for each in running)
-        return Finding(False, expected, f"{len(running)} simulators were started ({worlds}); all of them tell the time")
+        return Finding(
+            False, expected, f"{len(running)} simulators were started ({worlds}); each publishes its own time"
+        )
     if not facts["simulator_at_end"]:
         return Finding(False, expected, "gz sim had ended before the launch was interrupted")
     return Finding(True, expected, f"it ran {running[0]['world']}")

@@ -66,4 +66,4 @@ def _many(times: np.ndarray) -> str:
 
 
 def _quoted(text: str | None) -> str:
-    return "nothing that is a text" if text is None else repr(shown(text, LONGEST_QUOTE))
+    return "something other than a text" if text is None else repr(shown(text, LONGEST_QUOTE))

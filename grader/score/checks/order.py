@@ -31,10 +31,10 @@ def order(recording: Recording, parameters: Table) -> Finding:
         moment = event.first(recording)
         if moment is None:
             done = f" after {before[0]} at {told(before[1])} s" if before else ""
-            return Finding(False, expected, f"there was never {event.name}{done}", None)
+            return Finding(False, expected, f"this never happened: {event.name}{done}", None)
         if before is not None and moment < before[1]:
             measured = f"{event.name} at {told(moment)} s, before {before[0]} at {told(before[1])} s"
             return Finding(False, expected, measured, round(moment, 3), timing=True)
         before = event.name, moment
     assert before is not None
-    return Finding(True, expected, f"so it was; the last at {told(before[1])} s", round(before[1], 3))
+    return Finding(True, expected, f"in this order, the last at {told(before[1])} s", round(before[1], 3))

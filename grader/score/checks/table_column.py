@@ -50,7 +50,7 @@ def table_column(recording: Recording, parameters: Table) -> Finding:
     if first_wrong:
         return Finding(False, expected, first_wrong)
     if right < least:
-        return Finding(False, expected, f"{right} rows say it; at least {least:g} are needed", gated=True)
+        return Finding(False, expected, f"{right} rows are correct; at least {least:g} are needed", gated=True)
     return Finding(True, expected, f"{right} rows")
 
 

@@ -21,7 +21,7 @@ def table_rows(recording: Recording, parameters: Table) -> Finding:
     rows = facts.get("table", [])
     wanted = [link.ros_topic for link in links(recording)]
     named = Counter(row["ros_topic"] for row in rows)
-    expected = f"one row for each of the {len(wanted)} topics that go across"
+    expected = f"one row for each of the {len(wanted)} bridged topics"
     for row in rows:
         topic, where = row["ros_topic"], f"line {row['line']}"
         if not topic:

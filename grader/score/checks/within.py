@@ -32,7 +32,7 @@ def within(recording: Recording, parameters: Table) -> Finding:
     wanted = " and ".join(map(str, conditions))
     if begin is None:
         assert event is not None
-        return Finding(False, f"{wanted} for {seconds:g} s after {event.name}", f"there was never {event.name}")
+        return Finding(False, f"{wanted} for {seconds:g} s after {event.name}", f"this never happened: {event.name}")
     start, end = begin + settle, begin + settle + seconds
     edges, holds = fulfilled(recording, conditions, start, end)
     expected = f"{wanted} from {start:g} s to {end:g} s"

@@ -22,9 +22,9 @@ class Severity(enum.IntEnum):
     ERROR = 0
     """Something cannot work."""
     WARNING = 1
-    """Something goes wrong, or is about to."""
+    """An error that happens now or will happen."""
     NOTE = 2
-    """Works as it stands, and surprises people. Alone it is nothing wrong."""
+    """Behaviour that is correct but surprising; not an error."""
 
 
 @dataclass(frozen=True)

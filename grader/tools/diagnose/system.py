@@ -16,10 +16,10 @@ from gz_course.sim.gz.transport import MessagePublisher, ServicePublisher
 from gz_course.sim.ros_gz_bridge.entry import BridgeEntry
 
 OTHER_TYPE = 0.8
-"""How much alike a name must be to be meant although its type differs."""
+"""Least similarity of a name that may be the intended one although its type differs."""
 
 INFRASTRUCTURE = frozenset({"/rosout", "/parameter_events", "/clock", "/tf", "/tf_static", "/robot_description"})
-"""ROS topics that many nodes have, used or not."""
+"""ROS topics of many nodes that may be unused."""
 
 
 @dataclass(frozen=True)
@@ -82,9 +82,9 @@ class RosSide:
     heard: dict[str, Heard] = field(default_factory=dict)
     clock: list[tuple[float, int]] = field(default_factory=list)
     frames: set[str] = field(default_factory=set)
-    """Frames named on /tf and /tf_static."""
+    """Frames on /tf and /tf_static."""
     seconds: float = 0.0
-    """How long was listened."""
+    """Duration of the observation [s]."""
 
 
 @dataclass

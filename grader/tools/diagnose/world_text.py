@@ -16,7 +16,7 @@ DRIVES = {
 """Systems that turn a Twist into motion and report odometry, with their files."""
 
 DEFAULT_SYSTEMS = frozenset({"Physics", "UserCommands", "SceneBroadcaster"})
-"""What Gazebo runs in a world that names no plugin."""
+"""Systems that Gazebo runs in a world without plugins."""
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from gz_course.grader.run.sandbox.spec import SandboxSpec
 
-ABOUT = "limits and a process group of its own: keeps accidents in, no jail for hostile code"
+ABOUT = "limits and a process group of its own: prevents accidents, does not stop hostile code"
 PRIVATE_NETWORK = False
 NAMESPACES = ""
 LANDLOCK = False

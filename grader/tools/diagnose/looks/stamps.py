@@ -32,7 +32,7 @@ def look(system: System) -> Iterator[Finding]:
             else:
                 sentence = (
                     f"Messages on {topic} from {names(senders)} are stamped {stamp:.1f} s while /clock says "
-                    f"{clock_ns * 1e-9:.1f} s: whoever matches stamps drops them."
+                    f"{clock_ns * 1e-9:.1f} s: subscribers that match stamps drop them."
                 )
                 fix = "Start the node that stamps them with --ros-args -p use_sim_time:=true"
             evidence = tuple(

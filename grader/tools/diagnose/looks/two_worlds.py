@@ -21,7 +21,7 @@ def look(system: System) -> Iterator[Finding]:
     number = len(worlds) if len(worlds) > 1 else servers
     yield Finding(
         Severity.ERROR,
-        f"{number} {what} run in the Gazebo partition {system.gz.partition!r}: whoever listens hears all of them.",
+        f"{number} {what} run in the Gazebo partition {system.gz.partition!r}: subscribers receive all of them.",
         "End the one that is left over from an earlier run (pgrep -af 'gz sim'), or give each run its own "
         "GZ_PARTITION.",
         tuple(f"{world.name}: {len(world.servers)} server{'s' if len(world.servers) > 1 else ''}" for world in worlds),

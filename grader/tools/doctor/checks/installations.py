@@ -40,7 +40,8 @@ def judge(environment: Mapping[str, str], prefix: Path, rclpy: str | None) -> Ve
     ]
     if elsewhere:
         return warning(
-            f"other programs answer: {', '.join(elsewhere)}", f"`source {prefix}/bin/activate` puts ours first"
+            f"other programs come first: {', '.join(elsewhere)}",
+            f"`source {prefix}/bin/activate` puts those of this environment first",
         )
     if missing := [name for name, place in found.items() if place is None]:
         return warning(
@@ -49,5 +50,7 @@ def judge(environment: Mapping[str, str], prefix: Path, rclpy: str | None) -> Ve
         )
     others = [name for name in ("ROS_DISTRO", "GZ_VERSION") if environment.get(name)]
     if others:
-        return warning(f"{others[0]} is set by another installation, but our commands answer", fix)
+        return warning(
+            f"{others[0]} is set by another installation, but the commands of this environment come first", fix
+        )
     return fine(f"no other one is set up; ros2 and gz are those in {prefix / 'bin'}")

@@ -42,7 +42,7 @@ def judge(environment: Mapping[str, str], folders: list[Path]) -> Verdict:
         )
     if missing:
         return failed(
-            f"{GUARD} is set but {LIBRARY_PATH} lacks {missing[0]}: they were handed on by halves, or by another "
+            f"{GUARD} is set but {LIBRARY_PATH} lacks {missing[0]}: only one of them was handed on, or both by another "
             "environment",
             unset,
         )
