@@ -1,1 +1,1 @@
-"""The grader: intake, run in lock-step, record, score the recording, report."""
+"""The grader: takes in a submission, runs it in lock-step, records the run, scores the recording and reports."""

@@ -1,6 +1,7 @@
-"""The `course` command: finds its sub-commands, runs one, turns every error into one sentence and an exit code.
+"""The `course` command: finds its sub-commands, runs one, and turns every error into one sentence and an exit code.
 
-Exit codes: 0 full marks or done, 1 less than full marks, 2 a usage error or an unreadable submission, 3 our own fault.
+Exit codes: 0 full marks or done, 1 less than full marks, 2 a usage error or an unreadable submission, 3 a fault of the
+grader or the machine.
 """
 
 from __future__ import annotations
@@ -23,9 +24,9 @@ from gz_course.sim.did_you_mean import did_you_mean
 
 
 class Commands(TyperGroup):
-    """The files of `commands/`: `grade_all.py` is `course grade-all`, its function `command` is what is run.
+    """The sub-commands, a file of `commands/` each: `course grade-all` runs the function `command` of `grade_all.py`.
 
-    A file is imported when its command is called; a list of all shows their docstrings without importing them.
+    A file is imported when its command is called; the list of commands reads their docstrings without importing them.
     """
 
     def list_commands(self, _: Any) -> list[str]:
@@ -55,7 +56,7 @@ def _summary(file: Path) -> str:
 
 
 def main() -> None:
-    """Run the `course` command. With `--debug` before the sub-command an internal error shows where it is."""
+    """Run the `course` command. With `--debug` before the sub-command, show the traceback of an internal error."""
     debug = "--debug" in sys.argv[1:2]
     if debug:
         del sys.argv[1]
@@ -69,7 +70,7 @@ def main() -> None:
     except KeyboardInterrupt:
         _say("interrupted")
         sys.exit(130)
-    except Exception as error:  # ours, never the student's
+    except Exception as error:  # a fault of the grader, never the student's
         if debug:
             raise
         _say(f"internal error: {type(error).__name__}: {error}")

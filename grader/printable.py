@@ -8,20 +8,21 @@ from typing import Any
 
 LONGEST = 400  # [characters] of one piece of foreign text
 
-# What XML 1.0 cannot hold, not even escaped, and HTML must not; a terminal may obey some of it.
+# Characters that XML 1.0 cannot hold even escaped, or that HTML forbids; terminals may interpret some of them. Source:
+# W3C, "Extensible Markup Language (XML) 1.0", section 2.2.
 NOT_STORABLE = re.compile("[^\t\n\r -~\xa0-\ud7ff\ue000-\ufdcf\ufdf0-\ufffd\U00010000-\U0010ffff]")
 
 
 def shown(text: str, longest: int = LONGEST) -> str:
-    """Return `text` on one line, with everything unprintable replaced and what is too long cut."""
+    """Return `text` on one line, cut to `longest` characters, with everything unprintable replaced."""
     clean = "".join(c if c.isprintable() else " " if c in "\t\n\r" else "\N{REPLACEMENT CHARACTER}" for c in text)
     return clean if len(clean) <= longest else f"{clean[: longest - 1]}…"
 
 
 def storable(value: Any) -> Any:
-    """Return plain data in which every program can read every text and number.
+    """Return plain data that every program can read.
 
-    Control codes, and halves of characters that UTF-8 does not have, are replaced; infinities and NaN become None.
+    Control codes and lone surrogates are replaced; infinities and NaN become None.
     """
     if isinstance(value, str):
         return NOT_STORABLE.sub("\N{REPLACEMENT CHARACTER}", value)

@@ -23,9 +23,9 @@ def modules(package: ModuleType) -> dict[str, ModuleType]:
 
 
 def in_order(before: Mapping[str, Iterable[str]]) -> list[str]:
-    """Sort names by which others each stands before, and by the alphabet where that leaves a choice.
+    """Sort names, each of which stands before the names it is mapped to; alphabetically where that leaves a choice.
 
-    Raises ValueError for an unknown name, `graphlib.CycleError` (a ValueError) if names stand before each other.
+    Raises ValueError for an unknown name, `graphlib.CycleError` (a ValueError) if there is a cycle.
     """
     sorter: TopologicalSorter[str] = TopologicalSorter({name: () for name in before})
     for name, others in before.items():

@@ -6,7 +6,6 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 NOT_YET = (
-    "grader",
     "sim/gz",
     "sim/launch",
     "sim/launch_ros",

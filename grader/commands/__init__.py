@@ -1,1 +1,1 @@
-"""The sub-commands of `course`: one file each, found by being in this folder."""
+"""The sub-commands of `course`, one file each; every module in this folder is a sub-command."""

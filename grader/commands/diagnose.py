@@ -1,4 +1,4 @@
-"""`course diagnose`: look at the live ROS and Gazebo graphs and say what cannot work, and why."""
+"""`course diagnose`: find configuration errors in the live ROS and Gazebo graphs and explain them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from gz_course.grader.printable import shown
 if TYPE_CHECKING:
     from gz_course.grader.tools.diagnose.live import Diagnosis
 
-LONGEST = 60.0  # s
+LONGEST = 60.0  # [s]
 
 
 def command(
@@ -23,9 +23,9 @@ def command(
     ] = 2.0,
     json: Annotated[bool, typer.Option("--json", help="Print the findings as JSON.")] = False,
 ) -> None:
-    """Find what is wrong in the running system of this ROS domain and Gazebo partition; it only listens.
+    """Find errors in the running system of this ROS domain and Gazebo partition; it only listens.
 
-    Exit code 0: nothing wrong, 1: something is, 2: a usage error, 3: ROS or Gazebo's transport cannot be used.
+    Exit code 0: nothing wrong, 1: errors found, 2: a usage error, 3: ROS or Gazebo's transport cannot be used.
     """
     from gz_course.grader.tools.diagnose.live import diagnose
 
@@ -38,7 +38,7 @@ def command(
 
 
 def print_diagnosis(diagnosis: Diagnosis, console: Console) -> None:
-    """Print what was looked at, then every finding: sentence, evidence, fix."""
+    """Print what was observed, then each finding: sentence, evidence, fix."""
 
     def line(text: str, before: str = "") -> None:
         console.print(before + escape(shown(text)), highlight=False, soft_wrap=True)

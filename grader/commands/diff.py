@@ -1,4 +1,4 @@
-"""`course diff EXERCISE`: what changes between starter and solution."""
+"""`course diff EXERCISE`: the differences between starter and solution."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from gz_course.grader.printable import shown
 def command(
     exercise: Annotated[str, typer.Argument(help="Exercise, such as 03_teleop or 03.")],
 ) -> None:
-    """Show what changes between starter and solution: a unified diff, coloured in a terminal."""
+    """Show the differences between starter and solution as a unified diff, coloured in a terminal."""
     chosen = find_exercise(exercise)
     lines = list(solution_diff(chosen))
     if not lines:

@@ -1,4 +1,4 @@
-"""`course doctor`: does everything the course needs work on this machine, and if not, what to do?"""
+"""`course doctor`: check whether everything the course needs works on this machine, and name the remedies."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def command(
     json: Annotated[bool, typer.Option("--json", help="Print the findings as JSON, for programs.")] = False,
     deadline: Annotated[float, typer.Option(help="Seconds of wall time for all of it; more on a busy machine.")] = 8.0,
 ) -> None:
-    """Try everything the course needs, for real. Exit code 0: all works, 1: something does not, 2: usage."""
+    """Test everything the course needs. Exit code 0: all works, 1: something does not, 2: usage."""
     from gz_course.grader.tools.doctor.checkup import examine
 
     if not 0 < deadline <= 3600:
@@ -34,13 +34,13 @@ def command(
 
 
 def print_json(findings: list[Finding], works: bool) -> None:
-    """Print one object: works, findings[] {check, title, status, seen, fix}, wall_seconds."""
+    """Print one JSON object: works, findings[] {check, title, status, seen, fix}, wall_seconds."""
     found = [finding.as_dict() for finding in findings]
     print(dumps({"works": works, "findings": found, "wall_seconds": round(time.monotonic() - STARTED, 2)}, indent=2))
 
 
 def print_findings(findings: list[Finding]) -> None:
-    """Print a line for each, with the remedy below what is not well, and a sum at the end."""
+    """Print a line for each finding, with the remedy below if there is one, and a summary at the end."""
     console = Console(highlight=False, soft_wrap=True)
     colours = {"ok": "green", "warning": "yellow", "failed": "red"}
     for finding in findings:

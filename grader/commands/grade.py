@@ -37,7 +37,7 @@ def command(
     ] = "public",
     sandbox: Annotated[
         str,
-        typer.Option(help="How firmly the submission is locked in: auto (the best that works here), A, B, C or D."),
+        typer.Option(help="Sandbox level: auto (the best that works here), A, B, C or D."),
     ] = "auto",
     demand: Annotated[
         str | None, typer.Option(help="Refuse to grade in a sandbox below this level, such as B for official grading.")
@@ -52,7 +52,7 @@ def command(
     from gz_course.grader.run.sandbox import choose, enter_early
 
     level = choose(sandbox, demand)
-    enter_early(level)  # before there are threads
+    enter_early(level)  # before any thread exists
 
     from gz_course.grader.grade import PACES, grade, recording_path
     from gz_course.grader.report.best import BEST, RUNS, keep_best
@@ -62,7 +62,7 @@ def command(
     if pace not in PACES:
         raise UsageError(f"there is no pace {pace!r}{did_you_mean(pace, PACES, listing='known')}")
     chosen = find_exercise(exercise)
-    own = out is None  # a folder for recordings alone belongs to whoever named it
+    own = out is None  # best.json is kept only in the default folder
     out = out or RUNS / chosen.name
     asked = numbered(chosen_trials(chosen, trials))
     outputs = Outputs(reports)
@@ -73,7 +73,7 @@ def command(
     report = grade(chosen, submission, out, seed=seed, pace=pace, trials=asked, sandbox=level, started=STARTED)
     try:
         print_report(report)
-    finally:  # also for a terminal that has gone
+    finally:  # also if the terminal has been closed
         outputs.write(report)
         if own:
             keep_best(report, out)

@@ -1,4 +1,4 @@
-"""`course grade-all EXERCISE DIR_OR_ZIP --out DIR`: grade a class; after a kill the same command goes on."""
+"""`course grade-all EXERCISE DIR_OR_ZIP --out DIR`: grade a class; the same command resumes a run that was killed."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def command(
     *,
     reports: dict[str, bool],
 ) -> None:
-    """Grade a class. Exit code 0: all are graded, 2: usage, 3: some could not be, for reasons that are not theirs."""
+    """Grade a class. Exit code 0: all are graded, 2: usage, 3: some could not be, which is not the students' fault."""
     from gz_course.grader.whole_class.class_run import ClassRun
     from gz_course.grader.whole_class.found import find_submissions
 
@@ -71,7 +71,7 @@ def _check_places(submissions: Path, out: Path) -> None:
 def _graded(
     run: ClassRun, found: list[Found], jobs: int | None, dask: str | None, console: Console
 ) -> list[dict[str, Any]]:
-    """Run the class, with a bar where there is a terminal and a line for each student where there is none."""
+    """Run the class with a progress bar in a terminal, elsewhere with a line for each student."""
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())

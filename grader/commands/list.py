@@ -1,4 +1,4 @@
-"""`course list [EXERCISE]`: the exercises there are with the best score in each so far, or the rubric of one."""
+"""`course list [EXERCISE]`: the exercises with the best score in each so far, or the rubric of one."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def command(
         typer.Option(help="Folder whose reports (JSON) are looked through for the best scores. Default: runs."),
     ] = None,
 ) -> None:
-    """List the exercises with points, best score so far and the file each asks for, or show the rubric of one."""
+    """List the exercises with points, best score so far and the expected file, or show the rubric of one."""
     if runs is not None and not runs.is_dir():
         raise UsageError(
             f"there is no folder {runs} with runs; leave --runs out, or give one that `course grade` wrote"
@@ -45,7 +45,7 @@ def command(
 
 
 def print_rubric(exercise: Exercise, console: Console, best: str) -> None:
-    """Print what an exercise asks for, the best score so far and a line for each check, as its manifest says them."""
+    """Print what an exercise asks for, the best score so far and a line for each check in its manifest."""
     summary = "\n\n".join(" ".join(part.split()) for part in exercise.summary.split("\n\n"))
     console.print(f"[bold]{exercise.name}[/bold]  {escape(exercise.title)}\n\n{escape(summary)}\n")
     console.print(f"file: {escape(exercise.file)}", highlight=False)
@@ -61,7 +61,7 @@ def print_rubric(exercise: Exercise, console: Console, best: str) -> None:
 
 
 def _gates(exercise: Exercise, check: CheckSpec) -> list[str]:
-    """Return in words what must hold for a check to count; a wrong manifest is reported when it is scored, not here."""
+    """Return the gates of a check in words; errors of the manifest are reported by scoring, not here."""
     titles = {each.id: each.title for each in exercise.checks}
     given = check.parameters.get("gate", [])
     gates = [gate for gate in (given if isinstance(given, list) else [given]) if isinstance(gate, dict)]
@@ -77,7 +77,7 @@ def _gates(exercise: Exercise, check: CheckSpec) -> list[str]:
 
 
 def plain_table(*headings: str) -> Table:
-    """Return a table without lines."""
+    """Return a table without rules."""
     table = Table(show_edge=False, box=None, padding=(0, 2, 0, 0))
     for heading in headings:
         table.add_column(heading, overflow="fold")

@@ -1,4 +1,4 @@
-"""`course new NN_name`: the two halves of a new exercise, which `course verify` accepts as they are."""
+"""`course new NN_name`: create both halves of a new exercise that already passes `course verify`."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from gz_course.grader.exercise.scaffold.exercise import scaffold
 def command(
     name: Annotated[str, typer.Argument(help="Two digits and words, such as 06_wall_follower.")],
 ) -> None:
-    """Begin an exercise: write both halves of one that works, to be changed into yours."""
+    """Create an exercise: write both halves of a working one, to be edited."""
     root = course_root()
     for path in scaffold(name, root):
         print(path.relative_to(root))

@@ -14,7 +14,7 @@ from gz_course.grader.release.student_copy import release
 def command(
     folder: Annotated[Path, typer.Argument(metavar="DIR", help="A folder that is new or empty.")],
 ) -> None:
-    """Write what students get: exercises, chapters and the programs, with a README of their own; no solutions."""
+    """Write what students get: exercises, chapters, programs and a README for students; no solutions."""
     names = release(course_root(), folder)
     files = sum(path.is_file() for path in folder.rglob("*"))
     print(f"{folder}: {', '.join(names)}; {files} files, without solutions. Its README.md tells students how to begin.")

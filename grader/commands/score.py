@@ -1,4 +1,4 @@
-"""`course score RECORDING...`: the score again, from the recording alone."""
+"""`course score RECORDING...`: compute the score again from the recording alone."""
 
 from __future__ import annotations
 
@@ -28,6 +28,6 @@ def command(
     report = grade_again(recordings)
     try:
         print_report(report)
-    finally:  # also for a terminal that has gone
+    finally:  # also if the terminal has been closed
         outputs.write(report)
     raise typer.Exit(0 if report.full_marks else 1)

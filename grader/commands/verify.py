@@ -1,4 +1,4 @@
-"""`course verify [EXERCISE]`: the instructor's proof that an exercise grades as it says."""
+"""`course verify [EXERCISE]`: the instructor's proof that an exercise grades as it declares."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def command(
     from gz_course.grader.process.temporary_folder import TemporaryFolder, sweep
     from gz_course.grader.run.sandbox import choose, enter_early
 
-    enter_early(choose())  # before there are threads
+    enter_early(choose())  # before any thread exists
 
     from gz_course.grader.verify import orphans
     from gz_course.grader.verify.jobs import pool
@@ -76,7 +76,7 @@ def print_last(result: Verification, console: Console) -> None:
 
 
 def print_matrix(result: Verification, console: Console) -> None:
-    """Print which variant fails which check, and by how many each check is failed."""
+    """Print which variant fails which check, and how many variants each check fails."""
     checks = result.exercise.checks
     table = Table(title=f"{result.exercise.name}: x = fails", box=None, padding=(0, 2, 0, 0), title_justify="left")
     table.add_column("variant", no_wrap=True, min_width=max(len(proof.variant.name) for proof in result.proofs))

@@ -1,4 +1,4 @@
-"""Exercises: what an author writes down (`exercise`, `trial`, read by `toml_table`), and what is made of it."""
+"""Exercises: what an author writes (`exercise`, `trial`, read by `toml_table`), and what is made from it."""
 
 from gz_course.grader.exercise.exercise import (
     MANIFEST,

@@ -1,8 +1,8 @@
-"""The files of one exercise that grading needs, in memory: its public half and the hidden trials.
+"""The files of one exercise that grading needs, held in memory: its public half and the hidden trials.
 
 A class is graded from first to last by the exercise as it was when the run began, on this machine or another
-(`whole_class/`), and a package for another service holds these files (`package/`). Solutions are never among them: what
-is not there cannot be read.
+(`whole_class/`), and a package for another service holds these files (`package/`). Solutions are never included, so a
+submission cannot read them.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from gz_course.grader.exercise import Exercise
 from gz_course.grader.exercise.trial import TRIALS, load_trials
 from gz_course.grader.submission.intake import is_junk
 
-SOLVED = {"accepted", "rejected", "expect.toml"}  # of the private half: what solves the exercise, or says how
+SOLVED = {"accepted", "rejected", "expect.toml"}  # files of the private half that solve the exercise or tell how
 TRACES = (".rrd", ".part", ".pyc", ".orig", ".bak", "~")
 
 
 def bundle(exercise: Exercise, trials: str = "public") -> tuple[dict[str, bytes], str]:
-    """Return the files of an exercise below a course's root, and which trials to ask for among them.
+    """Return the files of an exercise, by their path below a course's root, and the trials to ask for among them.
 
-    `trials` is as for `course grade`: a file comes along as the hidden trials. Raises UsageError if there is no such
+    `trials` is as for `course grade`; a file is included as the hidden trials. Raises UsageError if there is no such
     file, ManifestError if a file cannot be read.
     """
     files = _files(exercise.folder, f"exercises/{exercise.name}", set())
@@ -39,7 +39,7 @@ def bundle(exercise: Exercise, trials: str = "public") -> tuple[dict[str, bytes]
 
 
 def digest(files: dict[str, bytes]) -> str:
-    """Return the SHA-256 of names and contents of files, whatever their order."""
+    """Return the SHA-256 of the names and contents of files, independent of their order."""
     total = hashlib.sha256()
     for name, data in sorted(files.items()):
         for part in (name.encode("utf-8", "surrogateescape"), data):

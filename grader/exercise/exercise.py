@@ -1,7 +1,7 @@
 """An exercise as its folder describes it: files, world, bridge, observed topics, script, checks, points, hints.
 
-`exercises/NN_name/exercise.toml` is the only place these are written down. Exercises exist by being there: a folder
-with a manifest is an exercise, its name is the folder's.
+`exercises/NN_name/exercise.toml` is the only place that defines them. A folder with a manifest is an exercise and gives
+it its name.
 """
 
 from __future__ import annotations
@@ -35,32 +35,32 @@ class CheckSpec:
 
 @dataclass(frozen=True)
 class Exercise:
-    """One exercise, read from its manifest."""
+    """One exercise as read from its manifest."""
 
     name: str
     folder: Path
     title: str
     summary: str
-    kind: str  # of submission: a file in `kinds/`
+    kind: str  # of submission: a folder in `kinds/`
     file: str  # the file a submission consists of
     world: str
     robot: str
     duration: float  # [s] simulated
     tick: float  # [s] simulated time between two /clock messages
-    bridge: Path | None  # what stands between simulator and ROS; None if that is part of the submission
+    bridge: Path | None  # bridges between simulator and ROS; None if the submission brings them
     observe: dict[str, str]  # ROS topics the student is to publish on -> type
     script: tuple[ScriptedCommand, ...]
     checks: tuple[CheckSpec, ...]
-    trials: tuple[Trial, ...] = (PUBLIC,)  # those everybody may know; one without parameters if none is given
+    trials: tuple[Trial, ...] = (PUBLIC,)  # the public ones; a single one without parameters if the manifest lists none
 
     @property
     def twin(self) -> Path:
-        """The folder with its private half, which a student's copy lacks."""
+        """The folder with its private half, which a students' copy lacks."""
         return self.folder.parents[1] / "solutions" / self.name
 
     @property
     def manifest_sha256(self) -> str:
-        """SHA-256 of the manifest and of the files its `python` checks name; a recording keeps that of its run."""
+        """SHA-256 of the manifest and of the files its `python` checks name; a recording keeps the value of its run."""
         files = {str(c.parameters.get("function")).partition(":")[0] for c in self.checks if c.kind == "python"}
         paths = [self.folder / MANIFEST, *(self.folder / name for name in sorted(files))]
         return hashlib.sha256(b"".join(path.read_bytes() for path in paths if path.is_file())).hexdigest()
@@ -76,7 +76,7 @@ class Exercise:
 
 
 def course_root() -> Path:
-    """Return the folder that holds `exercises/`: COURSE_ROOT, else the nearest above here, else the repository."""
+    """Return the folder that holds `exercises/`: COURSE_ROOT, the nearest one from here upwards, or the repository."""
     if given := os.environ.get("COURSE_ROOT"):
         return Path(given)
     here = Path.cwd()
@@ -87,7 +87,6 @@ def course_root() -> Path:
 
 
 def exercise_names(root: Path) -> list[str]:
-    """Return the names of all exercises below a course folder, in order."""
     return sorted(path.parent.name for path in (root / "exercises").glob(f"*/{MANIFEST}"))
 
 

@@ -1,4 +1,4 @@
-"""What changes between the starter of an exercise and its solution, as a unified diff; called by `course diff`."""
+"""The unified diff between the starter of an exercise and its solution; used by `course diff`."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from pathlib import Path
 from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import Exercise
 
-PRIVATE_ONLY = ("expect.toml", "trials.toml")  # about the variants, not part of a solution
+PRIVATE_ONLY = ("expect.toml", "trials.toml")  # describe the variants, not part of a solution
 
 
 def solution_diff(exercise: Exercise) -> Iterator[str]:
     """Yield the lines of a unified diff for each file of the solution that differs from the public half.
 
-    Raises UsageError if this copy of the course has no solution of it.
+    Raises UsageError if this copy of the course does not have the solution.
     """
     folder = exercise.twin
     if not (folder / exercise.file).is_file():
@@ -33,7 +33,7 @@ def solution_diff(exercise: Exercise) -> Iterator[str]:
 
 
 def _lines(path: Path) -> list[str]:
-    """Return the lines of a text, a note for a binary file, nothing for a file that does not exist."""
+    """Return the lines of a text file, a note for a binary file, nothing for a missing file."""
     try:
         data = path.read_bytes()
     except FileNotFoundError:

@@ -1,6 +1,6 @@
-"""A table of an author's TOML file, read key by key, so that every error names the file, the table and the key.
+"""A reader for the tables of an author's TOML file: every error names the file, the table and the key.
 
-Raises ManifestError for a key that is missing, of the wrong kind, out of range or unknown (with the nearest known one).
+Raises ManifestError for a key that is missing, of the wrong type, out of range or unknown (with the nearest known one).
 """
 
 from __future__ import annotations
@@ -17,10 +17,11 @@ from gz_course.sim.did_you_mean import did_you_mean
 
 
 class Table:
-    """`raw`, which stands at `where`; what its keys are called in errors is `noun`. `folder` is that of the file, for
-    keys that name files.
+    """A TOML table, read key by key.
 
-    Every getter takes the key and, for a key that may be left out, a default. Call `end()` when all were asked for.
+    `raw` is its content, `where` names the table and `noun` its keys in errors; names of files are relative to
+    `folder`. Every getter takes the key and, if the key is optional, a default. Call `end()` after the last key to
+    refuse unknown ones.
     """
 
     def __init__(self, raw: Any, where: str, noun: str = "key", folder: Path | None = None) -> None:
@@ -34,7 +35,6 @@ class Table:
 
     @staticmethod
     def load(path: Path) -> Table:
-        """Read a TOML file."""
         try:
             return Table(tomllib.loads(path.read_text(encoding="utf-8")), str(path), folder=path.parent)
         except OSError as error:
@@ -43,7 +43,7 @@ class Table:
             raise ManifestError(f"{path}: {error}") from None
 
     def refuse(self, key: str, wanted: str) -> NoReturn:
-        """Say that the value of a key is not what it must be."""
+        """Raise ManifestError saying what the value of a key must be."""
         shown = repr(self._raw.get(key))
         raise ManifestError(f"{self.where}: {key} must be {wanted}, not {shown[:80]}")
 
@@ -52,7 +52,7 @@ class Table:
         return key in self._raw
 
     def any(self, key: str, *default: Any) -> Any:
-        """Return a value of any kind."""
+        """Return a value of any type."""
         if self.has(key):
             return self._raw[key]
         if default:
@@ -76,21 +76,19 @@ class Table:
         return value
 
     def flag(self, key: str, *default: bool) -> bool:
-        """Return true or false."""
         value = self.any(key, *default)
         if not isinstance(value, bool):
             self.refuse(key, "true or false")
         return value
 
     def integer(self, key: str, *default: int) -> int:
-        """Return a whole number."""
         value = self.any(key, *default)
         if type(value) is not int:
             self.refuse(key, "a whole number")
         return value
 
     def numbers(self, key: str, lengths: list[int], *default: list[float]) -> list[float]:
-        """Return a list of as many finite numbers as one of `lengths` says."""
+        """Return a list of finite numbers whose length is one of `lengths`."""
         value = self.any(key, *default)
         fine = isinstance(value, list | tuple) and len(value) in set(lengths)
         if not fine or any(
@@ -100,7 +98,7 @@ class Table:
         return list(value)
 
     def texts(self, key: str) -> list[str]:
-        """Return a list of texts, at least one."""
+        """Return a list of at least one text."""
         value = self.any(key)
         if not isinstance(value, list) or not value or not all(isinstance(v, str) and v for v in value):
             self.refuse(key, "a list of texts, at least one")
@@ -115,14 +113,13 @@ class Table:
         return value
 
     def regex(self, key: str) -> re.Pattern[str]:
-        """Return a regular expression."""
         try:
             return re.compile(self.text(key))
         except re.error as error:
             raise ManifestError(f"{self.where}: {key} is no regular expression: {error}") from None
 
     def pattern(self, key: str) -> re.Pattern[str]:
-        """Return a regular expression with a group."""
+        """Return a regular expression with at least one group."""
         pattern = self.regex(key)
         if not pattern.groups:
             self.refuse(key, "a regular expression with a group, the answer")
@@ -133,7 +130,7 @@ class Table:
         return Table(self.any(key, *default), f"{self.where}: {key}", self._noun, self.folder)
 
     def free(self, key: str) -> dict[str, Any]:
-        """Return a table as it is, for whoever knows its keys; empty if it is left out."""
+        """Return a table as it is, without checking its keys; empty if it is left out."""
         value = self.any(key, {})
         if not isinstance(value, dict):
             self.refuse(key, "a table")
@@ -149,18 +146,18 @@ class Table:
         ]
 
     def names(self) -> list[str]:
-        """Return the keys given, which are thereby asked for: for tables whose keys are free."""
+        """Return all keys of the table and count them as read: for tables whose keys are free."""
         self._asked |= self._raw.keys()
         return list(self._raw)
 
     def rest(self) -> dict[str, Any]:
-        """Return everything not asked for yet."""
+        """Return everything not read yet."""
         left = {key: value for key, value in self._raw.items() if key not in self._asked}
         self._asked |= left.keys()
         return left
 
     def end(self) -> None:
-        """Raise ManifestError for a key that was never asked for: probably a typing mistake."""
+        """Raise ManifestError for a key that was never read: probably a typing mistake."""
         for key in self._raw:
             if key not in self._asked:
                 hint = did_you_mean(key, self._asked, listing="known")

@@ -1,6 +1,6 @@
-"""A trial: the parameters of one run. Same submission, same trial: same run.
+"""A trial: the parameters of one run. The same submission in the same trial gives the same run.
 
-Public trials stand in the manifest as `[[trial]]`; an instructor's hidden ones in `solutions/NN_name/trials.toml`, with
+Public trials are in the manifest as `[[trial]]`; an instructor's hidden ones in `solutions/NN_name/trials.toml`, with
 the same keys, all optional but the name:
 
     [[trial]]
@@ -18,7 +18,7 @@ the same keys, all optional but the name:
     linear_x = 0.3
     angular_z = 0.25
 
-They are parameters, never code. `exercise.py` reads the public ones, `commands/grade.py` the others; `grade.py` runs
+Trials are data, never code. `exercise.py` reads the public ones, `commands/grade.py` the others; `grade.py` runs them
 one after another.
 """
 
@@ -38,22 +38,21 @@ if TYPE_CHECKING:
     from gz_course.grader.exercise import Exercise
 
 TRIALS = "trials.toml"
-SCRIPT_SPREAD = 0.2  # a scripted speed is varied by at most this fraction
+SCRIPT_SPREAD = 0.2  # largest fraction by which a scripted speed is varied
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,59}")
 
 
 @dataclass(frozen=True)
 class ScriptedCommand:
-    """A velocity the grader itself commands during a run, before the noise of the trial's seed."""
+    """A velocity that the grader commands during a run, before the seed of the trial varies it."""
 
-    at: float  # [s] simulated
-    topic: str  # Gazebo topic of a Twist
+    at: float  # [s] of simulated time
+    topic: str  # Gazebo topic of type Twist
     linear_x: float  # [m/s]
     angular_z: float  # [rad/s]
 
     @staticmethod
     def read(table: Table) -> ScriptedCommand:
-        """Read one `[[script]]` table."""
         command = ScriptedCommand(
             table.number("at"), table.text("topic"), table.number("linear_x"), table.number("angular_z")
         )
@@ -63,10 +62,10 @@ class ScriptedCommand:
 
 @dataclass(frozen=True)
 class Trial:
-    """One run's parameters. `seed` feeds the simulator's sensor noise and varies the scripted commands.
+    """The parameters of one run. `seed` seeds the simulator's sensor noise and varies the scripted commands.
 
-    None stands for what the exercise says. `poses` are x, y, z [m], roll, pitch, yaw [rad] in the world's frame, by
-    model. `place` says which of how many trials of one grading it is, `source` in which file it stands.
+    None means that the exercise's value is used. `poses` are x, y, z [m], roll, pitch, yaw [rad] in the world's frame,
+    by model. `place` is (number of this trial, number of trials) in one grading, `source` the file that defines it.
     """
 
     name: str
@@ -77,7 +76,7 @@ class Trial:
     script: tuple[ScriptedCommand, ...] | None = None
     parameters: dict[str, Any] = field(default_factory=dict)
     place: tuple[int, int] = (1, 1)
-    tick: float | None = None  # [s] simulated time between two /clock messages
+    tick: float | None = None  # [s] of simulated time between two /clock messages
     source: Path | None = field(default=None, compare=False)
 
     def vary(self, command: ScriptedCommand) -> ScriptedCommand:
@@ -90,7 +89,7 @@ class Trial:
         )
 
     def applied_to(self, exercise: Exercise) -> Exercise:
-        """Return the exercise as it is run in this trial."""
+        """Return the exercise with the parameters of this trial."""
         return dataclasses.replace(
             exercise,
             world=exercise.world if self.world is None else self.world,
@@ -100,7 +99,7 @@ class Trial:
         )
 
     def as_dict(self) -> dict[str, Any]:
-        """Return what a recording keeps of the trial, so that checks can ask for the parameters of their run."""
+        """Return what a recording keeps of the trial, for checks that need the parameters of their run."""
         return {"poses": {name: list(pose) for name, pose in self.poses.items()}, "parameters": self.parameters}
 
 
@@ -116,14 +115,14 @@ def numbered(trials: tuple[Trial, ...], seed: int = 0) -> tuple[Trial, ...]:
 
 
 def read_trials(tables: list[Table], where: Path) -> tuple[Trial, ...]:
-    """Read the `[[trial]]` tables of the file `where`. Raises ManifestError for what is wrong in them."""
+    """Read the `[[trial]]` tables of the file `where`. Raises ManifestError if they are wrong."""
     trials = tuple(_read(table, where) for table in tables)
     check_names(trials, str(where))
     return trials
 
 
 def load_trials(path: Path) -> tuple[Trial, ...]:
-    """Read a `trials.toml`. Raises UsageError if there is no such file, ManifestError for what is wrong in it."""
+    """Read a `trials.toml`. Raises UsageError if there is no such file, ManifestError if it is wrong."""
     if not path.is_file():
         raise UsageError(f"there is no file {path} with hidden trials; give another, or leave --trials out")
     table = Table.load(path)

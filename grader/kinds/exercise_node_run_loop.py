@@ -1,4 +1,4 @@
-"""The run of an exercise's own node: its log is kept apart, and both graphs are taken into the recording at the end."""
+"""The run of an exercise's own node: its log is recorded apart from the student's, and both graphs at the end."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from gz_course.grader.run.run_loop import RunLoop
 
 
 class ExerciseNodeRunLoop(RunLoop):
-    """A run in which a bridge's file or a table of topics is judged by both graphs."""
+    """A run whose submission, a bridge's file or a table of topics, is judged by both graphs."""
 
     log = GIVEN_LOG
 
     def run(self, recorder: Recorder) -> dict[str, Any]:
-        """As in any run. Raises ManifestError if the exercise's own node ended or never spun."""
+        """Run the exercise's own node. Raises ManifestError if it ended or never spun."""
         facts = super().run(recorder)
         if facts["exit_at"] is not None or not facts["ready"]:
             how = "did not start to spin" if facts["exit_at"] is None else f"ended (exit code {facts['exit_code']})"

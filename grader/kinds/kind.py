@@ -1,6 +1,6 @@
 """What a kind of submission is, and how the one an exercise names is found.
 
-Intake asks a kind what is wrong with a file (`fault`), before anything heavy is imported. A run asks it what to start
+Intake asks a kind for errors in a file (`fault`), before rclpy and MuJoCo are imported. A run asks it what to start
 (`plan`, `command`) and how to simulate it (`run_loop`). Scoring asks it how to explain a recording (`diagnosis`).
 """
 
@@ -28,8 +28,8 @@ if TYPE_CHECKING:
 class RunPlan:
     """What runs beside the simulator.
 
-    `program` names the file among `files` that is started in the box. `entries` are the bridges between the simulator
-    and ROS that stand from the beginning. `facts` go into the recording as they are.
+    `program` names the file among `files` that is started in the sandbox. `entries` are the bridges between simulator
+    and ROS that exist from the beginning. `facts` are recorded unchanged.
     """
 
     program: str
@@ -39,7 +39,6 @@ class RunPlan:
 
 
 def no_variables(pace: str) -> dict[str, str]:
-    """Return no environment variables, whatever the pace."""
     return {}
 
 
@@ -47,13 +46,13 @@ def no_variables(pace: str) -> dict[str, str]:
 class Kind:
     """A kind of submission.
 
-    `suffixes` are what its files end in. `fault(name, content)` returns one sentence with the line if a file can never
-    run, else None. `plan(exercise, submission)` raises ManifestError if the exercise's own files are wrong.
-    `command(program, trial)` starts the program in the box, with the variables `environment(pace)`.
-    `run_loop()` returns the class that simulates the run and `diagnosis()` what explains its recording; only these two
-    import what they need, the former rclpy and MuJoCo.
-    `brings_world`: it may hand in worlds and models, which are simulated in a supervised child process.
-    `brings_bridge`: what stands between simulator and ROS is up to the submission, not to the exercise.
+    `suffixes` are the file name extensions it accepts. `fault(name, content)` returns one sentence with the line if a
+    file can never run, else None. `plan(exercise, submission)` raises ManifestError if the exercise's own files are
+    wrong. `command(program, trial)` starts the program in the sandbox with the variables `environment(pace)`.
+    `run_loop()` returns the class that simulates the run, `diagnosis()` the explanations of its recording; they import
+    what they need when called (the former rclpy and MuJoCo). `brings_world`: the submission may bring worlds and
+    models, which are simulated in a supervised child process. `brings_bridge`: the submission, not the exercise,
+    connects simulator and ROS.
     """
 
     suffixes: tuple[str, ...]

@@ -1,4 +1,4 @@
-"""Commands that start the program of a submission in its box."""
+"""Commands that start the program of a submission in its sandbox."""
 
 from __future__ import annotations
 

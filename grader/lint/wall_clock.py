@@ -1,7 +1,7 @@
-"""The places where a Python file reads the wall clock, or waits by it, where simulated time is meant.
+"""The places where a Python file reads the wall clock or waits by it instead of by simulated time.
 
-Kinds of submissions that are Python put what is found into the facts of a run; the diagnosis speaks of it only if a
-check saw the right thing at the wrong time (`grader/score/clocks.py`): a node may well measure its own speed.
+Kinds of submissions that are Python record these places as facts of a run. The diagnosis mentions them only if a check
+saw the right thing at the wrong time (`grader/score/clocks.py`), because a node may well measure its own speed.
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ ASKED = frozenset(
     f"time.{name}{unit}" for name in ("time", "monotonic", "perf_counter", "process_time") for unit in ("", "_ns")
 )
 ASKED |= {"datetime.datetime.now", "datetime.datetime.utcnow", "datetime.datetime.today", "time.localtime"}
-ASKED |= {"rclpy.clock.Clock"}  # a clock of one's own tells system time; the node's clock follows /clock
+ASKED |= {"rclpy.clock.Clock"}  # a clock of one's own returns system time; the node's clock follows /clock
 WAITED = frozenset({"time.sleep", "asyncio.sleep", "threading.Timer"})
-MOST = 5  # places that are told
+MOST = 5  # places reported at most
 
 
 def wall_clock(content: bytes) -> list[dict[str, Any]]:
-    """Return `line`, `call` and whether it `waits`, for each such place in a file; nothing if it is no Python."""
+    """Return `line`, `call` and whether it `waits`, for each such place in a file; nothing if it is not Python."""
     try:
         tree = ast.parse(content)
     except (SyntaxError, ValueError, RecursionError, MemoryError):
@@ -35,7 +35,7 @@ def wall_clock(content: bytes) -> list[dict[str, Any]]:
 
 
 def _imported(tree: ast.Module) -> dict[str, str]:
-    """Return what each imported name stands for: `from time import monotonic as now` gives now: time.monotonic."""
+    """Return the full name of each imported name: `from time import monotonic as now` gives now: time.monotonic."""
     names: dict[str, str] = {}
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):
@@ -47,7 +47,7 @@ def _imported(tree: ast.Module) -> dict[str, str]:
 
 
 def _dotted(node: ast.expr, names: dict[str, str]) -> str:
-    """Return the full name of what is called, an empty string if it is not a name that was imported."""
+    """Return the full name of what is called; empty if it is not an imported name."""
     if isinstance(node, ast.Attribute):
         owner = _dotted(node.value, names)
         return f"{owner}.{node.attr}" if owner else ""

@@ -1,8 +1,8 @@
 """The places where a Python file assigns a whole number or a text to a floating-point field of a message.
 
-rclpy does not convert it, and without ROS_PYTHON_CHECK_FIELDS=1 it does not complain either: `twist.linear.x = 1` is
-sent as 0, and so is "0.5". Kinds of submissions that are Python put what is found into the facts of a run; the
-diagnosis speaks of it if a check failed (`grader/score/score.py`).
+rclpy does not convert the value, and without ROS_PYTHON_CHECK_FIELDS=1 it does not complain either: `twist.linear.x =
+1` is sent as 0, and so is "0.5". Kinds of submissions that are Python record these places as facts of a run; the
+diagnosis mentions them if a check failed (`grader/score/score.py`).
 """
 
 from __future__ import annotations
@@ -13,15 +13,15 @@ from typing import Any
 
 from gz_course.grader.errors import ManifestError
 
-MOST = 5  # places that are told
+MOST = 5  # places reported at most
 FLOATS = frozenset({"float", "double"})
 
 
 def float_fields(ros_types: Iterable[str]) -> dict[str, set[str]]:
-    """Return the fields of message types that hold one floating-point number, as `linear.x`, and by their owners.
+    """Return the fields of message types that hold one floating-point number, grouped by the class that owns them.
 
-    Keys are a message's own name and those of its parts: {"Twist": {"linear.x", ...}, "Vector3": {"x", "y", "z"}}.
-    A type that is not installed has none.
+    Keys are the names of a message and of its parts: {"Twist": {"linear.x", ...}, "Vector3": {"x", "y", "z"}}. A type
+    that is not installed is left out.
     """
     from gz_course.grader.run.grader_endpoints import message_class
 
@@ -30,7 +30,7 @@ def float_fields(ros_types: Iterable[str]) -> dict[str, set[str]]:
         try:
             _walk(message_class(name), found)
         except ManifestError:
-            continue  # said where the bridge is made
+            continue  # reported when the bridge is made
     return found
 
 
@@ -49,9 +49,9 @@ def _walk(message: Any, found: dict[str, set[str]]) -> set[str]:
 
 
 def whole_numbers(content: bytes, fields: dict[str, set[str]]) -> list[dict[str, Any]]:
-    """Return `line`, `field` and the `value` as written, for each such place; nothing if the file is no Python.
+    """Return `line`, `field` and the `value` as written, for each such place; nothing if the file is not Python.
 
-    `fields` is what `float_fields` returns. A zero does no harm and is not told.
+    `fields` is what `float_fields` returns. A zero is sent correctly and is not reported.
     """
     try:
         tree = ast.parse(content)
@@ -62,7 +62,7 @@ def whole_numbers(content: bytes, fields: dict[str, set[str]]) -> list[dict[str,
 
 def _places(tree: ast.Module, fields: dict[str, set[str]]) -> Iterator[dict[str, Any]]:
     known = _constants(tree)
-    # A field named only `data` belongs to whole numbers or texts, too, if the file uses such a message.
+    # A field named `data` may belong to a message of whole numbers or texts, if the file uses one.
     others = any(
         isinstance(n, ast.alias) and n.name.startswith(("Int", "UInt", "Bool", "String")) for n in ast.walk(tree)
     )
@@ -83,12 +83,12 @@ def _places(tree: ast.Module, fields: dict[str, set[str]]) -> Iterator[dict[str,
 
 
 def _is_message(target: ast.Attribute, path: str) -> bool:
-    """Tell whether the owner of the field may be a message; the attributes of `self` are those of the node."""
+    """Return whether the owner of the field may be a message; attributes of `self` belong to the node."""
     return target.attr == path and not (isinstance(target.value, ast.Name) and target.value.id == "self")
 
 
 def _constants(tree: ast.Module) -> set[str]:
-    """Return the names and attributes that are only ever assigned whole numbers other than zero."""
+    """Return the names and attributes to which only whole numbers other than zero are assigned."""
     whole: dict[str, bool] = {}
     for node in ast.walk(tree):
         if isinstance(node, ast.Assign):
@@ -103,7 +103,7 @@ def _constants(tree: ast.Module) -> set[str]:
 
 
 def _whole(node: ast.expr, known: set[str]) -> bool:
-    """Tell whether the value, or one branch of it, is certainly a whole number other than zero, or a text."""
+    """Return whether the value, or one branch of it, is certainly a whole number other than zero, or a text."""
     match node:
         case ast.Constant(value=value):
             return (type(value) is int and value != 0) or isinstance(value, str)

@@ -1,8 +1,10 @@
-"""The zip that Gradescope builds an autograder from: the course's programs, one exercise, its hidden trials.
+"""The zip from which Gradescope builds an autograder: the course's programs, one exercise, its hidden trials.
 
-`setup.sh` installs the course when the autograder is built, `run_autograder` grades one submission and always leaves
-a `results.json`. Both look for everything below `/autograder`, or below AUTOGRADER_ROOT. Solutions are not part of it.
-Called by `course package`.
+`setup.sh` installs the course when the autograder is built, `run_autograder` grades one submission and always writes
+`results.json`. Both expect their files below `/autograder`, or below AUTOGRADER_ROOT. The zip holds no solutions. Used
+by `course package`.
+
+Source: Gradescope, "Autograder Specifications", https://gradescope-autograders.readthedocs.io/en/latest/specs/
 """
 
 from __future__ import annotations
@@ -26,11 +28,11 @@ FILES = ("pyproject.toml", "constraints.txt", "LICENSE")
 TRACES = (".pyc", ".rrd", ".part", ".orig", ".bak", "~")
 PROGRAMS = ("setup.sh", "run_autograder")
 START_UP, PER_TRIAL, WALL_FACTOR = 60.0, 30.0, 2.0  # [s], [s] and wall seconds per simulated second of a grading
-WHEN = (1980, 1, 1, 0, 0, 0)  # of every file in the zip: the same exercise gives the same bytes
+WHEN = (1980, 1, 1, 0, 0, 0)  # date of every file in the zip, so that the same exercise gives the same bytes
 
 
 def package(exercise: Exercise, target: Path, trials: str | None = None, demand: str | None = None) -> list[str]:
-    """Write the zip; return the names in it. `trials` as for `course grade`; None: all there are, hidden ones too.
+    """Write the zip; return the names in it. `trials` is as for `course grade`; None: all, including hidden ones.
 
     Raises UsageError if the zip cannot be written, if there are no such trials, or without a checkout of the course.
     """
@@ -68,7 +70,7 @@ def _programs() -> dict[str, bytes]:
 
 
 def _write(target: Path, contents: dict[str, bytes]) -> None:
-    """Write the zip in one go: what is at `target` is complete or what it was before."""
+    """Write the zip atomically: `target` holds either its former content or the complete zip."""
     part = target.with_name(f".{target.name}.part")
     try:
         target.parent.mkdir(parents=True, exist_ok=True)

@@ -1,1 +1,1 @@
-"""Order in the grader's own processes: how they end on signals, their temporary folders, the locks they hold."""
+"""Control of the grader's own processes: how they end on signals, their temporary folders, the locks they hold."""

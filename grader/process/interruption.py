@@ -1,4 +1,4 @@
-"""Orderly end of a process on a signal, even one that arrives where Python drops exceptions, such as a `__del__`."""
+"""Orderly end of a process on a signal, even if it arrives where Python drops exceptions, such as in a `__del__`."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ import sys
 import threading
 from typing import NoReturn
 
-AGAIN = 0.02  # [s] until a signal that was dropped is sent once more
+AGAIN = 0.02  # [s] until a dropped signal is sent again
 
 
 def end_on(*numbers: signal.Signals) -> None:
-    """Leave on these signals as after Ctrl-C, with exit code 128 + number; all that is open is closed on the way.
+    """Exit on these signals as after Ctrl-C, with exit code 128 + number, and close all context managers before.
 
-    A SIGHUP that is ignored already stays so: that is what `nohup` promises.
+    A SIGHUP that is ignored stays ignored, as `nohup` promises.
     """
     for number in numbers:
         if number != signal.SIGHUP or signal.getsignal(number) is not signal.SIG_IGN:

@@ -1,6 +1,9 @@
 """A lock that keeps two graders, started in two terminals, from writing the same recordings at once.
 
-`grade.py` holds it while it writes. It is a lock of the kernel (flock), which ends with its process however that ends.
+`grade.py` holds it while it writes. It is a lock of the kernel (flock), released when its process ends for whatever
+reason.
+
+Source: flock(2).
 """
 
 from __future__ import annotations
@@ -20,9 +23,9 @@ NO_LOCKS = (errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP)  # some network file s
 
 @contextmanager
 def sole_writer(out: Path, exercise: str) -> Iterator[None]:
-    """Be the only one who grades this exercise into the folder `out`. Raises UsageError if another does already.
+    """Hold the lock on grading this exercise into the folder `out`.
 
-    UsageError, too, if the folder cannot be written.
+    Raises UsageError if another process holds it or the folder cannot be written.
     """
     path = out / f".{exercise}.lock"
     try:
@@ -32,7 +35,7 @@ def sole_writer(out: Path, exercise: str) -> Iterator[None]:
         raise UsageError(f"cannot write {path}: {error.strerror}") from None
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        if not os.fstat(descriptor).st_nlink:  # whoever had it removed it between our two calls
+        if not os.fstat(descriptor).st_nlink:  # its former owner removed the file between our two calls
             raise BlockingIOError
     except BlockingIOError:
         os.close(descriptor)

@@ -1,9 +1,10 @@
 """Temporary folders that are removed even if their owner was killed: the next run finds and removes them.
 
-Whoever runs something makes a `TemporaryFolder`; `sweep()` is called where a run begins (`run/session.py`,
-`whole_class/class_run.py`, `commands/verify.py`, `playground.py`). In each folder lies a file that its owner keeps
-locked. Linux gives the lock up when the owner ends, however it ends, and no program started by the owner inherits it. A
-folder gets that file only once it is locked, so one without it is never touched; `course doctor` names old ones.
+Every run makes a `TemporaryFolder`; `sweep()` is called where a run begins (`run/session.py`,
+`whole_class/class_run.py`, `commands/verify.py`, `playground.py`). Each folder holds a file that its owner keeps
+locked. Linux releases the lock when the owner ends for whatever reason, and no program started by the owner inherits
+it. A folder gets that file only after it is locked, so one without the file is never touched; `course doctor` names old
+ones.
 """
 
 from __future__ import annotations
@@ -20,25 +21,25 @@ from collections.abc import Iterator
 from pathlib import Path
 from types import TracebackType
 
-PREFIXES = ("course-", "playground-")  # of the names of all that are swept
+PREFIXES = ("course-", "playground-")  # of the names of all folders that are swept
 OWNER = ".owner"
-ROUNDS = 20  # of ending processes, should some start others meanwhile
-PATIENCE = 1000  # [ms] for a killed process to go
+ROUNDS = 20  # of ending processes, in case some start others meanwhile
+PATIENCE = 1000  # [ms] for a killed process to end
 
 
 class TemporaryFolder:
-    """A new folder at `path`, only for this user; `close()` removes it. As a context manager it gives the path.
+    """A new folder at `path` for this user only; `close()` removes it. A context manager that returns the path.
 
-    `prefix` begins its name, and begins itself with one of `PREFIXES`. Raises OSError if it cannot be made.
+    Its name begins with `prefix`, which begins with one of `PREFIXES`. Raises OSError if it cannot be made.
     """
 
     def __init__(self, prefix: str, within: Path | str | None = None) -> None:
-        """Make it in `within`, or where this machine keeps temporary files."""
+        """Make the folder in `within`, by default in the system's folder for temporary files."""
         self.path = Path(tempfile.mkdtemp(prefix=prefix, dir=within))
         self._lock = _claim(self.path)
 
     def close(self) -> None:
-        """Remove the folder with everything in it, as far as that is possible."""
+        """Remove the folder with everything in it, as far as possible."""
         remove(self.path)
         if self._lock is not None:
             os.close(self._lock)
@@ -54,7 +55,7 @@ class TemporaryFolder:
 
 
 def sweep() -> None:
-    """Remove the folders of this user whose owners were killed, and end the processes that still live in them."""
+    """Remove the folders of this user whose owners were killed, and end the processes that still use them."""
     for folder in _candidates():
         with _of_the_dead(folder) as dead:
             if dead:
@@ -63,7 +64,7 @@ def sweep() -> None:
 
 
 def abandoned() -> list[Path]:
-    """Return what `sweep()` would remove."""
+    """Return the folders that `sweep()` would remove."""
     found = []
     for folder in _candidates():
         with _of_the_dead(folder) as dead:
@@ -73,10 +74,10 @@ def abandoned() -> list[Path]:
 
 
 def remove(folder: Path) -> None:
-    """Remove a folder of ours, also what its contents forbid to read or nest too deep for a path.
+    """Remove a folder, even if its contents forbid reading or are nested too deep for a path.
 
-    Never looks through a link, never touches what is mounted. What cannot be removed stays until the next sweep, with
-    the file that says whose it is.
+    Follows no link and touches nothing that is mounted. What cannot be removed stays until the next sweep, with the
+    file that names its owner.
     """
     if _has_mounts(folder):
         return
@@ -94,7 +95,7 @@ def remove(folder: Path) -> None:
                     if not is_folder:
                         if here != folder or name != OWNER:
                             (here / name).unlink()
-                    else:  # brought up to the top, so that no path grows long
+                    else:  # moved up to the top, so that no path grows too long
                         number += 1
                         (here / name).chmod(0o700)
                         pending.append((here / name).rename(folder / f"{OWNER}-{number}"))
@@ -107,7 +108,7 @@ def remove(folder: Path) -> None:
 
 
 def end_processes_of(folder: Path) -> None:
-    """End the processes of this user whose environment tells them to keep temporary files below a folder."""
+    """End the processes of this user whose environment puts their temporary files below a folder."""
     home = os.path.realpath(folder)
     for _ in range(ROUNDS):
         if not any([_end_if_at_home(int(name), home) for name in os.listdir("/proc") if name.isdecimal()]):  # noqa: PTH208
@@ -118,7 +119,7 @@ def _end_if_at_home(pid: int, home: str) -> bool:
     if pid == os.getpid():
         return False
     try:
-        process = os.pidfd_open(pid)  # the number may be given to another one between a look and a signal
+        process = os.pidfd_open(pid)  # the process id may be reused between the check and the signal
     except OSError:
         return False
     try:
@@ -131,14 +132,14 @@ def _end_if_at_home(pid: int, home: str) -> bool:
         gone.register(process, select.POLLIN)
         gone.poll(PATIENCE)
         return True
-    except OSError:  # it has ended, or is somebody else's
+    except OSError:  # the process has ended, or belongs to another user
         return False
     finally:
         os.close(process)
 
 
 def _claim(folder: Path) -> int | None:
-    """Put a locked file into a new folder; the descriptor that holds the lock, None on a file system without locks."""
+    """Put a locked file into a new folder; return its descriptor, None if the file system has no locks."""
     fresh = folder / f"{OWNER}-new"
     try:
         lock = os.open(fresh, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o600)
@@ -146,7 +147,7 @@ def _claim(folder: Path) -> int | None:
         return None
     try:
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        fresh.rename(folder / OWNER)  # only now does anybody look at the folder
+        fresh.rename(folder / OWNER)  # from now on a sweep considers the folder
     except OSError:
         os.close(lock)
         fresh.unlink(missing_ok=True)
@@ -164,7 +165,7 @@ def _candidates() -> list[Path]:
 
 @contextlib.contextmanager
 def _of_the_dead(folder: Path) -> Iterator[bool]:
-    """Tell whether a folder is this user's and its owner is gone; if so, it is locked while the block lasts."""
+    """Yield whether a folder is this user's and its owner has ended; if so, it stays locked while the block lasts."""
     lock = None
     try:
         lock = _take_over(folder)
@@ -193,7 +194,7 @@ def _take_over(folder: Path) -> int | None:
 
 
 def _has_mounts(folder: Path) -> bool:
-    """Tell whether something is mounted in a folder; removing would go on in there."""
+    """Return whether something is mounted in a folder, into which removing would descend."""
     home = os.fsencode(os.path.realpath(folder))
     try:
         mounts = Path("/proc/self/mountinfo").read_bytes().splitlines()

@@ -1,1 +1,1 @@
-"""The recording of a run: written once while it happens, read back by everything that judges it."""
+"""The recording of a run: written once during the run, read by scoring and reports."""

@@ -1,4 +1,4 @@
-"""How the viewer opens a recording: the world beside speeds, checks and logs, time at the start and paused."""
+"""The layout in which the viewer opens a recording: the world beside speeds, checks and logs, paused at the start."""
 
 from __future__ import annotations
 

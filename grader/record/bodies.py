@@ -1,6 +1,6 @@
-"""The bodies of the world, read back from a recording: their outline from above and their pose over time.
+"""The bodies of the world, read from a recording: their outline from above and their pose over time.
 
-Called by reports, which draw them. The inverse of `scene.py`; shapes are given as the convex hull of their footprint.
+Reports draw them. This is the inverse of `scene.py`; a shape becomes the convex hull of its footprint.
 """
 
 from __future__ import annotations
@@ -12,14 +12,14 @@ import numpy as np
 from gz_course.grader.record.reading import Poses, Recording
 
 SHAPES = ("Boxes3D", "Cylinders3D", "Capsules3D", "Ellipsoids3D", "Mesh3D")
-MOST_CORNERS = 4096  # of a surface; more do not change what a drawing shows
-FLAT = 0.005  # [m] what is thinner and lies on the ground is the ground
+MOST_CORNERS = 4096  # of a surface; more make no visible difference
+FLAT = 0.005  # [m] a shape thinner than this that lies on the ground is the ground
 ROUND = 24  # corners of a drawn circle
 
 
 @dataclass(frozen=True)
 class Body:
-    """One visual: its surface's `corners` (n, 3) [m] in its own frame, and its poses, outermost first."""
+    """One visual: its corners `corners` (n, 3) [m] in its own frame, and its chain of poses, outermost first."""
 
     entity: str
     model: str
@@ -38,7 +38,7 @@ class Body:
 
 
 def bodies(recording: Recording) -> list[Body]:
-    """Return every visual of the world but the ground, in the order of their names."""
+    """Return every visual of the world except the ground, sorted by name."""
     found = []
     for shape in SHAPES:
         for entity in recording.entities("world", shape):
@@ -51,14 +51,14 @@ def bodies(recording: Recording) -> list[Body]:
 
 
 def chain_of(recording: Recording, entity: str) -> tuple[Poses, ...]:
-    """Return the poses of an entity and of everything it is fixed to, outermost first."""
+    """Return the poses of an entity and of its parents, outermost first."""
     parts = entity.split("/")
     chain = [recording.poses("/".join(parts[:n])) for n in range(1, len(parts) + 1)]
     return tuple(poses for poses in chain if poses is not None)
 
 
 def placed(points: np.ndarray, chain: tuple[Poses, ...], time_ns: int) -> np.ndarray:
-    """Take points (n, 3) from the innermost frame of a chain to the world frame, at a time [ns]."""
+    """Transform points (n, 3) from the innermost frame of a chain to the world frame, at a time [ns]."""
     for poses in reversed(chain):
         index = max(int(np.searchsorted(poses.times, time_ns, side="right")) - 1, 0)
         points = points @ _rotation(poses.quaternions[index]).T + poses.positions[index]
@@ -66,7 +66,10 @@ def placed(points: np.ndarray, chain: tuple[Poses, ...], time_ns: int) -> np.nda
 
 
 def hull(points: np.ndarray) -> np.ndarray:
-    """Return the convex hull (m, 2) of points (n, 2), counter-clockwise (Andrew's monotone chain)."""
+    """Return the convex hull (m, 2) of points (n, 2), counter-clockwise.
+
+    Source: A. M. Andrew, "Another efficient algorithm for convex hulls in two dimensions" (monotone chain).
+    """
     rows = np.unique(np.round(points, 6), axis=0).tolist()
     if len(rows) < 3:
         return np.asarray(rows, dtype=float).reshape(-1, 2)
@@ -96,7 +99,7 @@ def _corners(shape: str, facts: dict) -> np.ndarray:
             return signs * half + np.asarray(facts.get("Boxes3D:centers", [0.0, 0.0, 0.0]))
         return _sphere() * half
     length, radius = float(facts[f"{shape}:lengths"]), float(facts[f"{shape}:radii"])
-    if shape == "Capsules3D":  # from its origin up its z axis, with a half sphere at each end
+    if shape == "Capsules3D":  # from its origin along its z axis, with a half sphere at each end
         low = np.asarray(facts.get("Capsules3D:translations", [0.0, 0.0, 0.0]))
         return np.concatenate([_sphere() * radius + low, _sphere() * radius + low + [0.0, 0.0, length]])
     ring = _ring() * radius
@@ -114,7 +117,7 @@ def _sphere() -> np.ndarray:
 
 
 def _is_ground(corners: np.ndarray) -> bool:
-    """Tell whether a shape is as flat and wide as a floor."""
+    """Return whether a shape is as flat and wide as a floor."""
     size = np.ptp(corners, axis=0)
     return bool(size[2] <= FLAT and min(size[:2]) > 1.0)
 

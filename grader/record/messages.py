@@ -1,8 +1,8 @@
 """The rows of a recording that a ROS message of any type becomes.
 
-Every numeric field becomes a signal named after it: `topics/cmd_vel/linear/x`. Lists of numbers become one list a
-row, texts a line whenever they change, and pictures a JPEG now and then. Knows ROS messages only by their own
-introspection, so it needs no ROS import.
+Every numeric field becomes a signal named after it: `topics/cmd_vel/linear/x`. A list of numbers becomes one row, a
+text a line whenever it changes, and a picture now and then a JPEG. Messages are read by their own introspection, so no
+ROS import is needed.
 """
 
 from __future__ import annotations
@@ -16,16 +16,15 @@ import numpy as np
 
 from gz_course.grader.record.recorder import Recorder
 
-LONGEST_LIST = 20_000  # numbers; images and clouds are shown, not stored number by number
-LONGEST_TEXT = 2_000  # characters of a text that are kept
+LONGEST_LIST = 20_000  # numbers; longer lists, such as images and clouds, are not stored as numbers
+LONGEST_TEXT = 2_000  # characters kept of a text
 JPEG_QUALITY = 85
-# ROS's names of the pixel formats a picture is made of: Pillow's mode, its raw mode, bytes a pixel.
+# ROS names of the supported pixel formats: Pillow's mode, its raw mode, bytes per pixel.
 PIXELS = {"rgb8": ("RGB", "RGB", 3), "bgr8": ("RGB", "BGR", 3), "mono8": ("L", "L", 1)}
 SKIPPED_FIELDS = frozenset({"stamp"})  # simulated time is the timeline already
 
 
 def fields(message: Any, prefix: str) -> Iterator[tuple[str, Any]]:
-    """Yield (name, value) of every leaf field of a ROS message."""
     for name in message.get_fields_and_field_types():
         value = getattr(message, name)
         path = f"{prefix}/{name}"
@@ -40,7 +39,7 @@ def fields(message: Any, prefix: str) -> Iterator[tuple[str, Any]]:
 def record_message(recorder: Recorder, topic: str, message: Any) -> None:
     """Log one message seen on a ROS topic.
 
-    A message with a single number that is not finite, which no bridge lets through, is counted and not drawn.
+    A message of a single number that is not finite, which no bridge forwards, is counted but not stored as a sample.
     """
     base = f"topics/{topic.strip('/')}"
     leaves = list(fields(message, base))
@@ -63,7 +62,7 @@ def record_message(recorder: Recorder, topic: str, message: Any) -> None:
 
 
 def jpeg(image: Any) -> bytes:
-    """Return a sensor_msgs/Image of one of the formats in PIXELS as a JPEG file; empty if it is not a whole picture."""
+    """Return a sensor_msgs/Image of a format in PIXELS as a JPEG file; empty if the picture is incomplete."""
     from PIL import Image
 
     mode, raw, width = PIXELS[image.encoding]

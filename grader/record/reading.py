@@ -1,4 +1,4 @@
-"""A recording, read back: the only input of scoring and reports.
+"""A reader of recordings: the only input of scoring and reports.
 
 Works on a finished `.rrd` and on one that is still being written (after `Recorder.flush`).
 """
@@ -18,12 +18,12 @@ import numpy as np
 from gz_course.grader.errors import UsageError
 from gz_course.sim.did_you_mean import did_you_mean
 
-STUDENT_LOG, GIVEN_LOG = "log/student", "log/given_node"  # what the submission said; what the exercise's own node said
+STUDENT_LOG, GIVEN_LOG = "log/student", "log/given_node"  # logs of the submission and of the exercise's own node
 
 
 @dataclass(frozen=True)
 class Signal:
-    """Samples of one number: `times` in simulated nanoseconds (n,), `values` (n,), both sorted by time."""
+    """Samples of one number, sorted by time: `times` of simulated time [ns] (n,) and `values` (n,)."""
 
     times: np.ndarray
     values: np.ndarray
@@ -34,10 +34,10 @@ class Signal:
 
 @dataclass(frozen=True)
 class Poses:
-    """Where something was relative to its parent entity.
+    """The poses of an entity relative to its parent, sorted by time.
 
-    `times` in simulated nanoseconds (n,), `positions` [m] (n, 3), `quaternions` x, y, z, w (n, 4), sorted by time. What
-    never moves has one row, at time 0.
+    `times` of simulated time [ns] (n,), `positions` [m] (n, 3), `quaternions` x, y, z, w (n, 4). What never moves has
+    one row, at time 0.
     """
 
     times: np.ndarray
@@ -55,7 +55,7 @@ class Line:
 
 
 class Recording:
-    """One run, as recorded. Raises UsageError if the file is not a readable recording."""
+    """One recorded run. Raises UsageError if the file is not a readable recording."""
 
     def __init__(self, path: Path) -> None:
         from rerun.chunk import RrdReader
@@ -63,11 +63,11 @@ class Recording:
         if not path.is_file():
             raise UsageError(f"no recording at {path}: give the .rrd file that `course grade` wrote")
         self.path = path
-        self._rows: dict[tuple[str, str], list[tuple[np.ndarray, Any]]] = {}  # times, arrow column
-        self._static: dict[str, dict[str, Any]] = defaultdict(dict)  # arrow columns of one row
+        self._rows: dict[tuple[str, str], list[tuple[np.ndarray, Any]]] = {}  # times, Arrow column
+        self._static: dict[str, dict[str, Any]] = defaultdict(dict)  # Arrow columns of one row
         try:
             with warnings.catch_warnings():
-                warnings.simplefilter("ignore")  # a file still being written has no footer yet
+                warnings.simplefilter("ignore")  # a file that is still being written has no footer
                 chunks = list(RrdReader(path).stream())
         except Exception as error:
             raise UsageError(f"{path} is not a readable recording: {str(error).splitlines()[0]}") from None
@@ -110,7 +110,7 @@ class Recording:
         return (name, "Scalars:scalars") in self._rows
 
     def signal(self, name: str) -> Signal:
-        """Return a signal by its name, such as `truth/robot/x`; empty if nothing was recorded under it."""
+        """Return a signal by its name, such as `truth/robot/x`; empty if it was not recorded."""
         parts = self._rows.get((name, "Scalars:scalars"), [])
         if not parts:
             return Signal(np.empty(0, dtype=np.int64), np.empty(0))
@@ -127,7 +127,7 @@ class Recording:
 
     @property
     def node_log(self) -> str:
-        """Entity of the log of the program that was run: the exercise's own node if it runs, else the student's."""
+        """Entity of the log of the program that was run: the exercise's own node if any, else the student's."""
         return GIVEN_LOG if (GIVEN_LOG, "TextLog:text") in self._rows else STUDENT_LOG
 
     def lines(self, entity: str) -> list[Line]:
@@ -150,12 +150,12 @@ class Recording:
         return self.static(f"__properties/{name}")
 
     def static(self, entity: str) -> dict[str, Any]:
-        """Return what never changes about an entity such as `world/robot/base_link/chassis`, by component."""
+        """Return the static components of an entity such as `world/robot/base_link/chassis`, by name."""
         values = {name: column[0].as_py() for name, column in self._static.get(entity, {}).items()}
         return {name: value[0] if value and len(value) == 1 else value for name, value in values.items()}
 
     def entities(self, below: str, component: str = "") -> list[str]:
-        """Return the names of all entities below one, such as `world`, that have a component whose name begins so."""
+        """Return the entities below one, such as `world`, with a component whose name begins with `component`."""
         held = [*self._rows, *((entity, name) for entity, names in self._static.items() for name in names)]
         return sorted({e for e, name in held if e.startswith(f"{below}/") and name.startswith(component)})
 
@@ -175,7 +175,7 @@ class Recording:
         return Poses(times[order], positions[order], quaternions[order])
 
     def points_at(self, entity: str, time_ns: int) -> np.ndarray:
-        """Return the last cloud of points (n, 3) [m] of an entity at a time [ns]; empty before the first."""
+        """Return the last point cloud (n, 3) [m] of an entity at a time [ns]; empty before the first."""
         row = self._last_row(entity, "Points3D:positions", time_ns)
         return np.empty((0, 3)) if row is None else np.asarray(row.values.flatten()).reshape(-1, 3)
 
@@ -185,7 +185,7 @@ class Recording:
         return b"" if row is None else bytes(np.asarray(row.values.flatten(), dtype=np.uint8))
 
     def _last_row(self, entity: str, component: str, time_ns: int) -> Any:
-        """Return the arrow list of the last row at or before a time [ns], or None."""
+        """Return the Arrow list of the last row at or before a time [ns], or None."""
         found, when = None, -1
         for times, column in self._rows.get((entity, component), []):
             index = int(np.searchsorted(times, time_ns, side="right")) - 1
@@ -194,16 +194,16 @@ class Recording:
         return found
 
     def facts(self) -> dict[str, Any]:
-        """Return what the run reported about the submission: endpoints, exit, dropped messages."""
+        """Return what the run recorded about the submission: endpoints, exit, dropped messages."""
         text = self.properties("run").get("facts")
         return json.loads(text) if text else {}
 
     @property
     def ended_s(self) -> float:
-        """When simulated time ended [s], which is before the exercise's end if the simulation broke off."""
+        """End of simulated time [s]; before the exercise's end if the simulation was aborted."""
         return float(self.facts().get("sim_seconds", math.inf))
 
     @property
     def end_ns(self) -> int:
-        """The last simulated instant on record [ns]."""
+        """Last recorded instant of simulated time [ns]."""
         return max((int(times[-1]) for parts in self._rows.values() for times, _ in parts), default=0)

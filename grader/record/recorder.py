@@ -1,11 +1,10 @@
-"""The writer of a run's recording: numbers, poses, scans, log lines, on the one timeline `sim_time`.
+"""The writer of a run's recording: numbers, poses, scans and log lines on the timeline `sim_time`.
 
-Rows are collected and sent in blocks at fixed simulated times, and what is logged one by one is flushed at once.
-Nothing waits for a tick of the wall clock: the same run gives the same chunks in the same order, and
-`rerun rrd compare` finds two recordings of it equal. A crash loses at most one block. The file is called
-`NAME.rrd.part` until `close()`.
+Rows are collected and sent in blocks at fixed simulated times; everything else is flushed at once. No flush depends on
+the wall clock: the same run gives the same chunks in the same order, and `rerun rrd compare` finds two recordings of it
+equal. A crash loses at most one block. The file is called `NAME.rrd.part` until `close()`.
 
-Entities (names are what a manifest's checks refer to, without the leading slash):
+Entities (checks in a manifest name them without the leading slash):
 
     /world/MODEL, /world/MODEL/LINK          Transform3D, shapes below them (static)
     /world/scan/TOPIC, /world/path/MODEL     what the 3-D view shows
@@ -17,6 +16,8 @@ Entities (names are what a manifest's checks refer to, without the leading slash
                                              verdicts
     /checks/ID                               StateChange, written after scoring
     properties                               run, endpoints, result: what is known about the run as a whole
+
+Source: Rerun, "The Entity Path Hierarchy".
 """
 
 from __future__ import annotations
@@ -42,15 +43,15 @@ PICTURE_NS = 500_000_000  # simulated time between two pictures of one camera [n
 
 
 def part_of(path: Path) -> Path:
-    """Return what a recording is called until it is finished."""
+    """Return the name of a recording that is not finished yet."""
     return path.with_suffix(path.suffix + ".part")
 
 
 class Recorder:
-    """One recording being written. Not thread-safe: use it from one thread."""
+    """A recording being written. Not thread-safe: use it from one thread."""
 
     def __init__(self, path: Path, robot: str) -> None:
-        """Write to `path` (which appears when the recorder is closed) the story of the model `robot`."""
+        """Write to `path`, which appears when the recorder is closed; the view follows the model `robot`."""
         self.path = path
         self.part = part_of(path)
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -74,21 +75,21 @@ class Recorder:
         self._pictures: dict[str, tuple[list[int], list[bytes]]] = defaultdict(lambda: ([], []))
 
     def set_time(self, now_ns: int) -> None:
-        """Move on to simulated time `now_ns` [ns]; everything logged next carries it."""
+        """Set simulated time to `now_ns` [ns] for everything logged from now on."""
         self.now_ns = now_ns
         if now_ns >= self._block_end:
             self.flush()
             self._block_end = now_ns - now_ns % BLOCK_NS + BLOCK_NS
 
     def scalar(self, entity: str, value: float) -> None:
-        """Log one number. NaN is left out: it would make equal recordings compare as different."""
+        """Log one number. NaN is left out, because it makes equal recordings compare as different."""
         if not math.isnan(value):
             times, values = self._scalars[entity]
             times.append(self.now_ns)
             values.append(value)
 
     def pose(self, entity: str, position: Iterable[float], quaternion_wxyz: Iterable[float]) -> None:
-        """Log a pose relative to the parent entity: metres, unit quaternion."""
+        """Log a pose relative to the parent entity: position [m], unit quaternion."""
         times, positions, quaternions = self._poses[entity]
         times.append(self.now_ns)
         positions.append(tuple(position))
@@ -96,49 +97,48 @@ class Recorder:
         quaternions.append((x, y, z, w))
 
     def text(self, entity: str, line: str, level: str = "INFO") -> None:
-        """Log one line of text."""
         times, lines, levels = self._texts[entity]
         times.append(self.now_ns)
         lines.append(line)
         levels.append(level)
 
     def said(self, entity: str, text: str) -> None:
-        """Log what a text field of a message says, if that is new; `Recording.lines` reads it."""
+        """Log the value of a text field of a message if it has changed; `Recording.lines` reads it."""
         if self._said.get(entity) != text:
             self._said[entity] = text
             self.text(entity, text)
 
     def wants_picture(self, entity: str) -> bool:
-        """Tell whether the last picture of this entity is old enough for another to be recorded."""
+        """Return whether the last picture of this entity is old enough for another to be recorded."""
         return self.now_ns - self._pictured.get(entity, -PICTURE_NS) >= PICTURE_NS
 
     def picture(self, entity: str, jpeg: bytes) -> None:
-        """Log one picture as a JPEG file's bytes."""
+        """Log a picture given as the bytes of a JPEG file."""
         self._pictured[entity] = self.now_ns
         times, pictures = self._pictures[entity]
         times.append(self.now_ns)
         pictures.append(jpeg)
 
     def array(self, entity: str, values: Iterable[float]) -> None:
-        """Log a whole list of numbers as one row."""
+        """Log a list of numbers as one row."""
         times, rows = self._arrays[entity]
         times.append(self.now_ns)
         rows.append(np.asarray(values, dtype=np.float64))
 
     def points(self, entity: str, positions: np.ndarray) -> None:
-        """Log a cloud of points, shape (n, 3), metres."""
+        """Log a cloud of points (n, 3) [m]."""
         times, clouds = self._points[entity]
         times.append(self.now_ns)
         clouds.append(np.asarray(positions, dtype=np.float32))
 
     def name(self, entity: str, name: str) -> None:
-        """Give a signal the name a plot shows for it; without one it is called after the last part of its entity."""
+        """Set the name a plot shows for a signal; the default is the last part of its entity."""
         if entity not in self._named:
             self._named.add(entity)
             self.static(entity, rr.SeriesLines(names=name))
 
     def static(self, entity: str, archetype: Any) -> None:
-        """Log something that never changes, such as a shape."""
+        """Log a component that never changes, such as a shape."""
         self.stream.log(entity, archetype, static=True)
         self.stream.flush()
 
@@ -172,11 +172,11 @@ class Recorder:
         self.stream.flush()
 
     def states(self, entity: str, times_ns: Sequence[int], states: Sequence[str]) -> None:
-        """Log a lane of named states."""
+        """Log named states, each with the time [ns] at which it begins."""
         self._send(entity, times_ns, rr.StateChange.columns(state=states))
 
     def constant(self, entity: str, times_ns: Sequence[int], value: float) -> None:
-        """Log a number that is the same at all the given times, such as the edge of a band."""
+        """Log a number with the same value at all given times [ns], such as the edge of a band."""
         self._send(entity, times_ns, rr.Scalars.columns(scalars=[value] * len(times_ns)))
 
     def _send(self, entity: str, times_ns: Sequence[int], columns: Any) -> None:
@@ -197,7 +197,10 @@ class Recorder:
     @classmethod
     @contextlib.contextmanager
     def begun(cls, path: Path, robot: str) -> Iterator[Recorder]:
-        """Make a recorder; it stays open, but if the body raises, or an interrupt before it, its file is removed."""
+        """Yield a recorder and leave it open.
+
+        If the body raises, or an interrupt arrives before it, the file is removed.
+        """
         recorder = None
         try:
             recorder = cls(path, robot)

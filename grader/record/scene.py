@@ -13,15 +13,15 @@ from gz_course.grader.record.recorder import Recorder
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.world import World
 
-LINK_TICKS = 5  # links (wheels turn) are drawn every so many ticks
+LINK_TICKS = 5  # ticks between two poses of links such as wheels
 UNITS = {"linear_x": " [m/s]", "angular_z": " [rad/s]", "distance": " [m]", "yaw": " [rad]"}
 SCAN_COLOR = np.array([[230, 60, 200, 255]], dtype=np.uint8)
 GROUND_SIZE = 20.0  # [m] side of the square drawn for an infinite plane
-FACETS = 100_000  # so many triangles of one surface are shaded
+FACETS = 100_000  # a surface of more triangles is drawn without shading
 
 
 def shape(kind: str, size: Any, color: Any) -> Any:
-    """Return the archetype for one visual; sizes are full extents in metres as in SDF."""
+    """Return the archetype for one visual; sizes are full extents [m] as in SDF."""
     rgba = [round(255 * c) for c in color]
     half = [s / 2 for s in size]
     colors = np.array([rgba], dtype=np.uint8)
@@ -46,10 +46,10 @@ def shape(kind: str, size: Any, color: Any) -> Any:
 
 
 def surface(vertices: Any, triangles: Any, color: Any) -> Any:
-    """Return the archetype for a surface of triangles: vertices (n, 3) in metres, triangles (m, 3) indices.
+    """Return the archetype for a surface of triangles: vertices (n, 3) [m], triangles (m, 3) indices.
 
-    Each triangle has corners of its own, so that edges look sharp; a surface of more than FACETS triangles is drawn as
-    it is, without shading.
+    Each triangle has corners of its own, so that edges look sharp; a surface of more than FACETS triangles is drawn
+    unshaded.
     """
     rgba = np.array([round(255 * c) for c in color], dtype=np.uint8)
     if len(triangles) > FACETS:
@@ -66,11 +66,11 @@ def surface(vertices: Any, triangles: Any, color: Any) -> Any:
 
 
 class Scene:
-    """Follows one world: call `tick()` after every step of simulated time.
+    """Records one world: call `tick()` after every step of simulated time.
 
-    Truth of every moving model goes to `truth/MODEL/...` in double precision: position (m) and orientation (unit
-    quaternion) in the world frame, yaw (rad, unwrapped), forward speed linear_x (m/s) and yaw rate angular_z
-    (rad/s) in the model's own frame, and the distance travelled (m).
+    The true state of every moving model is recorded as `truth/MODEL/...` in double precision: position [m] and
+    orientation (unit quaternion) in the world frame, yaw [rad] (unwrapped), forward speed linear_x [m/s] and yaw rate
+    angular_z [rad/s] in the model's own frame, and the distance travelled [m].
     """
 
     def __init__(self, recorder: Recorder, world: World) -> None:
@@ -150,14 +150,14 @@ class Scene:
         self._ticks += 1
 
     def finish(self) -> None:
-        """Log the path each model took."""
+        """Log the path that each model took."""
         for model, path in self._path.items():
             if len(path) > 1:
                 strip = rr.LineStrips3D([path], colors=np.array([[255, 170, 0, 255]], dtype=np.uint8), radii=0.01)
                 self._recorder.static(f"/world/path/{model}", strip)
 
     def scan(self, gz_topic: str, scan: Any) -> None:
-        """Draw a sensor_msgs/LaserScan that came from the Gazebo topic of one of the world's lidars."""
+        """Log a sensor_msgs/LaserScan that came from the Gazebo topic of one of the world's lidars."""
         entity = self._lidars.get(gz_topic)
         if entity is None:
             return
@@ -169,6 +169,5 @@ class Scene:
 
 
 def transform(pose: Any) -> Any:
-    """Return a pose as Rerun's transform."""
     w, x, y, z = (float(v) for v in pose.quaternion)
     return rr.Transform3D(translation=[float(v) for v in pose.position], quaternion=rr.Quaternion(xyzw=[x, y, z, w]))

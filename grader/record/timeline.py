@@ -1,3 +1,3 @@
-"""The one timeline of every recording: simulated time. Wall time stays out, so that equal runs record equally."""
+"""The only timeline of a recording: simulated time. Without wall time, equal runs give equal recordings."""
 
 TIMELINE = "sim_time"

@@ -1,1 +1,1 @@
-"""The students' copy of the course: `student_copy.py` makes it; called by `course release`."""
+"""The students' copy of the course: `student_copy.py` makes it for `course release`."""

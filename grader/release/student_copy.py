@@ -1,7 +1,7 @@
-"""The students' copy of the course: everything they work with, nothing that gives a solution away.
+"""The students' copy of the course: everything students work with, nothing that reveals a solution.
 
-Copied are named folders and files, so what is not named cannot slip in: neither `solutions/` nor `tests/` (whose
-submissions solve exercises, too), nor recordings and caches. A starter that somebody has solved in place is refused.
+Only listed folders and files are copied, so neither `solutions/` nor `tests/` (which hold solved exercises), recordings
+or caches can get into it. A starter that somebody has solved in place is refused.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ CHECKOUT = Path(__file__).parents[2]
 COURSE = ("exercises", "chapters")
 CODE = ("sim", "grader", "public")
 FILES = ("pyproject.toml", "constraints.txt", "LICENSE", ".gitignore")
-# For authors. The scaffold of an exercise holds a solution of it.
+# For authors only. The scaffold of an exercise holds its solution.
 AUTHORS_ONLY = (
     "chapters/README.md",
     "grader/exercise/scaffold",
@@ -37,8 +37,8 @@ README = Path(__file__).with_name("README.md.template")
 def release(root: Path, target: Path) -> list[str]:
     """Write the students' copy of the course at `root` to `target`; return the names of its exercises.
 
-    All or nothing: a copy that could not be finished is not left behind. Raises UsageError if `target` cannot be
-    used, ManifestError if a file would give a solution away.
+    An incomplete copy is removed. Raises UsageError if `target` cannot be used, ManifestError if a file would reveal a
+    solution.
     """
     code = root if all((root / name).exists() for name in (*CODE, *FILES[:1])) else CHECKOUT
     missing = [name for name in (*CODE, *FILES) if not (code / name).exists()]
@@ -55,7 +55,7 @@ def release(root: Path, target: Path) -> list[str]:
         copy.chmod(0o755)
         _fill(copy, root, code, exercises)
         if target.exists():
-            target.rmdir()  # it is empty
+            target.rmdir()  # remove the empty target folder
         copy.rename(target)
     except (OSError, shutil.Error) as error:
         told = getattr(error, "strerror", None) or str(error)
@@ -102,7 +102,7 @@ def _fill(copy: Path, root: Path, code: Path, exercises: list[Exercise]) -> None
 
 
 def _files(folder: Path) -> Iterator[Path]:
-    """Return the files of a folder, without hidden ones and leftovers. Raises ManifestError for a link out of it."""
+    """Return the files of a folder except hidden ones and caches. Raises ManifestError for a link out of it."""
     for path in sorted(folder.rglob("*")):
         inside = path.relative_to(folder)
         parents = [inside, *inside.parents][:-1]
@@ -115,7 +115,7 @@ def _files(folder: Path) -> Iterator[Path]:
 
 
 def _private_files(exercise: Exercise) -> list[tuple[Path, frozenset[str]]]:
-    """Return the solution and the accepted variants of an exercise with their lines."""
+    """Return the solution and the accepted variants of an exercise, each with its lines."""
     folder = exercise.twin
     found = [folder / exercise.file, *sorted(folder.glob(f"accepted/*/{exercise.file}"))]
     return [(path, lines) for path in found if path.is_file() and (lines := _lines(path))]
@@ -133,7 +133,7 @@ def _lines(path: Path) -> frozenset[str]:
     """Return the lines of a text or of a notebook's cells, without indentation, comments and empty lines."""
     text = path.read_text(encoding="utf-8", errors="replace")
     if path.suffix == ".ipynb":
-        with contextlib.suppress(ValueError, TypeError, AttributeError, KeyError):  # no notebook: a text like any other
+        with contextlib.suppress(ValueError, TypeError, AttributeError, KeyError):  # not a notebook, but a text
             text = "\n".join("".join(cell["source"]) for cell in json.loads(text)["cells"])
     lines = (line.strip() for line in text.splitlines())
     return frozenset(line for line in lines if line and not line.startswith(("#", '"""')))

@@ -1,1 +1,1 @@
-"""What people and programs get to read: made from a score, never from a run."""
+"""Reports for people and programs, made from a score and its recordings."""

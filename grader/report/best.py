@@ -1,8 +1,7 @@
-"""The best score so far of each exercise, from the JSON reports below the folder of runs.
+"""The best score so far in each exercise, from the JSON reports below the folder of runs.
 
 `course grade` leaves the report of its best grading beside its recordings (`keep_best`) when it grades into its default
-folder; `course list` reads them all (`best_scores`). Anybody may have put anything into that folder, so what is no
-report of today's exercise is passed over.
+folder; `course list` reads them all (`best_scores`). Files that are not reports of the present exercise are ignored.
 """
 
 from __future__ import annotations
@@ -21,21 +20,21 @@ from gz_course.grader.errors import UsageError
 if TYPE_CHECKING:
     from gz_course.grader.report.report import Report
 
-RUNS = Path("runs")  # where `course grade` puts its folders unless told otherwise
+RUNS = Path("runs")  # default folder of `course grade`
 BEST = "best.json"
 MOST_BYTES = 4 << 20  # of a report; real ones have some 10 KB
-MOST_POINTS = 1e9  # whatever claims more is no report
+MOST_POINTS = 1e9  # a file that claims more is not a report
 
 
 @dataclass
 class BestScores:
-    """The highest score by exercise; `stale` names those with reports of another maximum than today's."""
+    """The highest score by exercise; `stale` names those whose reports have another maximum than the present one."""
 
     scores: dict[str, float] = field(default_factory=dict)
     stale: set[str] = field(default_factory=set)
 
     def add(self, path: Path, most: Mapping[str, float]) -> None:
-        """Count the report in a file, if it is one of an exercise in `most`, which maps them to today's maximum."""
+        """Count the report in a file if its exercise is in `most`, the present maximum by exercise."""
         report = _read(path)
         name, score, maximum = report.get("exercise"), _points(report.get("score")), _points(report.get("max_score"))
         if not isinstance(name, str) or name not in most:
@@ -49,9 +48,9 @@ class BestScores:
 
 
 def best_scores(folder: Path, most: Mapping[str, float]) -> BestScores:
-    """Return the best scores in the reports below `folder`; `most` is the maximum of each exercise today.
+    """Return the best scores in the reports below `folder`; `most` is the present maximum of each exercise.
 
-    Files that are no such report, cannot be read, or claim more than their own maximum are passed over.
+    Files that are not such reports, cannot be read, or claim more than their own maximum are ignored.
     """
     best = BestScores()
     for path in _files_below(folder):
@@ -60,7 +59,7 @@ def best_scores(folder: Path, most: Mapping[str, float]) -> BestScores:
 
 
 def keep_best(report: Report, folder: Path) -> None:
-    """Write the report to `best.json` in `folder`, unless a better one stands there. Raises UsageError if it cannot."""
+    """Write the report to `best.json` in `folder` unless a better one is there. Raises UsageError if it cannot."""
     path = folder / BEST
     before = BestScores()
     before.add(path, {report.exercise: report.max_score})
@@ -76,16 +75,16 @@ def keep_best(report: Report, folder: Path) -> None:
 
 
 def _files_below(folder: Path) -> Iterator[Path]:
-    """Return the JSON files below a folder, in no order; symbolic links to folders are not followed."""
+    """Return the JSON files below a folder, in no particular order; symbolic links to folders are not followed."""
     for base, _, names in os.walk(folder):
         yield from (Path(base, name) for name in names if name.endswith(".json"))
 
 
 def _read(path: Path) -> dict[str, Any]:
-    """Return the JSON object a file holds; an empty one if it is no file or holds something else."""
+    """Return the JSON object in a file; an empty one if the file holds anything else."""
     try:
         about = path.stat()
-        if not stat.S_ISREG(about.st_mode) or about.st_size > MOST_BYTES:  # a pipe would never end
+        if not stat.S_ISREG(about.st_mode) or about.st_size > MOST_BYTES:  # reading a pipe might never end
             return {}
         report = json.loads(path.read_bytes())
     except (OSError, ValueError, RecursionError):

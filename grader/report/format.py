@@ -1,4 +1,4 @@
-"""What a report format is, and the options that the formats in `formats/` give to the commands that write reports."""
+"""Report formats, and the command-line options that the formats in `formats/` contribute."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ class Format:
     """A format of reports.
 
     `as_text` raises UsageError if a recording it needs cannot be read. `file` is the name of the report in a student's
-    folder of a class. `help` describes the option of `course grade` and `course score`, `class_help` that of
-    `course grade-all`; None: it has none. `before` names formats whose options and reports come later.
+    folder of a class. `help` describes the option of `course grade` and `course score`, `class_help` that of `course
+    grade-all` (None: no such option). `before` names the formats whose options and reports come later.
     """
 
     as_text: Callable[[Report], str]
@@ -33,7 +33,6 @@ class Format:
 
 @functools.cache
 def formats() -> dict[str, Format]:
-    """Return every format, by name."""
     from gz_course.grader.report import formats
 
     found: dict[str, Format] = {name: module.FORMAT for name, module in modules(formats).items()}
@@ -41,24 +40,24 @@ def formats() -> dict[str, Format]:
 
 
 def with_report_files(command: Callable[..., None]) -> Callable[..., None]:
-    """Replace the parameter `reports` of a command by an option for each format, which names a file.
+    """Replace the parameter `reports` of a command by one option per format that names a file.
 
-    `reports` is then a dict of the files that are wanted, by format.
+    The command gets `reports` as a dict of the files the user asked for, by format.
     """
     return _with_options(command, Path | None, None, {name: each.help for name, each in formats().items()})
 
 
 def with_report_flags(command: Callable[..., None]) -> Callable[..., None]:
-    """Replace the parameter `reports` of a command for a class by a flag for each format that has one.
+    """Replace the parameter `reports` of a class's command by one flag for each format that has `class_help`.
 
-    `reports` is then a dict of True for those that are wanted, by format.
+    The command gets `reports` as a dict of True for each format the user asked for.
     """
     helps = {name: each.class_help for name, each in formats().items() if each.class_help}
     return _with_options(command, bool, False, helps)
 
 
 def _with_options(command: Callable[..., None], kind: Any, default: Any, helps: dict[str, str]) -> Callable[..., None]:
-    """Return the command with a signature, which typer reads, that has options in the place of `reports`."""
+    """Return the command with a signature, read by typer, that has options in the place of `reports`."""
     import typer
 
     @functools.wraps(command)

@@ -11,14 +11,14 @@ if TYPE_CHECKING:
     from gz_course.grader.record.reading import Recording
     from gz_course.grader.report.report import Report
 
-FIRST, LAST = 40, 80  # lines that are kept from the beginning and from the end
+FIRST, LAST = 40, 80  # lines kept from the beginning and from the end
 
 
 @dataclass(frozen=True)
 class NodeLog:
-    """Lines as (simulated time [s], level, text), fit to be shown; `left_out` lines are missing between the two parts.
+    """Printable lines as (simulated time [s], level, text); `left_out` lines are missing between the two parts.
 
-    `dropped` lines more came so fast that they were never recorded. `who` wrote it, in words.
+    `dropped` further lines came too fast to be recorded. `who` names the writer in words.
     """
 
     first: tuple[tuple[float, str, str], ...]
@@ -46,7 +46,7 @@ def log_of(report: Report, first: int = FIRST, last: int = LAST) -> NodeLog:
 
 
 def node_log(recording: Recording, first: int = FIRST, last: int = LAST) -> NodeLog:
-    """Return the first and last lines of what the node's process, or those of a launch file, printed and logged."""
+    """Return the first and last lines that the node's process, or those of a launch file, printed and logged."""
     from gz_course.grader.record.reading import GIVEN_LOG
 
     log, facts = recording.node_log, recording.facts()

@@ -1,6 +1,6 @@
-"""The files a report is written to: that they can be written, and the writing.
+"""The files to which reports are written: the check that they can be written, and the writing.
 
-Called by `course grade` before the run (`check`) and by it and `course score` after it (`write`).
+`course grade` calls `check` before the run; it and `course score` call `write` after it.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ from gz_course.grader.report.report import Report
 
 @dataclass(frozen=True)
 class Outputs:
-    """Where the reports that are wanted go, by format."""
+    """The files of the reports that were asked for, by format."""
 
     files: dict[str, Path] = field(default_factory=dict)
 
     def check(self, others: Iterable[Path] = (), inputs: Iterable[Path] = ()) -> None:
-        """Find out before anything runs whether every file can be written, and `others` such as recordings with them.
+        """Check before the run that every file, and `others` such as recordings, can be written.
 
         Raises UsageError if one cannot, if two are the same, or if one would overwrite something in `inputs`.
         """
@@ -42,7 +42,7 @@ class Outputs:
             check_writable(path)
 
     def write(self, report: Report) -> None:
-        """Write every report that is wanted. Raises UsageError if one cannot be written."""
+        """Write every report that was asked for. Raises UsageError if one cannot be written."""
         for name, path in self.files.items():
             text = formats()[name].as_text(report)
             check_writable(path)
@@ -53,7 +53,7 @@ class Outputs:
 
 
 def check_writable(path: Path) -> None:
-    """Find out whether a file can be written, making its folder. Raises UsageError if not."""
+    """Check that a file can be written, and make its folder. Raises UsageError if not."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         if path.is_dir():
@@ -68,7 +68,7 @@ def check_writable(path: Path) -> None:
 
 
 def _is_stream(path: Path) -> bool:
-    """Tell whether nothing is overwritten there: a terminal, a pipe or /dev/null."""
+    """Return whether writing there overwrites nothing: a terminal, a pipe or /dev/null."""
     return path.exists() and not path.is_file()
 
 

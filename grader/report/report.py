@@ -1,6 +1,6 @@
-"""The report on one grading: everything `--json` promises, in one place.
+"""The report on one grading: everything that `--json` writes.
 
-The keys are a contract (README, "The JSON report"): programs read them, so they are added to but never renamed.
+Programs read the keys (README, "The JSON report"): keys may be added but never renamed.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from gz_course.grader.printable import storable
 if TYPE_CHECKING:
     from gz_course.grader.score.score import CheckResult, Score
 
-# What each outcome means, in a sentence.
+# The meaning of each outcome in a sentence.
 OUTCOMES = {
     "graded": "The submission ran to the end and was graded.",
     "student_error": "The submission could not run, or ended with an error.",
-    "timeout": "The submission never began to work, or held everything up.",
+    "timeout": "The submission never became ready, or delayed the run too long.",
     "memory": "The submission ran out of memory.",
-    "output": "The submission printed more than anybody can read, and was ended.",
-    "protocol": "The submission closed the connection it is followed by.",
+    "output": "The submission printed too much, and was ended.",
+    "protocol": "The submission closed its connection to the grader.",
     "tamper": "The submission published what only the simulator may; nothing counts.",
     "infra": "The machine or the grader failed; this is no verdict on the program.",
 }
@@ -30,7 +30,7 @@ OUTCOMES = {
 
 @dataclass(frozen=True)
 class HostFacts:
-    """What is known about a run only while it is graded; absent when a recording is scored again."""
+    """Facts known only while a run is graded; absent when a recording is scored again."""
 
     sandbox: str
     pace: str
@@ -51,7 +51,7 @@ class TrialReport:
 
 @dataclass(frozen=True)
 class Report:
-    """A score with everything around it. `score` is that of all `trials` together, `recording` that of the first."""
+    """A score with its context. `score` is that of all `trials` together, `recording` that of the first."""
 
     exercise: str
     title: str
@@ -64,7 +64,7 @@ class Report:
     versions: dict[str, Any]
     host: HostFacts | None = None
     trials: tuple[TrialReport, ...] = ()
-    notes: tuple[str, ...] = ()  # what a reader must know about how the score came about
+    notes: tuple[str, ...] = ()  # what a reader must know about the origin of the score
 
     @property
     def full_marks(self) -> bool:
@@ -73,18 +73,18 @@ class Report:
 
     @property
     def measured(self) -> bool:
-        """Whether the checks saw anything: the submission could be run, and what it did counts."""
+        """Whether the checks were applied: the submission could be run, and its behaviour counts."""
         return bool(self.sim_seconds) and self.score.outcome != "tamper"
 
     @property
     def shown_trial(self) -> TrialReport:
-        """The trial to look at: the first that lost points, else the first."""
+        """The trial to show: the first that lost points, else the first."""
         return next((trial for trial in self.trials if trial.score.points < self.max_score), self.trials[0])
 
     def told(self, check: CheckResult) -> list[tuple[str, str]]:
-        """Return what there is to say about one check, by name: expected, measured, when, and the hint if it failed.
+        """Return (name, text) pairs on one check: expected, measured, when, and the hint if it failed.
 
-        There is no hint where nothing was measured: something else is to be mended first.
+        Without a measurement there is no hint, because another fault must be mended first.
         """
         finding = check.finding
         lines = [("expected", finding.expected), ("measured", finding.measured)]
@@ -93,11 +93,10 @@ class Report:
         return [*lines, ("hint", check.spec.hint)] if self.measured and not finding.passed else lines
 
     def as_json(self) -> str:
-        """Return the report as JSON text; see README.md for the keys."""
         return json.dumps(storable(self.as_dict()), indent=2, allow_nan=False) + "\n"
 
     def as_dict(self) -> dict[str, Any]:
-        """Return the report as plain data. Host facts are null when a recording was scored again."""
+        """Return the report as plain data. Facts about the machine are null when a recording is scored again."""
         host = self.host
         run_wall = host.run_wall_seconds if host else None
         return {
@@ -146,5 +145,5 @@ class Report:
 
 
 def points(value: float) -> str:
-    """Return points as they are written: no more digits than they have, no traces of binary fractions."""
+    """Return points as text without trailing zeros and without rounding errors of binary fractions."""
     return f"{round(value, 3):g}"

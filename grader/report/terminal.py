@@ -1,7 +1,7 @@
-"""The report a person reads in a terminal: the diagnosis first, then what each check expected and measured.
+"""The report in a terminal: the diagnosis first, then what each check expected and measured.
 
-Called by the commands that grade. One layout for every width; every state is a word as well as a colour. What a student
-wrote is printed as text: no markup, no control codes, and no line that a build service would take for a command.
+Used by the commands that grade. The layout is the same for every width; every state is a word as well as a colour. A
+student's text is printed without markup and control codes, and so that no build service takes a line for a command.
 """
 
 from __future__ import annotations
@@ -23,18 +23,19 @@ from gz_course.grader.score.score import CheckResult
 
 NO_LIMIT = 1 << 20
 MARKS = {True: ("pass", "green"), False: ("FAIL", "bold red")}
-INDENT = 6  # columns below a check's first line: the width of its mark
-NARROWEST = 24  # columns; in less nothing could be read anyway
+INDENT = 6  # columns before the further lines of a check: the width of its mark
+NARROWEST = 24  # columns; narrower terminals are treated as this wide
 LAST_LINES = 12  # of the log of a node that died
 
 TRAILING = re.compile(r" +$", re.MULTILINE)
 
-# GitHub Actions obeys lines that begin with "::", and "##[" anywhere in a line; Azure Pipelines "##vso[".
+# GitHub Actions obeys lines that begin with "::", and "##[" anywhere in a line; Azure Pipelines obeys "##vso[". Source:
+# GitHub, "Workflow commands for GitHub Actions"; Azure Pipelines, "Logging commands".
 COMMANDS = re.compile(r"^([^\S\n]*(?:\x1b\[[0-9;]*m)*[^\S\n]*):(?=:)|#(?=#\[|#vso\[)", re.MULTILINE)
 
 
 def print_report(report: Report, file: TextIO | None = None, width: int | None = None) -> None:
-    """Print one report to the terminal (or to `file`, `width` columns wide), in colour where it is wanted and shown.
+    """Print one report to the terminal, or to `file` with `width` columns, in colour where that is supported.
 
     Raises UsageError if the recording of a node that died cannot be read.
     """
@@ -57,7 +58,7 @@ def print_report(report: Report, file: TextIO | None = None, width: int | None =
 
 
 def disarmed(text: str) -> str:
-    """Break what a build service would obey in the log of a job: a space after the first colon or hash is enough."""
+    """Insert a space into every sequence that a build service would obey in a log."""
     return COMMANDS.sub(lambda match: f"{match[0]} ", text)
 
 
@@ -93,7 +94,7 @@ def _print(report: Report, console: Console) -> None:
 
 
 def _print_check(check: CheckResult, report: Report, console: Console) -> None:
-    """Print one check. Where nothing was measured the diagnosis says why, and expectations are for later."""
+    """Print one check. Without a measurement print no expectation: the diagnosis explains why."""
     finding = check.finding
     earned = f"{points(check.points)}/{points(check.spec.points)}"
     console.print(_hanging(_text(MARKS[finding.passed]), _text(check.spec.title, "  ", (earned, "bold"))))
@@ -117,7 +118,7 @@ def _print_last_lines(report: Report, console: Console) -> None:
 
 
 def _hanging(label: Text, text: Text, width: int = INDENT) -> RenderableType:
-    """Return a text whose further lines begin below its first, to the right of the label."""
+    """Return a text with its further lines aligned below its first, to the right of the label."""
     row = Table.grid()
     row.add_column(width=width, no_wrap=True)
     row.add_column(overflow="fold")
@@ -126,7 +127,7 @@ def _hanging(label: Text, text: Text, width: int = INDENT) -> RenderableType:
 
 
 def _text(*parts: str | tuple[str, str]) -> Text:
-    """Put texts, or (text, style), together: foreign text holds no markup, and control codes are replaced."""
+    """Join texts, or (text, style) pairs, without interpreting markup and with control codes replaced."""
     line = Text(overflow="fold")
     for part in parts:
         text, style = part if isinstance(part, tuple) else (part, "")

@@ -1,4 +1,4 @@
-"""The verdicts in the recording: a lane for each check, the bands, the result."""
+"""The verdicts in the recording: the states of each check, the bands, the result."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ STATES = rr.StateConfiguration(
     colors=np.array([[110, 110, 110, 255], [40, 160, 70, 255], [200, 50, 50, 255]], dtype=np.uint8),
 )
 
-TAIL = 0.5  # [s] the lanes go on after the end, so that a verdict given at the end can be seen
+TAIL = 0.5  # [s] recorded beyond the end, so that a verdict given at the end is visible
 
 
 def write_verdicts(recorder: Recorder, score: Score, max_score: float, end_s: float) -> None:
-    """Log every check as a lane that changes at the moment of its verdict, its bands, and the result as properties."""
+    """Log every check as a state that changes at the moment of its verdict, its bands, and the result as properties."""
     for check in score.checks:
         entity = f"/checks/{check.spec.id}"
         at = check.finding.at_s if check.finding.at_s is not None else end_s

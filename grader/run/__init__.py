@@ -1,1 +1,1 @@
-"""Run a submission against the simulator: its process, its sandbox, and the lock-step between the two."""
+"""The run of a submission against the simulator: its processes, its sandbox, and the lock-step between the two."""

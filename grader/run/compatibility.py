@@ -1,7 +1,7 @@
-"""Whether the agent's patches fit the libraries installed here; asked once at the beginning of a run.
+"""The check that the agent's patches fit the installed libraries, done once at the beginning of a run.
 
-The submission's processes run the same Python with the same libraries, so the answer is found on this side of the
-walls, where no submission can forge it.
+The submission's processes run the same Python with the same libraries, so the check can run outside the sandbox, where
+no submission can forge its result.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ RCLPY = "ros-jazzy-rclpy"
 
 
 def check_compatibility() -> None:
-    """Raise InfrastructureError naming the first thing of rclpy or Python that is not as the patches expect it."""
+    """Raise InfrastructureError naming the first item of rclpy or Python that is not as the patches expect it."""
     installed = version(RCLPY)
     found = misfits(rclpy_7_1.RELIED_UPON) + misfits(python_3.SUBPROCESS)
     if not found and not installed.startswith(f"{rclpy_7_1.VERSION}."):

@@ -1,6 +1,8 @@
-"""Reserves a ROS domain for one run, so that two gradings on one machine never hear each other.
+"""Reservation of a ROS domain for one run, so that two gradings on one machine never receive each other's messages.
 
-The reservation is an abstract unix socket: it needs no file, and it disappears with the process that holds it.
+The reservation is an abstract unix socket: it needs no file and disappears with the process that holds it.
+
+Source: unix(7), "Abstract sockets".
 """
 
 from __future__ import annotations
@@ -12,13 +14,13 @@ from types import TracebackType
 
 from gz_course.grader.errors import InfrastructureError
 
-# DDS ports are 7400 + 250 * domain + ...; above domain 101 they reach Linux's ephemeral ports (32768 and up).
-# Domain 0 is everybody's default and stays free.
+# DDS ports are 7400 + 250 * domain + ...; above domain 101 they reach Linux's ephemeral ports (32768 and up). Domain 0
+# is everybody's default and stays free. Source: DDSI-RTPS 2.2, 9.6.1.
 DOMAINS = range(1, 102)
 
 
 class Domain:
-    """A ROS domain id held until `release()`; also a context manager."""
+    """A ROS domain id reserved until `release()`; also a context manager."""
 
     def __init__(self) -> None:
         self._lock = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
@@ -38,7 +40,6 @@ class Domain:
         )
 
     def release(self) -> None:
-        """Give the domain back."""
         self._lock.close()
 
     def __enter__(self) -> Domain:

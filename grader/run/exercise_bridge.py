@@ -1,4 +1,4 @@
-"""The bridge that an exercise brings along, for the kinds of submissions that do not bring their own."""
+"""The bridge that comes with an exercise, for the kinds of submissions that do not bring their own."""
 
 from __future__ import annotations
 

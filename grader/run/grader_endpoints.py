@@ -1,7 +1,7 @@
-"""The grader's own end of the ROS graph: the bridge to its private simulator, and a tap on every student topic.
+"""The grader's side of the ROS graph: the bridge to its private simulator, and subscriptions to all student topics.
 
-The bridge is the real `ros_gz_bridge`; only the moment at which its ROS messages leave is decided here, because in
-lock-step they leave one at a time.
+The bridge is the real `ros_gz_bridge`; only the moment at which its ROS messages are published is decided here, because
+in lock-step they are published one at a time.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ from gz_course.grader.errors import ManifestError
 from gz_course.sim.gz.transport import Node as GzNode
 from gz_course.sim.ros_gz_bridge.bridge import Bridge, BridgeEntry, HeaderOverrides
 
-HOUSEKEEPING = ("/parameter_events", "/rosout")  # topics every node has
-UNKNOWN = "_NODE_NAME_UNKNOWN_"  # what rcl calls the node of an endpoint that has not told it yet
-NAMES, LOOK_AGAIN = 5.0, 0.02  # [s] of wall time for the nodes' names to arrive, and between two looks
+HOUSEKEEPING = ("/parameter_events", "/rosout")  # topics of every node
+UNKNOWN = "_NODE_NAME_UNKNOWN_"  # rcl's name for the node of an endpoint whose node name is not known yet
+NAMES, LOOK_AGAIN = 5.0, 0.02  # [s] of wall time for the names of nodes to arrive, and between two looks
 TAP_DEPTH = 1000
-LARGE = 60_000  # [bytes] which one UDP packet holds; a larger message goes in several, and some may be lost
-MOST_AT_ONCE = 1000  # messages taken in one go: a flood does not keep the grader from going on
+LARGE = 60_000  # [bytes] in one UDP packet; fragments of a larger message may be lost
+MOST_AT_ONCE = 1000  # messages taken in one call, so that a flood does not stop the grader
 NODE = "ros_gz_bridge"
 
 
@@ -44,7 +44,7 @@ def message_class(ros_type: str) -> Any:
 
 
 class GraderEndpoints:
-    """Owns an rclpy context in `domain`, the bridge for `entries`, and a tap on each topic in `observe`.
+    """Owns an rclpy context in `domain`, the bridge for `entries`, and a subscription to each topic in `observe`.
 
     `heard(topic, message)` is called for every message that arrives from the student.
     """
@@ -66,11 +66,11 @@ class GraderEndpoints:
         self.received: Counter[str] = Counter()
         self._heard = heard
         self._context = Context()
-        # No arguments: ours are not meant for ROS.
+        # No arguments: the grader's own are not meant for ROS.
         rclpy.init(args=[], context=self._context, domain_id=domain, signal_handler_options=SignalHandlerOptions.NO)
-        with contextlib.ExitStack() as stack:  # an executor that nobody ends complains when Python does
+        with contextlib.ExitStack() as stack:  # an executor that is not shut down complains when Python exits
             stack.callback(rclpy.shutdown, context=self._context)
-            set_logger_level(NODE, LoggingSeverity.ERROR)  # what it would say is told in the report
+            set_logger_level(NODE, LoggingSeverity.ERROR)  # the report contains what it would log
             self._node = rclpy.create_node(NODE, context=self._context, start_parameter_services=False)
             stack.callback(self._node.destroy_node)
             self._executor = SingleThreadedExecutor(context=self._context)
@@ -84,7 +84,7 @@ class GraderEndpoints:
             self._open = stack.pop_all()
 
     def set_bridges(self, entries: list[BridgeEntry], overrides: HeaderOverrides | None = None) -> None:
-        """Replace the bridges. Raises BridgeError, and then there are none."""
+        """Replace the bridges. Raises BridgeError, and leaves no bridge, if an entry cannot be bridged."""
         self.bridge.close()
         self.bridge = Bridge(self._node, self._gz_node, [])
         self.bridge = Bridge(
@@ -95,10 +95,10 @@ class GraderEndpoints:
         self._look_at_own()
 
     def _look_at_own(self) -> None:
-        # One publisher and one subscription a topic, so one match on either side is a complete match.
+        # One publisher and one subscription per topic, so that one match on either side is a complete match.
         self._publishers = {p.topic_name: p for p in self._node.publishers if p.topic_name in self.offered}
         self._subscriptions = {s.topic_name: s for s in self._node.subscriptions if s.topic_name in self.listened}
-        # An entry that goes both ways hears itself; that is no match with the student.
+        # A bidirectional entry receives its own messages; that is not a match with the student.
         self._own_publishers = Counter(p.topic_name for p in self._node.publishers)
         self._own_subscriptions = Counter(s.topic_name for s in self._node.subscriptions)
 
@@ -118,7 +118,7 @@ class GraderEndpoints:
     def take_held(self) -> list[tuple[str, Any, Any]]:
         """Return what the simulator published since the last call: /clock first, then by topic name.
 
-        A node that looks at its clock when a scan arrives then finds the time of that scan, not the one before.
+        A node that reads its clock when a scan arrives then gets the time of that scan, not of the one before.
         """
         held, self.held = self.held, []
         return sorted(held, key=lambda item: (item[0] != "/clock", item[0]))
@@ -136,11 +136,11 @@ class GraderEndpoints:
                 return
 
     def publishes(self, topic: str) -> str | None:
-        """Return the ROS type of what the bridge publishes on a topic, or None."""
+        """Return the ROS type that the bridge publishes on a topic, or None."""
         return self.offered.get(topic)
 
     def listens(self, topic: str) -> str | None:
-        """Return the ROS type of what the grader subscribes to on a topic, or None."""
+        """Return the ROS type to which the grader subscribes on a topic, or None."""
         return self.listened.get(topic)
 
     def matched(self, topic: str, kind: str) -> int:
@@ -152,23 +152,23 @@ class GraderEndpoints:
         return max(0, int(subscription.get_publisher_count()) - own) if subscription else 0
 
     def reliable(self, topic: str) -> bool:
-        """Return whether the bridge publishes reliably on a topic, so that a reliable subscription receives it."""
+        """Return whether the bridge publishes reliably on a topic, so that reliable subscriptions match."""
         publisher = self._publishers.get(topic)
         return publisher is None or publisher.qos_profile.reliability != ReliabilityPolicy.BEST_EFFORT
 
     def is_large(self, message: Any) -> bool:
-        """Return whether a message takes several packets, and has a stamp that tells it from the next."""
+        """Return whether a message needs several packets and has a stamp that distinguishes it from the next."""
         return hasattr(message, "header") and len(serialize_message(message)) > LARGE
 
     def bridged(self) -> list[dict[str, Any]]:
-        """Return every bridge as it was set up and how many messages went through it each way."""
+        """Return every bridge as it was set up and the number of messages it passed in each direction."""
         found = []
         for status in self.bridge.status():
             entry = status.entry
             publisher, subscription = self._publishers.get(entry.ros_topic), self._subscriptions.get(entry.ros_topic)
             found.append(
                 {
-                    "source": entry.source.rpartition("/")[2],  # the file's name: where it lies differs
+                    "source": entry.source.rpartition("/")[2],  # the name only, because the folder differs between runs
                     "ros_topic": entry.ros_topic,
                     "ros_type": entry.ros_type,
                     "gz_topic": entry.gz_topic,
@@ -183,9 +183,9 @@ class GraderEndpoints:
         return found
 
     def ros_graph(self) -> dict[str, dict[str, list[str]]]:
-        """Return the ROS graph as it is seen from here: topic -> types, publishing and subscribing nodes.
+        """Return the ROS graph as seen from here: topic -> types, publishing and subscribing nodes.
 
-        Waits, for at most `NAMES` seconds, until every endpoint has told the name of its node.
+        Waits, for at most `NAMES` seconds, until the name of every endpoint's node is known.
         """
         deadline = time.monotonic() + NAMES
         while True:
@@ -213,6 +213,6 @@ class GraderEndpoints:
 
 
 def _qos(endpoint: Any) -> dict[str, Any]:
-    """The QoS of a publisher or subscription of the bridge."""
+    """Return the QoS of a publisher or subscription of the bridge."""
     profile = endpoint.qos_profile
     return {"reliability": profile.reliability.name, "durability": profile.durability.name, "depth": profile.depth}

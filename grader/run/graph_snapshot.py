@@ -1,7 +1,7 @@
-"""Both graphs of a run as facts for its recording: who publishes what, as which type, in Gazebo and in ROS.
+"""Both graphs of a run as facts for its recording: topics, types, publishers and subscribers in Gazebo and ROS.
 
-Taken by `run_loop.py` at the end of a run whose submission is about the graphs (a table, a bridge); checks compare with
-them.
+`run_loop.py` takes them at the end of a run whose submission is about the graphs (a table, a bridge); checks compare
+the submission with them.
 """
 
 from __future__ import annotations
@@ -42,6 +42,6 @@ def _types(topic: str, ends: list[MessagePublisher]) -> list[str]:
 
 
 def _who(topic: str, ends: list[MessagePublisher], own: set[str]) -> list[str]:
-    """The simulator has many Gazebo nodes, the bridge one, with the topics `own`."""
+    """Return the programs at the ends of a Gazebo topic: the bridge for its `own`, the simulator otherwise."""
     others = sum(end.topic == topic for end in ends) > (topic in own)
     return [SIMULATOR] * others + [NODE] * (topic in own)

@@ -18,7 +18,7 @@ PACKAGES = {"mujoco": "mujoco", "rclpy": "ros-jazzy-rclpy", "rerun": "rerun-sdk"
 def write_properties(
     recorder: Recorder, exercise: Exercise, submission: Submission, trial: Trial, facts: dict[str, Any]
 ) -> None:
-    """Store what was graded, under which parameters, with which versions, and what became of the node (`facts`)."""
+    """Store what was graded, with which parameters and versions, and what became of the node (`facts`)."""
     recorder.properties(
         "run",
         exercise=exercise.name,

@@ -1,6 +1,6 @@
-"""Loads the world of a run and puts its models where the trial wants them, before anything has started in it.
+"""The world of a run, with its models at the poses of the trial, before simulated time begins.
 
-Called wherever a run needs its simulator; the world then belongs to the caller.
+Used wherever a run needs its simulator; the world then belongs to the caller.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
 
 def load_trial_world(exercise: Exercise, trial: Trial, node: Node | None) -> World:
-    """Return the world of `exercise` as `trial` wants it. Raises ManifestError for what there is not."""
-    own = trial.source if trial.world is not None or trial.poses else None  # else the exercise says it all
+    """Return the world of `exercise` modified by `trial`. Raises ManifestError if a world or model is missing."""
+    own = trial.source if trial.world is not None or trial.poses else None  # else the exercise defines everything
     where = f"{own or exercise.folder / MANIFEST}, trial {trial.name}"
     try:
         diagnostics = Diagnostics()

@@ -1,1 +1,1 @@
-"""Score a recording: nothing in here runs anything or knows how the recording came about."""
+"""Scoring of a recording, independent of how the recording was made."""

@@ -1,9 +1,9 @@
 """What a check is, and the registry of kinds.
 
-A kind is a function of the recording and the parameters its manifest gives; it registers itself with `@check_kind`. It
-asks for every parameter it knows, and what is left over is an author's typing mistake.
-A check's `gate` is handled here for every kind: without the gate's evidence no point is given, so that doing nothing
-earns nothing, and so that quality counts only after success. One gate, or a list of them:
+A kind is a function of the recording and the check's parameters in the manifest; it registers itself with
+`@check_kind`. It reads every parameter it knows; a parameter left over is an author's typing mistake. A check's `gate`
+is handled here for every kind: points are given only if the gate is passed, so that doing nothing earns nothing and
+quality counts only after success. `gate` is one gate or a list:
 
     gate = { signal = "truth/robot/distance", reaches = 0.5, otherwise = "the robot never drove" }
     gate = { signal = "truth/robot/x", falls_to = -1.0, otherwise = "the robot never drove back" }
@@ -27,7 +27,7 @@ from gz_course.sim.did_you_mean import did_you_mean
 
 @dataclass(frozen=True)
 class Band:
-    """Where a signal is wanted: between `low` and `high` from `start` to `end` [s] of simulated time."""
+    """The band a signal should be in: between `low` and `high` from `start` to `end` [s] of simulated time."""
 
     signal: str
     low: float
@@ -38,10 +38,10 @@ class Band:
 
 @dataclass(frozen=True)
 class Finding:
-    """What one check found: what was expected, what was measured, and at which simulated moment [s].
+    """The result of one check: what was expected, what was measured, and at which simulated time [s].
 
-    `gated` marks a check that failed only because its gate did: another check tells the reason. `timing` marks a check
-    that, if it failed, saw the right thing at the wrong time or for the wrong time: perhaps a node asks another clock.
+    `gated` marks a check that failed only because its gate did: another check gives the reason. `timing` marks a check
+    that, if it failed, saw the right thing at the wrong time or for the wrong time: perhaps a node reads another clock.
     """
 
     passed: bool
@@ -71,7 +71,7 @@ def check_kind(name: str) -> Callable[[Kind], Kind]:
 
 @cache
 def check_kinds() -> dict[str, Kind]:
-    """Return every kind there is, by name."""
+    """Return every kind of check, by name."""
     from gz_course.grader.score import checks
 
     modules(checks)
@@ -81,7 +81,7 @@ def check_kinds() -> dict[str, Kind]:
 def perform_all(specs: Sequence[CheckSpec], recording: Recording, folder: Path | None = None) -> list[Finding]:
     """Apply all checks of an exercise, whose manifest lies in `folder`, to a recording.
 
-    Raises ManifestError if the manifest's parameters do not fit the kinds, or if gates wait for each other.
+    Raises ManifestError if the manifest's parameters do not fit the kinds, or if gates depend on each other in a cycle.
     """
     known = {spec.id: spec for spec in specs}
     found: dict[str, Finding] = {}
@@ -111,7 +111,7 @@ def perform(
     folder: Path | None = None,
     finding_of: Callable[[str], Finding] | None = None,
 ) -> Finding:
-    """Apply one check to a recording; `finding_of` answers what another check found, for gates.
+    """Apply one check to a recording; `finding_of` returns the finding of another check, for gates.
 
     Raises ManifestError if the manifest's parameters do not fit the kind.
     """
@@ -133,7 +133,7 @@ def perform(
 
 
 def _closed(gate: Table, recording: Recording, finding_of: Callable[[str], Finding] | None) -> str:
-    """Return why a gate is closed, or an empty string if it is open."""
+    """Return why a gate is closed; empty if it is open."""
     if gate.has("check"):
         other, otherwise = gate.text("check"), gate.text("otherwise")
         gate.end()

@@ -1,4 +1,4 @@
-"""Whether a node that did the right thing at the wrong time asks another clock than that of the simulation."""
+"""Detection of a node that did the right thing at the wrong time because it reads another clock than /clock."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from gz_course.grader.score.launched import launch_facts
 
 
 def clock_fault(recording: Recording, findings: Iterable[Finding]) -> str:
-    """Return one sentence about the clock a node asks; empty if no check failed for reasons of time.
+    """Return one sentence about the clock a node reads; empty if no check failed because of time.
 
-    What is known: the places in the file that ask the wall clock (the fact `wall_clock`), and which nodes never
+    The evidence: the places in the file that read the wall clock (the fact `wall_clock`), and the nodes that never
     subscribed to /clock, as a node does that uses simulated time.
     """
     if not any(finding.timing and not finding.passed and not finding.gated for finding in findings):
@@ -22,22 +22,21 @@ def clock_fault(recording: Recording, findings: Iterable[Finding]) -> str:
     for place in facts.get("wall_clock", []):
         where = f"{place['file']}, line {place['line']}"
         if place["waits"]:
-            sentence = (
-                f"{where}: {place['call']} waits by the clock on the wall, but time is simulated here: use a timer"
-            )
+            sentence = f"{where}: {place['call']} waits by the wall clock, but time is simulated here: use a timer"
         else:
             sentence = (
-                f"{where}: {place['call']} asks the clock on the wall, but time is simulated here: ask the node's own "
+                f"{where}: {place['call']} reads the wall clock, but time is simulated here: read the node's own "
                 "clock, self.get_clock().now()"
             )
         return shown(f"{sentence}.")
     endpoints = facts.get("endpoints", [])
     follows = {e["node"] for e in endpoints if e["kind"] == "subscription" and e["topic"] == "/clock"}
-    bridges = {each["node"] for each in launch_facts(recording).get("bridges_started", [])}  # have no use for time
+    # bridges do not need the time
+    bridges = {each["node"] for each in launch_facts(recording).get("bridges_started", [])}
     for node in sorted({e["node"] for e in endpoints} - follows - bridges):
         return shown(
             f"Your node {node} does not follow simulated time: its parameter use_sim_time is not true, so its clock "
-            "and its timers run by the clock on the wall. Call rclpy.init() without arguments of your own, and leave "
+            "and its timers follow the wall clock. Call rclpy.init() without arguments of your own, and leave "
             "use_sim_time as it was given."
         )
     return ""

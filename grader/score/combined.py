@@ -1,7 +1,7 @@
-"""The score of several trials: the weakest of each check counts.
+"""The score of several trials: the worst result of each check counts.
 
 A check passes only if it passes in every trial; the report shows the finding of the first trial in which it failed.
-Called by `grader/grade.py` after every trial was scored, also from recordings.
+Used by `grader/grade.py` after every trial was scored, also for recordings scored again.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from gz_course.grader.score.score import CheckResult, Score
 
 
 def combined(scores: Sequence[tuple[str, Score]]) -> Score:
-    """Return the score of all trials, given as (name, score) in their order, all for the same checks.
+    """Return the score of all trials, given in order as (name, score), all for the same checks.
 
     Where a check passed in one trial and failed in another, its finding names the trial. The diagnosis is that of the
-    first trial that lost points, the outcome the first that is not `graded`. The hash is over the hashes of the
-    trials; that of a single trial is its own.
+    first trial that lost points, the outcome the first that is not `graded`. The hash of several trials is over their
+    hashes; that of a single trial is its own.
     """
     (_, first), *others = scores
     if not others:

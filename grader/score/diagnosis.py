@@ -1,6 +1,6 @@
-"""Names the fault behind a failed run: a function a fault. Each kind of submission puts them into its own order.
+"""The faults behind failed runs: each function recognises one. Each kind of submission has its own order of them.
 
-Works from the facts in the recording: which endpoints the node had, how its process ended, what was dropped.
+The evidence are the facts in the recording: the node's endpoints, how its process ended, what was dropped.
 """
 
 from __future__ import annotations
@@ -20,19 +20,19 @@ from gz_course.sim.did_you_mean import nearest_name
 
 FRAME = re.compile(r'\s+File "(.*)", line (\d+)')
 
-# What a program did that was ended for having too much of something.
+# What a program did that was ended for breaking a limit.
 LIMITS = {
     "memory": "and all it started used more than 2 GiB of memory together",
     "processes": "started more than 128 processes",
     "disk": "wrote more files, or larger ones, than its folder may hold (64 MiB)",
-    "output": "printed more than 64 MiB: more than anybody can read",
+    "output": "printed more than 64 MiB",
 }
 
-# Every ROS 2 node has these; they say nothing about the exercise.
+# Topics of every ROS 2 node, which say nothing about the exercise.
 OWN_TOPICS = frozenset({"/rosout", "/parameter_events", "/clock"})
 
 
-# One sentence about a fault, or an empty string: of a recording and its facts, and of one with failed checks.
+# Returns one sentence about a fault, or an empty string, given a recording and its facts.
 Look = Callable[[Recording, dict[str, Any]], str]
 Remark = Callable[[Recording, Iterable[Finding]], str]
 
@@ -41,8 +41,8 @@ Remark = Callable[[Recording, Iterable[Finding]], str]
 class Diagnosis:
     """How a kind of submission explains a recording.
 
-    `outcome` names the kind of run. `looks` are asked in turn, until one has found a fault. If none has, `remarks` come
-    before what the first failed check says.
+    `outcome` classifies the run. `looks` are asked in turn, until one has found a fault. If none has, `remarks` come
+    before the text of the first failed check.
     """
 
     outcome: Callable[[Recording], str]
@@ -51,12 +51,11 @@ class Diagnosis:
 
 
 def outcome_of(recording: Recording) -> str:
-    """Return what kind of run it was.
+    """Return the class of a run.
 
     `tamper`: it published what only the simulator may; `protocol`: it closed the descriptors it was given; `memory`: it
-    ran out of memory; `output`: it wrote more than anybody can read; `student_error`: it could not run, or crashed;
-    `timeout`: it never spun, or held everything up;
-    `graded`: none of these.
+    ran out of memory; `output`: it wrote too much; `student_error`: it could not run, or crashed; `timeout`: it never
+    spun, or delayed the run too long; `graded`: none of these.
     """
     facts = recording.facts()
     if _reserved(facts):
@@ -78,13 +77,13 @@ def outcome_of(recording: Recording) -> str:
 
 
 def diagnose(recording: Recording, looks: Iterable[Look]) -> str:
-    """Return the first sentence that one of `looks` has to say, or an empty string if nothing structural is wrong."""
+    """Return the first sentence that one of `looks` returns; empty if nothing structural is wrong."""
     facts = recording.facts()
     return next(filter(None, (look(recording, facts) for look in looks)), "")
 
 
 def whole_number_fault(recording: Recording, findings: Iterable[Finding] = ()) -> str:
-    """Return one sentence about a field of floats that was given a whole number or a text; empty if none was."""
+    """Return one sentence about a float field that was assigned a whole number or a text; empty if there is none."""
     for place in recording.facts().get("whole_numbers", []):
         return shown(
             f"{place['file']}, line {place['line']}: {place['field']} = {place['value']} is no float, but the "
@@ -94,12 +93,12 @@ def whole_number_fault(recording: Recording, findings: Iterable[Finding] = ()) -
 
 
 def cannot_run(recording: Recording, facts: dict[str, Any]) -> str:
-    """Say why the file cannot be run at all."""
+    """Return why the file cannot be run at all."""
     return str(facts["fault"]) if facts.get("fault") else ""
 
 
 def broke_a_limit(recording: Recording, facts: dict[str, Any]) -> str:
-    """Name the limit of the box for which the program was ended."""
+    """Name the limit of the sandbox for which the program was ended."""
     limit = facts.get("limit")
     when = f" at {facts['exit_at']:.2f} s of simulated time" if facts.get("exit_at") is not None else ""
     return f"Your program {LIMITS[limit]}; it was ended{when}." if limit in LIMITS else ""
@@ -148,7 +147,7 @@ def _signal_name(number: int) -> str:
 
 
 def ended_early(recording: Recording, facts: dict[str, Any]) -> str:
-    """Say that nothing kept the node alive until simulated time began."""
+    """Report that nothing kept the node alive until simulated time began."""
     if facts.get("ready", True) or facts.get("exit_at") is None:
         return ""
     return (
@@ -158,7 +157,7 @@ def ended_early(recording: Recording, facts: dict[str, Any]) -> str:
 
 
 def never_spun(recording: Recording, facts: dict[str, Any]) -> str:
-    """Say that the node was never spun."""
+    """Report that the node was never spun."""
     if facts.get("ready", True):
         return ""
     return "Your node's process ran but never spun: no timer and no callback can run before rclpy.spin(node) is called."
@@ -216,7 +215,7 @@ def subscriptions(recording: Recording, facts: dict[str, Any]) -> str:
 
 
 def _why(wanted: str, used: str, nodes: list[str]) -> str:
-    """Why a topic has the name it has: ROS puts names that do not begin with a slash into a namespace."""
+    """Explain a topic's name: ROS puts names that do not begin with a slash into a namespace."""
     for node in nodes:
         namespace = node.rpartition("/")[0]
         if used == node + wanted:
@@ -246,24 +245,24 @@ def silent(recording: Recording, facts: dict[str, Any]) -> str:
 
 
 def dropped(recording: Recording, facts: dict[str, Any]) -> str:
-    """Count the messages that were not finite."""
+    """Report how many messages were not finite."""
     for topic, count in facts.get("dropped", {}).items():
         what = "1 message" if count == 1 else f"{count} messages"
         verb, pronoun = ("was", "it") if count == 1 else ("were", "they")
         return (
             f"{what} on {topic} {verb} dropped because {pronoun} held NaN or infinite numbers; "
-            "the robot never saw them."
+            "the robot did not receive them."
         )
     return ""
 
 
 def unstable(recording: Recording, facts: dict[str, Any]) -> str:
-    """Say why physics had no answer."""
+    """Explain why the physics diverged."""
     return f"The simulation ended early: {facts['unstable']}" if facts.get("unstable") else ""
 
 
 def _reserved(facts: dict[str, Any]) -> list[str]:
-    """Topics that carry the simulator's own messages and that the node published on as well."""
+    """Return the simulator's own topics on which the node published as well."""
     offered = facts.get("offered", {})
     return sorted({e["topic"] for e in facts.get("endpoints", []) if e["kind"] == "publisher"} & set(offered))
 
@@ -279,7 +278,7 @@ def tampered(recording: Recording, facts: dict[str, Any]) -> str:
 
 
 def out_of_time(recording: Recording, facts: dict[str, Any]) -> str:
-    """Say that the node held the simulation up, and when it was ended."""
+    """Report that the node delayed the simulation too long, and when it was ended."""
     if not facts.get("out_of_time"):
         return ""
     return (
@@ -289,5 +288,4 @@ def out_of_time(recording: Recording, facts: dict[str, Any]) -> str:
 
 
 def launch_failed(recording: Recording, facts: dict[str, Any]) -> str:
-    """Say why the launch failed."""
     return launch_fault(recording)

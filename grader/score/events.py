@@ -1,11 +1,11 @@
-"""Events: the first moment at which a condition holds. Checks of order and of "from then on" are made of them.
+"""Events: the first moment at which a condition holds. Checks of order, and checks from an event on, use them.
 
-An author writes one of these tables (`name` says in the report what it is; `after` [s] leaves out what came before):
+An author writes one of these tables (`name` describes it in the report; `after` [s] ignores what came before):
 
     { signal = "truth/robot/x", low = 1.0, name = "the robot passes the gate" }     # in the band, both bounds included
     { topic = "cmd_vel" }                                                           # a message arrives
     { topic = "state", says = "^done" }                                             # its text matches a pattern
-    { log = "arrived" }                                                             # a line of the node's log does
+    { log = "arrived" }                                                             # a line of the node's log matches
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.steps import Condition
 
-# What the console format of the sandbox puts before a logger's message; a printed line lacks it.
+# The prefix that the sandbox's console format puts before a logger's message; a printed line lacks it.
 LOGGED = re.compile(r"^\[[A-Z]+\] \[[^\]]*\]: ")
 
 
 @dataclass(frozen=True)
 class Event:
-    """One of the four: a `condition`, a message on `topic` (whose text in `field` matches `pattern`), a log line."""
+    """One of a `condition`, a message on `topic` (whose text in `field` matches `pattern`), or a log line."""
 
     name: str
     condition: Condition | None = None
@@ -57,13 +57,13 @@ class Event:
         return event
 
     def moments(self, recording: Recording) -> Iterator[float]:
-        """Yield every simulated moment [s] at which it is so, in order."""
+        """Yield every simulated time [s] at which the event happens, in order."""
         for moment in self._all(recording):
             if moment >= self.after:
                 yield moment
 
     def first(self, recording: Recording, since: float = 0.0) -> float | None:
-        """Return the first such moment at or after `since` [s], or None."""
+        """Return the first such time at or after `since` [s], or None."""
         return next((moment for moment in self.moments(recording) if moment >= since), None)
 
     def _all(self, recording: Recording) -> list[float]:
@@ -86,7 +86,7 @@ def log_lines(recording: Recording) -> Iterator[tuple[float, str, bool]]:
 
 
 def texts(recording: Recording, topic: str, field: str) -> Iterator[tuple[float, str | None]]:
-    """Yield (time [s], what the text field said) of every message on a topic; a text is on record when it changes."""
+    """Yield (time [s], value of the text field) of every message on a topic; a text is recorded when it changes."""
     lines = recording.lines(f"topics/{topic}/{field}")
     starts = [line.time_ns for line in lines]
     for time in recording.signal(f"topics/{topic}/count").times:

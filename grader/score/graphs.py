@@ -1,7 +1,7 @@
-"""The two graphs as a recording has them: the bridges between them, and which way messages went.
+"""The two graphs in a recording: the bridges between them, and the direction of messages.
 
-Read by the checks on tables and bridges (`checks/table_*.py`, `checks/bridge*.py`) from the facts that a run with the
-exercise's own node leaves (`run/graphs.py`).
+The checks on tables and bridges (`checks/table_*.py`, `checks/bridge*.py`) read them from the facts that
+`run/graph_snapshot.py` recorded.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ WAYS = ("GZ_TO_ROS", "ROS_TO_GZ", "BIDIRECTIONAL")
 
 @dataclass(frozen=True)
 class Qos:
-    """What an endpoint offers or asks for."""
+    """The quality of service an endpoint offers or requests."""
 
     reliability: str
     durability: str
@@ -25,7 +25,7 @@ class Qos:
 
 @dataclass(frozen=True)
 class Bridged:
-    """One bridge of a run: as it was configured (`source` is `file:line`), and the messages that went each way."""
+    """One bridge of a run: its configuration (`source` is `file:line`), and the messages it passed each way."""
 
     source: str
     ros_topic: str
@@ -40,7 +40,7 @@ class Bridged:
 
     @property
     def place(self) -> str:
-        """Return in words where it is written."""
+        """Where it is configured, in words."""
         file, _, line = self.source.rpartition(":")
         return f"{file}, line {line}" if file else self.source
 
@@ -59,18 +59,18 @@ def bridges(recording: Recording) -> list[Bridged]:
 
 @dataclass(frozen=True)
 class Link:
-    """One topic as it really was on both sides: a row of the table a student is to write."""
+    """One bridged topic as it was on both sides: the correct row of a student's table."""
 
     ros_topic: str
     ros_type: str
     gz_topic: str
     gz_type: str
-    direction: str  # which way messages went; empty if none did
+    direction: str  # direction of the messages; empty if there were none
     publisher: tuple[str, ...]  # ROS nodes that published on it
 
 
 def links(recording: Recording) -> list[Link]:
-    """Return the bridged topics, by ROS name. Types and publishers are those of the live graphs."""
+    """Return the bridged topics, sorted by ROS name. Types and publishers are those of the live graphs."""
     facts = recording.facts()
     ros, gz = facts.get("ros_topics", {}), facts.get("gz_topics", {})
     found = []

@@ -1,6 +1,6 @@
 """Facts about a run whose submission was a launch file: its arguments, and what it started.
 
-The facts come from `grader/kinds/launch/launch_run_loop.py`.
+`grader/kinds/launch/launch_run_loop.py` records the facts.
 """
 
 from __future__ import annotations
@@ -17,31 +17,31 @@ from gz_course.grader.record.reading import Recording
 SAID = re.compile(r"^\[[^\]]+\] (gz sim|parameter_bridge|create|gzserver): (.*)")
 OUTPUT = re.compile(r"^\[([^\] ]+-\d+)\] (.*\S)")  # a line of a process that the launch started
 DIED = re.compile(r"^\[ERROR\] \[([^\]]+-\d+)\]: process has died .*exit code (-?\d+)")
-PLACE = re.compile(r"^\S*?([^/\s]+):(\d+): ")  # what an error in a launch file begins with
+PLACE = re.compile(r"^\S*?([^/\s]+):(\d+): ")  # prefix of an error in a launch file
 
 
 @dataclass(frozen=True)
 class Death:
     """A process of the launch that ended by itself with an exit code other than 0, and the last line it wrote."""
 
-    process: str  # as the launch calls it, without its number: the name of the program that was executed
+    process: str  # its name in the launch, without its number: that of the executed program
     code: int
     said: str
 
     @property
     def words(self) -> str:
-        """Return its output as the end of a sentence; empty if it printed nothing."""
+        """Its output as the end of a sentence; empty if it printed nothing."""
         return f"; it said: {shown(self.said, 300)}" if self.said else ""
 
 
 def launch_facts(recording: Recording) -> dict[str, Any]:
-    """Return what is known about the launch; empty if the submission was none, or never ran."""
+    """Return the facts about the launch; empty if the submission was none, or never ran."""
     found: dict[str, Any] = recording.facts().get("launch", {})
     return found
 
 
 def argument(recording: Recording, name: str, default: str) -> tuple[str, str]:
-    """Return the value of a launch argument in this run, and how the launch was called."""
+    """Return the value of a launch argument in this run, and the command line of the launch."""
     trial = json.loads(recording.properties("run").get("trial_parameters", "{}"))
     given = {key: str(value) for key, value in trial.get("parameters", {}).items()}
     words = " ".join(f"{key}:={value}" for key, value in given.items())
@@ -54,7 +54,7 @@ def ran(recording: Recording) -> list[dict[str, Any]]:
 
 
 def complaint(recording: Recording, program: str) -> str:
-    """Return the first complaint a program of Gazebo printed; empty if there is none."""
+    """Return the first error or warning a program of Gazebo printed; empty if there is none."""
     for line in recording.lines("log/student"):
         if (match := SAID.match(line.text)) and match.group(1) == program:
             return shown(match.group(2), 300)
@@ -62,7 +62,7 @@ def complaint(recording: Recording, program: str) -> str:
 
 
 def deaths(recording: Recording) -> Iterator[Death]:
-    """Yield the processes that died by themselves, in the order in which they did."""
+    """Yield the processes that died by themselves, in the order of their ends."""
     last: dict[str, str] = {}
     for line in recording.lines("log/student"):
         if match := DIED.match(line.text):
@@ -73,7 +73,7 @@ def deaths(recording: Recording) -> Iterator[Death]:
 
 
 def launch_fault(recording: Recording) -> str:
-    """Return one sentence on why the launch as a whole could not work; empty if it could."""
+    """Return one sentence on why the launch as a whole failed; empty if it did not."""
     facts = launch_facts(recording)
     if error := facts.get("error", ""):
         return "The launch failed: " + shown(PLACE.sub(r"\1, line \2: ", error), 400)

@@ -1,13 +1,13 @@
-"""Explanations of errors of Python and rclpy whose own text does not say what to change; used by `diagnosis.py`.
+"""Explanations for errors of Python and rclpy whose own text does not say what to change; used by `diagnosis.py`.
 
-Only errors whose cause is certain stand here: a sentence that guesses wrong is worse than none.
+Only errors with a certain cause are listed: a wrong guess is worse than none.
 """
 
 from __future__ import annotations
 
 import re
 
-# What the first line of the error looks like -> what to do. {0}, {1} are the groups of the pattern.
+# Pattern of the error's first line -> what to change. {0}, {1} are the groups of the pattern.
 MEANINGS = (
     (
         re.compile(r"TypeError: \w+\.(?!__)(\w+)\(\) takes 0 positional arguments but 1 was given"),
@@ -83,12 +83,12 @@ MEANINGS = (
         "rclpy.spin() takes a node, not its class: with brackets, MyNode(), it is one",
     ),
     (re.compile(r"RuntimeError: Context\.init\(\) must only be called once"), "call rclpy.init() once, at the start"),
-    (re.compile(r"EOFError: EOF when reading a line"), "nobody sits at a keyboard here: do without input()"),
+    (re.compile(r"EOFError: EOF when reading a line"), "there is no keyboard here: do not call input()"),
 )
 
 
 def meaning(error: str) -> str:
-    """Return what to change, given the first line of an error as Python prints it; empty if that is not known."""
+    """Return what to change, given the first line of an error as Python prints it; empty if unknown."""
     for pattern, words in MEANINGS:
         if match := pattern.search(error):
             return words.format(*match.groups())

@@ -28,13 +28,12 @@ class CheckResult:
 
     @property
     def points(self) -> float:
-        """Points earned."""
         return self.spec.points if self.finding.passed else 0.0
 
 
 @dataclass(frozen=True)
 class Score:
-    """The verdict on one run. `diagnosis` is the first sentence of feedback; empty for full marks."""
+    """The score of one run. `diagnosis` is the first sentence of feedback; empty for full marks."""
 
     checks: tuple[CheckResult, ...]
     outcome: str
@@ -43,7 +42,6 @@ class Score:
 
     @property
     def points(self) -> float:
-        """Points earned in total."""
         return sum(check.points for check in self.checks)
 
 
@@ -70,7 +68,7 @@ def score(recording: Recording, exercise: Exercise) -> Score:
 def truth_sha256(recording: Recording, robot: str) -> str:
     """Return the SHA-256 of the true trajectory.
 
-    Little-endian: times [ns] (int64), then positions [m] and quaternions (float64).
+    The hash covers little-endian times [ns] (int64), then positions [m] and quaternions (float64).
     """
     digest = hashlib.sha256()
     for name in TRUTH:

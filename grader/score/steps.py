@@ -12,7 +12,7 @@ from gz_course.grader.record.reading import Recording
 
 @dataclass(frozen=True)
 class Condition:
-    """A signal is to lie between `low` and `high` (both included); `name` and `unit` are what people read."""
+    """A signal should be between `low` and `high` (both included); `name` and `unit` are shown to people."""
 
     signal: str
     low: float
@@ -22,12 +22,11 @@ class Condition:
 
     @staticmethod
     def read_all(parameters: Table) -> list[Condition]:
-        """Read the `conditions` of a check; a missing bound is no bound."""
+        """Read the `conditions` of a check; a missing bound is infinite."""
         return [Condition.read(table) for table in parameters.tables("conditions")]
 
     @staticmethod
     def read(table: Table) -> Condition:
-        """Read one condition."""
         signal = table.text("signal")
         condition = Condition(
             signal,
@@ -51,10 +50,10 @@ class Condition:
 def fulfilled(
     recording: Recording, conditions: list[Condition], start: float, end: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Find out when, between `start` and `end` [s], all conditions hold at once.
+    """Return when, between `start` and `end` [s], all conditions hold at once.
 
-    Returns the edges [s], shape (n + 1,), of n intervals and whether the conditions hold in each, shape (n,). Before
-    its first sample and after the end of the simulation a signal fulfils nothing.
+    The result is the edges [s], shape (n + 1,), of n intervals and whether the conditions hold in each, shape (n,).
+    Before its first sample and after the end of the simulation a signal fulfils no condition.
     """
     signals = [recording.signal(c.signal) for c in conditions]
     times = np.concatenate([s.times / 1e9 for s in signals]) if signals else np.empty(0)
@@ -83,7 +82,7 @@ def window_of(recording: Recording, parameters: Table) -> tuple[float, float]:
 
 
 def how_many(least: float, most: float) -> str:
-    """Return a number wanted, in words: `exactly 2`, `at least 1`, `at most 0`, `2 to 4`."""
+    """Return a wanted number in words: `exactly 2`, `at least 1`, `at most 0`, `2 to 4`."""
     if least == most:
         return f"exactly {least:g}"
     if np.isinf(most):
@@ -99,7 +98,7 @@ def value_at(recording: Recording, name: str, time: float) -> float | None:
 
 
 def shown_at(recording: Recording, conditions: list[Condition], at: float) -> str:
-    """Say what the signals of some conditions were at a time [s]."""
+    """Return in words the values of the conditions' signals at a time [s]."""
 
     def one(condition: Condition) -> str:
         if at >= recording.ended_s:
@@ -115,5 +114,5 @@ def shown_at(recording: Recording, conditions: list[Condition], at: float) -> st
 
 
 def told(value: float) -> str:
-    """Return a number as people read it: two decimals, fewer digits if it is huge."""
-    return f"{round(value, 2) + 0.0:.2f}" if abs(value) < 1e9 else f"{value:.3g}"  # + 0.0: no "-0.00"
+    """Return a number with two decimals, or fewer digits if it is huge."""
+    return f"{round(value, 2) + 0.0:.2f}" if abs(value) < 1e9 else f"{value:.3g}"  # + 0.0 avoids "-0.00"

@@ -1,7 +1,7 @@
-"""Archives of students, which are not to be trusted: members of a .zip or a .tar.gz by name, each read on request.
+"""Readers of students' archives, which are untrusted: members of a .zip or .tar.gz by name, each read on request.
 
 Nothing is ever unpacked to disk. `intake.py` opens what one student handed in, `whole_class/` the archive of a class.
-Claimed sizes are checked before anything is read, and what is read is counted, because a claim may be false.
+Claimed sizes are checked before anything is read, and the bytes read are counted, because a claim may be false.
 """
 
 from __future__ import annotations
@@ -20,17 +20,17 @@ from gz_course.grader.errors import RefusedError, UsageError
 from gz_course.grader.printable import shown
 
 SUFFIXES = (".zip", ".tar.gz", ".tgz", ".tar")
-OTHER_SUFFIXES = (".7z", ".rar", ".tar.bz2", ".tar.xz", ".tbz2", ".txz", ".gz", ".xz", ".bz2", ".zst")  # not opened
+OTHER_SUFFIXES = (".7z", ".rar", ".tar.bz2", ".tar.xz", ".tbz2", ".txz", ".gz", ".xz", ".bz2", ".zst")  # not supported
 LARGEST_ARCHIVE = 16 << 20  # [bytes] of a student's archive as it was sent
-LARGEST_STREAM = 64 << 20  # [bytes] a compressed tar may become while it is looked through
-MOST_MEMBERS = 10_000  # that are looked through; fewer are taken (`intake.MOST_FILES`)
-LONGEST_PART, LONGEST_NAME = 255, 1_000  # [bytes] of one part of a name, and of all of it
-CENTRAL_HEADER = b"PK\x01\x02"  # each member of a zip has one
+LARGEST_STREAM = 64 << 20  # [bytes] a compressed tar may expand to while it is read
+MOST_MEMBERS = 10_000  # that are listed; fewer are accepted (`intake.MOST_FILES`)
+LONGEST_PART, LONGEST_NAME = 255, 1_000  # [bytes] of one part of a name, and of the whole name
+CENTRAL_HEADER = b"PK\x01\x02"  # the signature each member of a zip has
 
 
 @dataclass(frozen=True)
 class Member:
-    """A file in an archive or a folder: its size [bytes] as claimed, how to read it, and why not if it must not be.
+    """A file in an archive or a folder: its claimed size [bytes], how to read it, and why that is refused, if so.
 
     `read(most)` returns at most `most` bytes.
     """
@@ -44,19 +44,19 @@ Tree = dict[str, Member]  # relative name with `/` between its parts -> member
 
 
 def is_archive(name: str) -> bool:
-    """Tell whether a file is called like an archive, also one of a kind that cannot be opened here."""
+    """Return whether a file has the name of an archive, including types that cannot be opened here."""
     return name.lower().endswith(SUFFIXES + OTHER_SUFFIXES)
 
 
 def open_archive(name: str, data: bytes) -> Tree:
-    """Return the members of a student's archive called `name`. Raises RefusedError for one that is not safe to read.
+    """Return the members of a student's archive called `name`.
 
-    UsageError if it is damaged or of a kind that is not opened.
+    Raises RefusedError if it is not safe to read, UsageError if it is damaged or of an unsupported type.
     """
     name = shown(name)
     if not name.lower().endswith(SUFFIXES):
         raise UsageError(f"{name}: archives of this kind are not opened; send a .zip or a .tar.gz")
-    if data.count(CENTRAL_HEADER) > MOST_MEMBERS:  # before zipfile makes an object of each
+    if data.count(CENTRAL_HEADER) > MOST_MEMBERS:  # before zipfile creates an object for each
         raise RefusedError(f"{name} holds too many files: more than {MOST_MEMBERS}")
     tree: Tree = {}
     try:
@@ -67,7 +67,7 @@ def open_archive(name: str, data: bytes) -> Tree:
             tree[plain_name(raw, name)] = member
     except UsageError:
         raise
-    except Exception as error:  # what the readers raise when somebody has damaged an archive on purpose is not listed
+    except Exception as error:  # the exceptions that readers raise for deliberately damaged archives are not documented
         raise damaged(name, error) from None
     return tree
 
@@ -78,8 +78,8 @@ def damaged(name: str, error: Exception) -> UsageError:
 
 
 def plain_name(raw: str, archive: str) -> str:
-    """Return a member's name in plain form. Raises RefusedError if it leads out of the archive or is no file's name."""
-    name = raw.replace("\\", "/")  # as archivers of Windows write it
+    """Return a member's normalised name. Raises RefusedError if it leads out of the archive or is not a file name."""
+    name = raw.replace("\\", "/")  # as archivers on Windows write it
     parts = PurePosixPath(name).parts
     outside = name.startswith("/") or ".." in parts or name[1:2] == ":"
     plain = "/".join(parts)
@@ -94,7 +94,7 @@ def plain_name(raw: str, archive: str) -> str:
 def zip_members(stream: BinaryIO) -> Iterator[tuple[str, Member]]:
     """Yield the files of a zip: name as written in it and member, unpacked only when read.
 
-    Raises whatever `zipfile` raises.
+    Raises the exceptions of `zipfile`.
     """
     archive = zipfile.ZipFile(stream)
     for info in archive.infolist():
@@ -105,7 +105,7 @@ def zip_members(stream: BinaryIO) -> Iterator[tuple[str, Member]]:
 def zip_folders(stream: BinaryIO) -> list[str]:
     """Return the folders that have an entry of their own in a zip, as empty ones do.
 
-    Raises whatever `zipfile` raises.
+    Raises the exceptions of `zipfile`.
     """
     infos = zipfile.ZipFile(stream).infolist()
     return [_zip_name(info).rstrip("/") for info in infos if info.filename.endswith("/")]
@@ -144,7 +144,7 @@ def _zip_reader(archive: zipfile.ZipFile, info: zipfile.ZipInfo) -> Callable[[in
 
 
 class _Counted(io.RawIOBase):
-    """A stream that gives up after a number of bytes."""
+    """A stream that raises RefusedError after a number of bytes."""
 
     def __init__(self, stream: IO[bytes], name: str) -> None:
         self._stream, self._name, self._left = stream, name, LARGEST_STREAM
@@ -161,7 +161,7 @@ class _Counted(io.RawIOBase):
 
 
 def _tar_members(name: str, data: bytes) -> Iterator[tuple[str, Member]]:
-    """Yield the files of a tar, compressed or not, in one pass; the contents of its files are kept."""
+    """Yield the files of a tar, compressed or not, in one pass that reads their contents."""
     raw: IO[bytes] = io.BytesIO(data)
     stream = raw if name.lower().endswith(".tar") else cast(IO[bytes], gzip.GzipFile(fileobj=raw))
     with tarfile.open(fileobj=cast(IO[bytes], _Counted(stream, name)), mode="r|") as archive:
@@ -177,7 +177,7 @@ def _tar_members(name: str, data: bytes) -> Iterator[tuple[str, Member]]:
                 refusal = "is sparse"
             content = b""
             if refusal is None and (file := archive.extractfile(info)) is not None:
-                content = file.read()  # the stream is counted
+                content = file.read()  # the stream counts the bytes
             yield info.name, Member(info.size, _cutter(content), refusal)
 
 

@@ -1,8 +1,8 @@
-"""Intake of a submission: the file asked for is found and read, with what lies beside it, before anything is run.
+"""Intake of a submission: finds and reads the expected file and the files beside it before anything is run.
 
-A submission is a file, a folder or an archive (`archive.py`); all it consists of is read into memory once. What cannot
-be read is a usage error (exit 2). What can be read but can never run is the student's error: it is graded with no
-points, and the report names the line.
+A submission is a file, a folder or an archive (`archive.py`), read into memory once and completely. What cannot be read
+is a usage error (exit 2). What can be read but can never run is the student's error: it is graded with no points, and
+the report names the line.
 """
 
 from __future__ import annotations
@@ -34,14 +34,14 @@ from gz_course.sim.did_you_mean import did_you_mean
 LARGEST = 1 << 20  # [bytes] of a submitted file
 LARGEST_FOLDER = 16 << 20  # [bytes] of all files of a submitted folder
 MOST_FILES = 200  # of a submitted folder
-# Traces of editors, systems and tools, which nobody means to hand in. So are hidden files and folders.
+# Files of editors, systems and tools, which nobody means to hand in; neither are hidden files and folders.
 JUNK = {"__pycache__", "__MACOSX", "Thumbs.db", "desktop.ini"}
-# Python files of these names stand in for others wherever their folder is looked into first: they stay out of the box.
+# Python files that replace modules of the same names if their folder comes first on the path: they are left out.
 STAND_INS = {"conftest", "sitecustomize", "usercustomize", "numpy", "rclpy"}
 
 
 class Selection(NamedTuple):
-    """What of a folder or an archive is the submission: everything below `base`; `main` is the file asked for."""
+    """The part of a folder or archive that is the submission: everything below `base`; `main` is the expected file."""
 
     base: str
     main: str
@@ -49,10 +49,10 @@ class Selection(NamedTuple):
 
 
 def take_in(exercise: Exercise, path: Path | None) -> Submission:
-    """Find and read the submission at `path`: the file itself, or a folder or archive with it; None: the student's own.
+    """Read the submission at `path`: the expected file, or a folder or archive with it; None: the student's copy.
 
     A folder or an archive comes with everything in it, a file alone. Raises UsageError if there is nothing to read,
-    RefusedError if it is not to be read.
+    RefusedError if it must not be read.
     """
     path, main, files = read_submission(exercise, path if path is not None else exercise.folder)
     fault = find_kind(exercise.kind).fault(main, files[main])
@@ -60,7 +60,10 @@ def take_in(exercise: Exercise, path: Path | None) -> Submission:
 
 
 def read_submission(exercise: Exercise, path: Path) -> tuple[Path, str, dict[str, bytes]]:
-    """Read a submission without looking into its files: where it lies, the name of the file asked for, all files."""
+    """Return where a submission lies, the name of the expected file, and all files, without judging their contents.
+
+    Raises UsageError, or RefusedError, as `take_in` does.
+    """
     if not _is_utf8(str(path)):
         raise UsageError(f"{shown(str(path))!r}: a file name must be UTF-8, or ROS cannot start the file; rename it")
     if _is_folder(path):
@@ -78,14 +81,14 @@ def read_submission(exercise: Exercise, path: Path) -> tuple[Path, str, dict[str
 def folder_tree(folder: Path) -> Tree:
     """Return the regular files below a folder. Symbolic links and junk are left out; no link is followed.
 
-    Raises RefusedError if there are too many to look at, or too deep.
+    Raises RefusedError if there are too many or nested too deep, UnreadableError if the machine cannot read them.
     """
     tree: Tree = {}
     seen = 0
 
     def unreadable(error: OSError) -> None:
         if isinstance(error, FileNotFoundError) and folder.exists():
-            return  # a folder in it that went away meanwhile
+            return  # a subfolder that was removed meanwhile
         raise UnreadableError(f"{shown(str(error.filename), 200)} cannot be read: {error.strerror}")
 
     for parent, folders, names in os.walk(folder, onerror=unreadable):
@@ -94,7 +97,7 @@ def folder_tree(folder: Path) -> Tree:
         if seen > MOST_MEMBERS:
             raise RefusedError(f"{folder} is too large: it holds more than {MOST_MEMBERS} files")
         below = parent[len(str(folder)) + 1 :]
-        if len(os.fsencode(below)) > LONGEST_NAME:  # before paths come to their end, or Python to its own
+        if len(os.fsencode(below)) > LONGEST_NAME:  # before paths or Python's recursion reach their limits
             raise RefusedError(f"{folder} holds folders in folders too deep: {shown(below, 60)!r}")
         for name in sorted(names):
             path = Path(parent, name)
@@ -108,7 +111,7 @@ def folder_tree(folder: Path) -> Tree:
 
 
 def folder_member(path: Path) -> Member | None:
-    """Return a file as a member of its folder; None if it is gone. What is no regular file has a refusal."""
+    """Return a file as a member of its folder; None if it is gone. A file that is not regular is marked as refused."""
     try:
         status = path.lstat()
     except OSError:
@@ -120,16 +123,15 @@ def folder_member(path: Path) -> Member | None:
 
 
 def is_junk(name: str) -> bool:
-    """Tell whether a file or folder of this name is left behind by a tool and not handed in."""
+    """Return whether a file or folder of this name was left behind by a tool and not handed in."""
     return name.startswith(".") or name in JUNK
 
 
 def select(tree: Tree, exercise: Exercise, where: str, *, nested: bool = False) -> Selection:
-    """Find in a folder or archive the file an exercise asks for and read it, with all that lies beside and below it.
+    """Find the expected file in a folder or archive and read it, with everything beside and below it.
 
-    It may lie anywhere if it is there only once. A file that is the only one of its kind is the one meant, whatever it
-    is called, and a single archive is looked into. Raises UsageError if it is not there, RefusedError if something is
-    not to be read.
+    It may be anywhere if it is there only once. If it is missing, the only file of its type is taken whatever its name,
+    and a single archive is opened. Raises UsageError if there is none, RefusedError if something must not be read.
     """
     tree = {n: m for n, m in tree.items() if not any(map(is_junk, PurePosixPath(n).parts)) and _is_utf8(n)}
     for name, member in sorted(tree.items()):
@@ -161,12 +163,13 @@ def _named(tree: Tree, wanted: str) -> list[str]:
 
 
 def _main(tree: Tree, exercise: Exercise, where: str) -> str:
-    """Return the name in `tree` of the file asked for."""
+    """Return the name of the expected file in `tree`. Raises UsageError if there is none, or several."""
     wanted = exercise.file
     if wanted in tree:
         return wanted
     found = _named(tree, wanted)
-    of_course = [name for name in found if name.endswith(f"exercises/{exercise.name}/{wanted}")]  # a student's copy
+    # the student's copy of the course
+    of_course = [name for name in found if name.endswith(f"exercises/{exercise.name}/{wanted}")]
     for candidates in (of_course, found):
         if len(candidates) == 1:
             return candidates[0]
@@ -196,7 +199,7 @@ def _content(member: Member, name: str, where: str, largest: int) -> bytes:
         data = member.read(largest + 1)
     except UsageError:
         raise
-    except Exception as error:  # what the readers raise when somebody has damaged an archive on purpose is not listed
+    except Exception as error:  # the exceptions that readers raise for deliberately damaged archives are not documented
         raise damaged(f"{where}: {shown(name)}", error) from None
     if len(data) > largest:
         raise RefusedError(f"{where}: {shown(name)} has more than {largest} bytes")

@@ -1,4 +1,4 @@
-"""A submission as the grader holds it: read once, by `intake.py`, and from then on only in memory."""
+"""A submission as `intake.py` has read it, kept in memory."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from pathlib import Path
 
 @dataclass(frozen=True)
 class Submission:
-    """What a student handed in. `fault` says in one sentence why it cannot run; None if it can.
+    """What a student handed in. `fault` is one sentence on why it cannot run; None if it can.
 
-    `path` is what the user named and is only shown; `main` is the file asked for, as it is called in `files`: relative
-    name -> content of everything that goes into the box. `sha256` is that of the main file.
+    `path` is what the user named, for display only; `main` is the name of the expected file in `files`: relative name
+    -> content of everything that goes into the sandbox. `sha256` is that of the main file.
     """
 
     path: Path

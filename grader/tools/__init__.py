@@ -1,1 +1,1 @@
-"""Programs around grading: `course doctor`, `course diagnose`, the playground of the chapters, the book."""
+"""Programs beside grading: `course doctor`, `course diagnose`, the playground of the chapters, the book."""

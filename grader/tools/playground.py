@@ -1,4 +1,4 @@
-"""A place to try things: commands such as `gz sim` and `parameter_bridge` run beside a notebook, and end with it.
+"""A playground: commands such as `gz sim` and `parameter_bridge` run beside a notebook, and end with it.
 
     room = Playground()
     room.start("gz sim lidar_room.sdf -r -s")
@@ -8,13 +8,13 @@
     !ros2 topic list                        # a notebook's own way to run a command and wait for its end
     room.close()
 
-Programs are started as a terminal would start them: ordinary processes that meet each other, and your node, over DDS
-and Gazebo's transport. A playground adds three things: a ROS domain and a Gazebo partition nobody else on
-this machine uses, a place where the output is kept, and an end: with `close()`, at the end of a `with` block, or
-with the notebook's kernel, whichever comes first.
+Programs are started as in a terminal: ordinary processes that exchange messages with each other, and with your node,
+over DDS and Gazebo's transport. A playground adds three things: a ROS domain and a Gazebo partition that nothing else
+on this machine uses, their output, and their end: with `close()`, at the end of a `with` block, or with the notebook's
+kernel, whichever comes first.
 
-A notebook's cell may be run again at any time, so doing a thing twice does no harm: a new playground closes the one
-before it, and a command that is started again ends its first run.
+A cell of a notebook may be run repeatedly: a new playground closes the one before it, and a command that is started
+again ends its first run.
 """
 
 from __future__ import annotations
@@ -40,10 +40,11 @@ from gz_course.grader.run.sandbox import ros_environment
 from gz_course.sim.did_you_mean import did_you_mean
 
 GRACE = 3.0  # [s] between SIGINT, SIGTERM and SIGKILL
-LONGEST_COMMAND = 100  # [characters] of a command in the list of what runs
-LOOK_AGAIN = 0.02  # [s] how often the output of a program is looked at
-# Becomes the command after asking Linux (prctl 1, PR_SET_PDEATHSIG) for a SIGTERM when the process that started it
-# is gone: a kernel that is killed cannot clean up. Run without site packages, so it takes only milliseconds.
+LONGEST_COMMAND = 100  # [characters] of a command in the list of running programs
+LOOK_AGAIN = 0.02  # [s] between two looks at the output of a program
+# Executes the command after asking Linux (prctl 1, PR_SET_PDEATHSIG) for a SIGTERM at the end of the process that
+# started it, because a notebook kernel that is killed cannot clean up. Run without site packages, so it takes only
+# milliseconds.
 _LAUNCHER = """
 import ctypes, os, signal, sys
 signal.signal(signal.SIGINT, signal.SIG_DFL)
@@ -54,10 +55,10 @@ if os.getppid() == int(sys.argv[1]):
 
 
 class Program:
-    """A command that was started: `pid`, `exit_code` (None while it runs) and its `output` so far."""
+    """A started command: `pid`, `exit_code` (None while it runs) and its `output` so far."""
 
     def __init__(self, command: str, executable: str, words: list[str], log: Path) -> None:
-        """Start `words` in a process group of its own, with everything it prints going to the file `log`."""
+        """Start `words` in a new process group, with its output in the file `log`."""
         self.command = command
         self._log = log
         self._text: str | None = None
@@ -72,28 +73,28 @@ class Program:
 
     @property
     def pid(self) -> int:
-        """Number of the process, and of its process group."""
+        """Process id, and id of its process group."""
         return self._process.pid
 
     @property
     def exit_code(self) -> int | None:
-        """None while it runs; minus the signal's number if a signal ended it."""
+        """Exit code; None while it runs, minus the signal's number if a signal ended it."""
         return self._process.poll()
 
     @property
     def output(self) -> str:
-        """What it has printed so far, stdout and stderr as they came."""
+        """Its output so far, stdout and stderr in the order written."""
         return self._log.read_text(errors="replace") if self._text is None else self._text
 
     def wait_for(self, text: str, deadline: float = 30.0) -> str:
         """Wait until it has printed `text`; return its output so far.
 
-        Raises TimeoutError, with the output, if it does not within `deadline` seconds of your watch or has ended.
+        Raises TimeoutError, with the output, if it ends or `deadline` [s] of wall time pass before that.
         """
         end = time.monotonic() + deadline
         pause = threading.Event()
         while True:
-            ended = self.exit_code is not None  # asked first: what it prints before it ends is in the output
+            ended = self.exit_code is not None  # asked first, because it may print before it ends
             if text in (output := self.output):
                 return output
             if ended or time.monotonic() > end:
@@ -102,14 +103,14 @@ class Program:
             pause.wait(LOOK_AGAIN)
 
     def stop(self) -> int:
-        """End it as Ctrl-C would (SIGINT), more firmly if it does not listen; return its exit code."""
+        """End it as Ctrl-C would (SIGINT), if necessary with SIGTERM and SIGKILL; return its exit code."""
         if self._text is None:
             for escalation in (signal.SIGINT, signal.SIGTERM):
                 self._signal(escalation)
                 with contextlib.suppress(subprocess.TimeoutExpired):
                     self._process.wait(GRACE)
                     break
-            self._signal(signal.SIGKILL)  # whatever it started and did not end
+            self._signal(signal.SIGKILL)  # everything it started and did not end
             self._process.wait()
             self._text = self.output
         return int(self._process.returncode)
@@ -124,12 +125,12 @@ class Program:
 
 
 class Playground:
-    """Own ROS domain, own Gazebo partition, and the programs started in them; also a context manager.
+    """A ROS domain, a Gazebo partition, and the programs started in them; also a context manager.
 
-    While it is open, `os.environ` holds what a node of this process needs to be in the same domain and partition:
-    make one before `rclpy.init()`. As it can hold that once only, a new playground closes the one before it. The
-    course's commands are put on the PATH and stay there. Use it from the main thread, where a notebook's cells run:
-    Linux ends the programs when the thread that started them does.
+    While it is open, `os.environ` holds what a node of this process needs to be in the same domain and partition: make
+    the playground before `rclpy.init()`. There can be only one, so a new playground closes the one before it. The
+    course's commands are put on the PATH and stay there. Use it from the main thread, in which a notebook's cells run:
+    Linux ends the programs when the thread that started them ends.
     """
 
     _opened: Playground | None = None
@@ -140,7 +141,7 @@ class Playground:
             Playground._opened.close()
         _put_on_path(Path(sys.executable).parent)
         self._domain = Domain()
-        sweep()  # what playgrounds left whose notebook was killed
+        sweep()  # removes what playgrounds of killed notebooks left
         self._temporary = TemporaryFolder("playground-")
         self._folder = self._temporary.path
         self.programs: list[Program] = []
@@ -157,12 +158,12 @@ class Playground:
 
     @property
     def domain(self) -> int:
-        """The number of its ROS domain (ROS_DOMAIN_ID)."""
+        """Its ROS domain (ROS_DOMAIN_ID)."""
         return self._domain.id
 
     @property
     def partition(self) -> str:
-        """The name of its Gazebo partition (GZ_PARTITION)."""
+        """Its Gazebo partition (GZ_PARTITION)."""
         return self.environment["GZ_PARTITION"]
 
     @property
@@ -173,9 +174,9 @@ class Playground:
     def start(self, command: str, instead_of: str | None = None) -> Program:
         """Start a command as a terminal would, without waiting for it.
 
-        The words are split and unquoted as in a shell, but there are no shell features such as pipes. What is running
-        and begins with `instead_of` (the command itself if left out) is stopped before: `instead_of="gz sim"` leaves
-        one simulator only. Raises UsageError if there is no such command.
+        The words are split and unquoted as in a shell, but there are no shell features such as pipes. Running commands
+        that begin with `instead_of` (the command itself if left out) are stopped before: `instead_of="gz sim"` leaves
+        only one simulator. Raises UsageError if there is no such command.
         """
         if not self._open:
             raise UsageError("this playground is closed; make a new one with Playground()")
@@ -194,11 +195,11 @@ class Playground:
         return program
 
     def report(self) -> str:
-        """Return what runs, what has ended, and what each program has printed: to be read when nothing arrives."""
+        """Return which programs run and which have ended, with their output: to be read when no messages arrive."""
         return "\n".join(f"{program!r}\n{program.output}" for program in self.programs)
 
     def close(self) -> None:
-        """End every program, last started first, and give domain and environment back. Closing twice does nothing."""
+        """End every program, last started first, and restore domain and environment. Closing twice does nothing."""
         if not self._open:
             return
         self._open = False
@@ -232,6 +233,6 @@ class Playground:
 
 
 def _put_on_path(folder: Path) -> None:
-    """Let commands in a folder be found first: those of this course, whether or not its environment is activated."""
+    """Put a folder first on the PATH, so that its commands are found even if the environment is not activated."""
     path = [part for part in os.environ.get("PATH", os.defpath).split(os.pathsep) if part != str(folder)]
     os.environ["PATH"] = os.pathsep.join([str(folder), *path])

@@ -1,7 +1,7 @@
-"""The instructor's proof that an exercise grades as it says.
+"""The instructor's proof that an exercise grades as it declares.
 
-`declared.py` reads what the private half declares, `proof.py` compares it with what grading gives, `mutants/` spoils
-the solution in one place at a time, `jobs.py` grades in several processes.
+`declared.py` reads what the private half declares, `proof.py` compares it with the result of grading, `mutants/`
+changes the solution in one place at a time, `jobs.py` grades in several processes.
 """
 
 from gz_course.grader.verify.declared import FEWEST_ACCEPTED, FEWEST_REJECTED, Variant, orphans, variants

@@ -1,17 +1,17 @@
-"""What the private half of an exercise declares: its variants, what they must lose, which mutants change nothing.
+"""What the private half of an exercise declares: its variants, what they must lose, which mutants are equivalent.
 
 The private half is the exercise's twin in `solutions/`: the solved file, `accepted/STYLE/`, `rejected/FAULT/`,
 `trials.toml` (hidden parameters, see `grader/exercise/trial.py`) and `expect.toml`:
 
     [rejected.never_stops]
     fails = ["five_seconds", "stops"]        # exactly these checks
-    words = ["Twist of zeros"]               # stand in its first line of feedback
-    trial = "from_the_north"                 # optional: full marks in public, found out in this hidden trial only
+    words = ["Twist of zeros"]               # must occur in its first line of feedback
+    trial = "from_the_north"                 # optional: full marks in public, fails in this hidden trial only
 
     [mutants]
-    equivalent = ["24: 0.1 -> 0.2"]          # a mutant that `course verify` reports as a survivor, but that is right
+    equivalent = ["24: 0.1 -> 0.2"]          # a survivor of `course verify` that is a correct solution
 
-Nothing may be missing or orphaned.
+Every folder must be declared, and every declaration must have its folder.
 """
 
 from __future__ import annotations
@@ -32,9 +32,9 @@ EXPECT = "expect.toml"
 
 @dataclass(frozen=True)
 class Variant:
-    """One file to grade, the checks it must fail (the starter: all), and words its first line of feedback must hold.
+    """A file to grade, the checks it must fail (the starter: all), and words required in its first line of feedback.
 
-    `trial` names the hidden trial that alone finds it out.
+    `trial` names the hidden trial in which alone it fails.
     """
 
     name: str
@@ -45,7 +45,7 @@ class Variant:
 
 
 def variants(exercise: Exercise) -> list[Variant]:
-    """Return everything `expect.toml` and the folders declare. Raises ManifestError for what does not fit together."""
+    """Return the variants in `expect.toml` and the folders. Raises ManifestError if they do not agree."""
     folder = exercise.twin
     path, expect = _expectations(exercise)
     expected = expect.table("rejected")
@@ -81,13 +81,13 @@ def variants(exercise: Exercise) -> list[Variant]:
 
 
 def equivalent_mutants(exercise: Exercise) -> tuple[str, ...]:
-    """Return the mutants that the author declares to be right answers, such as `24: 0.1 -> 0.2`."""
+    """Return the mutants that the author declares to be correct solutions, such as `24: 0.1 -> 0.2`."""
     _, expect = _expectations(exercise)
     return tuple(expect.table("mutants").texts("equivalent")) if expect.has("mutants") else ()
 
 
 def _expectations(exercise: Exercise) -> tuple[Path, Table]:
-    """Read `expect.toml` and refuse what it must not hold."""
+    """Read `expect.toml`. Raises ManifestError for anything it must not contain."""
     path = exercise.twin / EXPECT
     if not path.is_file():
         raise ManifestError(f"{exercise.twin} has no {EXPECT}, which says what each rejected variant must lose")
@@ -107,7 +107,7 @@ def _hidden_trial(exercise: Exercise, entry: Table) -> str:
 
 
 def orphans(root: Path, names: list[str]) -> list[Path]:
-    """Return the folders of `solutions/` that are the twin of no exercise."""
+    """Return the folders of `solutions/` without an exercise of the same name."""
     return [path for path in _folders(root / "solutions") if path.name not in names]
 
 

@@ -1,6 +1,6 @@
-"""A pool of processes that grade at the same time; results come in the order asked for.
+"""A pool of processes that grade at the same time; results come in the order of the jobs.
 
-A worker ends when its parent does, and what it runs ends with it. One job at a time needs no worker.
+A worker ends with its parent, and what it runs ends with it. One job at a time needs no worker.
 """
 
 from __future__ import annotations
@@ -28,14 +28,14 @@ from gz_course.grader.process.temporary_folder import TemporaryFolder
 from gz_course.grader.report.report import Report
 
 PR_SET_PDEATHSIG = 1
-ATTEMPTS = 3  # at a grading that fails by a fault of the machine
+ATTEMPTS = 3  # at a grading that fails because of the machine
 
 
 @dataclass(frozen=True)
 class Job:
     """One grading: `file` is what is submitted; the recordings go to the folder `out`.
 
-    `trials` are lists: a later one is run only while those before earned full marks.
+    `trials` is a list of groups: a group is run only if those before it earned full marks.
     """
 
     exercise: Exercise
@@ -44,7 +44,6 @@ class Job:
     trials: tuple[tuple[Trial, ...], ...]
 
     def run(self) -> Report:
-        """Grade it."""
         first, *others = self.trials
         report = self._grade(first, self.out)
         for number, trials in enumerate(others, 1):
@@ -63,17 +62,17 @@ class Job:
 
 
 class Pool(Protocol):
-    """Whoever grades."""
+    """The interface of a pool."""
 
     def reports(self, jobs: Sequence[Job]) -> Iterator[Report]:
         """Yield the report on each job, in their order."""
 
 
 class Here:
-    """Grades one after another in this process."""
+    """Grades one job after another in this process."""
 
     def reports(self, jobs: Sequence[Job]) -> Iterator[Report]:
-        """Yield the report on each job as soon as it is asked for."""
+        """Yield the report on each job; a job is graded when its report is requested."""
         return (job.run() for job in jobs)
 
 
@@ -81,12 +80,12 @@ class Workers:
     """Grades in `count` processes."""
 
     def __init__(self, count: int, folder: str) -> None:
-        """Start with temporary files in `folder`, which is the caller's to remove: a killed worker cannot."""
+        """Start with temporary files in `folder`, which the caller removes, because a killed worker cannot."""
         spawn = multiprocessing.get_context("spawn")  # a fork would inherit the threads of DDS and of the recorder
         self._pool = ProcessPoolExecutor(count, mp_context=spawn, initializer=_begin, initargs=(os.getpid(), folder))
 
     def reports(self, jobs: Sequence[Job]) -> Iterator[Report]:
-        """Yield the report on each job; all are under way from the first one on.
+        """Yield the report on each job; all are submitted at the first request.
 
         Raises what grading raises, InfrastructureError if a worker died.
         """
@@ -101,7 +100,7 @@ class Workers:
                 future.cancel()
 
     def close(self, *, at_once: bool) -> None:
-        """End the workers; `at_once` means that nobody waits for what they do."""
+        """End the workers; `at_once` terminates what they are doing."""
         if at_once:
             for process in multiprocessing.active_children():
                 process.terminate()
@@ -110,7 +109,7 @@ class Workers:
 
 @contextlib.contextmanager
 def pool(count: int) -> Iterator[Pool]:
-    """Grade in `count` processes for as long as the block lasts; nothing is left running after it."""
+    """Yield a pool of `count` processes; nothing is left running after the block."""
     if count == 1:
         yield Here()
         return
@@ -125,12 +124,13 @@ def pool(count: int) -> Iterator[Pool]:
 
 
 def _begin(parent: int, folder: str) -> None:
-    """Make a worker end with its parent, and in order."""
+    """Initialise a worker, which ends in an orderly way with its parent."""
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
     if os.getppid() != parent:
         sys.exit(3)
     tempfile.tempdir = folder
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C in a terminal reaches the parent as well, which ends us
+    # Ctrl-C in a terminal reaches the parent as well, which ends the worker
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     end_on(signal.SIGTERM)
 
 

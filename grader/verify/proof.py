@@ -1,9 +1,9 @@
 """The proof of an exercise: everything it declares is graded and compared; `course verify` prints the result.
 
 Solution and accepted variants earn full marks in every trial, the starter nothing in any; each rejected variant loses
-exactly what it declares, in the trials in which it declares it, and is told why. A check that no rejected variant fails
-proves nothing and is a fault. Then the solution is spoilt in one place at a time (`mutants/`): a mutant that keeps full
-marks is a survivor, which is a warning.
+exactly what it declares, in the trials in which it declares it, with the declared feedback. A check that no rejected
+variant fails proves nothing and is a fault. Then the solution is changed in one place at a time (`mutants/`): a mutant
+that keeps full marks is a survivor, which is a warning.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ REJECTED = "rejected/"
 
 @dataclass
 class Proof:
-    """What became of one variant. `failed` are the checks it failed in any trial."""
+    """The result of one variant. `failed` are the checks it failed in any trial."""
 
     variant: Variant
     failed: frozenset[str]
@@ -35,7 +35,7 @@ class Proof:
 
 @dataclass(frozen=True)
 class MutantProof:
-    """What became of one mutant; one that failed nothing survived."""
+    """The result of one mutant; one that failed no check survived."""
 
     mutant: Mutant
     failed: frozenset[str]
@@ -43,7 +43,7 @@ class MutantProof:
 
 @dataclass
 class Verification:
-    """What became of an exercise: a row for each variant, and what is wrong with the exercise as a whole."""
+    """The result of an exercise: a row for each variant, and the faults of the exercise as a whole."""
 
     exercise: Exercise
     proofs: list[Proof] = field(default_factory=list)
@@ -52,7 +52,7 @@ class Verification:
 
     @property
     def proven(self) -> bool:
-        """Whether nothing at all is wrong. Mutants that survive are no fault."""
+        """Whether there is no fault at all. Mutants that survive are not faults."""
         return not self.faults and not any(proof.faults for proof in self.proofs)
 
     @property
@@ -69,7 +69,7 @@ class Verification:
 def verify(exercise: Exercise, out: Path, pool: Pool, most_mutants: int = MOST) -> Iterator[Verification]:
     """Grade every variant and mutant; yield the growing result after each, the complete one last.
 
-    The recordings go to the folder `out`. Raises ManifestError if the halves do not fit together.
+    The recordings go to the folder `out`. Raises ManifestError if the halves do not agree.
     """
     result = Verification(exercise)
     declared = variants(exercise)
@@ -88,7 +88,7 @@ def verify(exercise: Exercise, out: Path, pool: Pool, most_mutants: int = MOST) 
         folder = out / "mutants" / str(number)
         folder.mkdir(parents=True, exist_ok=True)
         (folder / exercise.file).write_bytes(mutant.content)
-        # What the public trials find out needs no hidden ones.
+        # A variant that fails in the public trials needs no hidden ones.
         trials = (exercise.trials, hidden) if hidden else (exercise.trials,)
         jobs.append(Job(exercise, folder / exercise.file, folder, trials))
     reports = pool.reports(jobs)
@@ -101,7 +101,7 @@ def verify(exercise: Exercise, out: Path, pool: Pool, most_mutants: int = MOST) 
 
 
 def _mutants(exercise: Exercise, result: Verification, most: int) -> list[Mutant]:
-    """Choose the mutants of the solution; one declared equivalent that does not exist is a fault."""
+    """Choose the mutants of the solution; record a fault for each declared equivalent that does not exist."""
     if not most:
         return []
     found = mutants_of(exercise.file, (exercise.twin / exercise.file).read_bytes())
@@ -114,12 +114,12 @@ def _mutants(exercise: Exercise, result: Verification, most: int) -> list[Mutant
 
 
 def failed_in(score: Score) -> frozenset[str]:
-    """Return the ids of the checks that a score says were failed."""
+    """Return the ids of the failed checks."""
     return frozenset(check.spec.id for check in score.checks if not check.finding.passed)
 
 
 def judge(exercise: Exercise, variant: Variant, report: Report) -> Proof:
-    """Compare what a variant declares with the report on it."""
+    """Compare what a variant declares with its report."""
     failed = failed_in(report.score)
     proof = Proof(variant, failed, report)
     for check in sorted(failed - variant.fails):
@@ -138,7 +138,7 @@ def judge(exercise: Exercise, variant: Variant, report: Report) -> Proof:
 
 
 def _trials(exercise: Exercise, variant: Variant, report: Report) -> Iterator[str]:
-    """Yield the faults of the trials: a variant must fail in the declared ones. Students have the public ones only."""
+    """Yield the faults of the trials: a variant must fail in the declared ones. Students have only the public ones."""
     public = {trial.name for trial in exercise.trials}
     by_name = {trial.name: failed_in(trial.score) for trial in report.trials}
     in_public = frozenset().union(*(failed for name, failed in by_name.items() if name in public))

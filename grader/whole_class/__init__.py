@@ -1,1 +1,1 @@
-"""A class: find the submissions, grade each in a process of its own, keep a journal, write the gradebook."""
+"""Grading of a class: find the submissions, grade each in its own process, keep a journal, write the gradebook."""

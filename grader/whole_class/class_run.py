@@ -1,7 +1,7 @@
-"""A class from first to last: read a submission, grade it unless the journal has it, keep what came out, go on.
+"""The grading of a class: read each submission, grade it unless the journal has its result, store the result.
 
-`commands/grade_all.py` calls `ClassRun.grade`, with threads here or Dask's workers to grade in; the gradebook follows
-from the journal. A failure of the machine or the grader is tried again and in the end listed, never scored; a
+`commands/grade_all.py` calls `ClassRun.grade`, which grades in threads here or on Dask's workers; the gradebook is
+written from the journal. A failure of the machine or the grader is retried and finally listed, never scored; a
 student's own failure is final.
 """
 
@@ -35,19 +35,19 @@ from gz_course.grader.whole_class.grading import REPORT, Graded, Job, Setup, gra
 from gz_course.grader.whole_class.journal import JOURNAL, Journal
 from gz_course.grader.whole_class.versions import versions
 
-LOOK = 2.0  # [s] between two looks whether who grades is still there
-ATTEMPTS = 3  # at one submission, if the fault is ours
-HOPELESS = 6  # submissions in a row that cannot be graded at first, with none before that could: we stop
+LOOK = 2.0  # [s] between two checks that the workers still exist
+ATTEMPTS = 3  # at one submission, if the student is not at fault
+HOPELESS = 6  # failures in a row, before any success, after which the run ends
 START_UP, PER_TRIAL, WALL_FACTOR = 60.0, 30.0, 2.0  # [s], [s] and wall seconds per simulated second of a grading
 PART = ".part-"
-LONGEST_FOLDER = 80  # [bytes] of a student's folder
+LONGEST_FOLDER = 80  # [bytes] of the name of a student's folder
 
 Result = dict[str, Any]
 
 
 @dataclass
 class ClassRun:
-    """One class to grade: what, into which folder, and how. `reports` are formats beside JSON."""
+    """The grading of one class: what, into which folder, and how. `reports` are formats besides JSON."""
 
     exercise: Exercise
     out: Path
@@ -75,15 +75,15 @@ class ClassRun:
         jobs: int = 1,
         dask: str | None = None,
     ) -> list[Result]:
-        """Grade all submissions and write the gradebook; the results, in the order of `found`.
+        """Grade all submissions and write the gradebook; return the results in the order of `found`.
 
         `jobs` gradings run at a time, or as many as there are workers at the Dask address. `told(result, anew)` is
-        called for each as it is done; not `anew`: an earlier run had done it. Raises UsageError if the folder cannot be
+        called after each; `anew` is False if an earlier run had graded it. Raises UsageError if the folder cannot be
         used, InfrastructureError if nothing can be graded here.
         """
         with ExitStack() as stack:
             journal = stack.enter_context(self._open())
-            sweep()  # what an earlier run left that was killed
+            sweep()  # removes what a killed run left
             local = dask is None
             executor, slots, gone = self._here(jobs, stack) if local else stack.enter_context(dask_executor(dask or ""))
             results: dict[str, Result] = {}
@@ -92,7 +92,7 @@ class ClassRun:
             running: dict[Future[Graded], tuple[Found, Result, str, int]] = {}
             stack.callback(lambda: [future.cancel() for future in running])
             while todo or running:
-                while todo and len(running) < slots + 1:  # one waits, so that nobody waits for us
+                while todo and len(running) < slots + 1:  # one more than can run, so that no worker is idle
                     each, attempt = todo.popleft()
                     result, job, anew = self._prepare(each, journal)
                     if job is None:
@@ -102,7 +102,7 @@ class ClassRun:
                         running[self._submit(executor, job)] = (each, result, job.key, attempt)
                 finished = wait(running, LOOK, FIRST_COMPLETED).done if running else set()
                 if not finished and gone():
-                    running.clear()  # nobody is left who could be told that they are cancelled
+                    running.clear()  # no longer needed: nobody is left to be told of a cancellation
                     raise InfrastructureError("the Dask scheduler is gone; start it, and the same command goes on")
                 for future in finished:
                     each, result, key, attempt = running.pop(future)
@@ -121,12 +121,12 @@ class ClassRun:
     def _submit(self, executor: Executor, job: Job) -> Future[Graded]:
         try:
             return executor.submit(grade_one, self.setup, job)
-        except Exception as error:  # a Dask scheduler that is gone, a machine without room for a thread
+        except Exception as error:  # a lost Dask scheduler, or no memory for a thread
             told = shown(f"{type(error).__name__}: {error}")
             raise InfrastructureError(f"no more gradings can be started: {told}; the same command goes on") from None
 
     def _open(self) -> Journal:
-        """Make the folder of the class if need be, and open its journal."""
+        """Make the folder of the class if necessary, and open its journal."""
         try:
             self.out.mkdir(parents=True, exist_ok=True)
             strangers = any(self.out.iterdir()) and not (self.out / JOURNAL).exists()
@@ -156,7 +156,7 @@ class ClassRun:
     def _prepare(self, found: Found, journal: Journal) -> tuple[Result, Job | None, bool]:
         """Read a submission and return its result, and its job if it is to be graded.
 
-        The third value tells whether the result is new; if not, an earlier run had graded it.
+        The third value is whether the result is new; if not, an earlier run had graded it.
         """
         result = self._blank(found)
         chosen: Selection | None = None
@@ -168,7 +168,7 @@ class ClassRun:
         except UsageError as error:
             outcome = "protocol" if isinstance(error, RefusedError) else "student_error"
             what = [outcome, shown(str(error))]
-        except Exception as error:  # one submission that breaks our reading must not end the class
+        except Exception as error:  # a submission that cannot be read must not end the run
             return result | {"diagnosis": shown(f"not read: {type(error).__name__}: {error}")}, None, True
         identity = [found.student, found.id, found.source, *what, *self._same]
         key = hashlib.sha256(json.dumps(identity, sort_keys=True).encode()).hexdigest()
@@ -213,7 +213,7 @@ class ClassRun:
         return (json.dumps(report, indent=2) + "\n").encode()
 
     def _watch(self, graded: Graded, attempt: int) -> None:
-        """Raise InfrastructureError where nothing can be graded at all, instead of trying every student three times."""
+        """Raise InfrastructureError if nothing can be graded at all, instead of trying every submission three times."""
         if graded.report is not None:
             self._hopeless = -1
         elif self._hopeless >= 0 and attempt == 1:
@@ -221,7 +221,7 @@ class ClassRun:
             if self._hopeless >= HOPELESS:
                 raise InfrastructureError(
                     f"nothing can be graded here: {HOPELESS} gradings in a row failed, the last because "
-                    f"{graded.fault}; nobody has lost anything, `course doctor` may know more"
+                    f"{graded.fault}; no student loses points; `course doctor` may show the cause"
                 )
 
     def _keep(self, result: Result, graded: Graded, key: str, journal: Journal) -> None:
@@ -235,7 +235,7 @@ class ClassRun:
         journal.add(key, result)
 
     def _store(self, result: Result, files: dict[str, bytes]) -> None:
-        """Put a student's files in their folder, all or none, before the journal says that they are there."""
+        """Store a student's files in their folder, all or none, before the journal lists them."""
         target, part = self.out / result["folder"], self.out / f"{PART}{result['folder']}"
         try:
             part.mkdir()
@@ -252,12 +252,12 @@ class ClassRun:
 
 
 def _outcome(future: Future[Graded]) -> Graded:
-    """Return the outcome of a grading, also of one whose worker died."""
+    """Return the outcome of a grading, including one whose worker died."""
     try:
         return future.result()
     except CancelledError:
         return Graded(None, fault="it was cancelled")
-    except Exception as error:  # a worker that died, a connection that broke: never the student's
+    except Exception as error:  # a worker that died or a broken connection, never the student's fault
         return Graded(None, fault=shown(f"{type(error).__name__}: {error}"))
 
 

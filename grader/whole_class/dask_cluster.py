@@ -1,7 +1,7 @@
-"""A class on more than one machine: Dask's scheduler hands the jobs to Dask's workers, which grade.
+"""Grading of a class on several machines: Dask's scheduler distributes the jobs to workers, which grade.
 
-Workers need the course installed, in the same version; nothing else is shared, submissions go there and recordings
-come back as bytes. Used by `class_run.py` for `--dask`.
+Workers need the course installed, in the same version, but no shared files: submissions and recordings are sent as
+bytes. Used by `class_run.py` for `--dask`.
 """
 
 from __future__ import annotations
@@ -15,16 +15,15 @@ from gz_course.grader.printable import shown
 from gz_course.grader.process.temporary_folder import TemporaryFolder
 from gz_course.grader.whole_class.versions import versions
 
-CONNECT = 15.0  # [s] to reach a scheduler
+CONNECT = 15.0  # [s] to connect to a scheduler
 
 
 @contextlib.contextmanager
 def dask_executor(address: str) -> Iterator[tuple[Executor, int, Callable[[], bool]]]:
     """Connect to a scheduler (`tcp://host:port`) or start workers here (`local:N`).
 
-    What comes out: an executor, how many gradings it runs at a time, and whether the scheduler is gone, when asked.
-
-    Raises UsageError if Dask is not installed, nobody answers, or a worker is not what this machine is.
+    Yields an executor, how many gradings it runs at a time, and a function that returns whether the scheduler is lost.
+    Raises UsageError if Dask is not installed, the scheduler does not answer, or a worker has other versions.
     """
     try:
         import dask
@@ -62,7 +61,7 @@ def dask_executor(address: str) -> Iterator[tuple[Executor, int, Callable[[], bo
             ) from None
         slots = sum(client.nthreads().values())
         _check_versions(client.run(_worker_versions, on_error="return"))
-        # Its own way out would wait for gradings that a scheduler that is gone never reports.
+        # Not closed by its own context manager, which would wait for gradings that a lost scheduler never reports.
         yield client.get_executor(pure=False, retries=0), slots, lambda: client.status not in ("running", "connecting")
 
 

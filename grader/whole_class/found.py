@@ -1,8 +1,8 @@
 """The submissions of a class in a folder or a zip as learning platforms export them, and their students.
 
-One folder, file or archive a student; the names that Canvas, Moodle, Blackboard and Gradescope give are understood.
-Files of one student that lie side by side belong together. Nothing is read before `Found.read` is called, so that one
-submission is in memory at a time. Called by `grade_all.py`.
+Each student has one folder, file or archive; the names that Canvas, Moodle, Blackboard and Gradescope give are
+understood. Files of one student side by side belong together. Nothing is read before `Found.read` is called, so that
+only one submission at a time is in memory. Used by `grade_all.py`.
 """
 
 from __future__ import annotations
@@ -33,22 +33,22 @@ from gz_course.grader.submission.archive import (
 )
 from gz_course.grader.submission.intake import JUNK, Selection, folder_member, folder_tree, is_junk, select
 
-METADATA = "submission_metadata.yml"  # Gradescope's, beside the folders of an export
+METADATA = "submission_metadata.yml"  # written by Gradescope beside the folders of an export
 LARGEST_METADATA = 4 << 20  # [bytes]
 
-# A platform's name for what a student handed in. `file` is what the student called it.
+# A platform's name for what a student handed in. `file` is the student's own name for it.
 MOODLE = re.compile(r"(?P<student>.+?)_(?P<id>\d+)_assignsubmission_(?:file|onlinetext)_?(?P<file>.*)", re.DOTALL)
 CANVAS = re.compile(r"(?P<student>.+?)(?:_LATE)?_(?P<id>\d+)_\d{2,}_(?P<file>.+)", re.DOTALL)
 BLACKBOARD = re.compile(r".+_(?P<student>[^_]+)_attempt_(?P<when>\d{4}(?:-\d\d){5})(?:_(?P<file>.+)|\.txt)", re.DOTALL)
-AGAIN = re.compile(r"-\d+(?=\.[^.]*$)")  # Canvas counts what was handed in again: teleop_node-2.py
+AGAIN = re.compile(r"-\d+(?=\.[^.]*$)")  # Canvas numbers what was handed in again: teleop_node-2.py
 
 
 @dataclass(frozen=True)
 class Found:
-    """What one student handed in. `student` is unique in the class; `source` is its name as it was found.
+    """What one student handed in. `student` is unique in the class; `source` is its name in the export.
 
-    `read` returns the file asked for and all that goes with it. It raises UsageError, or RefusedError, if there is
-    nothing to grade in it, and UnreadableError if the machine cannot read it.
+    `read` returns the expected file and everything that belongs to it. It raises UsageError, or RefusedError, if there
+    is nothing to grade in it, and UnreadableError if the machine cannot read it.
     """
 
     student: str
@@ -58,7 +58,7 @@ class Found:
 
 
 class _Owner(NamedTuple):
-    """Whose something is, told from its name; the same student's things have the same owner."""
+    """The student an entry belongs to, derived from its name; equal for all entries of one student."""
 
     student: str
     id: str = ""
@@ -66,7 +66,7 @@ class _Owner(NamedTuple):
 
 @dataclass
 class _Group:
-    """What belongs to one owner, and how to get at it."""
+    """The entries of one owner, and how to read them."""
 
     source: str
     trees: list[Callable[[], Tree]]
@@ -74,9 +74,9 @@ class _Group:
 
 
 def find_submissions(path: Path, exercise: Exercise, stack: ExitStack) -> tuple[list[Found], list[str]]:
-    """Return the submissions of a class in the order of students' names, and the names of what is none.
+    """Return the submissions of a class in the order of students' names, and the names of entries that are none.
 
-    `stack` closes what is read from later. Raises UsageError if there is nothing to be found or `path` cannot be read.
+    `stack` closes what is read later. Raises UsageError if there are none or `path` cannot be read.
     """
     try:
         top, folders = _zip_top(path, stack) if path.is_file() else _folder_top(path)
@@ -87,7 +87,7 @@ def find_submissions(path: Path, exercise: Exercise, stack: ExitStack) -> tuple[
     groups: dict[_Owner, _Group] = {}
     suffixes = find_kind(exercise.kind).suffixes
     for name, thing in sorted(top.items()):
-        if name.startswith(".") and name.strip("."):  # a hidden folder; nobody's, but not to be passed over in silence
+        if name.startswith(".") and name.strip("."):  # a hidden folder belongs to nobody, but must be reported
             left_out.append(_label(name))
             continue
         owner, file, when = _owner(name, folder=callable(thing), names=names)
@@ -96,7 +96,7 @@ def find_submissions(path: Path, exercise: Exercise, stack: ExitStack) -> tuple[
             continue
         tree = thing if callable(thing) else partial(_alone, file, thing)
         group = groups.get(owner)
-        if group is None or when > group.when:  # a later attempt takes the place of an earlier one
+        if group is None or when > group.when:  # a later attempt replaces an earlier one
             groups[owner] = _Group(name, [tree], when)
         elif when == group.when:
             group.trees.append(tree)
@@ -108,7 +108,7 @@ def find_submissions(path: Path, exercise: Exercise, stack: ExitStack) -> tuple[
 
 
 def _named(groups: dict[_Owner, _Group], exercise: Exercise) -> list[Found]:
-    """Give every student a name that is printable and nobody else's."""
+    """Give every student a unique, printable name."""
     names = [_label(owner.student) for owner in groups]
     longer = [
         f"{name} ({owner.id})" if names.count(name) > 1 and owner.id else name
@@ -147,7 +147,7 @@ def _alone(name: str, member: Member) -> Tree:
     return {name: member}
 
 
-Top = dict[str, "Callable[[], Tree] | Member"]  # name -> a folder's tree when asked, or a file
+Top = dict[str, "Callable[[], Tree] | Member"]  # name -> a function that returns a folder's tree, or a file
 
 
 def _folder_top(path: Path) -> tuple[Top, list[str]]:
@@ -167,9 +167,9 @@ def _folder_top(path: Path) -> tuple[Top, list[str]]:
 
 
 def _zip_top(path: Path, stack: ExitStack) -> tuple[Top, list[str]]:
-    """Return the entries at the top of a zip, and the names of its folders, empty ones too.
+    """Return the entries at the top of a zip, and the names of its folders, including empty ones.
 
-    A member with an unsafe name is its owner's fault, not the class's.
+    A member with an unsafe name is an error of its student, not of the class.
     """
     top: Top = {}
     folders: dict[str, Tree] = {}
@@ -192,7 +192,7 @@ def _zip_top(path: Path, stack: ExitStack) -> tuple[Top, list[str]]:
                 top[first] = member
     except OSError:
         raise
-    except Exception as error:  # as for a student's archive: what `zipfile` raises is not listed
+    except Exception as error:  # as for a student's archive: the exceptions of `zipfile` are not documented
         raise damaged(str(path), error) from None
     for name in empty:
         folders.setdefault(name.partition("/")[0], {})
@@ -209,7 +209,7 @@ def _safe(raw: str) -> str:
 
 
 def _is_trace(name: str, *, folder: bool) -> bool:
-    """Tell whether an entry at the top is left behind by a system or a tool; hidden folders may be more than that."""
+    """Return whether an entry at the top was left behind by a system or a tool; hidden folders may be submissions."""
     return name in JUNK or name == ".git" or (name.startswith(".") and not folder)
 
 
@@ -220,7 +220,7 @@ def _refuse(error: RefusedError) -> Tree:
 def _unwrapped(top: Top, folders: list[str], exercise: Exercise) -> Top:
     """Return the entries of the only folder of `top`, if that folder holds a class and not one student's work.
 
-    Who handed in an empty folder, of whom `folders` alone knows, is of that class, too.
+    Empty folders, which only `folders` lists, count as students of that class, too.
     """
     ((outer, only),) = top.items() if len(top) == 1 else (("", None),)
     if not callable(only):
@@ -268,7 +268,7 @@ def _owner(name: str, *, folder: bool, names: dict[str, _Owner]) -> tuple[_Owner
 
 
 def _gradescope_names(member: object) -> dict[str, _Owner]:
-    """Return who handed in what, from a Gradescope export; without it the folders' names stand for the students."""
+    """Return the owner of each folder from a Gradescope export's metadata; empty without it."""
     if not isinstance(member, Member):
         return {}
     try:

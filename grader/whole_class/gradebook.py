@@ -1,7 +1,10 @@
-"""The gradebook of a class as CSV: one line a student, points for each check, the first sentence of feedback.
+"""The gradebook of a class as CSV: one line per student, points for each check, the first sentence of feedback.
 
-Made from the journal's results alone and free of times and paths of this machine: the same submissions give the same
-bytes. Names and sentences are foreign text: what a spreadsheet would take for a formula begins with an apostrophe.
+Made from the journal's results alone, without times and paths of this machine: the same submissions give the same
+bytes. Names and sentences are foreign text: a cell that a spreadsheet would take for a formula begins with an
+apostrophe.
+
+Source: RFC 4180, "Common Format and MIME Type for Comma-Separated Values (CSV) Files".
 """
 
 from __future__ import annotations
@@ -23,7 +26,7 @@ LONGEST_CELL = 2_000  # [characters]
 
 
 def as_csv(exercise: Exercise, results: Iterable[dict[str, Any]]) -> str:
-    """Return the gradebook. A result that is nobody's score (`infra`) has empty cells where points would be."""
+    """Return the gradebook. A result without a score (`infra`) has empty cells for points."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     ids = [check.id for check in exercise.checks]
@@ -38,7 +41,7 @@ def as_csv(exercise: Exercise, results: Iterable[dict[str, Any]]) -> str:
 
 
 def cell(value: object) -> str:
-    """Return a value as a cell no spreadsheet takes for a formula: numbers as they are, None empty, text guarded.
+    """Return a value as a cell that no spreadsheet takes for a formula: numbers unchanged, None empty, text guarded.
 
     Source: OWASP, "CSV Injection".
     """
@@ -51,7 +54,7 @@ def cell(value: object) -> str:
 
 
 def write_gradebook(folder: Path, text: str) -> Path:
-    """Put the gradebook into its place in one go: a reader sees the old one or the new one, never a part."""
+    """Write the gradebook atomically: a reader sees the old one or the new one, never a part."""
     path, part = folder / GRADEBOOK, folder / f".{GRADEBOOK}.part"
     with part.open("w", encoding="utf-8", newline="") as stream:
         stream.write(text)

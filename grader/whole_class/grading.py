@@ -1,7 +1,7 @@
-"""The grading of one submission of a class: a `course grade` in a process group and a folder of its own, by a deadline.
+"""The grading of one submission of a class: a `course grade` in its own process group and folder, with a deadline.
 
-`grade_one` takes bytes and returns bytes, and so works the same in a thread here and on a Dask worker that shares no
-files with this machine. A failure of the machine or the grader is named in `Graded.fault` and is never a score.
+`grade_one` takes bytes and returns bytes, so it works in a thread here and on a Dask worker that shares no files with
+this machine. A failure of the machine or the grader is named in `Graded.fault` and is never a score.
 """
 
 from __future__ import annotations
@@ -27,9 +27,9 @@ from gz_course.grader.process.temporary_folder import TemporaryFolder, sweep
 from gz_course.grader.report.format import formats
 
 PR_SET_CHILD_SUBREAPER = 36
-LARGEST_FILE = 256 << 20  # [bytes] of a recording or report that is brought back
+LARGEST_FILE = 256 << 20  # [bytes] of a recording or report that is returned
 GRACE = 3.0  # [s] between SIGINT, SIGTERM and SIGKILL
-ERROR_TAIL = 4096  # [bytes] of what a failed grading says that are looked at
+ERROR_TAIL = 4096  # [bytes] of the error output of a failed grading that are read
 REPORT = "report.json"
 RECORDINGS = "recordings"
 
@@ -39,19 +39,19 @@ class Setup:
     """What all gradings of a class have in common. `deadline` [s] is for one grading."""
 
     exercise: str
-    course: dict[str, bytes]  # the exercise's files below a course's root
+    course: dict[str, bytes]  # the exercise's files, by path below a course's root
     options: tuple[str, ...]  # of `course grade`
-    reports: tuple[str, ...]  # formats beside JSON
+    reports: tuple[str, ...]  # formats besides JSON
     deadline: float
-    folder: str | None = None  # where working folders are made; None: where this machine keeps temporary ones
+    folder: str | None = None  # where working folders are made; None: in the system's folder for temporary files
 
 
 @dataclass(frozen=True)
 class Job:
-    """One student's submission, read."""
+    """One student's submission, read into memory."""
 
     student: str
-    key: str  # names submission, exercise, options and versions: equal keys, equal results
+    key: str  # identifies submission, exercise, options and versions: equal keys, equal results
     source: str
     main: str
     files: dict[str, bytes] = field(repr=False)
@@ -59,7 +59,7 @@ class Job:
 
 @dataclass(frozen=True)
 class Graded:
-    """What came out: the JSON report and the files that belong to it (relative names), or why there is none."""
+    """The result of a grading: the JSON report and its files (relative names), or why there is none."""
 
     report: dict[str, Any] | None
     files: dict[str, bytes] = field(default_factory=dict, repr=False)
@@ -67,7 +67,7 @@ class Graded:
 
 
 class _Running:
-    """The gradings that run in this process now, so that all of them can be ended from outside."""
+    """The gradings that now run in this process, so that all of them can be ended."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
@@ -109,7 +109,7 @@ RUNNING = _Running()
 
 @contextlib.contextmanager
 def gradings_end_here() -> Iterator[None]:
-    """End every grading of this process when the block is left, and begin none afterwards."""
+    """End every grading of this process when the block is left, and start none afterwards."""
     RUNNING.begin()
     try:
         yield
@@ -119,8 +119,8 @@ def gradings_end_here() -> Iterator[None]:
 
 def grade_one(setup: Setup, job: Job) -> Graded:
     """Grade one submission; called in a thread of this process or of a Dask worker."""
-    ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1)  # should a grading be killed, its orphans become ours to sweep
-    if setup.folder is None:  # nobody else looks after what killed workers of Dask have left
+    ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1)  # makes the orphans of a killed grading children of this process
+    if setup.folder is None:  # on a Dask worker nobody else removes what killed gradings left
         sweep()
     try:
         temporary = TemporaryFolder("course-class-", setup.folder)
@@ -139,7 +139,7 @@ def _grade(setup: Setup, job: Job, folder: Path) -> Graded:
     bundle.write(job.files, folder / "submission")
     (folder / "tmp").mkdir()
     submission = folder / "submission"
-    # A single file may have any name; a folder is searched for the one asked for.
+    # A single file may have any name; a folder is searched for the expected one.
     given = submission / job.main if len(job.files) == 1 else submission
     command = [
         sys.executable,
@@ -182,7 +182,7 @@ def _grade(setup: Setup, job: Job, folder: Path) -> Graded:
 
 
 def end(process: subprocess.Popen[bytes]) -> None:
-    """End a grading and its process group: SIGINT, SIGTERM, SIGKILL. What has ended by itself is only reaped."""
+    """End a grading and its process group: SIGINT, SIGTERM, SIGKILL. One that has ended by itself is only reaped."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
         if process.poll() is not None:
             break
@@ -196,7 +196,7 @@ def end(process: subprocess.Popen[bytes]) -> None:
 
 
 def _bring_back(setup: Setup, job: Job, folder: Path) -> Graded:
-    """Read report and recordings. Our temporary folder is nobody's business: paths are made relative to it."""
+    """Read report and recordings; make paths relative to the temporary folder, which the report must not show."""
     paths = [folder / REPORT, *(folder / formats()[name].file for name in setup.reports)]
     paths += sorted((folder / RECORDINGS).glob("*.rrd"))
     files: dict[str, bytes] = {}

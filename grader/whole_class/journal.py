@@ -1,7 +1,7 @@
-"""The journal of a class: one line for each submission that is done, on disk before the next thing happens.
+"""The journal of a class: one line for each finished submission, on disk before the next step.
 
-It is only ever appended to. A run that is killed loses what was not finished, and nothing else: the next run reads the
-journal, cuts off an incomplete last line, and grades what is missing. The gradebook is written from it alone.
+It is only ever appended to. A killed run loses nothing but its unfinished gradings: the next run reads the journal,
+cuts off an incomplete last line, and grades what is missing. The gradebook is written from the journal alone.
 """
 
 from __future__ import annotations
@@ -19,13 +19,14 @@ JOURNAL = "journal.jsonl"
 
 
 class Journal:
-    """An open journal; nobody else can open it meanwhile. `done` maps the keys of finished jobs to their results.
+    """An open, locked journal. `done` maps the keys of finished jobs to their results.
 
-    A result names the `folder` that holds its files; of several results with one folder the last has it.
+    A result names the `folder` that holds its files; if several results name one folder, the files are those of the
+    last.
     """
 
     def __init__(self, folder: Path) -> None:
-        """Open or begin the journal of a folder. Raises UsageError if another run holds it or it cannot be written."""
+        """Open or create the journal of a folder. Raises UsageError if another run holds it or it cannot be written."""
         self.path = folder / JOURNAL
         try:
             self._file = self.path.open("a+b", buffering=0)
@@ -39,7 +40,7 @@ class Journal:
                 f"another course grade-all is at work in {folder}; wait for it, or give another --out"
             ) from None
         self.done: dict[str, dict[str, Any]] = {}
-        self._holds: dict[str, str] = {}  # folder -> key of the result whose files are in it
+        self._holds: dict[str, str] = {}  # folder -> key of the result whose files it holds
         self._read()
         _sync_folder(folder)
 
@@ -52,21 +53,21 @@ class Journal:
                 entry = json.loads(line)
                 self._know(entry["key"], entry["result"])
             except (ValueError, KeyError, TypeError):
-                continue  # a disk's fault: that submission is graded again
+                continue  # damaged by the disk: that submission is graded again
         if whole != len(data):
             self._file.truncate(whole)
             os.fsync(self._file.fileno())
 
     def add(self, key: str, result: dict[str, Any]) -> None:
-        """Write down that a job is done. When this returns it is on disk."""
+        """Record that a job is finished; it is on disk when this returns."""
         line = json.dumps({"key": key, "result": result}, sort_keys=True).encode() + b"\n"
-        while line:  # a disk that is nearly full takes a part
+        while line:  # a nearly full disk may write only a part
             line = line[self._file.write(line) :]
         os.fsync(self._file.fileno())
         self._know(key, result)
 
     def current(self, key: str) -> dict[str, Any] | None:
-        """Return the result of a job if it is done and its folder is still its own."""
+        """Return the result of a job if it is finished and its folder still holds its files."""
         result = self.done.get(key)
         return result if result is not None and self._holds.get(result["folder"]) == key else None
 
@@ -75,7 +76,7 @@ class Journal:
         self.done[key] = result
 
     def close(self) -> None:
-        """Let others have it."""
+        """Release the lock."""
         self._file.close()
 
     def __enter__(self) -> Journal:
@@ -88,7 +89,7 @@ class Journal:
 
 
 def _sync_folder(folder: Path) -> None:
-    """Put the names in a folder on disk, too."""
+    """Flush the names in a folder to disk, too. Source: fsync(2)."""
     handle = os.open(folder, os.O_RDONLY)
     try:
         os.fsync(handle)

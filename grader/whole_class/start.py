@@ -1,6 +1,6 @@
-"""The program of one grading in a class: `course`, which ends when the process that started it has gone.
+"""The program of one grading in a class: `course`, which ends when the process that started it has ended.
 
-Started by `grading.py` as `python -m grader.whole_class.start PARENT grade ...`; PARENT is the starter's process id.
+`grading.py` starts it as `python -m grader.whole_class.start PARENT grade ...`; PARENT is the starter's process id.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ PR_SET_PDEATHSIG = 1
 
 
 def main() -> None:
-    """Ask to be told of the starter's death, look whether it still lives, and be `course`."""
+    """Request SIGTERM at the parent's end, exit if it has ended already, then run `course`."""
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)  # `course` closes everything on SIGTERM
     if os.getppid() != int(sys.argv.pop(1)):
         sys.exit(3)

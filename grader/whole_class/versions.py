@@ -1,4 +1,4 @@
-"""Versions of everything that grades: part of a job's key, and the same on every worker of Dask."""
+"""The versions of everything that grades: part of a job's key, and equal on all Dask workers."""
 
 from __future__ import annotations
 

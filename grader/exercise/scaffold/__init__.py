@@ -1,1 +1,1 @@
-"""A new exercise: `exercise.py` makes its two halves from the files in `template/`; called by `course new`."""
+"""Creation of a new exercise: `exercise.py` makes both halves from the files in `template/` for `course new`."""

@@ -1,7 +1,7 @@
-"""The two halves of a new exercise: one that works, to be changed into the one its author wants.
+"""The two halves of a new exercise: a working one, to be changed by its author.
 
 `template/` holds the public half, the solution and two accepted variants. Each rejected variant is the solution with
-one planted defect, so that it differs from it in nothing else.
+one planted defect.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ NAME = re.compile(r"[0-9]{2}_[a-z][a-z0-9]*(_[a-z0-9]+)*")
 LONGEST_NAME = 60
 PUBLIC = ("exercise.toml", "bridge.yaml")
 ACCEPTED = ("own_style", "odometry")
-# What a student gets wrong -> the words of the solution it replaces, and by what.
+# A student's mistake -> the words of the solution it replaces, and their replacement.
 DEFECTS = {
     "never_stops": ("            self.publisher.publish(Twist())\n", "            self.timer.cancel()\n"),
     "drives_backwards": ("command.linear.x = 0.25", "command.linear.x = -0.25"),
@@ -30,7 +30,7 @@ DEFECTS = {
 
 
 def check_name(name: str, root: Path) -> None:
-    """Raise UsageError if no new exercise can have this name: wrong in form, or taken in either half."""
+    """Raise UsageError if no new exercise can have this name: malformed, or taken in either half."""
     if not NAME.fullmatch(name) or len(name) > LONGEST_NAME:
         raise UsageError(
             f"{name!r} is no name for an exercise: two digits, then lower-case words joined by _, such as "
@@ -50,7 +50,7 @@ def _free_number(root: Path) -> int:
 def scaffold(name: str, root: Path) -> list[Path]:
     """Write both halves of the exercise `name` into the course at `root`; return the files, in order.
 
-    Raises UsageError if the name cannot be taken or a file cannot be written; then nothing is left behind.
+    Raises UsageError, and leaves nothing behind, if the name cannot be used or a file cannot be written.
     """
     if not root.is_dir():
         raise UsageError(f"there is no folder {root}; COURSE_ROOT must name a course's folder")

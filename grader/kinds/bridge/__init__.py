@@ -1,9 +1,8 @@
 """`kind = "bridge"`: the submission is the YAML file of a ros_gz_bridge.
 
-Its entries stand between the simulator and the exercise's own node (`given_node.py`), which commands the robots and
-listens to their sensors. What `lint` says of the file goes into the recording as a fact; what the original
-ros_gz_bridge passes over is bridged as it would be there. A file of which no bridge at all can be made is the student's
-error.
+Its entries connect the simulator with the exercise's own node (`given_node.py`), which commands the robots and listens
+to their sensors. What `lint` reports about the file is recorded as a fact. Errors that the original ros_gz_bridge
+ignores are ignored here too; a file from which no bridge can be made is the student's error.
 """
 
 from __future__ import annotations
@@ -22,12 +21,12 @@ if TYPE_CHECKING:
     from gz_course.sim.ros_gz_bridge.config import Config
     from gz_course.sim.ros_gz_bridge.entry import BridgeEntry
 
-NODE = "ros_gz_bridge"  # the node a bridge is; `~` in a ROS name stands for it
+NODE = "ros_gz_bridge"  # name of the bridge's node; `~` in a ROS name stands for it
 MOST_BRIDGES = 100
 
 
 def read(name: str, content: bytes) -> Config:
-    """What the file holds, faults included."""
+    """Read the entries of the file, including faulty ones."""
     from gz_course.sim.ros_gz_bridge.checks import private_gz_names
     from gz_course.sim.ros_gz_bridge.config import read_yaml
 
@@ -37,7 +36,7 @@ def read(name: str, content: bytes) -> Config:
 
 
 def fault(name: str, content: bytes) -> str | None:
-    """Say why no bridge at all can be made of a file, with the line."""
+    """Return why no bridge can be made from a file, with the line, or None."""
     config = read(name, content)
     if len(config.topics) > MOST_BRIDGES:
         return f"{name}: {len(config.topics)} bridges; at most {MOST_BRIDGES} are run here"
@@ -46,9 +45,9 @@ def fault(name: str, content: bytes) -> str | None:
 
 
 def usable(config: Config) -> list[BridgeEntry]:
-    """The entries the original would bridge, with their names as both graphs will show them.
+    """Return the entries that the original ros_gz_bridge would bridge, with their names as they are in both graphs.
 
-    A graded run has its listeners from the beginning to the end, so a lazy entry is always connected.
+    A graded run has subscribers from beginning to end, so a lazy entry is always connected.
     """
     return [
         replace(entry, ros_topic=_ros_name(entry.ros_topic), gz_topic=f"/{entry.gz_topic.strip('/')}", lazy=False)
@@ -58,14 +57,14 @@ def usable(config: Config) -> list[BridgeEntry]:
 
 
 def _ros_name(name: str) -> str:
-    """A ROS name as it is resolved for the bridge's node, which has no namespace."""
+    """Return a ROS name resolved for the bridge's node, which has no namespace."""
     for what, becomes in (("{node}", NODE), ("{namespace}", ""), ("{ns}", ""), ("~", f"/{NODE}")):
         name = name.replace(what, becomes)
     return f"/{name.lstrip('/')}"
 
 
 def plan(exercise: Exercise, submission: Submission) -> RunPlan:
-    """Run the exercise's own node beside the submission's bridges; what lint says of them becomes a fact."""
+    """Run the exercise's own node beside the submission's bridges; record what lint reports about them as a fact."""
     config = read(submission.main, submission.files[submission.main])
     found = [
         {"place": finding.place, "sentence": shown(finding.sentence), "warning": finding.warning}

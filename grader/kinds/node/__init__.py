@@ -1,4 +1,4 @@
-"""`kind = "node"`: the submission is a Python file with an rclpy node; the exercise's bridge joins it to the robot."""
+"""`kind = "node"`: the submission is a Python file with an rclpy node; the exercise's bridge serves it."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ if TYPE_CHECKING:
 
 
 def fault(name: str, content: bytes) -> str | None:
-    """Say why a file is not Python, with its line."""
+    """Return why a file is not valid Python, with its line, or None."""
     if unreadable := _not_a_text(name, content):
         return shown(unreadable)
     try:
-        # compile() passes bytes in a comment that are not UTF-8; Python, which is given the file, does not.
+        # compile() accepts bytes in a comment that are not UTF-8; the interpreter reading the same file does not.
         content.decode(tokenize.detect_encoding(io.BytesIO(content).readline)[0])
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # an odd escape in a student's string is not our business
+            warnings.simplefilter("ignore")  # an invalid escape in a student's string is only a warning
             compile(content, name, "exec", dont_inherit=True)
     except UnicodeDecodeError as error:
         line = content[: error.start].count(b"\n") + 1
@@ -45,12 +45,12 @@ def fault(name: str, content: bytes) -> str | None:
 
 
 def _not_a_text(name: str, content: bytes) -> str:
-    """Say which other encoding a file is in, where Python's own words do not."""
+    """Return which other encoding a file has, where Python's own message does not say so."""
     if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         return f"{name} is saved as UTF-16, which Python does not read: save it as UTF-8"
     head = content.splitlines()[:2]
     if any(re.match(rb"[ \t\f]*#.*?coding[:=]", line) for line in head):
-        return ""  # it says itself how it is written
+        return ""  # its encoding declaration says it
     try:
         content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -60,7 +60,7 @@ def _not_a_text(name: str, content: bytes) -> str:
 
 
 def plan(exercise: Exercise, submission: Submission) -> RunPlan:
-    """Run the student's node beside the bridge of the exercise; suspicious places in the file become facts."""
+    """Run the student's node beside the exercise's bridge; record suspicious places in the file as facts."""
     from gz_course.grader.run.exercise_bridge import exercise_bridge
 
     entries, content = exercise_bridge(exercise), submission.files[submission.main]
@@ -76,14 +76,14 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
 
 
 def run_loop() -> type[RunLoop]:
-    """Import what simulates such a run, with rclpy and MuJoCo."""
+    """Import the class that simulates such a run, which needs rclpy and MuJoCo."""
     from gz_course.grader.run.run_loop import RunLoop
 
     return RunLoop
 
 
 def diagnosis() -> Diagnosis:
-    """Explain runs by the student's own node: what it did wrong, in the order in which one would look."""
+    """Explain runs by the student's node: possible faults in the order in which one would look for them."""
     from gz_course.grader.score import diagnosis as looks
     from gz_course.grader.score.clocks import clock_fault
 

@@ -1,8 +1,8 @@
-"""`kind = "table"`: the submission is a YAML table of topics as they are seen from ROS and from Gazebo.
+"""`kind = "table"`: the submission is a YAML table of topics as seen from ROS and from Gazebo.
 
-A row says what a topic is called on either side, its types, which way its messages travel and which ROS node publishes
-it. The exercise's world, its bridge and its own node (`given_node.py`) are run, both graphs are recorded as facts, and
-the checks compare row by row.
+A row has the topic's names and types on both sides, the direction of its messages and the ROS node that publishes it.
+The exercise's world, its bridge and its own node (`given_node.py`) are run, both graphs are recorded as facts, and the
+checks compare row by row.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ LONGEST = 200  # [characters] of one value
 
 
 class TableError(Exception):
-    """Why a file is no such table: `line` and one sentence."""
+    """A file is not such a table: `line`, and the reason in one sentence."""
 
     def __init__(self, line: int, sentence: str) -> None:
         super().__init__(sentence)
@@ -37,7 +37,7 @@ class TableError(Exception):
 
 
 def fault(name: str, content: bytes) -> str | None:
-    """Say why a file is no such table, with its line."""
+    """Return why a file is not such a table, with its line, or None."""
     try:
         read(name, content)
     except TableError as error:
@@ -46,9 +46,9 @@ def fault(name: str, content: bytes) -> str | None:
 
 
 def read(name: str, content: bytes) -> list[dict[str, Any]]:
-    """Return the rows: a text for each column (empty if it is not filled in) and the `line` it begins in.
+    """Return the rows: a text for each column (empty if it is not filled in) and the `line` in which the row begins.
 
-    Raises TableError for the first thing that does not belong into such a table.
+    Raises TableError for the first thing that does not belong in such a table.
     """
     import yaml
 
@@ -105,7 +105,7 @@ def _line(node: yaml.Node) -> int:
 
 
 def plan(exercise: Exercise, submission: Submission) -> RunPlan:
-    """Run the exercise's own node and bridge; the rows go into the recording."""
+    """Run the exercise's own node and bridge; record the rows."""
     from gz_course.grader.run.exercise_bridge import exercise_bridge
 
     rows = read(submission.main, submission.files[submission.main])

@@ -1,5 +1,5 @@
-"""The formats a report can be written in: one file each, found by being in this folder.
+"""The formats a report can be written in, one file each; every module in this folder is a format.
 
-The file `html.py` holds `FORMAT`, a `grader.report.format.Format`, and is the option `--html`. It is imported for the
-help of `course grade`: what takes long to import is imported in its functions.
+`html.py` defines `FORMAT`, a `grader.report.format.Format`, which adds the option `--html`. All formats are imported
+for the help of `course grade`, so slow imports belong inside their functions.
 """

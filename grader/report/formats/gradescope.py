@@ -1,7 +1,9 @@
-"""The report as Gradescope reads it: `results.json`, one test for each check.
+"""The report for Gradescope: `results.json`, one test for each check.
 
-All text is declared as plain text, so that nothing a student wrote is ever taken for markup. `execution_time` is a fact
-about the machine and missing when a recording was scored again.
+All text is declared as plain text, so that nothing a student wrote is taken for markup. `execution_time` is known only
+to the run and left out when a recording is scored again.
+
+Source: Gradescope, "Autograder Specifications", https://gradescope-autograders.readthedocs.io/en/latest/specs/
 """
 
 from __future__ import annotations
@@ -17,7 +19,7 @@ from gz_course.grader.report.report import OUTCOMES, Report, points
 if TYPE_CHECKING:
     from gz_course.grader.score.score import CheckResult
 
-LINES = 20  # of the node's log, from its end, below the verdict
+LINES = 20  # of the end of the node's log, shown below the verdict
 
 TEXT = {"output_format": "text", "test_output_format": "text", "test_name_format": "text"}
 
@@ -34,7 +36,7 @@ def as_dict(report: Report) -> dict[str, Any]:
         "output": _output(report),
         **TEXT,
         "visibility": "visible",
-        "stdout_visibility": "hidden",  # it says the same once more
+        "stdout_visibility": "hidden",  # it repeats the report
         "tests": [_test(number, check, report) for number, check in enumerate(report.score.checks, start=1)],
         "extra_data": {key: data[key] for key in ("exercise", "outcome", "truth_sha256", "versions")}
         | {"trials": [{key: trial[key] for key in trial if key != "recording"} for trial in data["trials"]]},
@@ -58,7 +60,7 @@ def _test(number: int, check: CheckResult, report: Report) -> dict[str, Any]:
 
 
 def _output(report: Report) -> str:
-    """Return the diagnosis and, unless all is well, how the node's log ends."""
+    """Return the diagnosis and, unless all is well, the end of the node's log."""
     verdict = f"{points(report.score.points)} of {points(report.max_score)} points. "
     lines = [report.score.diagnosis, verdict + OUTCOMES.get(report.score.outcome, report.score.outcome), *report.notes]
     if not report.full_marks:

@@ -1,4 +1,4 @@
-"""The report for programs; its keys are documented in README.md, "The JSON report"."""
+"""The report for programs; README.md, "The JSON report", documents its keys."""
 
 from gz_course.grader.report.format import Format
 from gz_course.grader.report.report import Report

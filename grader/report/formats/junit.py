@@ -1,7 +1,9 @@
-"""The report as JUnit XML, which continuous integration shows: a suite for the exercise, a case for each check.
+"""The report as JUnit XML for continuous integration: a suite for the exercise, a case for each check.
 
-A check that was not fulfilled is a `failure`; where nothing could be run, every check is an `error`. Checks share one
-run, so a case has no duration of its own; that of the suite is a fact about the machine.
+A check that failed is a `failure`; if nothing could be run, every check is an `error`. Checks share one run, so only
+the suite has a duration; it is left out when a recording is scored again.
+
+Source: "JUnit XML file format", https://github.com/testmoapp/junitxml
 """
 
 from __future__ import annotations

@@ -1,1 +1,1 @@
-"""The report as one HTML page that needs nothing else: no network, no scripts; for paper and screen readers too."""
+"""The report as one self-contained HTML page without network access or scripts, also for paper and screen readers."""

@@ -1,6 +1,6 @@
-"""The world at one moment, drawn from above as SVG: obstacles, robot, its path so far, what it sees.
+"""The world at one moment, drawn from above as SVG: obstacles, robot, its path so far, its lidar scan.
 
-Called by `page.py`. The x axis points right and the y axis up, as on a map.
+Used by `page.py`. The x axis points right and the y axis up, as on a map.
 """
 
 from __future__ import annotations
@@ -16,18 +16,18 @@ from gz_course.grader.record.bodies import Body, bodies, chain_of, hull, placed
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.steps import told
 
-WIDEST = 40.0  # [m] a world larger than this is shown around the path only
-MARGIN = 1.5  # [m] around the path when only that is shown
-FOOT = 20  # [pixels] below the world, for the ruler
+WIDEST = 40.0  # [m] of a larger world only the surroundings of the path are drawn
+MARGIN = 1.5  # [m] around the path if only its surroundings are drawn
+FOOT = 20  # [pixels] below the world, for the scale bar
 ARROW = 0.35  # [m] length of the arrow that shows the robot's heading
-FAR = 1e5  # [pixels] nothing is drawn farther away
+FAR = 1e5  # [pixels] coordinates are clipped to this
 MOST_POINTS = 360  # of a scan
 MOST_CORNERS = 600  # of a path
 
 
 @dataclass(frozen=True)
 class View:
-    """What part of the world is drawn, metres."""
+    """The drawn part of the world [m]."""
 
     left: float
     bottom: float
@@ -36,7 +36,7 @@ class View:
 
 
 class Map:
-    """The world of one recording, ready to be drawn at any of its moments."""
+    """The world of one recording, which can be drawn at any of its moments."""
 
     def __init__(self, recording: Recording, robot: str) -> None:
         self._recording = recording
@@ -51,13 +51,13 @@ class Map:
         self._view = self._look()
 
     def __bool__(self) -> bool:
-        """Tell whether there is anything to draw."""
+        """Return whether there is anything to draw."""
         return bool(len(self._x) or self._standing or self._moving)
 
     def draw(self, time_s: float, width: int, alt: str, *, whole_path: bool = False) -> Markup:
         """Return the world at a simulated time [s] as an SVG element `width` pixels wide.
 
-        `whole_path`: the path to its end instead of to this moment, with its start marked.
+        `whole_path`: draw the path to its end instead of to this moment, and mark its start.
         """
         view, now = self._view, round(time_s * 1e9)
         scale = width / (view.right - view.left)
@@ -94,7 +94,6 @@ class Map:
         return Markup("".join([*parts, "</svg>"]))
 
     def told(self) -> str:
-        """Return the path in words."""
         if not len(self._x):
             return "The world seen from above."
         (x0, x1), (y0, y1) = ((s.values[0], s.values[-1]) for s in (self._x, self._y))
@@ -123,12 +122,12 @@ class Map:
         else:
             world, margin = path, MARGIN
         (left, bottom), (right, top) = world.min(axis=0) - margin, world.max(axis=0) + margin
-        # Neither a strip nor a tower: it stands beside others of its kind.
+        # Limit the aspect ratio, because it stands beside other drawings.
         grow = max((right - left) * 0.5 - (top - bottom), 0.0) / 2, max((top - bottom) * 0.8 - (right - left), 0.0) / 2
         return View(left - grow[1], bottom - grow[0], right + grow[1], top + grow[0])
 
     def _heading(self, now: int, scale: float) -> str:
-        """Return an arrow from the robot to where it looks."""
+        """Return an arrow from the robot in the direction of its heading."""
         if not len(self._x) or not len(self._yaw):
             return ""
         index = max(int(np.searchsorted(self._x.times, now, side="right")) - 1, 0)
@@ -142,7 +141,7 @@ class Map:
 
 
 def _pixels(value: float) -> float:
-    """Clip a coordinate to the picture and its surroundings: a robot may have been thrown anywhere."""
+    """Clip a coordinate [pixels], because a robot may be thrown arbitrarily far."""
     return min(max(value, -FAR), FAR) if math.isfinite(value) else FAR
 
 
@@ -169,7 +168,7 @@ def _area(outline: np.ndarray) -> float:
 
 
 def _ruler(scale: float, width: float, height: float) -> str:
-    """Return a line of a round length, so that distances can be read off."""
+    """Return a scale bar of a round length."""
     length = next((m for m in (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0) if m * scale > 0.12 * width), 50.0)
     x, y = 10.0, height - 8.0
     right = x + length * scale

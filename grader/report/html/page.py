@@ -1,7 +1,7 @@
 """The HTML report: `as_html(report)` reads the recordings of its trials and fills `page.html.jinja`.
 
-Imported by `grader/report/formats/html.py` when the page is written. A pure function of report and recordings: the
-page made from a recording that is scored again differs from the first in host facts only.
+Imported by `grader/report/formats/html.py` when the page is written. A pure function of report and recordings: the page
+of a recording that is scored again differs from the first only in the facts about the machine.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ from gz_course.grader.report.report import OUTCOMES, Report, TrialReport, points
 from gz_course.grader.score.score import CheckResult
 
 FOLDER = Path(__file__).parent
-LONGEST = 4000  # characters of one piece of text
-APART = 0.05  # [s] moments nearer than this are one
+LONGEST = 4000  # characters of one text
+APART = 0.05  # [s] moments closer together than this are drawn once
 MOST_VERDICTS = 4  # moments of failed checks that are drawn
 MAP, FRAME = 640, 360  # [pixels] width of the large drawing and of the small ones
 JPEG, PNG = b"\xff\xd8\xff", b"\x89PNG\r\n"
@@ -33,7 +33,7 @@ JPEG, PNG = b"\xff\xd8\xff", b"\x89PNG\r\n"
 
 @dataclass(frozen=True)
 class CheckRow:
-    """One line of the table of checks; `trial` is the name of the one its finding comes from."""
+    """One row of the table of checks; `trial` names the trial its finding comes from."""
 
     word: str
     title: str
@@ -48,7 +48,7 @@ class CheckRow:
 
 @dataclass(frozen=True)
 class TrialRow:
-    """One line of the table of trials, with a drawing of the path taken."""
+    """One row of the table of trials, with a drawing of the path taken."""
 
     name: str
     seed: int
@@ -62,7 +62,7 @@ class TrialRow:
 
 @dataclass(frozen=True)
 class Plots:
-    """What one check looked at."""
+    """The plots of one check."""
 
     word: str
     title: str
@@ -81,7 +81,7 @@ class Frame:
 
 @dataclass(frozen=True)
 class Picture:
-    """One recorded camera frame, as a data URI."""
+    """One recorded camera image, as a data URI."""
 
     title: str
     alt: str
@@ -134,7 +134,7 @@ def _template() -> Any:
 
 
 def _plain(value: Any) -> Any:
-    """Return foreign text on one line and shortened; markup of our own stays as it is."""
+    """Return foreign text on one line and shortened; leave our own markup unchanged."""
     return value if isinstance(value, Markup) or not isinstance(value, str) else shown(value, LONGEST)
 
 
@@ -170,7 +170,7 @@ def _plots(check: CheckResult, trials: tuple[TrialReport, ...], recordings: dict
 
 
 def _decisive(check: CheckResult, trials: tuple[TrialReport, ...]) -> tuple[TrialReport, CheckResult]:
-    """Return the first trial in which a check failed, else the first, and what the check found there."""
+    """Return the first trial in which a check failed, else the first trial, and what the check found there."""
     each = [(trial, one) for trial in trials for one in trial.score.checks if one.spec.id == check.spec.id]
     return next(((trial, one) for trial, one in each if not one.finding.passed), each[0])
 
@@ -188,12 +188,12 @@ def _robot(recording: Recording) -> str:
 
 
 def _lasted(recording: Recording) -> float:
-    """Return how long the run lasted [s], simulated; 0 if nothing was run."""
+    """Return the simulated duration of the run [s]; 0 if nothing was run."""
     return float(recording.facts().get("sim_seconds") or 0.0)
 
 
 def _moments(trial: TrialReport, recording: Recording) -> list[tuple[float, str]]:
-    """Return the moments worth a look, in order: start, middle, verdicts of failed checks, end."""
+    """Return the moments to show, in order: start, middle, verdicts of failed checks, end."""
     end = _lasted(recording)
     found = [(0.0, "Start"), (end, "End")]
     failed = [check for check in _failed(trial.score.checks) if check.finding.at_s is not None]
@@ -218,7 +218,7 @@ def _frame(drawn: Map, at: float, title: str) -> Frame:
 
 
 def _pictures(recording: Recording, moments: list[tuple[float, str]]) -> list[Picture]:
-    """Return the recorded camera frames at the moments worth a look."""
+    """Return the recorded camera images at the given moments."""
     found = []
     for entity in [*recording.entities("world", "EncodedImage"), *recording.entities("topics", "EncodedImage")]:
         seen, name = b"", entity.removeprefix("topics")
@@ -234,7 +234,7 @@ def _pictures(recording: Recording, moments: list[tuple[float, str]]) -> list[Pi
 
 
 def _facts(report: Report) -> list[tuple[str, Any]]:
-    """Return what else is known: about the run, then about the machine, which a recording does not know."""
+    """Return further facts: about the run, then about the machine, which are not in a recording."""
     facts: list[tuple[str, Any]] = [
         ("Seeds", ", ".join(str(trial.seed) for trial in report.trials)),
         ("Simulated", f"{report.sim_seconds:g} s"),

@@ -1,7 +1,7 @@
-"""Plots of signals over simulated time as SVG: step lines, the band where they are wanted, the moment of the verdict.
+"""Plots of signals over simulated time as SVG: step lines, the band they should be in, the moment of the verdict.
 
-Called by `page.py`; the result is markup for inside an HTML page, whose style sheet gives the classes their colours.
-Lines differ in dashes as well as in colour.
+Used by `page.py`; the result is markup for an HTML page whose style sheet defines the colours of the classes. Lines
+differ in dashes as well as in colour.
 """
 
 from __future__ import annotations
@@ -14,17 +14,17 @@ import numpy as np
 from markupsafe import Markup, escape
 
 WIDTH, HEIGHT = 720, 190
-LEFT, RIGHT, TOP, BOTTOM = 62, 14, 20, 34  # margins around the plotting area
-HUGE = 1e150  # larger values are drawn as this: their differences must stay finite
+LEFT, RIGHT, TOP, BOTTOM = 62, 14, 20, 34  # [pixels] margins around the plotting area
+HUGE = 1e150  # larger values are clipped to this, so that their differences stay finite
 MOST_TICKS = 6
-NARROWEST = 10.0  # pixels of a band that can be seen
-FLAT = 1e-6  # what varies less is a constant with the noise of computing
-COLUMN = 0.5  # pixels that samples may lie apart to be drawn as one
+NARROWEST = 10.0  # [pixels] smallest visible width of a band
+FLAT = 1e-6  # a smaller range is a constant with rounding errors
+COLUMN = 0.5  # [pixels] samples within this distance are drawn as one
 
 
 @dataclass(frozen=True)
 class Curve:
-    """One signal to draw: `times` [s] (n,) sorted, `values` (n,), each of which holds until the next."""
+    """One signal to draw: `times` [s] (n,) sorted, `values` (n,), each valid until the next."""
 
     name: str
     times: np.ndarray
@@ -33,7 +33,7 @@ class Curve:
 
 @dataclass(frozen=True)
 class Area:
-    """Where the first curve is wanted: `low` to `high` from `start` to `end` [s]; infinite bounds are open."""
+    """The band the first curve should be in: `low` to `high` from `start` to `end` [s]; infinite bounds are open."""
 
     low: float
     high: float
@@ -43,7 +43,7 @@ class Area:
 
 @dataclass(frozen=True)
 class Moment:
-    """When a verdict was given [s], and whether it was a pass."""
+    """The time of a verdict [s], and whether the check passed."""
 
     at_s: float
     passed: bool
@@ -54,7 +54,7 @@ def plot(
 ) -> Markup:
     """Return one plot as an SVG element, from 0 to `end_s` [s]; the last values hold until `until_s` [s].
 
-    `alt` describes it to those who do not see it.
+    `alt` is its text alternative.
     """
     end_s = end_s if 0 < end_s < HUGE else 1.0
     until_s = until_s if until_s < end_s else end_s
@@ -72,7 +72,7 @@ def plot(
     for area in areas:
         left, right = x(area.start), x(area.end)
         above, below = y(min(area.high, high)), y(max(area.low, low))
-        if right - left < NARROWEST:  # wanted at one moment, where the line of the verdict stands
+        if right - left < NARROWEST:  # a single moment, marked by the line of the verdict
             left, right = left - NARROWEST / 2, left + NARROWEST / 2
         width, height = right - left, max(below - above, 2.0)
         parts.append(f'<rect class="band" x="{left:.1f}" y="{above:.1f}" width="{width:.1f}" height="{height:.1f}"/>')
@@ -102,7 +102,7 @@ def plot(
 
 
 def key(index: int) -> Markup:
-    """Return a piece of the line that curve number `index` is drawn with, for the caption."""
+    """Return a sample of the line style of curve number `index`, for the caption."""
     line = f'<path class="curve c{index % 4}" d="M0 5H28"/>'
     return Markup(f'<svg class="key" viewBox="0 0 28 10" width="28" height="10" aria-hidden="true">{line}</svg>')
 
@@ -114,14 +114,14 @@ def ticks(low: float, high: float) -> list[float]:
         return [low]
     power = 10.0 ** math.floor(math.log10(span / MOST_TICKS))
     step = next((s for s in (power, 2 * power, 5 * power) if s > 0 and span / s <= MOST_TICKS), 10 * power)
-    if not step > 0 or abs(low) / step > 1e12:  # no room for a round number between the two
+    if not step > 0 or abs(low) / step > 1e12:  # floating-point numbers are too coarse for ticks
         return [low, high]
     first = math.ceil(low / step - 1e-9)
     return [i * step for i in range(first, first + MOST_TICKS + 1) if i * step <= high + step * 1e-9]
 
 
 def number(value: float) -> str:
-    """Return a number as it stands at an axis."""
+    """Return a number as the label of an axis."""
     return f"{value + 0.0:.4g}"
 
 
@@ -136,19 +136,19 @@ def _edges(areas: Sequence[Area]) -> list[np.ndarray]:
 
 
 def _range(values: Sequence[np.ndarray]) -> tuple[float, float]:
-    """Return the ends of the value axis: all values and some room around them."""
+    """Return the ends of the value axis: the range of all values with a margin."""
     every = np.concatenate([np.asarray(v, dtype=float) for v in values]) if values else np.empty(0)
     if not len(every):
         return 0.0, 1.0
     low, high = float(every.min()), float(every.max())
     room = 0.08 * (high - low)
-    if high - low < max(FLAT, 1e-9 * max(abs(low), abs(high))):  # a constant: it is drawn in the middle
+    if high - low < max(FLAT, 1e-9 * max(abs(low), abs(high))):  # a constant is drawn in the middle
         room = max(abs(low), abs(high), 1.0) * 0.1
     return low - room, high + room
 
 
 def _steps(xs: list[float], ys: list[float], until: float) -> str:
-    """Return the path of a step line; of samples that share a column of pixels, first, lowest, highest and last."""
+    """Return the path of a step line; of samples in one column of pixels, draw first, lowest, highest and last."""
     if not xs:
         return ""
     last = f"{ys[0]:.1f}"

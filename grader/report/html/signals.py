@@ -1,7 +1,6 @@
-"""The choice of what is plotted: for each check its signals, and for the run the commands beside the truth.
+"""The choice of plots: for each check its signals, and for the run the commands beside the truth.
 
-Called by `page.py`. A check's signals are those of its bands; without bands they are those
-its manifest names.
+Used by `page.py`. A check's signals are those of its bands; without bands those that its manifest names.
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ from gz_course.grader.record.reading import Recording
 from gz_course.grader.report.html.plot import Area, Curve, Moment, number, plot
 from gz_course.grader.score.score import CheckResult
 
-MOST_FIGURES = 4  # of one check
+MOST_FIGURES = 4  # plots of one check
 SPEEDS = (
     ("Forward speed", "m/s", "linear_x", "linear/x"),
     ("Turning rate", "rad/s", "angular_z", "angular/z"),
@@ -26,7 +25,7 @@ SPEEDS = (
 
 @dataclass(frozen=True)
 class Figure:
-    """A plot with its title, its curves as (number, name), and what its band means (empty without one)."""
+    """A plot with its title, its curves as (number, name), and the meaning of its band (empty without one)."""
 
     svg: Markup
     title: str
@@ -35,16 +34,16 @@ class Figure:
 
 
 def figures_of(check: CheckResult, recording: Recording) -> list[Figure]:
-    """Return a plot for each signal that a check looked at and that was recorded."""
+    """Return a plot for each recorded signal that a check looked at."""
     finding, parameters = check.finding, check.spec.parameters
     bands = {name: [b for b in finding.bands if b.signal == name] for name in [b.signal for b in finding.bands]}
     areas = {name: [Area(b.low, b.high, b.start, b.end) for b in bands] for name, bands in bands.items()}
-    if finding.gated:  # what it failed for is the gate alone
+    if finding.gated:  # only the gate made it fail
         areas = _gates(parameters.get("gate"), _end(recording)) or areas
     named = list(areas) or list(_texts({key: value for key, value in parameters.items() if key != "gate"}))
     moment = None if finding.at_s is None else Moment(finding.at_s, finding.passed)
     behind = parameters.get("command")
-    recorded = set(recording.signals())  # lists of numbers are none
+    recorded = set(recording.signals())  # without lists of numbers
     figures: list[Figure] = []
     for name in dict.fromkeys(named):
         if name not in recorded:
@@ -58,7 +57,7 @@ def figures_of(check: CheckResult, recording: Recording) -> list[Figure]:
 
 
 def _gates(gate: Any, end: float) -> dict[str, list[Area]]:
-    """Return where the signals of a check's gate or gates should have come, by signal."""
+    """Return the bands of a check's gate or gates, by signal."""
     areas: dict[str, list[Area]] = {}
     for each in gate if isinstance(gate, list) else [gate]:
         if isinstance(each, dict) and isinstance(each.get("signal"), str):
@@ -68,9 +67,9 @@ def _gates(gate: Any, end: float) -> dict[str, list[Area]]:
 
 
 def speeds_of(recording: Recording, robot: str) -> list[Figure]:
-    """Return the true speeds of the robot, each with the commands that were given for it.
+    """Return plots of the robot's true speeds, each with the commands given for it.
 
-    Of several topics with commands those that name the robot are its own.
+    If there are several topics of commands, those that name the robot are used.
     """
     topics = sorted(recording.facts().get("listened", {}))
     own = [topic for topic in topics if robot in topic.split("/")] or topics
@@ -96,7 +95,7 @@ def _figure(recording: Recording, title: str, curves: list[Curve], areas: list[A
 
 
 def _told(title: str, curves: list[Curve], areas: list[Area], moment: Moment | None, end: float) -> str:
-    """Return a plot in words, for those who do not see it."""
+    """Return a plot in words, as its text alternative."""
     words = [f"{title} over {end:g} s of simulated time."]
     for curve in curves:
         if len(curve.values):
@@ -124,7 +123,7 @@ def _curve(recording: Recording, name: str, title: str) -> Curve:
 
 
 def _name(signal: str, parameters: dict[str, Any], recording: Recording) -> str:
-    """Return the name of a signal for people: as in the manifest, else as in the recording."""
+    """Return the display name of a signal: as in the manifest, else as in the recording."""
     for table in (parameters, *(t for t in parameters.get("conditions", []) if isinstance(t, dict))):
         if table.get("signal") == signal and "name" in table:
             return f"{table['name']} [{table['unit']}]" if "unit" in table else str(table["name"])
@@ -144,5 +143,5 @@ def _texts(value: Any) -> Iterator[str]:
 
 
 def _end(recording: Recording) -> float:
-    """Return the end of the time axis [s]: the duration the exercise asked for."""
+    """Return the end of the time axis [s]: the duration of the exercise."""
     return float(recording.properties("run").get("duration") or 1.0)

@@ -1,4 +1,4 @@
-"""Start of the agent: Python imports this at every start, so that the grader can follow each process that uses rclpy.
+"""Start of the agent: Python imports this module at every start, so that the grader can follow processes with rclpy.
 
 The sandbox puts this folder first on PYTHONPATH, so it works in every Python process, whoever started it. Without the
 grader's socket in the environment it does nothing.

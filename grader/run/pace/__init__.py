@@ -1,1 +1,1 @@
-"""How simulated time goes on: in lock-step with the submission's processes, or with the wall clock."""
+"""The pace of simulated time: in lock-step with the submission's processes, or with the wall clock."""

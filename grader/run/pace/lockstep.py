@@ -1,11 +1,11 @@
 """Lock-step of simulated time and the student's nodes: a tick ends when nothing is left to do.
 
 The simulator publishes one message at a time and waits until the student's processes have taken it and are idle, and
-until everything they published has arrived. What several processes send to each other, or at the same time to the
-simulator, would be a race: they hold it, and are told to release it one message at a time, always in the same order.
-Nothing depends on the speed of the machine. A node that cannot be followed (it blocks, or never spins) is paced to the
-wall clock for as long as that lasts: it is never waited for in vain for more than `PATIENCE` at a time. `real_time.py`
-has the same interface without the waiting.
+until everything they published has arrived. Messages between several processes, or from several processes to the
+simulator at the same time, would be a race: the processes hold them back and release one at a time on order, always in
+the same sequence. Nothing depends on the speed of the machine. While a node cannot be followed (it blocks, or never
+spins), simulated time is paced to the wall clock; waiting for one message takes `PATIENCE` at most. `real_time.py` has
+the same interface without the waiting.
 """
 
 from __future__ import annotations
@@ -23,19 +23,18 @@ from gz_course.grader.run.processes.submission_processes import SubmissionProces
 if TYPE_CHECKING:
     from gz_course.grader.run.grader_endpoints import GraderEndpoints
 
-LONG_WAIT = 0.5  # [s] of wall time for one message: a busy machine alone hardly takes so long
-GIVING_UP = 3  # after so many times it is paced for the rest of the run
-CLOCK_AGAIN = 0.05  # [s] /clock is best effort on the student's side, so it is sent again until it was seen
-LOST = 0.1  # [s] nobody is at work, and a message was not taken: then it is sent again
-LOST_PATIENCE = 10.0  # [s] of wall time for a message that gets lost again and again, unless that has been in vain
+LONG_WAIT = 0.5  # [s] of wall time for one message: load alone hardly explains more
+GIVING_UP = 3  # failures after which the rest of the run is paced
+CLOCK_AGAIN = 0.05  # [s] /clock is best effort on the student's side, so it is sent again until it is seen
+LOST = 0.1  # [s] if everybody is idle and a message was not taken for this time, it is sent again
+LOST_PATIENCE = 10.0  # [s] of wall time for a message that is lost repeatedly, unless waiting has failed before
 CLOCK = "/clock"
 
 
 class LockStep(RealTime):
     """Waits after every message until the student's nodes have dealt with it.
 
-    `holding`: the processes have been started so that they hold what they send. Otherwise they are told when there is
-    more than one.
+    `holding`: the processes were started with holding on. Otherwise they are ordered to hold once there are several.
     """
 
     name = "lockstep"
@@ -43,16 +42,16 @@ class LockStep(RealTime):
     def __init__(self, processes: SubmissionProcesses, ros: GraderEndpoints, holding: bool = False) -> None:
         super().__init__(processes, ros)
         self._holding = holding
-        self._sent: Counter[str] = Counter()  # messages the student's processes must have taken
-        self._untaken: Counter[str] = Counter()  # of those and their own: never taken (or taken and never counted)
+        self._sent: Counter[str] = Counter()  # messages that the student's processes must have taken
+        self._untaken: Counter[str] = Counter()  # of those and of their own: never taken (or taken and never counted)
         self._layout: tuple[int, ...] = ()
         self._participants: list[Participant] = []
         self._pending: tuple[str, Any, Any] | None = None
         self._now_ns = 0
         self._free = False  # paced at the moment
         self._failures = 0
-        self._copies = 0  # of the message just sent, because it was lost on its way
-        self._left: tuple[int, ...] = ()  # the layout in which a subscription has gone and its process has not
+        self._copies = 0  # copies of the message just sent, which was lost
+        self._left: tuple[int, ...] = ()  # the layout in which a subscription is gone and its process is not
 
     def await_ready(self) -> bool:
         """Wait as in real time; a node that does not become ready is paced to the wall clock from the start."""
@@ -63,14 +62,14 @@ class LockStep(RealTime):
         return ready
 
     def welcome(self) -> None:
-        """Hold simulated time while a process that has come meanwhile starts up."""
+        """Hold simulated time while a process that has joined starts up."""
         if self.processes.running and self.processes.starting and not self._free:
             RealTime.await_ready(self)
         if not self._free and self._look_around():
             self.await_matches(time.monotonic() + MATCHING)
 
     def _look_around(self) -> bool:
-        """Return whether processes or endpoints have come or gone since the last call, and follow those there are."""
+        """Return whether processes or endpoints have come or gone since the last call, and update what is followed."""
         if self.processes.layout == self._layout:
             return False
         self._layout = self.processes.layout
@@ -109,7 +108,7 @@ class LockStep(RealTime):
         )
 
     def send(self, topic: str, publisher: Any, message: Any, now_ns: int) -> None:
-        """Publish one message; what nobody subscribes to is not published at all."""
+        """Publish one message, unless nobody subscribes to it."""
         self._now_ns = now_ns
         self._pending = None
         if not self.processes.running:
@@ -118,7 +117,7 @@ class LockStep(RealTime):
             self.await_matches(time.monotonic() + MATCHING)
         readers = self.ros.matched(topic, "subscription") or self._await_leaving(topic)
         if not readers:
-            # Nobody to wait for, but somebody to listen to: a node may come, go, or wait for an answer.
+            # No reader to wait for, but a node may come, go, or wait for an answer.
             self.processes.wait(0)
             self.everything_arrived()
             return
@@ -128,10 +127,10 @@ class LockStep(RealTime):
         self._pending = (topic, publisher, message)
 
     def _await_leaving(self, topic: str) -> int:
-        """Hold simulated time while a process ends whose subscription DDS has taken down already.
+        """Hold simulated time while a process ends whose subscription DDS has removed already.
 
         Return how many subscriptions are matched on the topic. A process that lives on without its subscription is
-        waited for once.
+        waited for once only.
         """
         layout, deadline = self.processes.layout, time.monotonic() + PATIENCE
         mine = (e for e in self.processes.endpoints if e.kind == "subscription" and e.topic == topic)
@@ -150,7 +149,7 @@ class LockStep(RealTime):
     def settle(self) -> None:
         """Wait until the message just sent was taken and its consequences have arrived.
 
-        Then what the processes hold is released one message at a time, and waited for in the same way.
+        Then release the messages the processes hold, one at a time, and wait in the same way for each.
         """
         if self._free or not (self._pending or self._holding):
             return
@@ -163,7 +162,7 @@ class LockStep(RealTime):
                 return
 
     def _await_settled(self) -> bool:
-        """Wait until nothing is on its way and everybody is idle; return False if that was in vain."""
+        """Wait until no message is in transit and every process is idle; return False on a timeout."""
         began, self._copies = time.monotonic(), 0
         settled = self._await_settled_until(began + PATIENCE)
         waited = time.monotonic() - began
@@ -195,7 +194,7 @@ class LockStep(RealTime):
         return True
 
     def _is_lost(self) -> bool:
-        """Return whether everybody is idle and yet somebody has not taken the message just sent."""
+        """Return whether every process is idle although one has not taken the message just sent."""
         if self._pending is None or self._pending[0] == CLOCK:
             return False
         topic = self._pending[0]
@@ -203,11 +202,11 @@ class LockStep(RealTime):
         return missing > 0 and all(p.progress and p.progress.idle for p in self._participants)
 
     def _send_again(self) -> None:
-        """Send the message once more if all processes know that they may get it twice; else tell them so."""
+        """Send the message again once all processes know that they may get it twice; until then announce that."""
         assert self._pending is not None
         topic, publisher, message = self._pending
         if not self.ros.is_large(message):
-            return  # it was not lost; who is to take it does not look
+            return  # a small message is not lost; its reader does not take it
         unaware = [p for p in self._participants if p.progress and topic not in p.progress.again]
         for each in unaware:
             each.tell({"again": topic})
@@ -216,7 +215,7 @@ class LockStep(RealTime):
             self._copies += 1
 
     def close_tick(self, tick: float) -> None:
-        """Let the wall clock move on by a tick if the nodes are out of step, and see whether they are in step again."""
+        """Let the wall clock advance by a tick if the nodes are out of step; check if they are in step again."""
         if not self._free or not self.processes.running:
             return
         self.paced_ticks += 1
@@ -228,7 +227,7 @@ class LockStep(RealTime):
                 self._tell({"hold": True})
 
     def _settled(self) -> bool:
-        """Return whether a tick may go on: all arrived, all idle, the clock seen by all, every message taken."""
+        """Return whether a tick may end: all arrived, all idle, the clock seen by all, every message taken."""
         if self._look_around():
             self.await_matches(time.monotonic() + MATCHING)
         if not self._participants or not self.everything_arrived():
@@ -254,11 +253,11 @@ class LockStep(RealTime):
         due = self._sent + self._total("delivered")
         for topic, count in self._total("published").items():
             if self.ros.listens(topic):
-                due[topic] -= count  # one of the readers is ours
+                due[topic] -= count  # one of the readers is the grader
         return due
 
     def _write_off(self) -> None:
-        """Count as lost what was not taken by now: the process that was to take it has gone, or does not answer."""
+        """Count as lost what was not taken by now, because its reader is gone or does not respond."""
         taken = self._total("taken")
         for topic, count in self._due_to_be_taken().items():
             self._untaken[topic] = max(self._untaken[topic], count - taken[topic])
@@ -270,7 +269,7 @@ class LockStep(RealTime):
             pass
 
     def _fall_out_of_step(self) -> None:
-        """Stop waiting: count as lost what was not taken by now, and go on at the pace of the wall clock."""
+        """Stop waiting: count as lost what was not taken by now, and continue at the pace of the wall clock."""
         self._free = True
         self._failures += 1
         self._tell({"free": True})

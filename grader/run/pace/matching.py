@@ -1,6 +1,6 @@
 """Prediction of which endpoints DDS connects: lock-step waits for those matches, and for no others.
 
-Called by `lockstep.py`, for what the submission's processes say about their endpoints.
+`lockstep.py` asks it about the endpoints that the submission's processes report.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Simulated time at the pace of the wall clock, and what any pace needs: who is there, and what has arrived.
+"""Simulated time at the pace of the wall clock, and what every pace needs: the processes and what has arrived.
 
-Used by `run_loop.py` when a run is asked for in real time; `lockstep.py` builds on it.
+Used by `run_loop.py` for runs in real time; `lockstep.py` builds on it.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ if TYPE_CHECKING:
 
 PATIENCE = 3.0  # [s] of wall time a node may need for one message before it is paced
 MATCHING = 5.0  # [s] of wall time for DDS to match the endpoints of a new node; a lost announcement costs 3 s
-LOOK_ROUND = 0.002  # [s] how long to listen to the student before listening to ROS
+LOOK_ROUND = 0.002  # [s] to wait for the student's processes between two looks at ROS
 
 
 class RealTime:
-    """Paces simulated time to the wall clock and waits for nobody."""
+    """Paces simulated time to the wall clock and never waits for a node."""
 
     name = "realtime"
 
@@ -30,7 +30,7 @@ class RealTime:
         self.processes = processes
         self.ros = ros
         self.paced_ticks = 0
-        self.held_seconds = 0.0  # of wall time that went by in long waits for the student
+        self.held_seconds = 0.0  # [s] of wall time spent in long waits for the student
         self._due: float | None = None
         self._lost: Counter[str] = Counter()  # published by the student, never arrived
 
@@ -41,7 +41,7 @@ class RealTime:
             now = time.monotonic()
             for each in self.processes.participants:
                 if each.starting:
-                    each.tell({"ping": True})  # one that has closed its socket notices it only now
+                    each.tell({"ping": True})  # reveals that a process has closed its socket
                     each.follows = now < each.since + START_UP
             if now > deadline and not self.processes.participants:
                 return False
@@ -51,11 +51,11 @@ class RealTime:
         self.await_matches(time.monotonic() + MATCHING)
         deadline = time.monotonic() + PATIENCE
         while self.processes.running and not self.everything_arrived() and time.monotonic() < deadline:
-            self.processes.wait(LOOK_ROUND)  # what was sent before time began is also received before
+            self.processes.wait(LOOK_ROUND)  # receive everything sent before simulated time begins
         return self.processes.running and bool(self.processes.endpoints)
 
     def welcome(self) -> None:
-        """Let a process that has come meanwhile take part; in real time it is not waited for."""
+        """Let a process that has joined take part; in real time it is not waited for."""
 
     def await_matches(self, deadline: float) -> None:
         """Wait until every endpoint that can match has matched on both sides."""
@@ -71,7 +71,7 @@ class RealTime:
         )
 
     def everything_arrived(self) -> bool:
-        """Return whether all that the processes say they published is here; answer those that wait for that."""
+        """Return whether all that the processes published has arrived; then confirm it to those that wait for that."""
 
         def arrived() -> bool:
             received = self.ros.received
@@ -94,7 +94,7 @@ class RealTime:
         return True
 
     def _total(self, what: str) -> Counter[str]:
-        """Sum one of the counters over all processes, also those that have ended."""
+        """Sum one of the counters over all processes, including those that have ended."""
         total: Counter[str] = Counter()
         for each in self.processes.participants:
             if each.progress is not None:
@@ -106,10 +106,10 @@ class RealTime:
         publisher.publish(message)
 
     def settle(self) -> None:
-        """Wait for what the last message sent brings about; in real time there is no waiting."""
+        """Wait for the consequences of the last message; in real time there is no waiting."""
 
     def close_tick(self, tick: float) -> None:
-        """Listen until the wall clock has moved on by `tick` [s]."""
+        """Receive messages until the wall clock has advanced by `tick` [s]."""
         now = time.monotonic()
         self._due = max(now - tick, self._due) + tick if self._due is not None else now + tick
         while True:
@@ -119,7 +119,7 @@ class RealTime:
             if self.processes.running:
                 self.processes.wait(min(left, LOOK_ROUND))
             else:
-                time.sleep(left)  # nobody to listen to; only the clock passes
+                time.sleep(left)  # the submission has ended; only the clock goes on
             self.ros.pump()
             self.everything_arrived()
         self.ros.pump()

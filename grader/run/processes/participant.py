@@ -1,7 +1,7 @@
-"""One process of the submission at the other end of a socket: what it has said last, and what it is told.
+"""One process of the submission at the other end of a socket: its latest report, and the orders it gets.
 
-`SubmissionProcesses` accepts the connections, one of every process that imports rclpy (see
-`agent/course_agent/import_hooks.py`), and owns these. `LockStep` reads `progress` and gives the orders.
+`SubmissionProcesses` accepts a connection from every process that imports rclpy (see
+`agent/course_agent/import_hooks.py`) and owns these objects. `LockStep` reads `progress` and gives the orders.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from typing import Any
 from gz_course.grader.run.processes.progress import Progress
 
 LARGEST = 1 << 20  # [bytes] of one message
-MOST_AT_ONCE = 1_000  # messages taken in one go: who sends without end does not keep the grader from going on
+MOST_AT_ONCE = 1_000  # messages taken in one call, so that an endless sender does not stop the grader
 
 
 class Participant:
-    """A connection. `progress` is its latest report (None before the first), `gone` is set at its end.
+    """The connection to a process. `progress` is its latest report (None before the first), `gone` is set at its end.
 
     `asked(participant, message)` is called with every message that is not a report.
     """
@@ -32,12 +32,12 @@ class Participant:
         self.number = number  # in the order of connecting, from 0
         self.since = time.monotonic()
         self.command: tuple[str, ...] = ()
-        self.pid = self.group = 0  # as it sees them in its box
+        self.pid = self.group = 0  # as seen in the sandbox
         self.progress: Progress | None = None
         self.gone = False
         self.follows = True  # False: no reports are expected of it
-        self.uses_ros = False  # it has imported rclpy
-        self.waits = False  # it does nothing but wait, for its children or for events
+        self.uses_ros = False  # whether it has imported rclpy
+        self.waits = False  # whether it only waits, for its children or for events
         self._asked = asked
         self._answered = 0
         self._released = 0
@@ -46,13 +46,13 @@ class Participant:
 
     @property
     def name(self) -> tuple[str, int]:
-        """What it is sorted by: its first node, or its command; two of one name by their order of connecting."""
+        """Key to sort by: its first node, or its command; equal names in the order of connecting."""
         nodes = sorted({e.node for e in self.progress.endpoints}) if self.progress else []
         return (nodes[0] if nodes else " ".join(self.command), self.number)
 
     @property
     def program(self) -> str:
-        """What people call the program: the file or module a Python runs."""
+        """The program's name for people: the file or module that Python runs."""
         words = [word for word in self.command[1:] if word not in ("-m", "-P", "-c")]
         return words[0].rpartition("/")[2].removeprefix("gz_course.sim.") if words else ""
 
@@ -64,33 +64,32 @@ class Participant:
 
     @property
     def waiting_for_release(self) -> bool:
-        """Whether a release it was told is not reported yet."""
+        """Whether it has not reported yet that it carried out a release."""
         return not self.gone and self.progress is not None and self.progress.released < self._released
 
     @property
     def wants_answer(self) -> bool:
-        """Whether it waits to be told that everything it published has arrived."""
+        """Whether it waits for the confirmation that everything it published has arrived."""
         return self.progress is not None and self.progress.flushes > self._answered
 
     def answer(self) -> None:
-        """Tell it that everything it published has arrived."""
+        """Confirm that everything it published has arrived."""
         if self.progress is not None:
             self._answered = self.progress.flushes
             self.tell({"arrived": True})
 
     def release(self) -> None:
-        """Let it send one of the messages it holds."""
+        """Order it to send one of the messages it holds."""
         if self.progress is not None:
             self._released = self.progress.released + 1
             self.tell({"release": 1})
 
     def tell(self, order: dict[str, Any]) -> None:
-        """Send it a message."""
         with contextlib.suppress(OSError):
             self.channel.send(json.dumps(order).encode())
 
     def read(self) -> None:
-        """Take what has come; at its end `gone` is set."""
+        """Read the messages that have arrived; set `gone` at the end of the connection."""
         for _ in range(MOST_AT_ONCE):
             try:
                 data = self.channel.recv(LARGEST)
@@ -117,8 +116,7 @@ class Participant:
             self.waits = "waiting" in message
             self._asked(self, message)
         except (ValueError, KeyError, TypeError, AttributeError, RecursionError, OverflowError, OSError):
-            return  # nothing that anybody of ours would send: an infinite number, a name that is no file's
+            return  # not from our agent: an infinite number, or a name that cannot be a file's
 
     def close(self) -> None:
-        """Close the socket."""
         self.channel.close()

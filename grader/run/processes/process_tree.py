@@ -1,7 +1,7 @@
-"""The processes a submission has started, as far as it tells: which are about to join, and which have just left.
+"""The processes that a submission reports to have started: those about to connect, and those that have just ended.
 
-Fed by `SubmissionProcesses` with what `agent/course_agent/python_3.py` says. A process that is starting up cannot say
-anything yet, and what its parent does about its end takes a moment; simulated time stands still meanwhile.
+`SubmissionProcesses` passes on the reports of `agent/course_agent/python_3.py`. Simulated time stands still while a
+process starts up, which cannot report anything yet, and while a parent reacts to the end of its child.
 """
 
 from __future__ import annotations
@@ -19,22 +19,22 @@ SHELLS = ("sh", "dash", "bash", "env")
 
 @dataclass
 class StartedProcess:
-    """One process. `state` is `starting`, `shell`, `here` (it said hello), `left`, `ended`, `silent` (never speaks)."""
+    """One process. `state`: `starting`, `shell`, `here` (it said hello), `left`, `ended`, `silent` (not Python)."""
 
-    pid: int  # as it is seen in the box
+    pid: int  # as seen in the sandbox
     state: str
-    since: float  # [s] monotonic
+    since: float  # [s] of the monotonic clock
     code: int | None = None
 
 
 class ProcessTree:
-    """All processes the submission has told of, by their number in the box."""
+    """All processes that the submission has reported, by their process id in the sandbox."""
 
     def __init__(self) -> None:
         self._processes: dict[int, StartedProcess] = {}
 
     def hear(self, message: dict[str, Any]) -> None:
-        """Take in a message. Raises TypeError, KeyError or ValueError if it is malformed."""
+        """Update from a message. Raises TypeError, KeyError or ValueError if it is malformed."""
         now = time.monotonic()
         if (started := message.get("started")) and len(self._processes) < MOST_CHILDREN:
             program = str(started["program"])
@@ -50,13 +50,13 @@ class ProcessTree:
                     child.state = "here"
 
     def leave(self, pid: int) -> None:
-        """Note that a process has closed its socket: it ends, or becomes another program."""
+        """Note that a process has closed its socket: it ends, or executes another program."""
         child = self._processes.get(pid)
         if child is not None and child.state == "here":
             child.state, child.since = "left", time.monotonic()
 
     def codes(self) -> dict[int, int]:
-        """Return the exit code by process number, of those that have ended."""
+        """Return the exit codes of the processes that have ended, by process id."""
         return {child.pid: child.code for child in self._processes.values() if child.code is not None}
 
     @property

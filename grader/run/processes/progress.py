@@ -1,4 +1,4 @@
-"""What a process of the submission says about itself, read with suspicion: its counts and its endpoints."""
+"""What a process of the submission reports about itself, its counts and its endpoints, parsed as untrusted input."""
 
 from __future__ import annotations
 
@@ -22,23 +22,23 @@ class Endpoint:
 
 @dataclass(frozen=True)
 class Progress:
-    """What a process last said about itself. Untrusted."""
+    """The latest report of a process about itself. Untrusted."""
 
     clock: int | None = None  # [ns] simulated time its nodes have seen; None: none follows /clock
     idle: bool = True  # all its executors are asleep, or it waits for an answer
     taken: dict[str, int] = field(default_factory=dict)
     published: dict[str, int] = field(default_factory=dict)
-    delivered: dict[str, int] = field(default_factory=dict)  # as published, times the number of readers
-    holding: bool = False  # it keeps what it sends until told to release it
+    delivered: dict[str, int] = field(default_factory=dict)  # as `published`, times the number of readers
+    holding: bool = False  # whether it keeps what it sends until ordered to release it
     held: int = 0  # messages that wait to be released
     released: int = 0
-    flushes: int = 0  # how often it has asked to be told that everything arrived
-    again: frozenset[str] = frozenset()  # topics of which it expects to get a message twice
+    flushes: int = 0  # how often it has asked for the confirmation that everything arrived
+    again: frozenset[str] = frozenset()  # topics on which it expects that a message may come twice
     endpoints: tuple[Endpoint, ...] = ()
 
     @staticmethod
     def parse(data: bytes, before: Progress | None) -> Progress | None:
-        """Read one report; None if it is not one. Endpoints it does not mention are as `before`."""
+        """Parse a report; return None if it is not one. Endpoints it does not mention are as `before`."""
         try:
             raw = json.loads(data)
             clock = raw["clock"]

@@ -1,8 +1,7 @@
 """The submission's processes as the grader sees them: started in a sandbox, read from, and always ended.
 
-Everything they write comes through two pipes, the progress of each (see `participant.py`) through a socket of its own.
-The pipes are emptied before a progress report is read, so a log line is on record before the tick that produced it is
-closed.
+Everything they write comes through two pipes, the reports of each (see `participant.py`) through a socket of its own.
+The pipes are emptied before a report is read, so a log line is recorded before the tick that produced it is closed.
 """
 
 from __future__ import annotations
@@ -26,23 +25,24 @@ from gz_course.grader.run.processes.process_tree import ProcessTree
 from gz_course.grader.run.processes.progress import Endpoint
 from gz_course.grader.run.sandbox import Sandbox
 
-LONGEST_LINE = 2_000  # [characters] of one line that are kept
-MOST_LINES = 20_000  # kept per run; of the rest
-LAST_BYTES = 64 << 10  # that many are kept if it ends by itself: there stands why; what is between is counted
-MOST_READ = 1 << 20  # [bytes] of a pipe, taken at once: who writes without end does not keep the grader
-MOST_OUTPUT = 64 << 20  # [bytes] that may be written; more ends the submission
-SOCKET = "participants"  # its name
+LONGEST_LINE = 2_000  # [characters] kept of one line
+MOST_LINES = 20_000  # kept per run
+# kept of the rest if the submission ends by itself, because the reason stands there; lines in between are counted
+LAST_BYTES = 64 << 10
+MOST_READ = 1 << 20  # [bytes] read from a pipe in one call, so that an endless writer does not stop the grader
+MOST_OUTPUT = 64 << 20  # [bytes] of output; more ends the submission
+SOCKET = "participants"  # file name
 MOST_PARTICIPANTS = 100  # processes that are followed
-SHOWN_FOLDER = b"/submission"  # what the folder of a submission is called in its log
+SHOWN_FOLDER = b"/submission"  # name of the submission's folder in its log
 GRACE = 1.5  # [s] between SIGINT, SIGTERM and SIGKILL
-AGENT = Path(__file__).parents[1] / "agent"  # what runs in the submission's processes, seen there under the same name
+AGENT = Path(__file__).parents[1] / "agent"  # runs in the submission's processes; has the same path in the sandbox
 
 
 class SubmissionProcesses:
-    """One running submission: a process and whatever it starts.
+    """One running submission: a process and everything it starts.
 
-    `exit_code` is that of the first process, None while it runs. `participants` are the processes that have said
-    hello, the first process first. `asked(participant, message)` gets what they ask for.
+    `exit_code` is that of the first process, None while it runs. `participants` are the processes that have said hello,
+    the first process first. `asked(participant, message)` gets their requests.
     """
 
     def __init__(
@@ -54,10 +54,10 @@ class SubmissionProcesses:
         asked: Callable[[Participant, dict[str, Any]], None] | None = None,
         shown: str = "",
     ) -> None:
-        """Start a command in a box.
+        """Start a command in a sandbox.
 
-        `topics` says what the grader has an end for: for each kind of endpoint of a student's node (publisher,
-        subscription) the topics on which one is waited for, and their ROS types. `shown` is a folder that is called
+        `topics` are the grader's endpoints: for each kind of endpoint of a student's node (publisher, subscription) the
+        topics on which the grader has the opposite one, and their ROS types. The folder `shown` appears as
         `/submission` in the log.
         """
         outside, inside = sandbox.socket_folder
@@ -84,15 +84,15 @@ class SubmissionProcesses:
         self._tree = ProcessTree()
         self._lines: list[str] = []
         self._line_count = 0
-        self._last = b""  # of what was written beyond the limit
+        self._last = b""  # end of what was written beyond the limit
         self._last_taken = 0  # lines
         self._written = 0  # [bytes]
         self.exit_code: int | None = None
-        self.hid = False  # it closed its end of the socket and lived on
+        self.hid = False  # whether it closed its end of the socket and lived on
 
     @property
     def running(self) -> bool:
-        """Whether the first process was not seen to end."""
+        """Whether the end of the first process has not been seen yet."""
         return self.exit_code is None
 
     @property
@@ -102,7 +102,7 @@ class SubmissionProcesses:
 
     @property
     def dropped_lines(self) -> int:
-        """Lines beyond the limit that were read and thrown away."""
+        """Lines beyond the limit that were read and discarded."""
         return max(0, self._line_count - MOST_LINES - self._last_taken)
 
     def wait(self, timeout: float) -> bool:
@@ -119,22 +119,22 @@ class SubmissionProcesses:
 
     @property
     def followed(self) -> list[Participant]:
-        """The processes with nodes that spin, sorted by name: the same order in equal runs."""
+        """The processes with nodes that spin, sorted by name, so that equal runs have the same order."""
         return sorted((p for p in self.participants if p.progress and not p.gone), key=lambda p: p.name)
 
     @property
     def layout(self) -> tuple[int, ...]:
-        """Something that changes when a process or an endpoint comes or goes."""
+        """A value that changes when a process or an endpoint comes or goes."""
         return tuple(-1 if p.gone else id(p.progress.endpoints) if p.progress else 0 for p in self.participants)
 
     @property
     def starting(self) -> bool:
-        """Whether a process is on its way to become one that is followed."""
+        """Whether a process is about to become one that is followed."""
         return not self.participants or self._tree.changing or any(p.starting for p in self.participants)
 
     @property
     def endpoints(self) -> tuple[Endpoint, ...]:
-        """All endpoints of the nodes of all processes, as last reported."""
+        """The endpoints of the nodes of all processes, as last reported."""
         return tuple(e for p in self.followed if p.progress for e in p.progress.endpoints)
 
     def take_lines(self) -> list[str]:
@@ -159,7 +159,7 @@ class SubmissionProcesses:
                 if rest:
                     self._keep(rest)
                 return
-            if self._line_count > MOST_LINES:  # not line by line: who floods writes faster than that
+            if self._line_count > MOST_LINES:  # not line by line, which is slower than a flood is written
                 self._line_count += data.count(b"\n")
                 self._last = (self._last + self._partial[fd] + data)[-LAST_BYTES:]
                 self._partial[fd] = b""
@@ -178,7 +178,7 @@ class SubmissionProcesses:
 
     def _note(self, line: bytes) -> None:
         if self.folder:
-            line = line.replace(self.folder.encode(), SHOWN_FOLDER)  # where it lies differs between equal runs
+            line = line.replace(self.folder.encode(), SHOWN_FOLDER)  # the real path differs between equal runs
         self._lines.append(line.decode(errors="replace")[:LONGEST_LINE])
 
     def _read_participants(self) -> None:
@@ -204,7 +204,7 @@ class SubmissionProcesses:
         self.asked(who, message)
 
     def _reap(self) -> None:
-        """Take the exit code of a process that has exited; end one that has closed its end of the socket to hide."""
+        """Take the exit code of a process that has exited; end one that only closed its end of the socket."""
         try:
             self._process.wait(GRACE)
         except subprocess.TimeoutExpired:
@@ -215,18 +215,18 @@ class SubmissionProcesses:
         self._read_participants()
         last = self._last.removesuffix(b"\n").split(b"\n") if self._last else []
         if len(self._last) == LAST_BYTES:
-            del last[0]  # the rest of a line
+            del last[0]  # remove an incomplete line
         for line in last:
             self._note(line)
         self._last, self._last_taken = b"", self._last_taken + len(last)
         self.exit_code = self._process.returncode
 
     def signal(self, number: signal.Signals) -> None:
-        """Send a signal as a terminal would: to the first process and what has stayed in its process group."""
+        """Send a signal as a terminal would: to the first process and all in its process group."""
         self._process.signal(number)
 
     def ended_programs(self) -> list[dict[str, Any]]:
-        """Return `program` and exit `code` of the programs that said hello and have ended, as their parents tell."""
+        """Return `program` and exit `code` of the ended programs that had said hello, as reported by their parents."""
         codes = self._tree.codes()
         return [{"program": p.program, "code": codes[p.pid]} for p in self.participants if p.pid in codes]
 
@@ -234,7 +234,7 @@ class SubmissionProcesses:
         """End the process group and every descendant: SIGINT, then SIGTERM, then SIGKILL."""
         for each in self.participants:
             with contextlib.suppress(OSError):
-                each.channel.shutdown(socket.SHUT_WR)  # nobody is going to answer it any more
+                each.channel.shutdown(socket.SHUT_WR)  # nobody will answer it any more
         if self._process.poll() is None:
             for escalation in (signal.SIGINT, signal.SIGTERM):
                 self._process.signal(escalation)
@@ -248,7 +248,7 @@ class SubmissionProcesses:
         self._sweep()
 
     def cpu_seconds(self) -> float:
-        """Return the processor time [s] of all its processes that still run, and of those they have waited for."""
+        """Return the processor time [s] of all running processes, and of the ended ones they have waited for."""
         total = 0.0
         for process in _children() - self._children_before:
             with contextlib.suppress(psutil.Error):
@@ -257,7 +257,7 @@ class SubmissionProcesses:
         return total
 
     def _sweep(self) -> None:
-        """Kill what left the process group: as subreaper the grader inherits every orphan."""
+        """Kill what has left the process group: as subreaper the grader inherits every orphan."""
         while strays := _children() - self._children_before:
             for stray in strays:
                 with contextlib.suppress(psutil.NoSuchProcess):
@@ -284,14 +284,13 @@ def _listener(folder: Path) -> socket.socket:
         listener.bind(f"/proc/self/fd/{descriptor}/{SOCKET}")
     finally:
         os.close(descriptor)
-    (folder / SOCKET).chmod(0o666)  # the box may have a user of its own
+    (folder / SOCKET).chmod(0o666)  # the sandbox may have a user of its own
     listener.listen(MOST_PARTICIPANTS)
     listener.setblocking(False)
     return listener
 
 
-def _unasked(asking: Participant, message: dict[str, Any]) -> None:
-    """Ignore a request."""
+def _unasked(asking: Participant, message: dict[str, Any]) -> None: ...
 
 
 def _children() -> set[psutil.Process]:

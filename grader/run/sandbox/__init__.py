@@ -1,8 +1,8 @@
-"""The box a submission runs in, at one of four levels; the level stands in every report.
+"""The sandbox ("box") a submission runs in, at one of four levels; every report names the level.
 
-`sandbox.py` is the box as the grader uses it, `level.py` the best level a machine offers, `levels/` how each is built;
-`view.py` says what a box shows, `network.py` gives a grading a network of its own. What happens inside is in
-`grader/run/sandbox/init/`.
+`sandbox.py` is the sandbox as the grader uses it, `level.py` finds the best level a machine offers, `levels/` builds
+each; `view.py` lists the files visible in a sandbox, `network.py` gives a grading a private network.
+`grader/run/sandbox/init/` runs inside.
 """
 
 from gz_course.grader.run.sandbox.environment import WHEEL_VARIABLES, ros_environment

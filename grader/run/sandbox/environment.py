@@ -1,4 +1,4 @@
-"""The environment variables of a run: the grader's own ROS context, and everything a submission gets to see."""
+"""The environment variables of a run: for the grader's own ROS context and for the submission's processes."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ KEPT_VARIABLES = ("PATH", "LANG", "LC_ALL", "TZ", "SSL_CERT_FILE")
 # Set by the ROS wheels when they restart Python; one without the other breaks `import rclpy`.
 WHEEL_VARIABLES = ("_ROS_WHEELS_BOOTSTRAP_COMPLETE", "LD_LIBRARY_PATH")
 PROFILES = Path(__file__).parents[1] / "agent" / "fastdds"
-CONSOLE_FORMAT = "[{severity}] [{name}]: {message}"  # no wall-clock stamp: the same run gives the same lines
+CONSOLE_FORMAT = "[{severity}] [{name}]: {message}"  # no wall-clock stamp, so that the same run gives the same lines
 
 
 def ros_environment(domain: int, log_dir: Path) -> dict[str, str]:
-    """Environment variables that keep one run's ROS graph on this machine and in its own domain."""
+    """Return the variables that keep one run's ROS graph on this machine and in its own domain."""
     return {
         "ROS_DOMAIN_ID": str(domain),
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
@@ -25,11 +25,12 @@ def ros_environment(domain: int, log_dir: Path) -> dict[str, str]:
 
 
 def box_environment(domain: int, log_dir: Path, private_network: bool) -> dict[str, str]:
-    """Return `ros_environment` for both ends of a box: UDP on loopback only.
+    """Return `ros_environment` for both sides of a sandbox: UDP on loopback only.
 
-    Asked for LOCALHOST, rmw_fastrtps uses shared memory, too, whatever FASTDDS_BUILTIN_TRANSPORTS says: a box has its
-    own, so nothing would arrive; and elsewhere segments stay behind when a process is killed. In a private network
-    there is nothing but a loopback; in the machine's, a profile of Fast DDS keeps to it. Both announce often.
+    With LOCALHOST, rmw_fastrtps also uses shared memory, whatever FASTDDS_BUILTIN_TRANSPORTS says. A sandbox has a
+    shared memory of its own, so nothing would arrive; and without one, segments stay behind when a process is killed. A
+    private network has only a loopback; in the machine's network, a profile of Fast DDS restricts it to loopback. Both
+    announce often.
     """
     profile = PROFILES / ("private.xml" if private_network else "loopback.xml")
     values = {"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET", "FASTRTPS_DEFAULT_PROFILES_FILE": str(profile)}
@@ -37,9 +38,9 @@ def box_environment(domain: int, log_dir: Path, private_network: bool) -> dict[s
 
 
 def student_environment(domain: int, home: Path, private_network: bool) -> dict[str, str]:
-    """Return the whole environment of a submission's process that lives in the folder `home`."""
+    """Return the whole environment of a submission's process whose home is the folder `home`."""
     kept = {k: os.environ[k] for k in KEPT_VARIABLES if k in os.environ}
-    # The course's programs and Python come first, whatever else the caller has sourced.
+    # The course's programs and Python come first, whatever the caller has sourced.
     kept["PATH"] = os.pathsep.join([os.path.dirname(sys.executable), kept.get("PATH", os.defpath)])  # noqa: PTH120
     if all(k in os.environ for k in WHEEL_VARIABLES):
         kept |= {k: os.environ[k] for k in WHEEL_VARIABLES}

@@ -1,8 +1,8 @@
-"""The levels there are, and the best one that works on this machine.
+"""The sandbox levels, and the best one that works on this machine.
 
-Whether a level works is found out by doing it: a node in the box and one outside exchange a message over DDS
-(`probe.py`). The answer holds until the machine or what is installed changes, and is kept in the user's cache folder,
-so that a grading does not pay for it.
+A level works if a node in the sandbox and one outside can exchange a message over DDS (`probe.py`). The answer holds
+until the machine or the installation changes; it is kept in the user's cache folder so that a grading need not repeat
+the test.
 """
 
 from __future__ import annotations
@@ -24,38 +24,38 @@ from gz_course.grader.run.sandbox.spec import SandboxSpec
 from gz_course.sim.did_you_mean import did_you_mean
 
 AUTO = "auto"
-# From the firmest; a level is there by being a file of `levels/`.
+# The firmest first; each file of `levels/` is a level.
 LEVELS = tuple(sorted(p.stem.upper() for p in Path(__file__).with_name("levels").glob("[a-z].py")))
-KEPT = 8  # answers: one process may be root, another in a user namespace
+KEPT = 8  # answers; one process may be root, another in a user namespace
 CACHE = "gz-ros2-course/sandbox.json"  # below XDG_CACHE_HOME
 
 
 class Level(Protocol):
-    """What a file of `levels/` offers."""
+    """The interface of a file of `levels/`."""
 
     ABOUT: str  # in a few words
     PRIVATE_NETWORK: bool
-    NAMESPACES: str  # who builds the namespaces: `bubblewrap`, `own` (init/namespaces.py), or nobody
+    NAMESPACES: str  # what builds the namespaces: `bubblewrap`, `own` (init/namespaces.py), or empty for none
     LANDLOCK: bool
 
     def missing(self) -> str:
-        """Say what this level lacks here; an empty text if it can be tried."""
+        """Return what this level lacks here; empty if it can be tried."""
 
     def command(self, spec: SandboxSpec, init: list[str]) -> list[str]:
-        """Return the command that runs `init` in the box."""
+        """Return the command that runs `init` in the sandbox."""
 
 
 def level_module(level: str) -> Level:
-    """Return a level by its letter. Raises UsageError if there is none."""
+    """Return the module of a level by its letter. Raises UsageError if there is none."""
     if level not in LEVELS:
         raise UsageError(f"there is no sandbox level {level!r}{did_you_mean(level, (AUTO, *LEVELS), listing='known')}")
     return cast(Level, importlib.import_module(f"gz_course.grader.run.sandbox.levels.{level.lower()}"))
 
 
 def choose(wanted: str = AUTO, demand: str | None = None) -> str:
-    """Return the level to grade with: the one `wanted`, and at least as firm as `demand`.
+    """Return the level to grade with: the one `wanted`, which must be at least as firm as `demand`.
 
-    Raises UsageError for a level there is not, InfrastructureError for one that does not work here.
+    Raises UsageError for an unknown level, InfrastructureError for one that does not work here.
     """
     for level in (wanted, demand):
         if level not in (AUTO, None):
@@ -74,7 +74,7 @@ def choose(wanted: str = AUTO, demand: str | None = None) -> str:
 
 @cache
 def best_level() -> tuple[str, dict[str, str]]:
-    """Return the best level that works here, and why each better one does not; found out once a boot."""
+    """Return the best level that works here, and why each better one does not; tested once per boot."""
     from gz_course.grader.run.sandbox.probe import try_level, try_levels
 
     path, key = _cache(), _fingerprint()
@@ -89,7 +89,7 @@ def best_level() -> tuple[str, dict[str, str]]:
 
 
 def remember(level: str, why: dict[str, str]) -> None:
-    """Keep what was found out, beside a few earlier answers; a cache that cannot be written is none."""
+    """Cache the answer beside a few earlier ones; a cache that cannot be written is ignored."""
     path = _cache()
     known: dict[str, object] = {}
     with contextlib.suppress(OSError, ValueError, TypeError, AttributeError):
@@ -108,7 +108,7 @@ def _cache() -> Path:
 
 
 def _fingerprint() -> str:
-    """What the answer depends on: this boot of this kernel, the user and its privileges, what is installed."""
+    """Return a hash of what the answer depends on: boot and kernel, user and privileges, installation."""
     parts = [platform.release(), sys.prefix, str(os.geteuid())]
     with contextlib.suppress(OSError):
         parts.append(Path("/proc/sys/kernel/random/boot_id").read_text())

@@ -1,8 +1,10 @@
-"""A network of its own for a grading: nothing but a loopback, shared by the grader's ROS nodes and the submission's.
+"""A private network for a grading: only a loopback, shared by the grader's ROS nodes and the submission's.
 
-Called by `Sandbox` before anything of ROS is loaded; the threads and processes started afterwards live in that network.
-What was open before stays where it was. Root enters it with one thread and comes back; an ordinary user needs a
-user namespace for it, which Linux gives to a process with a single thread only, and from which no way leads back.
+`Sandbox` enters it before anything of ROS is loaded; threads and processes started afterwards live in that network,
+while sockets opened before stay where they were. Root enters it with one thread and can return; an ordinary user needs
+a user namespace, which Linux grants only to a process with a single thread, and cannot return.
+
+Source: network_namespaces(7), user_namespaces(7), setns(2).
 """
 
 from __future__ import annotations
@@ -20,21 +22,21 @@ CLONE_NEWNET = 0x40000000
 SIOCGIFFLAGS, SIOCSIFFLAGS, IFF_UP = 0x8913, 0x8914, 0x1
 _THREAD_NETWORK = "/proc/thread-self/ns/net"
 
-# Names the network entered for good, for this process and for those it starts.
+# Environment variable that is set in a private network entered for good, also for child processes.
 _ENTERED = "COURSE_PRIVATE_NETWORK"
 
 
 class NetworkError(Exception):
-    """Linux does not give this process a network of its own; the text says why."""
+    """Linux does not give this process a private network; the text says why."""
 
 
 def in_private_network() -> bool:
-    """Whether this process has entered one for good, or was started in one."""
+    """Return whether this process has entered a private network for good, or was started in one."""
     return os.environ.get(_ENTERED) == str(Path(_THREAD_NETWORK).readlink())
 
 
 class PrivateNetwork:
-    """Enters on creation, leaves with `close()` where that is possible. Raises NetworkError."""
+    """A private network, entered on creation and left with `close()` where possible. Raises NetworkError."""
 
     def __init__(self) -> None:
         self._before: int | None = None
@@ -57,7 +59,7 @@ class PrivateNetwork:
             raise NetworkError(f"its loopback stays down: {error.strerror}") from None
 
     def close(self) -> None:
-        """Return to the network of before, as root; the sockets opened meanwhile stay in the private one."""
+        """Return to the former network if this process is root; sockets opened meanwhile stay in the private one."""
         if self._before is not None:
             before, self._before = self._before, None
             try:

@@ -1,7 +1,7 @@
-"""A trial of a level on this machine: a node in a box of that level and one outside exchange a message over DDS.
+"""A test of a level on this machine: a node in a sandbox of that level and one outside exchange a message over DDS.
 
-Run as a program of its own (`python -m grader.run.sandbox.probe A`), because it enters a private network and loads
-ROS. Prints nothing if all is well, else why not, and ends with exit code 1.
+Run as a separate program (`python -m grader.run.sandbox.probe A`), because it enters a private network and loads ROS.
+Prints nothing on success, else the reason, with exit code 1.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from gz_course.grader.run.sandbox.level import LEVELS, level_module
 DEADLINE = 20.0  # [s] for one level; it takes about one
 TOPIC = "/course_sandbox"
 SILENT = "no message came through within {seconds:g} s"
-# The answer comes back only if a message went in and another one came out.
+# An answer proves both directions: one message went in and another came out.
 INSIDE = f"""
 import sys
 import rclpy
@@ -32,9 +32,9 @@ rclpy.spin(node)
 
 
 def try_levels(attempt: Callable[[str], str]) -> tuple[str, dict[str, str], bool]:
-    """Return the best level that works, why each better one does not, and whether that is sure to stay so.
+    """Return the best level that works, why each better one does not, and whether the answer is certain.
 
-    `attempt` tries one level, as `try_level` does. A level that is refused is refused again; one that was merely silent
+    `attempt` tries one level, as `try_level` does. A level that is refused will be refused again; one that timed out
     may have met a busy machine.
     """
     why: dict[str, str] = {}
@@ -49,7 +49,7 @@ def try_levels(attempt: Callable[[str], str]) -> tuple[str, dict[str, str], bool
 
 
 def try_level(level: str, deadline: float = DEADLINE) -> str:
-    """Return an empty text if a level works here, else why not."""
+    """Return why a level does not work here; empty if it works."""
     command = [sys.executable, "-m", __name__, level, str(deadline)]
     probe = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, start_new_session=True)
     try:
@@ -64,7 +64,7 @@ def try_level(level: str, deadline: float = DEADLINE) -> str:
 
 
 def exchange(level: str, deadline: float) -> str:
-    """Send a message into a box of a level and wait for its answer; an empty text, or what went wrong."""
+    """Send a message into a sandbox and wait for its answer; return what went wrong, empty if nothing did."""
     from gz_course.grader.run.domain import Domain
     from gz_course.grader.run.sandbox.sandbox import Sandbox
 

@@ -1,7 +1,7 @@
-"""Monitor of what limits of single processes cannot bound: memory, processes and files of a whole submission.
+"""Monitor of what per-process limits cannot bound: memory, number of processes and files of a whole submission.
 
-A thread of the grader looks every `PERIOD`; what takes more than its share is ended at once, and `broken` says why.
-Wall time decides only how soon that happens.
+A thread of the grader looks every `PERIOD`; a submission that exceeds a limit is ended at once, and `broken` names the
+limit. Wall time decides only how soon that happens.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ from pathlib import Path
 MOST_MEMORY = 2 << 30  # [bytes] of all processes of a submission together
 MOST_PROCESSES = 128  # of a submission at the same time, threads not counted
 PERIOD = 0.05  # [s]
-ROUNDS = 100  # of killing, should new processes appear as fast as they are ended
+ROUNDS = 100  # of killing, in case new processes appear as fast as they are ended
 MEMORY, PROCESSES, DISK = "memory", "processes", "disk"
 
 
 class ResourceMonitor:
-    """A thread that looks at the processes below `root`, except those in `apart`; `close()` ends the thread only.
+    """A thread that watches the processes below `root`, except those in `apart`; `close()` ends the thread only.
 
     `kill` ends the submission. `folder`, if given, may hold `most_bytes` in `most_files` files.
     """
@@ -44,7 +44,6 @@ class ResourceMonitor:
         self._thread.start()
 
     def close(self) -> None:
-        """End the thread."""
         self._over.set()
         self._thread.join()
 
@@ -66,7 +65,7 @@ class ResourceMonitor:
         return None
 
     def _end(self) -> None:
-        """Stop all first, so that none can start another one while they are killed one by one."""
+        """Kill all processes, after stopping them all so that none can start another meanwhile."""
         self._kill()
         for _ in range(ROUNDS):
             members = descendants(self._root, self._apart)
@@ -81,7 +80,7 @@ class ResourceMonitor:
 
 
 def descendants(root: int, apart: frozenset[int] = frozenset()) -> list[int]:
-    """Return the processes below a process, zombies left out, without what is in or below `apart`."""
+    """Return the processes below a process, except zombies and what is in or below `apart`."""
     found: list[int] = []
     todo = [root]
     while todo:
@@ -110,12 +109,12 @@ def _is_zombie(pid: int) -> bool:
 
 
 def _resident(pid: int) -> int:
-    """Return the memory [bytes] of a process that is no file's; what it shares with others counts in full."""
+    """Return a process's memory [bytes] that is not backed by files; shared memory counts in full."""
     return _kilobytes(f"/proc/{pid}/status", ("RssAnon:", "RssShmem:"))
 
 
 def _proportional(pid: int) -> int:
-    """Return the same with shared memory divided among those who share it; slower to find out."""
+    """Return the same with shared memory divided among its users; slower to read."""
     return _kilobytes(f"/proc/{pid}/smaps_rollup", ("Pss_Anon:", "Pss_Shmem:")) or _resident(pid)
 
 
@@ -130,7 +129,7 @@ def _kilobytes(path: str, names: tuple[str, ...]) -> int:
 
 def _too_full(folder: Path, most_bytes: int, most_files: int) -> bool:
     total = files = 0
-    pending = [str(folder)]  # os.walk calls itself for each folder in a folder, and those may be thousands deep
+    pending = [str(folder)]  # os.walk is recursive, and folders may be nested thousands deep
     while pending:
         try:
             with os.scandir(pending.pop()) as entries:
@@ -142,7 +141,7 @@ def _too_full(folder: Path, most_bytes: int, most_files: int) -> bool:
                         with contextlib.suppress(OSError):
                             total += entry.stat(follow_symlinks=False).st_blocks * 512
         except OSError as error:
-            if error.errno == errno.ENAMETOOLONG:  # deeper than any path reaches: nobody can count that
+            if error.errno == errno.ENAMETOOLONG:  # too deep for any path, so its content cannot be counted
                 return True
         if total > most_bytes or files > most_files:
             return True

@@ -1,6 +1,6 @@
-"""The box a submission runs in: made for one run, filled with `put_files`, started with `start`, and closed.
+"""The sandbox ("box") of one run: created, filled with `put_files`, started with `start`, and closed.
 
-Called by `grader.run.session`, and by `probe.py` to find out which level works here.
+Used by `grader.run.session`, and by `probe.py` to find out which level works here.
 """
 
 from __future__ import annotations
@@ -34,13 +34,14 @@ from gz_course.grader.run.sandbox.spec import (
 from gz_course.grader.run.sandbox.view import HOME, SOCKETS, SUBMISSION, TMP_FILES, TMP_SIZE, view
 
 PR_SET_CHILD_SUBREAPER = 36
-FIRST_USER = 61_000  # + the ROS domain: nobody else's number, and another one for each run at the same time
+FIRST_USER = 61_000  # + the ROS domain: unused by others, and different for simultaneous runs
 
 
 def enter_early(level: str) -> None:
-    """Let a command that does nothing but grade enter a private network for good, if its `level` has one.
+    """Enter a private network for good if `level` has one, in a command that does nothing but grade.
 
-    Only needed by ordinary users, who can do so no more once there are threads. A failure shows when a box is made.
+    Only needed by ordinary users, who can enter it only before any thread exists. A failure is reported when a sandbox
+    is made.
     """
     if level_module(level).PRIVATE_NETWORK and os.geteuid() != 0:
         with contextlib.suppress(NetworkError):
@@ -48,10 +49,10 @@ def enter_early(level: str) -> None:
 
 
 class Sandbox:
-    """One box, and the private network its processes share with the grader's ROS side.
+    """One sandbox, and the private network that its processes share with the grader's ROS side.
 
-    `level` is `A` to `D`, or `auto` for the best that works here, in this process. `close()` removes everything. Raises
-    InfrastructureError if the level asked for is not to be had.
+    `level` is `A` to `D`, or `auto` for the best that works in this process. `close()` removes everything. Raises
+    InfrastructureError if the level asked for is not available.
     """
 
     def __init__(self, domain: int, level: str = AUTO) -> None:
@@ -60,7 +61,7 @@ class Sandbox:
         if lack := self._module.missing():
             raise InfrastructureError(f"no sandbox of level {self.level} here: {lack}")
         self.domain = domain
-        ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1)  # orphaned daemons become ours to sweep
+        ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1)  # makes orphaned daemons children of this process
         self._network: PrivateNetwork | None = None
         if self._module.PRIVATE_NETWORK:
             try:
@@ -88,11 +89,11 @@ class Sandbox:
 
     @property
     def home(self) -> Path:
-        """The submission's working folder, as it sees it."""
+        """The submission's working folder, as seen in the sandbox."""
         return HOME if self._module.NAMESPACES else self.folder / "home"
 
     def put_files(self, files: Mapping[str, bytes]) -> Path:
-        """Put files (by relative name, with `/` between parts) into the box; return the folder as the box sees it."""
+        """Put files (by relative name, with `/` between parts) into the sandbox; return the folder as seen inside."""
         folder = self.folder / "submission"
         for name, data in files.items():
             path = folder / name
@@ -105,17 +106,17 @@ class Sandbox:
 
     @property
     def socket_folder(self) -> tuple[Path, Path]:
-        """A folder for unix sockets of the grader: where to bind them, and where the box finds them (to connect)."""
+        """The folder for the grader's unix sockets: its path outside (to bind) and inside (to connect)."""
         outside = self.folder / "door"
         return outside, SOCKETS if self._module.NAMESPACES else outside
 
     def start(
         self, command: Sequence[str], environment: Mapping[str, str], pass_fds: Sequence[int] = ()
     ) -> SandboxedProcess:
-        """Start a command in the box, in a process group of its own, with stdout and stderr as pipes.
+        """Start a command in the sandbox, in its own process group, with stdout and stderr as pipes.
 
         `command` begins with the path of a program; `environment` is added to `student_environment()`; `pass_fds` keep
-        their numbers. A box that cannot be built is an InfrastructureError when its process is asked for its end.
+        their numbers. If the sandbox cannot be built, waiting for the process raises InfrastructureError.
         """
         before = frozenset(descendants(os.getpid()))
         spec = self._spec(list(command), self.student_environment() | dict(environment), tuple(pass_fds))
@@ -132,10 +133,10 @@ class Sandbox:
                 line = self._module.command(spec, init_command(theirs.fileno()))
                 process = _spawn(line, {"PATH": os.defpath}, Path("/"), (theirs.fileno(), *pass_fds))
             boxed = SandboxedProcess(process, self.level, ours, bool(self._module.NAMESPACES))
-            with contextlib.suppress(OSError):  # it has ended already, and will be asked why
+            with contextlib.suppress(OSError):  # it has ended already; its end is reported by `wait`
                 ours.send(spec.for_init().as_bytes())
         self._boxes.append(boxed)
-        if self._module.NAMESPACES:  # what is in the box stays below its outermost process
+        if self._module.NAMESPACES:  # the processes in the sandbox are below its outermost one
             boxed.monitor = ResourceMonitor(boxed.pid, boxed.kill)
         else:
             boxed.monitor = ResourceMonitor(os.getpid(), boxed.kill, before, self.home, TMP_SIZE, TMP_FILES)
@@ -151,7 +152,7 @@ class Sandbox:
         shown = [place.source for place in places if place.kind == "bind"]
         writable = [place.path for place in places if place.kind == "tmpfs"] if walls else [str(self.home)]
         limits = {int(kind): most for kind, most in LIMITS.items()}
-        if walls:  # elsewhere all processes of the same user count
+        if walls:  # without namespaces the limit counts all processes of the user
             limits[int(resource.RLIMIT_NPROC)] = MOST_PROCESSES
         return SandboxSpec(
             walls=walls,
@@ -173,7 +174,7 @@ class Sandbox:
         )
 
     def _etc(self, user: int | None) -> Path:
-        """Files of /etc a program may look into: who it is, and where names of machines come from."""
+        """Return a folder with the files of /etc a program may read: its user, and where host names come from."""
         etc = self.folder / "etc"
         number, group = (os.geteuid(), os.getegid()) if user is None else (user, user)
         for name, text in {
@@ -198,7 +199,7 @@ class Sandbox:
 
 
 def limit(pid: int) -> None:
-    """Put the resource limits on a process that was just started."""
+    """Set the resource limits of a process that was just started."""
     for kind, most in LIMITS.items():
         hard = resource.prlimit(pid, kind)[1]
         value = most if hard == resource.RLIM_INFINITY else min(most, hard)

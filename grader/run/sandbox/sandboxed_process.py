@@ -1,4 +1,4 @@
-"""A process in its box, as the grader sees it: like a `subprocess.Popen`, and signals reach it in its namespaces."""
+"""A process in its sandbox, used like a `subprocess.Popen`; signals reach it inside its namespaces."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ LONGEST_MESSAGE = 1 << 16  # [bytes]
 
 
 class SandboxedProcess:
-    """One started command. `pid` is the outermost process of the box, which lives as long as anything in the box.
+    """A started command. `pid` is the outermost process of the sandbox, which lives as long as any other in it.
 
-    `returncode` is that of the command itself, minus the signal's number if a signal ended it.
+    `returncode` is that of the command itself; minus the signal's number if a signal ended it.
     """
 
     def __init__(
         self, process: subprocess.Popen[bytes], level: str, channel: socket.socket | None, walled: bool
     ) -> None:
-        """Take over a process. `channel` leads to `init/main.py`, if there is one; with `walled` it stays process 1."""
+        """Take over a process. `channel` leads to `init/main.py`, if any; with `walled` that stays process 1."""
         self._process = process
         self._level = level
         self._channel = channel
@@ -33,24 +33,22 @@ class SandboxedProcess:
         self._told: int | None = None
         self._error = ""
         self._killed = False
-        self.monitor: ResourceMonitor | None = None  # set by whoever started it
+        self.monitor: ResourceMonitor | None = None  # set by the caller of `Sandbox.start`
         if channel is not None:
             channel.setblocking(False)
 
     @property
     def pid(self) -> int:
-        """Number of the outermost process and of its process group."""
+        """Process id of the outermost process, and id of its process group."""
         return self._process.pid
 
     @property
     def stdout(self) -> IO[bytes]:
-        """What the command prints."""
         assert self._process.stdout is not None
         return self._process.stdout
 
     @property
     def stderr(self) -> IO[bytes]:
-        """What the command prints to stderr."""
         assert self._process.stderr is not None
         return self._process.stderr
 
@@ -61,16 +59,15 @@ class SandboxedProcess:
 
     @property
     def broken_limit(self) -> str | None:
-        """The limit of the whole submission for which it was ended (see `resource_monitor.py`), or None."""
+        """The limit of the whole submission that it broke and was ended for (see `resource_monitor.py`), or None."""
         return self.monitor.broken if self.monitor is not None else None
 
     @property
     def running(self) -> bool:
-        """Whether the outermost process is still there."""
         return self._process.poll() is None
 
     def poll(self) -> int | None:
-        """Return the exit code, or None while it runs. Raises InfrastructureError if the box could not be built."""
+        """Return the exit code, or None while it runs. Raises InfrastructureError if the sandbox could not be built."""
         code = self._process.poll()
         return None if code is None else self._exit_code(code)
 
@@ -82,7 +79,7 @@ class SandboxedProcess:
         return self._exit_code(self._process.wait(timeout))
 
     def _await_end(self, timeout: float) -> None:
-        """Wait for the event itself; `Popen.wait` with a timeout looks every so often, up to 50 ms late."""
+        """Wait for the event itself, because `Popen.wait` with a timeout polls and is up to 50 ms late."""
         end = os.pidfd_open(self.pid)
         try:
             watched = select.poll()
@@ -92,7 +89,7 @@ class SandboxedProcess:
             os.close(end)
 
     def signal(self, number: signal.Signals) -> None:
-        """Send a signal to every process of the submission that has not left its process group."""
+        """Send a signal to every process of the submission that is still in its process group."""
         if self._channel is not None and self._walled:
             with contextlib.suppress(OSError):
                 self._channel.send(bytes([number]))
@@ -101,7 +98,7 @@ class SandboxedProcess:
                 os.killpg(self.pid, number)
 
     def kill(self) -> None:
-        """End everything in the box at once."""
+        """End everything in the sandbox at once."""
         self._killed = True
         with contextlib.suppress(ProcessLookupError):
             os.killpg(self.pid, signal.SIGKILL)

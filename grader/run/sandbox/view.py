@@ -1,8 +1,8 @@
-"""What a submission sees of the machine: a list of places, the same for every way of building the box.
+"""The files a submission sees: a list of places, the same for every way of building the sandbox.
 
-The system's programs and libraries, Python with what is installed for it, `sim/`, `public/`, and of the grader only
-what runs in the submission's own process; all of it read-only. Exercises, solutions, tests, homes and other
-submissions are not hidden: they are not there.
+They are the system's programs and libraries, Python with what is installed for it, `sim/`, `public/`, and of the grader
+only what runs in the submission's own process; all read-only. Exercises, solutions, tests, homes and other submissions
+are not mounted at all.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ from pathlib import Path
 import gz_course
 
 SUBMISSION = Path("/submission")
-SOCKETS = Path("/grader")  # holds the sockets on which the grader can be reached
+SOCKETS = Path("/grader")  # the grader's sockets
 HOME = Path("/tmp")
 SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
 SETTINGS = ("ld.so.cache", "alternatives", "localtime")  # of /etc
 DEVICES = ("null", "zero", "full", "random", "urandom")
 LINKS = {"/dev/fd": "/proc/self/fd", "/dev/stdin": "fd/0", "/dev/stdout": "fd/1", "/dev/stderr": "fd/2"}
-# Of the package `grader`: what is started as a script inside.
+# Folders of the package `grader` that are needed inside.
 OF_THE_GRADER = ("run/agent", "run/sandbox/init")
 TMP_SIZE, TMP_FILES = 64 << 20, 20_000  # [bytes] and files of /tmp
 SHM_SIZE, SHM_FILES = 16 << 20, 1_000  # of /dev/shm
@@ -30,23 +30,23 @@ SHM_SIZE, SHM_FILES = 16 << 20, 1_000  # of /dev/shm
 
 @dataclass(frozen=True)
 class Place:
-    """One thing the box has at `path`.
+    """A file or folder of the sandbox at `path`.
 
     `kind` is `bind` (read-only, from `source`), `device` (from `source`), `link` (to `source`), `folder` (empty),
-    `mask` (empty, over something bound; read-only in the end), `proc` or `tmpfs` (writable).
+    `mask` (empty and read-only, hides something bound), `proc` or `tmpfs` (writable).
     """
 
     kind: str
     path: str
     source: str = ""
     size: int = 0  # [bytes] of a tmpfs
-    files: int = 0  # most files in a tmpfs
+    files: int = 0  # largest number of files in a tmpfs
 
 
 def view(submission: Path, door: Path, etc: Path) -> list[Place]:
-    """Return the places of a box, parents first.
+    """Return the places of a sandbox, parents first.
 
-    `submission` and `door` are the folders shown under those names; `etc` holds files that stand for those of /etc.
+    `submission` is bound to `SUBMISSION` and `door` to `SOCKETS`; `etc` holds replacements for files of /etc.
     """
     places = [_system(name) for name in SYSTEM if os.path.lexists(name)]
     places += [_bind(f"/etc/{name}", f"/etc/{name}") for name in SETTINGS if Path("/etc", name).exists()]
@@ -85,7 +85,7 @@ def _within(path: Path, places: list[Place]) -> bool:
 
 
 def _python() -> list[Path]:
-    """Folders of the interpreter and of what is installed for it, each name under which they are reached."""
+    """Return the folders of the interpreter and its packages, under each name by which they are reached."""
     homes = {Path(p) for p in (sys.prefix, sys.exec_prefix, sys.base_prefix, sys.base_exec_prefix)}
     # `home` in pyvenv.cfg may be a link to the real place; both names are used at a start.
     homes |= {path.resolve() for path in homes}

@@ -1,1 +1,1 @@
-"""The kinds of checks a manifest can name: one file each, found by being in this folder."""
+"""The kinds of checks that a manifest can name, one file each; every module in this folder is a kind."""

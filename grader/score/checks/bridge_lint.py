@@ -1,7 +1,7 @@
-"""`bridge_lint`: is there nothing to say about the student's bridge configuration?
+"""`bridge_lint`: is the student's bridge configuration free of errors and warnings?
 
 kind = "bridge_lint"
-carried = 6               # bridges that must have carried messages, so that an empty file earns nothing
+carried = 6               # bridges that must have passed messages, so that an empty file earns nothing
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from gz_course.grader.score.graphs import bridges
 
 @check_kind("bridge_lint")
 def bridge_lint(recording: Recording, parameters: Table) -> Finding:
-    """Pass if lint found neither an error nor a warning; the first error is told, else the first warning."""
+    """Pass if lint found neither an error nor a warning; report the first error, else the first warning."""
     least = parameters.number("carried")
     found = recording.facts().get("lint", [])
     expected = "lint finds neither an error nor a warning"

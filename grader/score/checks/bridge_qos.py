@@ -1,10 +1,10 @@
-"""`bridge_qos`: does the bridge offer a ROS topic with the quality of service that is wanted?
+"""`bridge_qos`: does the bridge offer a ROS topic with the wanted quality of service?
 
 kind = "bridge_qos"
 ros_topic = "/image"
 depth = [1, 2]            # messages kept for a slow listener: at least, at most
 reliability = "RELIABLE"  # optional
-at_least = 10             # messages that must have gone through, so that nothing earns nothing
+at_least = 10             # messages that must have passed, so that doing nothing earns nothing
 """
 
 from __future__ import annotations

@@ -6,10 +6,10 @@ ros_type = "sensor_msgs/msg/LaserScan"
 gz_topic = "/lidar"
 gz_type = "gz.msgs.LaserScan"
 direction = "GZ_TO_ROS"
-at_least = 10             # messages that must go through
+at_least = 10             # messages that must pass
 same = ["/lidar/again"]   # optional: other Gazebo topics with the same messages
 
-Where the messages arrive, no other bridge may bring those of another topic.
+No other bridge may publish the messages of another topic to the same destination.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ CLOCK = "/clock"
 
 @check_kind("bridged")
 def bridged(recording: Recording, parameters: Table) -> Finding:
-    """Pass if a bridge has these names, types and direction, and `at_least` messages were heard beyond it, unmixed."""
+    """Pass if a bridge has these names, types and direction, and only its messages arrived, `at_least` of them."""
     wanted = {key: parameters.text(key) for key in KEYS[:-1]}
     wanted["direction"] = parameters.choice("direction", WAYS)
     least = parameters.number("at_least", above=0)
@@ -57,7 +57,7 @@ def bridged(recording: Recording, parameters: Table) -> Finding:
 
 
 def _not_there(wanted: dict[str, str], made: list[Bridged]) -> str:
-    """Return why no bridge leads to that ROS topic."""
+    """Return why there is no bridge to that ROS topic."""
     ros, gz = wanted["ros_topic"], wanted["gz_topic"]
     for bridge in made:
         if (bridge.ros_topic, bridge.gz_topic) == (gz, ros):
@@ -99,7 +99,7 @@ def _why(wanted: dict[str, str]) -> str:
 
 
 def _too_few(expected: str, bridge: Bridged, went: int, made: list[Bridged]) -> Finding:
-    """Return why too few messages passed a bridge that is configured correctly."""
+    """Return the finding that too few messages passed a correctly configured bridge, with the reason."""
     clock = any(b.ros_topic == CLOCK and b.to_ros for b in made)
     if bridge.direction == "ROS_TO_GZ" and not clock:
         measured = f"{went} messages went through: the node waits for {CLOCK}, which does not arrive"
@@ -124,7 +124,7 @@ def _mixed(wanted: dict[str, str], same: list[str], made: list[Bridged]) -> str:
 
 
 def _deaf(bridge: Bridged, facts: dict[str, Any]) -> str:
-    """Return why the node that subscribes to it receives nothing; empty if it does."""
+    """Return why the subscribing node receives nothing; empty if it does."""
     offer = bridge.publisher_qos
     for end in facts.get("endpoints", []):
         if (end["kind"], end["topic"]) != ("subscription", bridge.ros_topic) or offer is None:

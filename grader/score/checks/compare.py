@@ -1,13 +1,13 @@
-"""`compare`: does one signal say the same as another?
+"""`compare`: is one signal equal to another?
 
 kind = "compare"
 signal = "topics/estimate/data"
-reference = "truth/robot/x"      # its last value before each sample of the signal counts
+reference = "truth/robot/x"      # its last value before each sample of the signal is compared
 factor = 1.0              # optional: wanted is factor * reference + offset
 offset = 0.0
 tolerance = 0.05          # in the signal's unit; for angles add  angle = true, then full turns make no difference
 at_least = 0.95           # of all samples in the window; all but one in twenty if left out
-samples = 10              # fewer samples are no answer; 1 if left out
+samples = 10              # fewer samples fail; 1 if left out
 window = [1.0, 8.0]       # optional
 name = "the estimate"     # for the report, as `unit`
 """
@@ -24,7 +24,7 @@ from gz_course.grader.score.steps import told, window_of
 
 @check_kind("compare")
 def compare(recording: Recording, parameters: Table) -> Finding:
-    """Pass if at least the share `at_least` of the signal's samples lies within `tolerance` of what is wanted."""
+    """Pass if at least the share `at_least` of the signal's samples lies within `tolerance` of the wanted value."""
     name, other = parameters.text("signal"), parameters.text("reference")
     factor, offset = parameters.number("factor", 1.0), parameters.number("offset", 0.0)
     tolerance = parameters.number("tolerance", above=0)
@@ -47,7 +47,7 @@ def compare(recording: Recording, parameters: Table) -> Finding:
     off = values - wanted
     if angle:
         off = np.remainder(off + np.pi, 2 * np.pi) - np.pi
-    right = np.abs(off) <= tolerance + 1e-9  # 1.05 - 1.0 is a little more than 0.05
+    right = np.abs(off) <= tolerance + 1e-9  # 1.05 - 1.0 is slightly more than 0.05 in floating point
     passed = bool(right.sum() >= share * len(right))
     measured = f"{int(right.sum())} of {len(right)} values right"
     if right.all():

@@ -2,7 +2,7 @@
 
 kind = "count"
 signal = "topics/cmd_vel/linear/x"
-low = 0.45                # one of the two may be left out
+low = 0.45                # either may be left out
 high = 0.55
 count = [40, 60]          # at least, at most; the second may be left out
 window = [0.0, 8.0]       # optional

@@ -1,16 +1,16 @@
-"""`final_pose`: does a model stand where it should at the end (or at another moment)?
+"""`final_pose`: is a model where it should be at the end (or at another time)?
 
 kind = "final_pose"
 model = "robot"
-near = [2.0, 1.0]         # x, y or x, y, z [m] in the world's frame, and how far from there it may be:
-radius = 0.25             # [m]; or a box instead of the two:
+near = [2.0, 1.0]         # x, y or x, y, z [m] in the world's frame, with
+radius = 0.25             # the largest distance [m]; or a box instead of the two:
 x = [1.5, 2.5]
 y = [0.5, 1.5]
-heading = 1.57            # optional: [rad] about the upward axis, a full turn more or less is the same, and
-tolerance = 0.2           # how far from it it may be [rad]
-at = 7.0                  # optional: another moment than the end [s]
+heading = 1.57            # optional: [rad] about the upward axis, full turns ignored, with
+tolerance = 0.2           # the largest deviation [rad]
+at = 7.0                  # [s], optional: another time than the end
 
-A robot that never moved may stand there as well: give such a check a gate, or let the trials begin elsewhere.
+A robot that never moved may be there as well: give such a check a gate, or let the trials begin elsewhere.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ AXES = "xyz"
 
 @check_kind("final_pose")
 def final_pose(recording: Recording, parameters: Table) -> Finding:
-    """Pass if the model's true position, and its heading if asked for, lie in the region at the moment."""
+    """Pass if the model's true position, and its heading if asked for, are in the region at that time."""
     model = parameters.text("model")
     at = parameters.number("at", recording.properties("run")["duration"], above=0)
     near = parameters.numbers("near", [2, 3]) if parameters.has("near") else []
@@ -55,7 +55,7 @@ def final_pose(recording: Recording, parameters: Table) -> Finding:
         passed = passed and away <= radius
         measured += f", {told(away)} m away"
     if heading is not None:
-        # The heading on record is unwrapped: it counts full turns.
+        # The recorded heading is unwrapped: it counts full turns.
         off = math.inf if yaw is None else abs(math.remainder(yaw - heading, 2 * math.pi))
         passed = passed and off <= tolerance
         measured += f", its heading {told(off)} rad off"

@@ -1,4 +1,4 @@
-"""`launched_end`: does everything end when the launch is interrupted with Ctrl-C?
+"""`launched_end`: do all processes end when the launch is interrupted with Ctrl-C?
 
 kind = "launched_end"
 """

@@ -13,12 +13,12 @@ from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.launched import deaths, launch_facts
 from gz_course.sim.did_you_mean import nearest_name
 
-_OTHERS = ("gz", "parameter_bridge", "create")  # processes that are no node of the student's
+_OTHERS = ("gz", "parameter_bridge", "create")  # processes that are not nodes of the student's
 
 
 @check_kind("launched_node")
 def launched_node(recording: Recording, parameters: Table) -> Finding:
-    """Pass if the node was there to the end and listened to /clock, as it does with use_sim_time."""
+    """Pass if the node existed to the end and subscribed to /clock, as it does with use_sim_time."""
     node, program = parameters.text("node"), parameters.text("program")
     expected = f"the node {node} with use_sim_time, to the end"
     endpoints = recording.facts().get("endpoints", [])

@@ -1,4 +1,4 @@
-"""`launched_paused`: does simulated time stand still exactly if an argument of the launch says so?
+"""`launched_paused`: is simulated time paused if, and only if, an argument of the launch says so?
 
 kind = "launched_paused"
 argument = "paused"

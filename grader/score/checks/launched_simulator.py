@@ -1,4 +1,4 @@
-"""`launched_simulator`: does the launch start one simulator, which is there to the end?
+"""`launched_simulator`: does the launch start exactly one simulator, which runs to the end?
 
 kind = "launched_simulator"
 """
@@ -13,7 +13,7 @@ from gz_course.grader.score.launched import complaint, launch_facts, ran
 
 @check_kind("launched_simulator")
 def launched_simulator(recording: Recording, parameters: Table) -> Finding:
-    """Pass if exactly one `gz sim` had a world to run and was still there when the launch was interrupted."""
+    """Pass if exactly one `gz sim` had a world and was still running when the launch was interrupted."""
     expected = "one gz sim with a world, from the start to the end"
     facts, running = launch_facts(recording), ran(recording)
     if not running:
@@ -22,7 +22,9 @@ def launched_simulator(recording: Recording, parameters: Table) -> Finding:
         return Finding(False, expected, f"gz sim said: {said}" if said else "no simulator was started")
     if len(running) > 1:
         worlds = ", ".join(each["world"] for each in running)
-        return Finding(False, expected, f"{len(running)} simulators were started ({worlds}); all of them tell the time")
+        return Finding(
+            False, expected, f"{len(running)} simulators were started ({worlds}); each publishes its own time"
+        )
     if not facts["simulator_at_end"]:
         return Finding(False, expected, "gz sim had ended before the launch was interrupted")
     return Finding(True, expected, f"it ran {running[0]['world']}")

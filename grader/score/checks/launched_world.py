@@ -15,7 +15,7 @@ from gz_course.grader.score.launched import argument, ran
 
 @check_kind("launched_world")
 def launched_world(recording: Recording, parameters: Table) -> Finding:
-    """Pass if the first simulator that ran has that world."""
+    """Pass if the first simulator that ran has the world of this run's argument."""
     wanted, called = argument(recording, parameters.text("argument"), parameters.text("default"))
     running = ran(recording)
     expected = f"{called}: the world {wanted}"

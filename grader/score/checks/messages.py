@@ -1,10 +1,10 @@
-"""`messages`: did the right messages arrive on a topic: how many, when, and saying what?
+"""`messages`: did the right messages arrive on a topic: their number, time and text?
 
 kind = "messages"
 topic = "hello"
 count = [1, 1]            # at least, at most; the second may be left out
-window = [0.9, 3.0]       # optional: only messages that arrive then count [s]
-field = "data"            # optional, with `says`: only messages whose text field says exactly this count
+window = [0.9, 3.0]       # [s], optional: only messages that arrive then count
+field = "data"            # optional, with `says`: only messages whose text field equals it count
 says = "hello, robot"
 """
 
@@ -19,12 +19,12 @@ from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.events import texts as texts_of
 from gz_course.grader.score.steps import told
 
-LONGEST_QUOTE = 60  # characters of a message's text that are told
+LONGEST_QUOTE = 60  # characters of a message's text that are quoted
 
 
 @check_kind("messages")
 def messages(recording: Recording, parameters: Table) -> Finding:
-    """Pass if the number of messages that came in the window and say the text lies within `count`."""
+    """Pass if the number of messages that came in the window with the text lies within `count`."""
     topic = parameters.text("topic").strip("/")
     least, *rest = parameters.numbers("count", [1, 2])
     most = rest[0] if rest else np.inf
@@ -44,7 +44,7 @@ def messages(recording: Recording, parameters: Table) -> Finding:
     passed = bool(least <= counts.sum() <= most)
     if not len(times):
         return Finding(passed, expected, "no message arrived")
-    # What is shown is the first message that decides: the first one too many, else the first that does not count.
+    # Report the message that decides: the first one too many, else the first that does not count.
     wrong = np.flatnonzero(counts)[int(most) :] if counts.sum() > most else np.flatnonzero(~counts)
     at = float(times[wrong[0] if len(wrong) and not passed else 0])
     measured = f"1 message arrived, at {told(at)} s" if len(times) == 1 else _many(times)
@@ -66,4 +66,4 @@ def _many(times: np.ndarray) -> str:
 
 
 def _quoted(text: str | None) -> str:
-    return "nothing that is a text" if text is None else repr(shown(text, LONGEST_QUOTE))
+    return "something other than a text" if text is None else repr(shown(text, LONGEST_QUOTE))

@@ -1,10 +1,10 @@
-"""`never`: is there no moment at which signals lie in a forbidden band?
+"""`never`: are signals never in a forbidden band?
 
 kind = "never"
 conditions = [{ signal = "truth/robot/x", low = 2.0, name = "the robot's x", unit = "m" }]      # all at the same time
 window = [0.0, 8.0]       # optional
 
-Doing nothing does nothing forbidden: give such a check a gate.
+A node that does nothing passes: give such a check a gate.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from gz_course.grader.score.steps import Condition, fulfilled, shown_at, window_
 
 @check_kind("never")
 def never(recording: Recording, parameters: Table) -> Finding:
-    """Pass if the conditions never hold all at once, and the simulation lasted as long as the window."""
+    """Pass if the conditions never hold all at once, and the simulation covered the whole window."""
     conditions = Condition.read_all(parameters)
     start, end = window_of(recording, parameters)
     edges, holds = fulfilled(recording, conditions, start, end)

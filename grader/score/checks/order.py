@@ -1,4 +1,4 @@
-"""`order`: did things happen one after another, in this order?
+"""`order`: did events happen in this order?
 
 kind = "order"
 events = [                # at least two; see grader/score/events.py
@@ -7,7 +7,7 @@ events = [                # at least two; see grader/score/events.py
     { log = "arrived", name = "the node says that it arrived" },
 ]
 
-What counts is the first time each of them happens. Two at the same moment are in order.
+The first occurrence of each event counts. Two at the same time are in order.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from gz_course.grader.score.steps import told
 
 @check_kind("order")
 def order(recording: Recording, parameters: Table) -> Finding:
-    """Pass if every event happens and none happens before the one that stands before it."""
+    """Pass if every event happens and none happens before its predecessor in the list."""
     events = [Event.read(table) for table in parameters.tables("events")]
     if len(events) < 2:
         parameters.refuse("events", "a list of at least two events")
@@ -31,10 +31,10 @@ def order(recording: Recording, parameters: Table) -> Finding:
         moment = event.first(recording)
         if moment is None:
             done = f" after {before[0]} at {told(before[1])} s" if before else ""
-            return Finding(False, expected, f"there was never {event.name}{done}", None)
+            return Finding(False, expected, f"this never happened: {event.name}{done}", None)
         if before is not None and moment < before[1]:
             measured = f"{event.name} at {told(moment)} s, before {before[0]} at {told(before[1])} s"
             return Finding(False, expected, measured, round(moment, 3), timing=True)
         before = event.name, moment
     assert before is not None
-    return Finding(True, expected, f"so it was; the last at {told(before[1])} s", round(before[1], 3))
+    return Finding(True, expected, f"in this order, the last at {told(before[1])} s", round(before[1], 3))

@@ -8,8 +8,8 @@ r"""`per_scan`: is every scan answered with the right number?
     signal = "topics/nearest_obstacle/data"    # the answer is a message
     at_least = 0.95           # of all scans
 
-The answer to a scan is the first one between it and the next scan. The truth is taken from the very scan that was
-sent. A range is valid if it lies between range_min and range_max; whether the limits themselves count is left open.
+The answer to a scan is the first one between it and the next scan; it is compared with the scan that was sent. A range
+is valid if it lies between range_min and range_max; answers that include or exclude the limits are both accepted.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ STATISTICS: dict[str, Callable[[np.ndarray], float]] = {
 
 @dataclass(frozen=True)
 class Scan:
-    """One scan as it was sent: when [s], until the next [s], and the accepted answers."""
+    """One scan as it was sent: its time [s], the time of the next [s], and the accepted answers."""
 
     start: float
     end: float
@@ -52,7 +52,7 @@ def scans(recording: Recording, topic: str, statistic: str) -> list[Scan]:
     ends = [*(times[1:] / 1e9), np.inf] if len(times) else []
     found = []
     for time, end, row, low, high in zip(times / 1e9, ends, rows, lows, highs, strict=True):
-        # A message holds 0.12 as the float32 nearest to it, whatever its sender wrote: so does the student's.
+        # A message holds 0.12 as the nearest float32, so the student's node receives that value.
         low, high, row = np.float32(low), np.float32(high), row.astype(np.float32).astype(np.float64)
         strict = row[(row > low) & (row < high)]
         loose = row[(row >= low) & (row <= high)]
@@ -110,7 +110,7 @@ def _messages(recording: Recording, name: str) -> list[tuple[float, float]]:
 
 
 def _log_answers(recording: Recording, pattern: re.Pattern[str]) -> tuple[list[tuple[float, float]], int, str]:
-    """Return all answers in the log, the number printed instead of logged, and the first line without an answer."""
+    """Return all answers in the log, how many were printed instead of logged, and the first line without an answer."""
     answers, printed, other = [], 0, ""
     for at, text, logged in log_lines(recording):
         if match := pattern.search(text):

@@ -1,8 +1,8 @@
-"""`python`: a function in the exercise's own folder, where data does not reach.
+"""`python`: a function in the exercise's own folder, for checks that no other kind can express.
 
 kind = "python"
 function = "checks.py:drives_in_circles"     # a file beside the manifest, and the function in it
-turns = 2                 # every other parameter is handed to the function as it is
+turns = 2                 # every other parameter is passed to the function unchanged
 
     def drives_in_circles(recording, parameters):
         yaw = recording.signal("truth/robot/yaw").values
@@ -12,8 +12,7 @@ turns = 2                 # every other parameter is handed to the function as i
 
 `recording` is a grader.record.reading.Recording, `Finding` is that of grader.score.check. The parameters of the trial
 are `json.loads(recording.properties("run")["trial_parameters"])["parameters"]`. The file is the author's: it is public
-and runs in the grader's own process. It must look at nothing but what it is given, or a score could not be computed
-again.
+and runs in the grader's own process. It must use nothing but its arguments, so that a score can be computed again.
 """
 
 from __future__ import annotations
@@ -32,7 +31,7 @@ from gz_course.sim.did_you_mean import did_you_mean
 
 @check_kind("python")
 def python(recording: Recording, parameters: Table) -> Finding:
-    """Return what the author's function finds. Raises ManifestError, with the line, for what is wrong with it."""
+    """Return the finding of the author's function. Raises ManifestError, with the line, for an error in it."""
     file, _, name = parameters.text("function").partition(":")
     path = (parameters.folder or Path()) / file
     if not name or Path(file).name != file:
@@ -58,7 +57,7 @@ def python(recording: Recording, parameters: Table) -> Finding:
 
 
 def _place(error: Exception, path: Path) -> str:
-    """Return the author's file and the line in it that an error comes from."""
+    """Return the author's file and line in which an error was raised."""
     lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(path)]
     line = lines[-1] if lines else getattr(error, "lineno", None)
     return f"{path}, line {line}" if line else str(path)

@@ -1,4 +1,4 @@
-"""`rate`: how often do messages come on a topic, in simulated time?
+"""`rate`: what is the rate of messages on a topic, in simulated time?
 
 kind = "rate"
 topic = "cmd_vel"

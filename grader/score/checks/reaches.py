@@ -1,10 +1,10 @@
-"""`reaches`: did something happen at least once, in time?
+"""`reaches`: did an event happen at least once in a window?
 
 kind = "reaches"
 event = { signal = "truth/robot/x", low = 1.0, name = "the robot passes the gate" }     # see grader/score/events.py
 window = [0.0, 6.0]       # optional
 
-An event is a signal in its band, a message (saying something), or a line of the node's log.
+An event is a signal in its band, a message (with a given text), or a line of the node's log.
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
-"""`stays_in_band`: did signals lie in their bands without a break to the end of the run?
+"""`stays_in_band`: were signals in their bands without interruption to the end of the run?
 
 kind = "stays_in_band"
 conditions = [{ signal = "truth/robot/linear_x", low = -0.02, high = 0.02 }]
 last = 1.5                # [s] before the end of the run
 unit = "m/s"
-command = "topics/cmd_vel/linear/x"    # optional: what to look at when it does not
+command = "topics/cmd_vel/linear/x"    # optional: the command to quote if the check fails
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Band, Finding, check_kind
 from gz_course.grader.score.steps import Condition, fulfilled, shown_at, told
 
-STILL = 0.5  # [s] before the end: a command this late means that they never ceased
+STILL = 0.5  # [s] before the end: a later command means that commands never ceased
 
 
 @check_kind("stays_in_band")
@@ -39,7 +39,7 @@ def stays_in_band(recording: Recording, parameters: Table) -> Finding:
 
 
 def _last_command(recording: Recording, command: str | None, end: float) -> str:
-    """Return in words what the command behind a signal was at the end: its last value and when it came."""
+    """Return in words the last value of a command and when it came."""
     signal = recording.signal(command) if command else None
     if not signal:
         return ""

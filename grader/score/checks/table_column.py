@@ -1,10 +1,10 @@
-"""`table_column`: is one column of the student's table right in every row?
+"""`table_column`: is one column of the student's table correct in every row?
 
 kind = "table_column"
 column = "gz_type"        # ros_type | gz_topic | gz_type | direction | publisher
-at_least = 5              # rows that must be right, so that an empty table earns nothing
+at_least = 5              # rows that must be correct, so that an empty table earns nothing
 
-Rows for topics that do not go across, and topics without a row, are the business of `table_rows`.
+`table_rows` checks for rows of topics that are not bridged, and for missing rows.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ WORDS = {
 
 @check_kind("table_column")
 def table_column(recording: Recording, parameters: Table) -> Finding:
-    """Pass if no row is wrong in this column and at least `at_least` are right."""
+    """Pass if no row is wrong in this column and at least `at_least` are correct."""
     column = parameters.choice("column", WORDS)
     least = parameters.number("at_least")
     facts = recording.facts()
@@ -51,7 +51,7 @@ def table_column(recording: Recording, parameters: Table) -> Finding:
     if first_wrong:
         return Finding(False, expected, first_wrong)
     if right < least:
-        return Finding(False, expected, f"{right} rows say it; at least {least:g} are needed", gated=True)
+        return Finding(False, expected, f"{right} rows are correct; at least {least:g} are needed", gated=True)
     return Finding(True, expected, f"{right} rows")
 
 

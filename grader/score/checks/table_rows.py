@@ -17,12 +17,12 @@ from gz_course.sim.did_you_mean import did_you_mean
 
 @check_kind("table_rows")
 def table_rows(recording: Recording, parameters: Table) -> Finding:
-    """Pass if the topics of the rows are exactly those that the bridge joins."""
+    """Pass if the topics of the rows are exactly those that the bridge connects."""
     facts = recording.facts()
     rows = facts.get("table", [])
     wanted = [link.ros_topic for link in links(recording)]
     named = Counter(row["ros_topic"] for row in rows)
-    expected = f"one row for each of the {len(wanted)} topics that go across"
+    expected = f"one row for each of the {len(wanted)} bridged topics"
     for row in rows:
         topic, where = row["ros_topic"], f"line {row['line']}"
         if not topic:

@@ -1,11 +1,11 @@
-r"""`text`: does the node say something, in its log or in a message?
+r"""`text`: does the node write a text, in its log or in a message?
 
 kind = "text"
 log = '^arrived at \S+'   # a pattern for lines of the node's logger; or
 topic = "state"           # for messages on this topic:
-field = "data"            #   which text field of theirs, and
+field = "data"            #   the text field, and
 says = '^done$'           #   a pattern for it
-count = [1]               # at least, at most; at least one if left out. [0, 0] forbids it (give it a gate)
+count = [1]               # at least, at most; at least one if left out. [0, 0] forbids the text (add a gate)
 window = [0.0, 8.0]       # optional
 """
 
@@ -22,12 +22,12 @@ from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.events import log_lines, texts
 from gz_course.grader.score.steps import how_many, told, window_of
 
-LONGEST_QUOTE = 80  # characters of what was said that are told
+LONGEST_QUOTE = 80  # characters of a text that are quoted
 
 
 @check_kind("text")
 def text(recording: Recording, parameters: Table) -> Finding:
-    """Pass if as many lines or messages as `count` wants match the pattern in the window."""
+    """Pass if the number of matching lines or messages in the window lies within `count`."""
     if parameters.has("log") == parameters.has("topic"):
         parameters.refuse("log", "given, or topic instead of it, but not both")
     pattern: re.Pattern[str]

@@ -1,4 +1,4 @@
-"""`time_in_band`: for how long did one or more signals lie in their bands at the same time?
+"""`time_in_band`: how long were one or more signals in their bands at the same time?
 
 kind = "time_in_band"
 conditions = [{ signal = "truth/robot/linear_x", low = 0.45, high = 0.55 }]
@@ -41,7 +41,7 @@ def time_in_band(recording: Recording, parameters: Table) -> Finding:
 
 
 def _was_right(recording: Recording, conditions: list[Condition]) -> bool:
-    """Tell whether every signal was in its band at some time, if only between two samples."""
+    """Return whether every signal was in its band at some time, if only between two samples."""
     values = [recording.signal(c.signal).values for c in conditions]
     return all(bool(np.any((v >= c.low) & (v <= c.high))) for c, v in zip(conditions, values, strict=True))
 

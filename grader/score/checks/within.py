@@ -1,13 +1,13 @@
-"""`within`: did signals lie in their bands without a break for some seconds, from a given moment on?
+"""`within`: were signals in their bands without interruption for some seconds from a given time on?
 
 kind = "within"
 conditions = [{ signal = "truth/robot/linear_x", low = 0.45, high = 0.55, name = "forward speed", unit = "m/s" }]
-start = 5.0               # [s] simulated; or
+start = 5.0               # [s] of simulated time; or
 after = { topic = "start" }      # from this event on (see grader/score/events.py), and then
 settle = 0.5              # optional: [s] to get into the band
-seconds = 1.0             # how long
+seconds = 1.0             # [s] length
 
-Doing nothing may well lie within a band: give such a check a gate.
+A node that does nothing may be within a band: give such a check a gate.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from gz_course.grader.score.steps import Condition, fulfilled, shown_at
 
 @check_kind("within")
 def within(recording: Recording, parameters: Table) -> Finding:
-    """Pass if every condition holds at every moment of the `seconds` that begin at `start` or after `after`."""
+    """Pass if every condition holds during the `seconds` that begin at `start` or after `after`."""
     conditions = Condition.read_all(parameters)
     seconds = parameters.number("seconds", above=0)
     event = Event.read(parameters.table("after")) if parameters.has("after") else None
@@ -32,7 +32,7 @@ def within(recording: Recording, parameters: Table) -> Finding:
     wanted = " and ".join(map(str, conditions))
     if begin is None:
         assert event is not None
-        return Finding(False, f"{wanted} for {seconds:g} s after {event.name}", f"there was never {event.name}")
+        return Finding(False, f"{wanted} for {seconds:g} s after {event.name}", f"this never happened: {event.name}")
     start, end = begin + settle, begin + settle + seconds
     edges, holds = fulfilled(recording, conditions, start, end)
     expected = f"{wanted} from {start:g} s to {end:g} s"

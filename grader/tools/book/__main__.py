@@ -1,6 +1,6 @@
-"""`python -m grader.tools.book FOLDER` writes the book of the course: a front page with the map, and a page a chapter.
+"""`python -m grader.tools.book FOLDER` writes the book of the course: a front page and a page per chapter.
 
-Chapters are run in a copy, so nothing in the course's own folders changes. Exit code 1 if a chapter does not run.
+Chapters are run in a copy, so the course's own folders do not change. Exit code 1 if a chapter does not run.
 """
 
 from __future__ import annotations
@@ -20,11 +20,10 @@ from gz_course.grader.tools.book.chapter import page, run
 from gz_course.grader.tools.book.objectives import lessons
 
 USAGE = "usage: python -m grader.tools.book FOLDER"
-TRACES = ("runs", ".ipynb_checkpoints", "__pycache__")  # of somebody at work, not part of the course
+TRACES = ("runs", ".ipynb_checkpoints", "__pycache__")  # left behind by somebody at work, not part of the course
 
 
 def main() -> int:
-    """Write the book; return the exit code."""
     if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
         print(USAGE, file=sys.stderr)
         return 2

@@ -1,4 +1,4 @@
-"""One chapter of the book: its notebook is run from top to bottom in a kernel of its own and turned into a page."""
+"""A chapter of the book: its notebook is run from top to bottom in its own kernel and converted to a page."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from typing import Any
 from gz_course.grader.errors import CourseError
 
 CELL_DEADLINE = 120  # [s]
-SCRIPT = re.compile(r"<script\b.*?</script>", re.DOTALL)  # the template's, which fetch things; a page needs none
+# scripts of the template, which need the network; no page needs them
+SCRIPT = re.compile(r"<script\b.*?</script>", re.DOTALL)
 COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 OBJECTIVES = re.compile(r"^\*\*Objectives\.\*\*.*?\n\n(?P<list>(?:- .*\n(?:  .*\n)*)+)", re.MULTILINE)
 
@@ -21,7 +22,7 @@ class ChapterError(CourseError):
 
 @dataclass(frozen=True)
 class Chapter:
-    """What the head of a notebook says about it."""
+    """The description of a chapter from the head of its notebook."""
 
     name: str
     notebook: Path

@@ -1,6 +1,6 @@
-"""The map of the course: what a chapter is for, which exercise follows, what it checks, and who proves each check.
+"""The map of the course: the objectives of each chapter, its exercise, the checks, and what proves each check.
 
-Made from the notebooks, the manifests and the instructor's half; nothing of it is written by hand.
+Generated from the notebooks, the manifests and the instructor's half.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from gz_course.grader.verify import variants
 
 @dataclass(frozen=True)
 class Proven:
-    """A check and the names of the rejected variants that must lose it."""
+    """A check and the names of the rejected variants that must fail it."""
 
     check: CheckSpec
     rejected: tuple[str, ...]

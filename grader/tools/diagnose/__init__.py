@@ -1,4 +1,4 @@
-"""The room behind `course diagnose`: looks at the live ROS and Gazebo graphs and says what cannot work, and why.
+"""The implementation of `course diagnose`: finds errors in the live ROS and Gazebo graphs and explains them.
 
-`live.py` shows it on one screen: observe both sides, ask every file in `looks/`, worst finding first.
+`live.py` is the overview: observe both sides, ask every file in `looks/`, worst finding first.
 """

@@ -1,4 +1,4 @@
-"""Advice that several looks give: how to bridge a topic, and which topics can be bridged."""
+"""Advice shared by several looks: how to bridge a topic, and which topics can be bridged."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ _MARKS = {Direction.BIDIRECTIONAL: "@", Direction.GZ_TO_ROS: "[", Direction.ROS_
 
 
 def can_bridge(ros_type: str, gz_type: str) -> bool:
-    """Tell whether ros_gz_bridge converts between the two types."""
+    """Return whether ros_gz_bridge converts between the two types."""
     try:
         find_pair(ros_type, gz_type)
     except UnknownPairError:

@@ -1,6 +1,6 @@
-"""One thing that is wrong in a live system: a sentence, what it rests on, and what to do.
+"""An error in a live system: a sentence, its evidence, and what to do.
 
-Made by the files in `looks/`, put in order here, shown by `course diagnose`.
+The files in `looks/` make findings, this file sorts them, `course diagnose` prints them.
 """
 
 from __future__ import annotations
@@ -17,22 +17,22 @@ if TYPE_CHECKING:
 
 
 class Severity(enum.IntEnum):
-    """How bad it is; the names are what is shown."""
+    """The severity of a finding; the names are printed."""
 
     ERROR = 0
     """Something cannot work."""
     WARNING = 1
-    """Something goes wrong, or is about to."""
+    """An error that happens now or will happen."""
     NOTE = 2
-    """Works as it stands, and surprises people. Alone it is nothing wrong."""
+    """Behaviour that is correct but surprising; not an error."""
 
 
 @dataclass(frozen=True)
 class Finding:
     """One finding. `kind` is the name of the file it comes from, filled in when it is collected.
 
-    `topics` are the ROS topics whose silence it explains. A `symptom` is left out when all its topics are explained
-    by a finding that is none.
+    `topics` are the ROS topics whose silence it explains. A `symptom` is left out when findings that are not symptoms
+    explain all its topics.
     """
 
     severity: Severity
@@ -44,7 +44,7 @@ class Finding:
     kind: str = ""
 
     def as_dict(self) -> dict[str, Any]:
-        """Return the finding as the JSON report has it."""
+        """Return the finding as it appears in the JSON report."""
         return {
             "kind": self.kind,
             "severity": self.severity.name.lower(),
@@ -55,7 +55,7 @@ class Finding:
 
 
 def findings(system: System) -> list[Finding]:
-    """Return everything that is wrong, worst first; within a severity in the order the looks ask for."""
+    """Return all findings, worst first; within a severity in the order the looks ask for."""
     found_by = modules(looks)
     order = in_order({name: getattr(module, "BEFORE", ()) for name, module in found_by.items()})
     found = [replace(each, kind=name) for name in order for each in found_by[name].look(system)]

@@ -1,6 +1,7 @@
 """Observation of the Gazebo graph of the present partition: topics, services, worlds, commands and motion of drives.
 
-It only listens, and asks each world once for its SDF text. No sensor topic is listened to, so no camera starts to work.
+It only listens, and asks each world once for its SDF text. It subscribes to no sensor topic, so that no camera starts
+to render.
 """
 
 from __future__ import annotations
@@ -24,9 +25,9 @@ MOST_WORLDS = 10
 
 
 def observe(seconds: float, stop: threading.Event) -> GzSide:
-    """Look at the graph, then listen for `seconds` or until `stop` is set.
+    """Query the graph, then listen for `seconds` [s] or until `stop` is set.
 
-    Raises OSError when the network cannot be used.
+    Raises OSError if the network cannot be used.
     """
     with Node() as node:
         side = GzSide(partition=node.options.partition)
@@ -48,7 +49,7 @@ def observe(seconds: float, stop: threading.Event) -> GzSide:
 
 
 def _world_of(topic: str) -> str:
-    """Return `W` for `/world/W/clock` and the other topics and services only a server has, else nothing."""
+    """Return `W` for `/world/W/clock` and other names that only a server has; else empty."""
     parts = topic.split("/")
     if len(parts) == 4 and parts[:2] == ["", "world"] and parts[3] in ("clock", "stats", "control"):
         return parts[2]

@@ -1,4 +1,4 @@
-"""The course of `course diagnose`: observe both graphs, then judge."""
+"""The sequence of `course diagnose`: observe both graphs, then judge them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from gz_course.grader.tools.diagnose.system import System
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """The findings, worst first, and what they were found in."""
+    """The findings, worst first, and the system they were found in."""
 
     system: System
     findings: list[Finding]
@@ -24,11 +24,11 @@ class Diagnosis:
 
     @property
     def wrong(self) -> bool:
-        """Whether anything is wrong; notes alone are nothing wrong."""
+        """Whether there is a finding worse than a note."""
         return any(finding.severity is not Severity.NOTE for finding in self.findings)
 
     def as_dict(self) -> dict[str, Any]:
-        """Return the JSON report."""
+        """Return the JSON report as plain data."""
         ros, gz = self.system.ros, self.system.gz
         return {
             "wrong": self.wrong,
@@ -59,9 +59,9 @@ class Diagnosis:
 
 
 def diagnose(seconds: float = 2.0) -> Diagnosis:
-    """Observe both graphs, listen for `seconds` [s], and judge what was seen.
+    """Observe both graphs, listen for `seconds` [s], and judge what was observed.
 
-    Raises InfrastructureError when ROS or Gazebo's transport cannot be used at all.
+    Raises InfrastructureError if ROS or Gazebo's transport cannot be used at all.
     """
     started = time.monotonic()
     system = observe(seconds)
@@ -69,7 +69,7 @@ def diagnose(seconds: float = 2.0) -> Diagnosis:
 
 
 def observe(seconds: float) -> System:
-    """Observe both sides at the same time."""
+    """Observe both sides at the same time. Raises InfrastructureError as `diagnose` does."""
     from gz_course.grader.tools.diagnose import gz_side, ros_side
     from gz_course.grader.tools.diagnose.stopped import stopped_processes
     from gz_course.sim.ros2.errors import CommandError
@@ -82,7 +82,7 @@ def observe(seconds: float) -> System:
         except CommandError as error:
             stop.set()
             raise InfrastructureError(str(error)) from None
-        except BaseException:  # Ctrl-C: nobody waits for the other side
+        except BaseException:  # after Ctrl-C nobody waits for the other side
             stop.set()
             raise
         try:

@@ -1,7 +1,7 @@
 """Observation of the ROS graph of the present domain: nodes, endpoints, bridges, and a few messages of each topic.
 
-It only listens: one hidden node with best-effort subscriptions, which reach every publisher and hold up none. Images
-and point clouds are left after one message, so that no lazy camera works longer than it must.
+It only listens: one hidden node with best-effort subscriptions, which match every publisher and delay none. Images and
+point clouds are unsubscribed after one message, so that no lazy camera renders longer than necessary.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ from gz_course.sim.ros_gz_bridge import bridged_topics
 from gz_course.sim.ros_gz_bridge.config import ConfigError, load_yaml
 from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction
 
-ANSWER_WITHIN = 1.0  # s for all nodes to tell their parameters; they answer from memory
-KEEP = 5  # messages of a topic
+ANSWER_WITHIN = 1.0  # [s] for all nodes to return their parameters
+KEEP = 5  # messages kept of a topic
 MOST_TOPICS = 200
 _CLOCK, _TRANSFORMS = "rosgraph_msgs/msg/Clock", "tf2_msgs/msg/TFMessage"
 _HEAVY = {
@@ -37,12 +37,12 @@ _HEAVY = {
 }
 _BRIDGE_NAMES = ("ros_gz_bridge", "parameter_bridge", "bridge_node")
 UNNAMED = "a node that has not told its name"
-NAMES, LOOK_AGAIN = 5.0, 0.05  # [s] for the names to arrive, and between two looks
+NAMES, LOOK_AGAIN = 5.0, 0.05  # [s] for the names of nodes to arrive, and between two looks
 _ASKED = ("use_sim_time", bridged_topics.PARAMETER, "config_file")
 
 
 def observe(seconds: float) -> RosSide:
-    """Look at the graph, then listen for `seconds`. Raises ros2.errors.CommandError when ROS does not start."""
+    """Query the graph, then listen for `seconds` [s]. Raises ros2.errors.CommandError if ROS does not start."""
     options = argparse.Namespace(spin_time=None, use_sim_time=False)
     with Graph(options, f"_course_diagnose_{os.getpid()}") as graph:
         graph.settle(FIRST_CONTACT)
@@ -54,7 +54,7 @@ def observe(seconds: float) -> RosSide:
 
 
 def _named_endpoints(graph: Graph) -> list[RosEndpoint]:
-    """Return the endpoints once each has the name of its node, or after `NAMES` seconds."""
+    """Return the endpoints once the name of each one's node is known, or after `NAMES` seconds."""
     deadline = time.monotonic() + NAMES
     while True:
         found = _endpoints(graph)
@@ -84,7 +84,7 @@ def _endpoints(graph: Graph) -> list[RosEndpoint]:
 
 
 def _ask(graph: Graph, side: RosSide) -> None:
-    """Ask every node for its parameters, all at once, and find the bridges among them."""
+    """Ask every node for its parameters, all at once, and find the bridges among the nodes."""
     services = {name for name, _ in graph.services(hidden=True)}
     clients: dict[str, Any] = {}
     waiting: dict[tuple[str, str], Any] = {}
@@ -97,7 +97,7 @@ def _ask(graph: Graph, side: RosSide) -> None:
     def answered() -> bool:
         for node, client in clients.items():
             if (node, _ASKED[0]) not in waiting and client.service_is_ready():
-                for name in _ASKED:  # one a call: a node answers nothing at all if one of several does not exist
+                for name in _ASKED:  # one parameter per call: a node answers nothing if one of several does not exist
                     waiting[node, name] = client.call_async(GetParameters.Request(names=[name]))
         return len(waiting) == len(clients) * len(_ASKED) and all(future.done() for future in waiting.values())
 
@@ -129,9 +129,10 @@ def _value(response: Any) -> Any:
 
 
 def _bridge(node: str, offered: Any, file: Any, ends: list[RosEndpoint]) -> RunningBridge | None:
-    """Return the bridge a node is, or None.
+    """Return the bridge that a node is, or None.
 
-    Its own parameter says which topics it bridges; for a ros_gz_bridge of another make its file or its endpoints do.
+    Its own parameter lists the topics it bridges; for another implementation of ros_gz_bridge its file or its endpoints
+    do.
     """
     if isinstance(offered, list | tuple) or hasattr(offered, "tolist"):
         try:
@@ -149,7 +150,7 @@ def _bridge(node: str, offered: Any, file: Any, ends: list[RosEndpoint]) -> Runn
 
 
 def _guessed(ends: list[RosEndpoint]) -> Iterable[BridgeEntry]:
-    """Yield one entry a topic, of the same name on both sides, as arguments on the command line make them."""
+    """Yield one entry per topic, with the same name on both sides, as command-line arguments define them."""
     for topic in sorted({end.topic for end in ends} - {"/rosout", "/parameter_events"}):
         here = [end for end in ends if end.topic == topic]
         ways = {end.publishes for end in here}
@@ -161,7 +162,7 @@ def _guessed(ends: list[RosEndpoint]) -> Iterable[BridgeEntry]:
 
 
 class _Listener:
-    """Hears the first messages of every topic whose messages can be judged."""
+    """Collects the first messages of every topic whose messages can be judged."""
 
     def __init__(self, graph: Graph, side: RosSide) -> None:
         self._graph = graph
@@ -212,7 +213,7 @@ class _Listener:
             self._done.append(heard.topic)
 
     def listen(self, seconds: float) -> None:
-        """Spin for so many seconds [s], and unsubscribe from each topic that was heard enough."""
+        """Spin for `seconds` [s], and unsubscribe from each topic with enough messages."""
         end = time.monotonic() + seconds
         while (left := end - time.monotonic()) > 0:
             self._graph.spin_once(min(0.1, left))

@@ -12,7 +12,7 @@ import psutil
 from gz_course.grader.tools.diagnose.system import StoppedProcess
 from gz_course.sim.gz.transport.environment import NetworkSettings, default_partition
 
-_FIRST_PORT, _PORTS_PER_DOMAIN = 7400, 250  # DDSI-RTPS 2.2, 9.6.1
+_FIRST_PORT, _PORTS_PER_DOMAIN = 7400, 250  # Source: DDSI-RTPS 2.2, 9.6.1
 
 
 def stopped_processes(domain: int, partition: str) -> list[StoppedProcess]:
@@ -23,7 +23,7 @@ def stopped_processes(domain: int, partition: str) -> list[StoppedProcess]:
     for process in psutil.process_iter(["status"]):
         if process.info["status"] != psutil.STATUS_STOPPED:
             continue
-        with contextlib.suppress(psutil.Error, OSError):  # it has ended meanwhile, or is somebody else's
+        with contextlib.suppress(psutil.Error, OSError):  # it has ended meanwhile, or belongs to another user
             ports = {each.laddr.port for each in process.net_connections("udp") if each.laddr}
             in_partition = gz in ports and default_partition(process.environ()) == partition
             if in_partition or any(port in ros for port in ports):

@@ -1,7 +1,7 @@
-"""What was observed of a live system: both graphs, the bridges between them, and what was heard for a moment.
+"""The observation of a live system: both graphs, the bridges between them, and the messages of a short time.
 
-Filled by `ros_side` and `gz_side`, read by the files in `looks/`. Names are full names. A bridge's own endpoints are
-kept apart from those of others: a bridge connects topics, it does not use them.
+`ros_side` and `gz_side` fill it, the files in `looks/` read it. Names are full names. The endpoints of bridges are kept
+apart from those of others, because a bridge connects topics and does not use them.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ from gz_course.sim.gz.transport import MessagePublisher, ServicePublisher
 from gz_course.sim.ros_gz_bridge.entry import BridgeEntry
 
 OTHER_TYPE = 0.8
-"""How much alike a name must be to be meant although its type differs."""
+"""Least similarity of a name that may be the intended one although its type differs."""
 
 INFRASTRUCTURE = frozenset({"/rosout", "/parameter_events", "/clock", "/tf", "/tf_static", "/robot_description"})
-"""ROS topics that many nodes have, used or not."""
+"""ROS topics of many nodes that may be unused."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class RosEndpoint:
 
 @dataclass(frozen=True)
 class RosNode:
-    """A node and what it said of itself: `answers` None if it has no parameter services to be asked over."""
+    """A node and its parameters: `answers` is None if it has no parameter services."""
 
     name: str
     answers: bool | None
@@ -44,7 +44,7 @@ class RosNode:
 
 @dataclass(frozen=True)
 class HeardMessage:
-    """A message, when it came (monotonic s), and the latest ROS clock known then (ns)."""
+    """A message, its arrival [s] (monotonic clock), and the latest ROS clock known then [ns]."""
 
     arrival: float
     clock_ns: int | None
@@ -53,7 +53,7 @@ class HeardMessage:
 
 @dataclass
 class Heard:
-    """What came on one ROS topic: how many, and the first few. `full`: there may have been more."""
+    """The number of messages on one ROS topic, and the first few. `full`: there may have been more."""
 
     topic: str
     type: str
@@ -64,7 +64,7 @@ class Heard:
 
 @dataclass(frozen=True)
 class RunningBridge:
-    """A bridge that runs. `certain` is False where its entries were guessed from its endpoints."""
+    """A running bridge. `certain` is False if its entries were guessed from its endpoints."""
 
     node: str
     entries: tuple[BridgeEntry, ...]
@@ -73,7 +73,7 @@ class RunningBridge:
 
 @dataclass
 class RosSide:
-    """The ROS graph of one domain. `clock` holds (arrival in monotonic s, time in ns) of each `/clock` message."""
+    """The ROS graph of one domain. `clock` holds (monotonic arrival [s], time [ns]) of each `/clock` message."""
 
     domain: int = 0
     nodes: list[RosNode] = field(default_factory=list)
@@ -82,16 +82,16 @@ class RosSide:
     heard: dict[str, Heard] = field(default_factory=dict)
     clock: list[tuple[float, int]] = field(default_factory=list)
     frames: set[str] = field(default_factory=set)
-    """Frames named on /tf and /tf_static."""
+    """Frames on /tf and /tf_static."""
     seconds: float = 0.0
-    """How long was listened."""
+    """Duration of the observation [s]."""
 
 
 @dataclass
 class Drive:
-    """A drive system of a model: what it was told and what it did while it was listened to.
+    """A drive system of a model: its commands and its motion while it was observed.
 
-    `commands` are arrivals (monotonic s), `speeds` (arrival, m/s, rad/s) from its odometry.
+    `commands` are arrivals [s] of the monotonic clock, `speeds` (arrival [s], [m/s], [rad/s]) from its odometry.
     """
 
     model: str
@@ -104,7 +104,7 @@ class Drive:
 
 @dataclass
 class GzWorld:
-    """A world in the partition: who serves it, its statistics (gz.msgs.WorldStatistics), its SDF if it gave it."""
+    """A world in the partition: its servers, its statistics (gz.msgs.WorldStatistics), its SDF if it answered."""
 
     name: str
     servers: set[tuple[str, str]] = field(default_factory=set)
@@ -116,7 +116,7 @@ class GzWorld:
 
 @dataclass
 class GzSide:
-    """The Gazebo graph of one partition, and which worlds there are in other ones (partition -> names)."""
+    """The Gazebo graph of one partition, and the worlds in other ones (partition -> names)."""
 
     partition: str = ""
     publishers: list[MessagePublisher] = field(default_factory=list)
@@ -137,7 +137,7 @@ class StoppedProcess:
 
 @dataclass
 class System:
-    """Both sides at one moment, and the processes that would be there if they were not stopped."""
+    """Both sides at one moment, and the stopped processes that belong to them."""
 
     ros: RosSide
     gz: GzSide
@@ -155,15 +155,15 @@ class System:
         return node in self._bridge_nodes
 
     def ros_ends(self, topic: str, *, publish: bool) -> list[RosEndpoint]:
-        """Return the publishers (or subscriptions) of a ROS topic, those of bridges among them."""
+        """Return the publishers (or subscriptions) of a ROS topic, including those of bridges."""
         return [end for end in self.ros.endpoints if end.topic == topic and end.publishes == publish]
 
     def ros_users(self, topic: str, *, publish: bool) -> list[RosEndpoint]:
-        """Return the publishers (or subscriptions) of a ROS topic that are no bridge's."""
+        """Return the publishers (or subscriptions) of a ROS topic, except those of bridges."""
         return [end for end in self.ros_ends(topic, publish=publish) if not self.is_bridge(end.node)]
 
     def gz_users(self, topic: str, *, publish: bool) -> list[MessagePublisher]:
-        """Return the publishers (or subscribers) of a Gazebo topic that are no bridge's."""
+        """Return the publishers (or subscribers) of a Gazebo topic, except those of bridges."""
         ends = self.gz.publishers if publish else self.gz.subscribers
         return [end for end in ends if end.topic == topic and end.n_uuid not in self._gz_bridge_nodes]
 
@@ -176,7 +176,7 @@ class System:
         return found
 
     def _gz_nodes_of(self, bridge: RunningBridge) -> set[str]:
-        """Return the Gazebo nodes with exactly the endpoints of a bridge: Gazebo's graph has no names of nodes."""
+        """Return the Gazebo nodes with exactly the endpoints of a bridge, as Gazebo's graph has no names of nodes."""
         sends = {entry.gz_topic for entry in bridge.entries if entry.direction.to_gz}
         takes = {entry.gz_topic for entry in bridge.entries if entry.direction.to_ros}
         always = {entry.gz_topic for entry in bridge.entries if entry.direction.to_ros and not entry.lazy}
@@ -193,7 +193,7 @@ class System:
 
 
 def names(words: Iterable[str]) -> str:
-    """Return `a`, `a and b`, `a, b and c`; sorted, each once."""
+    """Return `a`, `a and b` or `a, b and c`, sorted and without repetitions."""
     each = sorted(set(words))
     return each[0] if len(each) == 1 else f"{', '.join(each[:-1])} and {each[-1]}" if each else "nobody"
 
@@ -206,9 +206,9 @@ def users(ends: Iterable[RosEndpoint], verb: str) -> str:
 
 
 def nearest_topic(name: str, known: Iterable[str], cutoff: float = 0.6) -> str:
-    """Return the known topic that was probably meant: one that ends alike, or is spelled alike; empty if there is none.
+    """Return the known topic that was probably meant, by its ending or its spelling; empty if there is none.
 
-    `cutoff` says how much alike, from 0 to 1: ask for more where the types differ.
+    `cutoff` is the least similarity, from 0 to 1; it should be greater if the types differ.
     """
     others = sorted(set(known) - {name})
     tail = name.rpartition("/")[2]

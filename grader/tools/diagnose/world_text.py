@@ -1,6 +1,6 @@
-"""What the SDF text of a running world says: its systems, sensors and drives.
+"""The contents of a running world's SDF text: its systems, sensors and drives.
 
-`gz_side` asks the world for the text (`/world/W/generate_world_sdf`); files in `looks/` compare it with what is there.
+`gz_side` asks the world for the text (`/world/W/generate_world_sdf`); files in `looks/` compare it with the graph.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ DRIVES = {
 """Systems that turn a Twist into motion and report odometry, with their files."""
 
 DEFAULT_SYSTEMS = frozenset({"Physics", "UserCommands", "SceneBroadcaster"})
-"""What Gazebo runs in a world that names no plugin."""
+"""Systems that Gazebo runs in a world without plugins."""
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class SensorText:
     element: ET.Element
 
     def text(self, *paths: str) -> str:
-        """Return the text of the first of these children that has one, or nothing."""
+        """Return the text of the first of these children that has one; else empty."""
         return next((found for path in paths if (found := (self.element.findtext(path) or "").strip())), "")
 
 
@@ -44,7 +44,7 @@ class DriveText:
 
 @dataclass(frozen=True)
 class WorldText:
-    """A world as its SDF text has it; `systems` are those of the world itself, without those of models."""
+    """A world as in its SDF text; `systems` are those of the world itself, without those of models."""
 
     systems: frozenset[str]
     sensors: tuple[SensorText, ...]
@@ -52,7 +52,7 @@ class WorldText:
 
     @classmethod
     def read(cls, text: str) -> WorldText:
-        """Read the text of one world. Raises ValueError if it is not XML with a `<world>`."""
+        """Read the SDF text of a world. Raises ValueError if it is not XML with a `<world>`."""
         try:
             root = ET.fromstring(text)
         except ET.ParseError as error:

@@ -1,1 +1,1 @@
-"""`course doctor`: `checks/` are its questions, `probe.py` runs programs for them, `checkup.py` asks them all."""
+"""The implementation of `course doctor`: its questions are in `checks/`, and `checkup.py` asks them all."""

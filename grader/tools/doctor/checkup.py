@@ -1,6 +1,6 @@
 """Asks every question of `checks/` at the same time and collects the answers.
 
-Called by the command `course doctor`, which prints them.
+`course doctor` prints them.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ from gz_course.grader.tools.doctor import checks
 from gz_course.grader.tools.doctor.probe import ProbeError, Probes
 from gz_course.grader.tools.doctor.verdict import Verdict, failed
 
-AT_ONCE = 4  # questions; most of them wait for a process
+AT_ONCE = 4  # questions at the same time; most of them wait for a process
 
 
 @dataclass(frozen=True)
 class Finding:
-    """The answer to one question: `check` is the name of its file, `title` what it is about."""
+    """The answer to one question: `check` is the name of its file, `title` its subject."""
 
     check: str
     title: str
@@ -33,7 +33,7 @@ class Finding:
 
 
 def examine(deadline: float, asked: Sequence[ModuleType] | None = None) -> list[Finding]:
-    """Ask everything (or what is given); nothing takes longer than `deadline` [s], and nothing is left running."""
+    """Ask every question, or those in `asked`, until `deadline` [s]; nothing is left running."""
     asked = list(modules(checks).values()) if asked is None else asked
     with ThreadPoolExecutor(AT_ONCE) as pool, Probes(deadline) as probes:
         answers = [pool.submit(_answer, module, probes) for module in asked]
@@ -45,7 +45,7 @@ def _answer(module: ModuleType, probes: Probes) -> Finding:
         verdict: Verdict = module.examine(probes)
     except ProbeError as error:
         verdict = failed(str(error), "mend what it names; `course doctor` tries the same again")
-    except Exception as error:  # a question that breaks must not silence the others
+    except Exception as error:  # a question that fails must not prevent the others
         told = f"{type(error).__name__}: {error}"
         verdict = failed(f"this check itself broke: {told}", "tell the course's maintainers, with this line")
     return Finding(module.__name__.rpartition(".")[2], module.TITLE, verdict)

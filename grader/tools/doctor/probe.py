@@ -1,6 +1,6 @@
-"""Small Python programs in processes of their own, for what may hang or crash whoever tries it.
+"""Small Python programs in separate processes, for tests that may hang or crash.
 
-All end at one deadline at the latest. Each sets an alarm of its own, in case this process is killed.
+All end at one deadline at the latest. Each sets an alarm, in case this process is killed.
 """
 
 from __future__ import annotations
@@ -24,22 +24,22 @@ _ALARM = "import signal; signal.alarm({seconds})\n"
 
 
 class ProbeError(Exception):
-    """A probe did not do what it was to do; the text is the last line it complained with."""
+    """A probe failed; the text is the last line of its error output."""
 
 
 class Probe:
-    """One running program; its standard input stays open until `result()` or `stop()`."""
+    """A running program; its standard input stays open until `result()` or `stop()`."""
 
     def __init__(self, code: str, arguments: tuple[str, ...], environment: Mapping[str, str], probes: Probes) -> None:
-        """Allow all probes together `deadline` [s]."""
+        """Start the Python code `code`; `environment` is added to this process's own."""
         self._probes = probes
-        # Files, not pipes: a child that outlives the program would keep a pipe open, and us waiting.
+        # Files, not pipes: a child that outlives the program would keep a pipe open, and this process waiting.
         self._output, self._errors = (tempfile.TemporaryFile(dir=probes.folder) for _ in range(2))  # noqa: SIM115
         alarm = _ALARM.format(seconds=int(probes.seconds_left + 2))
         try:
             self._process = subprocess.Popen(
                 [sys.executable, "-c", alarm + code, *arguments],
-                cwd=probes.folder,  # what lies where we were called (somebody's rclpy.py) is not ours to import
+                cwd=probes.folder,  # nothing is imported from the current folder, such as somebody's rclpy.py
                 env=dict(environment),
                 stdin=subprocess.PIPE,
                 stdout=self._output,
@@ -52,7 +52,7 @@ class Probe:
             raise
 
     def result(self) -> str:
-        """Wait for its end; what it printed. Raises ProbeError if it failed or took too long."""
+        """Wait for its end; return what it printed. Raises ProbeError if it failed or took too long."""
         try:
             self._close_input()
             self._process.wait(max(0.0, self._probes.seconds_left))
@@ -70,13 +70,13 @@ class Probe:
         return output.strip()
 
     def stop(self) -> None:
-        """End it, first politely. Its output is thrown away."""
+        """End it, first with SIGINT, and discard its output."""
         for number in (signal.SIGINT, signal.SIGTERM):
             if self._process.poll() is None:
                 self._kill(number)
                 with contextlib.suppress(subprocess.TimeoutExpired):
                     self._process.wait(GRACE)
-        self._kill(signal.SIGKILL)  # whatever it started and did not end
+        self._kill(signal.SIGKILL)  # everything it started and did not end
         self._process.wait()
         self._close_input()
         self._output.close()
@@ -105,7 +105,7 @@ def _signal_name(number: int) -> str:
 
 
 class Probes:
-    """Starts probes in a folder of their own, and ends them all; a context manager, usable from many threads."""
+    """Starts probes in a private folder, and ends them all; a context manager, usable from many threads."""
 
     def __init__(self, deadline: float) -> None:
         """Allow all probes together `deadline` [s]."""
@@ -135,7 +135,7 @@ class Probes:
             return probe
 
     def run(self, code: str, *arguments: str, environment: Mapping[str, str] | None = None) -> str:
-        """Run Python code to its end; what it printed. Raises ProbeError if it failed or took too long."""
+        """Run Python code to its end; return what it printed. Raises ProbeError if it failed or took too long."""
         return self.start(code, *arguments, environment=environment).result()
 
     def close(self) -> None:

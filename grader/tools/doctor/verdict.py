@@ -1,4 +1,4 @@
-"""An answer of `course doctor`: what was seen and, if that is not well, what to do about it."""
+"""An answer of `course doctor`: what was seen and, if it is a problem, what to do about it."""
 
 from __future__ import annotations
 

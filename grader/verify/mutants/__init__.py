@@ -1,7 +1,7 @@
 """Mutants of a solution: the same file with one planted defect. A defect that no check notices is not tested for.
 
-`python.py` and `yaml.py` know the places; a file is mutated by what its name ends in. `proof.py` grades what is chosen
-here.
+`python.py` and `yaml.py` mutate files of their type, chosen by the file's suffix. `proof.py` grades the mutants that
+are chosen here.
 """
 
 from gz_course.grader.verify.mutants.mutant import MOST, Mutant, choose, mutants_of

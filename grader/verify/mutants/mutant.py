@@ -1,4 +1,4 @@
-"""What a mutant is, how those of a file are found, and which few of them are graded."""
+"""Mutants: what one is, how those of a file are found, and which few of them are graded."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from importlib import import_module
 from itertools import zip_longest
 
 MOST = 12  # mutants of one solution that are graded
-LONGEST = 60  # [characters] of what is shown of a place
+LONGEST = 60  # [characters] shown of a place
 BY_SUFFIX = {"py": "python", "yaml": "yaml", "yml": "yaml"}
 
 
 @dataclass(frozen=True)
 class Mutant:
-    """A file in which `was`, in `line`, has become `now`. `operator` names the sort of fault: `sign`, `qos`, ..."""
+    """A file in which `now` replaces `was` in `line`. `operator` names the type of fault: `sign`, `qos`, ..."""
 
     file: str
     line: int
@@ -36,7 +36,7 @@ def _short(text: str) -> str:
 
 
 def mutants_of(file: str, content: bytes) -> list[Mutant]:
-    """Return every mutant of a file, in the order of its lines; none for a sort of file that nobody can mutate."""
+    """Return every mutant of a file, in the order of its lines; none for a type of file that cannot be mutated."""
     sort = BY_SUFFIX.get(file.rpartition(".")[2])
     if sort is None:
         return []
@@ -48,8 +48,8 @@ def mutants_of(file: str, content: bytes) -> list[Mutant]:
 def choose(mutants: list[Mutant], most: int) -> list[Mutant]:
     """Return at most `most` of them by a fixed rule, in the order of their lines.
 
-    One of each operator, then a second of each, and so on; which one comes first within an operator is decided by the
-    hash of its change, so that neither the beginning nor the end of a file is preferred.
+    The rule takes one of each operator, then a second of each, and so on; within an operator the order is that of the
+    hashes of the changes, so that neither the beginning nor the end of a file is preferred.
     """
     by_operator: dict[str, list[Mutant]] = defaultdict(list)
     for mutant in sorted(mutants, key=_hash):
@@ -64,7 +64,7 @@ def _hash(mutant: Mutant) -> str:
 
 
 class Text:
-    """A file's bytes in which places are replaced; `line` counts from 1, `column` in bytes from 0, as `ast` does."""
+    """A file's bytes in which places are replaced; `line` counts from 1, `column` in bytes from 0, as in `ast`."""
 
     def __init__(self, file: str, content: bytes) -> None:
         self._file = file
@@ -74,7 +74,7 @@ class Text:
             self._starts.append(self._starts[-1] + len(row) + 1)
 
     def at(self, line: int, column: int) -> int:
-        """Return the offset of a place."""
+        """Return the offset [bytes] of a place."""
         return self._starts[line - 1] + column
 
     def mutant(self, operator: str, line: int, begin: int, end: int, now: str) -> Mutant:

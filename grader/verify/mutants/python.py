@@ -1,6 +1,6 @@
-"""Mutants of a Python file, each a student's mistake: a sign, a number, a name, QoS, a condition, a forgotten line.
+"""Mutants of a Python file, each a typical mistake: a sign, a number, a name, QoS, a condition, a forgotten line.
 
-Only the mutated place of the text changes; the file is not regenerated from its syntax tree, so lines stay put.
+Only the mutated place of the text changes; the file is not regenerated from its syntax tree, so the line numbers stay.
 """
 
 from __future__ import annotations
@@ -25,7 +25,8 @@ CALLED = {"min": "max", "max": "min", "floor": "ceil", "ceil": "floor", "sin": "
 CALLED |= {"all": "any"}
 FIELDS = {"x": "y", "y": "x", "linear": "angular", "angular": "linear", "range_min": "range_max"}
 FIELDS |= {"range_max": "range_min", "angle_min": "angle_max", "angle_max": "angle_min"}
-NAMED = {"create_publisher": 1, "create_subscription": 1, "create_client": 1, "create_service": 1}  # which argument
+# function -> index of the argument that is a name
+NAMED = {"create_publisher": 1, "create_subscription": 1, "create_client": 1, "create_service": 1}
 QOS = {
     "create_publisher": (2, '__import__("rclpy.qos").qos.qos_profile_sensor_data'),
     "create_subscription": (
@@ -35,12 +36,11 @@ QOS = {
     ),
 }
 FORGOTTEN = ("publish", "cancel", "send_request", "call_async")  # calls that may be left out
-# Arguments that say nothing about what a node does.
+# Arguments that do not change what a node does.
 UNTOUCHED = ("num_threads", "timeout_sec", "depth")
 
 
 def mutants(file: str, content: bytes) -> list[Mutant]:
-    """Return every mutant of a file that is Python."""
     finder = _Finder(Text(file, content))
     finder.visit(ast.parse(content))
     return finder.found
@@ -49,7 +49,7 @@ def mutants(file: str, content: bytes) -> list[Mutant]:
 class _Finder(ast.NodeVisitor):
     def __init__(self, text: Text) -> None:
         self._text = text
-        self._untouched: set[int] = set()  # id(node): numbers and texts that are left as they are
+        self._untouched: set[int] = set()  # id(node) of numbers and texts that are not mutated
         self.found: list[Mutant] = []
 
     def _add(self, operator: str, node: ast.expr | ast.stmt, now: str) -> None:
@@ -89,7 +89,7 @@ class _Finder(ast.NodeVisitor):
             self._add("comparison", node, f"{left} {COMPARED[type(node.ops[0])]} {right}")
         elif len(node.ops) == 2:
             for op, first, second in zip(node.ops, [node.left, *node.comparators], node.comparators, strict=False):
-                # One of the two bounds is forgotten.
+                # Forget one of the two bounds.
                 self._add("comparison", node, f"{ast.unparse(first)} {_symbol(op)} {ast.unparse(second)}")
         self.generic_visit(node)
 
@@ -149,7 +149,7 @@ class _Finder(ast.NodeVisitor):
     def visit_JoinedStr(self, node: ast.JoinedStr) -> None:
         for part in node.values:
             if isinstance(part, ast.FormattedValue):
-                self.visit(part.value)  # what is formatted; its format and the text around it stay
+                self.visit(part.value)  # only the formatted value; its format and the text around it stay
 
     def visit_Call(self, node: ast.Call) -> None:
         name = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
@@ -166,7 +166,7 @@ class _Finder(ast.NodeVisitor):
             self._add("qos", qos, QOS[name][1])
             self._leave(qos)
         if name in ("__init__", "create_node", "Node"):
-            self._leave(*node.args[:1])  # what a node is called is up to it
+            self._leave(*node.args[:1])  # the name of a node is arbitrary
         self._leave(*(keyword.value for keyword in node.keywords if keyword.arg in UNTOUCHED))
         self.generic_visit(node)
 

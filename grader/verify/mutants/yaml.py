@@ -1,4 +1,4 @@
-"""Mutants of a YAML file: a name, a type, a direction, a number, a switch, an entry or a key forgotten.
+"""Mutants of a YAML file: a changed name, type, direction, number or switch, a forgotten entry or key.
 
 As in `python.py`, only the mutated place changes.
 """
@@ -16,20 +16,19 @@ SWITCHES = {"true": "false", "false": "true"}
 
 
 def mutants(file: str, content: bytes) -> list[Mutant]:
-    """Return every mutant of a file that is YAML."""
     root = yaml.compose(content.decode())
     return list(_within(_Marks(Text(file, content)), root)) if root is not None else []
 
 
 class _Marks:
-    """Places as PyYAML marks them, in characters, as places in the bytes."""
+    """Converts PyYAML's marks, which count characters, to places in the bytes."""
 
     def __init__(self, text: Text) -> None:
         self._text = text
         self._whole = text.content.decode()
 
     def mutant(self, operator: str, begin: yaml.Mark, end: int, now: str) -> Mutant:
-        """Replace what stands from a mark to an index."""
+        """Return the mutant in which the text from a mark to an index is replaced."""
         first, last = (len(self._whole[:index].encode()) for index in (begin.index, end))
         return self._text.mutant(operator, begin.line + 1, first, last, now)
 
@@ -52,7 +51,7 @@ def _within(marks: _Marks, node: yaml.Node) -> Iterator[Mutant]:
 
 
 def _forgotten_item(marks: _Marks, node: yaml.SequenceNode, item: yaml.Node) -> Mutant:
-    """Leave one entry of a list out: `null` in the place of the last of two entries would be another fault."""
+    """Return the mutant without one entry of a list."""
     place = node.value.index(item)
     begin = item.start_mark
     # An entry begins with the dash before it, and ends where the next one's line begins.

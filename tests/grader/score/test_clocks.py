@@ -17,11 +17,11 @@ def ends(*nodes, clock=True):
 
 def test_the_place_is_told(record):
     assert clock_fault(record(facts=ASKED), [LATE]) == (
-        "node.py, line 7: time.time() asks the clock on the wall, but time is simulated here: ask the node's own "
+        "node.py, line 7: time.time() reads the wall clock, but time is simulated here: read the node's own "
         "clock, self.get_clock().now()."
     )
     sleeps = {"wall_clock": [ASKED["wall_clock"][0] | {"call": "time.sleep()", "waits": True}]}
-    assert "time.sleep() waits by the clock on the wall" in clock_fault(record(facts=sleeps), [LATE])
+    assert "time.sleep() waits by the wall clock" in clock_fault(record(facts=sleeps), [LATE])
 
 
 @pytest.mark.parametrize(

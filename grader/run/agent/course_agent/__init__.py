@@ -1,7 +1,7 @@
-"""Instrumentation of the submission's processes: watches them from within and reports to the grader.
+"""The agent: code in the submission's processes that watches them from within and reports to the grader.
 
-It imports nothing of the grader, and the grader trusts nothing it says. `import_hooks.py` is called at every start of
-Python. `python_3.py` and `rclpy_7_1.py` hold all patches; `executor_monitor.py` counts and reports what they see.
-`run_node.py` runs a submitted file. `channel.py` is the connection to the grader. `remote_*.py` stand in for those
-parts of Gazebo's programs that the grader simulates (`grader_requests.py`).
+It imports nothing of the grader, and the grader does not trust its reports. `import_hooks.py` is called at every start
+of Python. `python_3.py` and `rclpy_7_1.py` hold all patches; `executor_monitor.py` counts and reports what they see.
+`run_node.py` runs a submitted file. `channel.py` is the connection to the grader. `remote_*.py` replace those parts of
+Gazebo's programs that the grader simulates (`grader_requests.py`).
 """

@@ -1,7 +1,7 @@
-"""The way from a process in the box to the grader: one socket, on which whole messages go both ways.
+"""The connection of a process in the sandbox to the grader: one socket for whole messages in both directions.
 
-Each message is JSON: `hello` first, then reports (`rclpy_7_1.py`). What the grader says is handed, in a thread of
-its own, to whoever has asked to `listen`. A grader that is gone is no error: the process goes on like any other.
+Each message is JSON: `hello` first, then reports (`rclpy_7_1.py`). A thread passes the grader's messages to the
+callback given to `listen`. If the grader ends, the process goes on without it.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
-SOCKET = "COURSE_SOCKET"  # names the environment variable with the path of the grader's socket
+SOCKET = "COURSE_SOCKET"  # environment variable with the path of the grader's socket
 LARGEST = 1 << 20  # [bytes] of one message
-LONGEST_PATH = 100  # [bytes] that surely fit into an address
+LONGEST_PATH = 100  # [bytes] that fit into a socket address on every system
 
 
 class Channel:
-    """A connection that says hello at once; `open` is False when there is nobody (any more) at the other end."""
+    """A connection that sends `hello` at once; `open` is False once the other end is gone."""
 
     def __init__(self, path: str) -> None:
         self.open = False
@@ -44,7 +44,7 @@ class Channel:
                 self._socket.send(text.encode(errors="replace"))
 
     def listen(self, heard: Callable[[dict[str, Any] | None], object]) -> None:
-        """Call `heard` in a thread with every message, and with None when there will be no more."""
+        """Call `heard` in a thread with every message, and with None after the last."""
 
         def run() -> None:
             while True:
@@ -64,14 +64,14 @@ class Channel:
             heard(None)
 
     def _leave(self) -> None:
-        """In a forked process: the connection is its parent's."""
+        """Drop the connection in a forked process: it belongs to the parent."""
         self.open = False
         with contextlib.suppress(OSError):
             self._socket.close()
 
 
 def _connect(connecting: socket.socket, path: str) -> None:
-    """Connect to a path of any length; the address of a socket holds about a hundred bytes."""
+    """Connect to a path of any length; the address of a socket holds about a hundred bytes. Source: unix(7)."""
     folder, _, name = path.rpartition("/")
     descriptor = os.open(folder, os.O_PATH | os.O_DIRECTORY)
     try:
@@ -84,7 +84,7 @@ _channel: Channel | None = None
 
 
 def channel() -> Channel:
-    """Return the connection of this process; it is made when first asked for."""
+    """Return the connection of this process, which is made by the first call."""
     global _channel
     if _channel is None:
         _channel = Channel(os.environ[SOCKET])

@@ -1,20 +1,20 @@
-"""Monitor of one process of the submission: counts, endpoints, what it holds; and the reports of that.
+"""Monitor of one process of the submission: counts messages, knows the endpoints, holds messages back, and reports.
 
-`rclpy_7_1.py` feeds it from within rclpy. Each time an executor is about to go to sleep it sends a report:
+The patches in `rclpy_7_1.py` call it. Each time an executor is about to go idle it sends a report:
 
     {"clock": ns, "idle": true, "taken": {topic: n}, "published": {topic: n}, "delivered": {topic: n},
      "holding": true, "held": n, "released": n, "flushes": n, "endpoints": [...]}
 
-`endpoints` is there only when it changed; `clock` is the smallest simulated time any spinning node has been told;
-`taken` and `published` count messages since the start, the latter only while somebody listened, and `delivered` how
-many readers they had. Requests and responses count as messages on "request NAME" and "response NAME". When `flushes`
-grows, the process waits for an answer before it takes a publisher down. `again` names the topics, once there are some,
-on which the grader has announced to send a message once more; copies are dropped (`rclpy_7_1.py`). The grader advances
-simulated time only when those numbers show that everything was taken.
+`endpoints` is included only when it changed; `clock` is the smallest simulated time [ns] of all spinning nodes; `taken`
+and `published` count messages since the start, the latter only while there were subscribers, and `delivered` the number
+of readers they had. Requests and responses count as messages on "request NAME" and "response NAME". When `flushes`
+grows, the process waits for an answer before it destroys a publisher. `again` names the topics on which the grader has
+announced to send a message once more; copies are dropped (`rclpy_7_1.py`). The grader advances simulated time only when
+these numbers show that every message was taken.
 
-Several processes that send each other messages would be a race. So when the grader says `hold`, what a process sends
-is kept in it, in order, and leaves one message at a time when the grader says `release`: at any moment there is one
-message on its way in the whole system. `free` ends that.
+Messages between several processes would be a race. After the order `hold` a process therefore queues what it sends, and
+each order `release` lets one message leave: at any moment one message is in transit in the whole system. The order
+`free` ends that.
 """
 
 from __future__ import annotations
@@ -31,14 +31,14 @@ from . import grader_requests
 from .channel import Channel
 
 TOPICS = "COURSE_TOPICS"
-RELIABLE = "reliable"  # what the grader publishes reliably, among the kinds of TOPICS
+RELIABLE = "reliable"  # kind in TOPICS: what the grader publishes reliably
 HOLD = "COURSE_HOLD"
-UNMATCHED_SLICE = 0.005  # [s] how often an unmatched publisher is looked at; DDS gives no event we could wait for
-POOL_SLICE = 0.001  # [s] how often a running pool callback is looked at, should its end not wake us
-FLUSH_PATIENCE = 1.0  # [s] for the grader to receive the last messages before a publisher goes away
-MATCH_PATIENCE = 5.0  # [s] after that a publisher nobody matches is simply unmatched
-SERVICE_PATIENCE = 1.0  # [s] for a service to be found before a request leaves
-HOUSEKEEPING = ("/rosout", "/parameter_events")  # topics every node has; nobody waits for what is said there
+UNMATCHED_SLICE = 0.005  # [s] between two looks at an unmatched publisher; DDS gives no event we could wait for
+POOL_SLICE = 0.001  # [s] between two looks at a running pool callback, in case its end does not wake us
+FLUSH_PATIENCE = 1.0  # [s] for the grader to receive the last messages before a publisher is destroyed
+MATCH_PATIENCE = 5.0  # [s] after which a publisher counts as unmatched
+SERVICE_PATIENCE = 1.0  # [s] for a service to be found before a request is sent
+HOUSEKEEPING = ("/rosout", "/parameter_events")  # topics of every node, which lock-step ignores
 
 
 class ExecutorMonitor:
@@ -46,7 +46,7 @@ class ExecutorMonitor:
 
     def __init__(self, way: Channel, topics: dict[str, dict[str, str]], holding: bool) -> None:
         self._channel = way
-        self._topics = topics  # where the grader has the other end: kind of ours -> topic -> ROS type
+        self._topics = topics  # topics on which the grader has an endpoint: kind of our endpoint -> topic -> ROS type
         self.taken: Counter[str] = Counter()
         self.published: Counter[str] = Counter()
         self.delivered: Counter[str] = Counter()
@@ -56,46 +56,46 @@ class ExecutorMonitor:
         self.blocked_threads = 0  # threads that wait in Client.call
         self._lock = threading.RLock()
         self._answered = threading.Event()
-        self.clock_seen: dict[int, int] = {}  # id(TimeSource) -> ns
-        self.waiting: dict[int, bool] = {}  # id(executor) -> is asleep in its wait
+        self.clock_seen: dict[int, int] = {}  # id(TimeSource) -> [ns]
+        self.waiting: dict[int, bool] = {}  # id(executor) -> whether it waits
         self._nodes: dict[int, Any] = {}
         self._topic_of: dict[int, str] = {}  # id(subscription) -> topic; asking rcl each time is slow
         self._layout: tuple[Any, ...] = ()
         self._endpoints: list[dict[str, Any]] = []
         self._reported_endpoints: list[dict[str, Any]] = []
         self._unmatched_since: dict[tuple[str, str], float] = {}
-        self._awaited: set[int] = set()  # id(publisher) of those whose match was waited for
+        self._awaited: set[int] = set()  # id(publisher) of those whose match was awaited
         self._last_report = ""
-        self.again: set[str] = set()  # topics whose messages the grader may send twice
+        self.again: set[str] = set()  # topics on which the grader may send a message twice
         self._flushes = 0
-        self._flushed = -1  # what was sent when the last flush was answered
+        self._flushed = -1  # what had been sent when the last flush was answered
 
     def listen(self) -> None:
-        """Begin to obey the grader."""
+        """Start to obey the grader's orders."""
         self._channel.listen(self._obey)
 
     @property
     def holds(self) -> bool:
-        """Whether what is sent is kept until the grader releases it."""
+        """Whether sent messages are queued until the grader releases them."""
         return self._holding and self._channel.open
 
     def count(self, counter: Counter[str], name: str, number: int = 1) -> None:
-        """Add to one of the counters; threads may do so at the same time."""
+        """Add to one of the counters; thread-safe."""
         with self._lock:
             counter[name] += number
 
     def hold(self, send: Callable[[], None]) -> None:
-        """Keep something that is to be sent, or send it at once if nothing is held."""
+        """Queue a message to be sent, or send it at once if holding is off."""
         if not self.holds:
             send()
             return
         self._held.append(send)
-        if all(self.waiting.values()):  # a thread of its own: no executor is going to report it
+        if all(self.waiting.values()):  # sent by a thread of its own, so no executor will report it
             self.report()
 
     @contextlib.contextmanager
     def blocked(self) -> Iterator[None]:
-        """Count a thread that waits for a response as idle, and so the callback it runs."""
+        """Count a thread that waits for a response, and so the callback it runs, as idle."""
         with self._lock:
             self.blocked_threads += 1
         try:
@@ -105,13 +105,13 @@ class ExecutorMonitor:
                 self.blocked_threads -= 1
 
     def await_service(self, client: Any) -> None:
-        """Let discovery find the service before a request leaves; one that nobody offers is not waited for long."""
+        """Wait until discovery has found a service before a request is sent, at most for `SERVICE_PATIENCE`."""
         deadline = time.monotonic() + SERVICE_PATIENCE
         while not client.service_is_ready() and time.monotonic() < deadline:
             threading.Event().wait(UNMATCHED_SLICE)
 
     def _obey(self, order: dict[str, Any] | None) -> None:
-        """Do what the grader orders; None means it is gone. Called in a thread."""
+        """Carry out an order of the grader; None means that the grader is gone. Called in a thread."""
         if grader_requests.hear(order) and order is not None:
             return
         if order is None:
@@ -144,15 +144,15 @@ class ExecutorMonitor:
     def _send_next(self) -> None:
         with contextlib.suppress(IndexError):
             send = self._held.popleft()
-            with contextlib.suppress(Exception):  # its publisher may be gone by now, as in a process that ends
+            with contextlib.suppress(Exception):  # its publisher may be destroyed already, as in a process that ends
                 send()
         self._released += 1
 
     def await_match(self, publisher: Any) -> None:
-        """Hold the first message of a publisher until the grader listens, so that discovery loses none.
+        """Delay the first message of a publisher until the grader subscribes, so that discovery loses none.
 
-        Simulated time stands still meanwhile. A publisher that cannot match (its QoS) is let go after
-        `MATCH_PATIENCE`. rclpy offers the matched event only through an executor, so this looks repeatedly.
+        Simulated time stands still meanwhile. A publisher that cannot match (because of its QoS) is delayed for
+        `MATCH_PATIENCE` only. rclpy offers the matched event only through an executor, so this looks repeatedly.
         """
         if id(publisher) in self._awaited:
             return
@@ -165,7 +165,7 @@ class ExecutorMonitor:
             threading.Event().wait(UNMATCHED_SLICE)
 
     def _is_met(self, endpoint: dict[str, Any]) -> bool:
-        """Return whether the grader has the other end of an endpoint, of the same type and with QoS that fits."""
+        """Return whether the grader has the opposite endpoint, of the same type and with compatible QoS."""
         met = self._topics.get(endpoint["kind"], {})
         return met.get(endpoint["topic"]) == endpoint["type"] and qos_can_match(**endpoint)
 
@@ -181,7 +181,7 @@ class ExecutorMonitor:
         return topic
 
     def executor_idle(self, executor: Any) -> float | None:
-        """Report if every executor is idle; return how long [s] the coming wait may last (None: for ever)."""
+        """Report if every executor is idle; return how long the coming wait may last [s] (None: for ever)."""
         with self._lock:
             self.waiting[id(executor)] = True
             for node in executor.get_nodes():
@@ -238,7 +238,7 @@ class ExecutorMonitor:
         self.report(flushing=True)
         if self._answered.wait(FLUSH_PATIENCE):
             self._flushed = self._released + self.published.total() + self.delivered.total()
-        while self._held:  # nobody has let them go
+        while self._held:  # not released by the grader in time
             self._send_next()
 
     def report(self, flushing: bool = False) -> None:
@@ -272,8 +272,11 @@ def type_name(kind: Any) -> str:
 
 
 def qos_can_match(kind: str, reliability: str, durability: str, **_: Any) -> bool:
-    """Return whether an endpoint's QoS fits the grader's, which is reliable and volatile as ros_gz_bridge's is.
+    """Return whether an endpoint's QoS is compatible with the grader's: reliable and volatile, as in ros_gz_bridge.
 
-    A best-effort publisher does not reach it, and a transient-local subscription does not accept it.
+    A best-effort publisher does not match a reliable subscription, nor a transient-local subscription a volatile
+    publisher.
+
+    Source: ROS 2 documentation, "Quality of Service settings", section "QoS compatibilities".
     """
     return reliability != "BEST_EFFORT" if kind == "publisher" else durability != "TRANSIENT_LOCAL"

@@ -1,6 +1,6 @@
-"""Hooks that act when certain modules are imported, and not before: most Python processes never import them.
+"""Hooks that run when certain modules are imported, and not before, because most Python processes never import them.
 
-`sitecustomize.py` calls `install` at every start; each start pays for what is imported here.
+`sitecustomize.py` calls `install` at every start of Python, so this module imports as little as possible.
 """
 
 from __future__ import annotations
@@ -13,15 +13,15 @@ from importlib.machinery import ModuleSpec
 from types import ModuleType
 from typing import Any
 
-# Names the environment variable that says that the grader simulates for Gazebo's programs.
+# Environment variable that says that the grader simulates for Gazebo's programs.
 REMOTE_GAZEBO = "COURSE_REMOTE_GAZEBO"
-# Once the module on the left is loaded, the function on the right is called.
+# Module -> the function that is called once it is loaded.
 AFTER = {
     "rclpy": ("rclpy_7_1", "install"),
     "subprocess": ("python_3", "install_subprocess"),
     "asyncio.base_events": ("python_3", "install_asyncio"),
 }
-# The same where the grader simulates for Gazebo's programs, and the modules of ours that stand for those on the left.
+# The same for processes whose Gazebo is simulated by the grader, and our modules that replace those of Gazebo.
 AFTER_WHEN_REMOTE = {
     "gz_course.sim.ros_gz_bridge.bridge": ("remote_bridge", "install"),
     "gz_course.sim.ros_gz_bridge.watch": ("remote_bridge", "install_watcher"),
@@ -34,7 +34,7 @@ INSTEAD_WHEN_REMOTE = {
 
 
 class Hooks:
-    """A finder that comes first and leaves all but a few modules to the other finders."""
+    """An import finder that comes first and leaves all but a few modules to the other finders."""
 
     def __init__(self, remote: bool) -> None:
         self._after = AFTER | (AFTER_WHEN_REMOTE if remote else {})
@@ -43,7 +43,7 @@ class Hooks:
     def find_spec(
         self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """Return what another finder finds, with a function of ours to follow, or what stands for it; else None."""
+        """Return another finder's spec with one of our functions added, or the spec of a replacement; else None."""
         if name in self._instead:
             module = importlib.import_module(f"{__package__}.{self._instead[name]}")
             return ModuleSpec(name, _Instead(module), origin=module.__file__)  # type: ignore[arg-type]
@@ -60,7 +60,7 @@ class Hooks:
 
 
 class _Instead:
-    """Loads a module by being another one."""
+    """A loader that loads another module in the place of the one asked for."""
 
     def __init__(self, module: ModuleType) -> None:
         self._module = module
@@ -73,7 +73,7 @@ class _Instead:
 
 
 class _Loader:
-    """Loads as another loader does, then calls a function of ours."""
+    """A loader that loads as another one does, then calls one of our functions."""
 
     def __init__(self, loader: Any, then: tuple[str, str]) -> None:
         self._loader = loader
@@ -89,7 +89,7 @@ class _Loader:
 
 
 def install() -> None:
-    """Put the finder before all others. If the grader simulates for Gazebo's programs, say hello at once."""
+    """Install the finder before all others. If the grader simulates for Gazebo's programs, send `hello` at once."""
     remote = bool(os.environ.get(REMOTE_GAZEBO))
     sys.meta_path.insert(0, Hooks(remote))
     if remote:

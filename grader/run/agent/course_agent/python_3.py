@@ -1,9 +1,8 @@
-"""All patches of the standard library: the grader learns which processes this one starts, and when it only waits.
+"""All patches of the standard library: they report which processes this one starts, and when it only waits.
 
-`import_hooks.py` calls `install_subprocess` and `install_asyncio` when those modules are imported. Without this the
-grader could not know that somebody is about to join: a Python process takes a while until it can say anything itself.
-Event loops (`ros2 launch` is one) and whoever waits for a child are reported as waiting, so that simulated time need
-not stand still for them.
+`import_hooks.py` calls `install_subprocess` and `install_asyncio` when those modules are imported. A new Python process
+needs a while until it can report anything, so its parent announces it. Event loops (`ros2 launch` is one) and processes
+that wait for a child are reported as waiting, so that simulated time does not stand still for them.
 """
 
 from __future__ import annotations
@@ -14,7 +13,7 @@ from typing import Any
 from .channel import SOCKET, channel
 from .self_check import Reliance, misfits
 
-SOON = 10.0  # [s] a timer of an event loop that is due so soon, such as a TimerAction, is waited for
+SOON = 10.0  # [s] a timer of an event loop that is due within this time, such as a TimerAction, is waited for
 # Source: subprocess.py and asyncio/ of CPython 3.11 to 3.14.
 SUBPROCESS: dict[str, Reliance] = {
     "subprocess:Popen.__init__": ("", "returncode pid"),
@@ -32,7 +31,7 @@ _waiting = False
 
 
 def install_subprocess() -> None:
-    """Begin to tell which processes start and end. Raises ImportError if `subprocess` is not the one expected."""
+    """Start to report which processes start and end. Raises ImportError if `subprocess` is not as expected."""
     import subprocess
 
     _check(SUBPROCESS)
@@ -63,7 +62,7 @@ def install_subprocess() -> None:
 
 
 def install_asyncio() -> None:
-    """Tell when an event loop is about to sleep. Raises ImportError if `asyncio` is not the one expected."""
+    """Start to report when an event loop is about to wait. Raises ImportError if `asyncio` is not as expected."""
     from asyncio import base_events
 
     _check(ASYNCIO)
@@ -101,7 +100,7 @@ def _tell(message: dict[str, Any]) -> None:
 
 
 def _program(pid: int) -> str:
-    """Name the program a process runs; empty for a Python that ignores its environment, and so the agent."""
+    """Return the program a process runs; empty for a Python that ignores its environment, and thereby the agent."""
     try:
         name = os.path.basename(os.readlink(f"/proc/{pid}/exe"))  # noqa: PTH115, PTH119 - pathlib would cost a start
         with open(f"/proc/{pid}/cmdline", "rb") as file:  # noqa: PTH123

@@ -1,8 +1,8 @@
-"""All patches of rclpy 7.1 (ROS 2 Jazzy): the grader learns when a process has nothing left to do.
+"""All patches of rclpy 7.1 (ROS 2 Jazzy): they report when a process has nothing left to do.
 
-`import_hooks.py` calls `install` as soon as rclpy is imported. Watched are the executor's wait, every publish, take,
-request and response, and every end of a publisher; `executor_monitor.py` counts and reports. `RELIED_UPON` lists
-everything of rclpy that this relies upon. Nothing here is trusted: a process that lies about itself only spoils its
+`import_hooks.py` calls `install` as soon as rclpy is imported. Patched are the executor's wait, every publish, take,
+request and response, and the destruction of publishers; `executor_monitor.py` counts and reports. `RELIED_UPON` lists
+everything in rclpy on which this depends. The grader trusts none of it: a process that reports falsely only spoils its
 own run.
 """
 
@@ -56,8 +56,8 @@ RELIED_UPON: dict[str, Reliance] = {
     "rclpy.impl.implementation_singleton:rclpy_implementation.Subscription": EXISTS,
     "rclpy.impl.implementation_singleton:rclpy_implementation.rclpy_resolve_name": EXISTS,
 }
-CLOCK = "/clock"  # is sent again by the grader until it was seen
-POOL_START = 0.01  # [s] for a pool to take up a callback; a pool whose threads are all busy does not
+CLOCK = "/clock"  # the grader sends it again until it is seen
+POOL_START = 0.01  # [s] for a pool to start a callback; a pool whose threads are all busy does not
 
 _monitor: ExecutorMonitor | None = None
 
@@ -69,7 +69,7 @@ def monitor() -> ExecutorMonitor:
 
 
 def install() -> None:
-    """Begin to watch this process; rclpy has just been imported. Raises ImportError if it is not the rclpy expected."""
+    """Start to watch this process. Raises ImportError if the imported rclpy is not the one expected."""
     global _monitor
     if found := misfits(RELIED_UPON):
         raise ImportError(f"this rclpy cannot be kept in step: {found[0]}")
@@ -105,7 +105,7 @@ def _watch_executors(monitor: ExecutorMonitor) -> None:
             def ended(running: list[Any] = running) -> bool:
                 return condition() or all(future.done() for future in running)
 
-            # What is left of an earlier look ends in a timeout, too; only a new look says that there is nothing to do.
+            # The rest of an earlier wait set ends in a timeout, too; only a new one shows that there is nothing to do.
             old = patience == 0.0 and executor._cb_iter is not None
             try:
                 found = wait(executor, patience, nodes, ended if running and patience else condition)
@@ -137,11 +137,11 @@ def _watch_executors(monitor: ExecutorMonitor) -> None:
     TimeSource.clock_callback = watched_clock
 
 
-_started: dict[int, threading.Event] = {}  # id(thread pool) -> its last callback was taken up
+_started: dict[int, threading.Event] = {}  # id(thread pool) -> whether its last callback has started
 
 
 def _await_start(executor: Any) -> None:
-    """Let the pool of a MultiThreadedExecutor take up the callback it was just given.
+    """Wait until the pool of a MultiThreadedExecutor has started the callback it was just given.
 
     Until then the executor finds the same callback ready again and again and keeps the pool from running.
     """
@@ -167,7 +167,7 @@ def _await_start(executor: Any) -> None:
 
 
 def _watch_messages(monitor: ExecutorMonitor) -> None:
-    """Patch every publish, every take and every end of a publisher."""
+    """Patch every publish, every take and every destruction of a publisher."""
     from rclpy.context import Context
     from rclpy.executors import Executor
     from rclpy.node import Node
@@ -202,7 +202,7 @@ def _watch_messages(monitor: ExecutorMonitor) -> None:
             return
         from rclpy.serialization import serialize_message
 
-        # As it is now: what the caller does to the message later does not count.
+        # Serialized at once, because the caller may change the message later.
         data = message if isinstance(message, bytes) else serialize_message(message)
         monitor.hold(lambda: emit(publisher, data))
 
@@ -213,7 +213,7 @@ def _watch_messages(monitor: ExecutorMonitor) -> None:
 
         return after_flush
 
-    # A writer that goes away takes messages with it that its reader has not looked at yet.
+    # A writer that is destroyed discards messages that its reader has not taken yet.
     for owner, name in ((Node, "destroy_node"), (Node, "destroy_publisher"), (Context, "shutdown")):
         setattr(owner, name, flushed(getattr(owner, name)))
     Executor._take_subscription = watched_take
@@ -221,14 +221,14 @@ def _watch_messages(monitor: ExecutorMonitor) -> None:
 
 
 def _make_subscriptions_reliable(monitor: ExecutorMonitor) -> None:
-    """Let subscriptions lose nothing of what the grader publishes reliably, whatever reliability they ask for.
+    """Make subscriptions lose nothing of what the grader publishes reliably, whatever reliability they ask for.
 
-    A picture crosses the network in dozens of pieces. A piece that is lost is sent again to a reliable reader; a
-    best-effort reader gets nothing of the whole picture, and lock-step would wait for it in vain. How many are lost
-    depends on how busy the machine is. So where the grader publishes reliably, a best-effort subscription reads
-    reliably. Elsewhere nothing changes, because QoS decides which endpoints match; there the grader sends a message
-    again that did not come through, and who had it already drops the copy (`is_copy`). What a node
-    knows of its subscriptions (`qos_profile`, parameters) remains what it asked for.
+    A picture crosses the network in dozens of fragments. A lost fragment is sent again to a reliable reader; a
+    best-effort reader loses the whole picture, and lock-step would wait for it in vain. How many are lost depends on
+    how busy the machine is. So where the grader publishes reliably, a best-effort subscription reads reliably.
+    Elsewhere its QoS stays, because QoS decides which endpoints match; there the grader sends a lost message again, and
+    readers that had it already drop the copy (`is_copy`). What a node knows about its subscriptions (`qos_profile`,
+    parameters) stays what it asked for.
     """
     from rclpy.impl.implementation_singleton import rclpy_implementation as rcl
 
@@ -244,17 +244,17 @@ def _make_subscriptions_reliable(monitor: ExecutorMonitor) -> None:
 
 
 def is_copy(subscription: Any, message: Any) -> bool:
-    """Return whether a message has the stamp of the one before it; one without a stamp never has."""
+    """Return whether a message has the stamp of the one before it; False for a message without a stamp."""
     if not hasattr(subscription.msg_type, "header"):
         return False
-    # A raw subscription gets bytes: four that say how it is encoded, then the stamp.
+    # A raw subscription gets bytes: a header of four bytes that names the encoding, then the stamp.
     stamp = message[4:12] if isinstance(message, bytes) else (message.header.stamp.sec, message.header.stamp.nanosec)
     before, subscription.course_stamp = getattr(subscription, "course_stamp", None), stamp
     return bool(stamp == before)
 
 
 def _reliable(profile: Any) -> Any:
-    """Return the same profile, reliable if it is best effort."""
+    """Return the same profile, but reliable instead of best effort."""
     from rclpy.qos import QoSProfile, ReliabilityPolicy
 
     asked = QoSProfile(**profile.to_dict())
@@ -265,7 +265,7 @@ def _reliable(profile: Any) -> Any:
 
 
 def _watch_services(monitor: ExecutorMonitor) -> None:
-    """Patch requests and responses, on either side."""
+    """Patch requests and responses, on clients and services."""
     from rclpy.client import Client
     from rclpy.executors import Executor
     from rclpy.service import Service
@@ -310,7 +310,7 @@ def _watch_services(monitor: ExecutorMonitor) -> None:
         return future
 
     def watched_call(client: Any, *args: Any, **kwargs: Any) -> Any:
-        # Until the response is here, which the future of `call_async` is told first.
+        # Until the response arrives, which the future of `call_async` learns first.
         with contextlib.ExitStack() as calling:
             calling.enter_context(monitor.blocked())
             caller.calling = calling
@@ -337,9 +337,9 @@ def _watch_services(monitor: ExecutorMonitor) -> None:
 
 
 def _took(callback: Any, pair: str) -> bool:
-    """Return whether something was taken: a client is woken by the responses of others, too, and takes nothing then.
+    """Return whether something was taken: a response to another client wakes a client, too, which takes nothing.
 
-    `callback` is what the executor is going to run, which has what was taken as the variable `pair`.
+    `callback` is what the executor is going to run; its variable `pair` holds what was taken.
     """
     if callback is None:
         return False

@@ -1,7 +1,7 @@
-"""What `parameter_bridge` finds in the box instead of `ros_gz_bridge.bridge.Bridge`: one that stands outside.
+"""The replacement for `ros_gz_bridge.bridge.Bridge` in the sandbox: the grader carries the messages.
 
-The program itself is the real one, with its node, its parameters, its checks of the configuration and its output. Only
-the messages are carried by the grader, which has the simulator.
+The program `parameter_bridge` itself is the real one, with its node, its parameters, its checks of the configuration
+and its output. Only the messages are carried by the grader, which has the simulator.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from .grader_requests import ask
 
 
 class RemoteBridge:
-    """As `ros_gz_bridge.bridge.Bridge`, whose arguments it takes; those about threads and pace mean nothing here."""
+    """Takes the arguments of `ros_gz_bridge.bridge.Bridge`; those about threads and pace have no effect."""
 
     def __init__(
         self,
@@ -45,41 +45,39 @@ class RemoteBridge:
             raise BridgeError(errors)
 
     def status(self) -> list[Any]:
-        """The counters of every entry; they are outside."""
+        """Return no counters, because the grader has them."""
         from gz_course.sim.ros_gz_bridge.entry import EntryStatus
 
         return [EntryStatus(entry) for entry in self.entries]
 
     def say_unsaid(self, at_once: bool = False) -> None:
-        """Nothing is lost here."""
+        """Do nothing: no messages are lost here."""
 
     def close(self) -> None:
-        """Tell that it is over."""
+        """Tell the grader to end the bridge."""
         channel().send({"stopped": True})
 
 
 class NoWatcher:
-    """As `ros_gz_bridge.monitor.Watcher`, which looks for publishers in Gazebo's graph; that is not to be seen here."""
+    """Replaces `ros_gz_bridge.watch.Watcher`, which watches the Gazebo graph; it is not visible in the sandbox."""
 
     def __init__(self, *arguments: Any) -> None:
         pass
 
-    def start(self) -> None:
-        """Nothing to look at."""
+    def start(self) -> None: ...
 
-    def stop(self) -> None:
-        """Nothing was looked at."""
+    def stop(self) -> None: ...
 
 
 def install() -> None:
-    """Put `RemoteBridge` in place; ros_gz_bridge.bridge has just been imported."""
+    """Replace the class in ros_gz_bridge.bridge, which has just been imported, by `RemoteBridge`."""
     from gz_course.sim.ros_gz_bridge import bridge
 
     bridge.Bridge = RemoteBridge  # type: ignore[assignment, misc]
 
 
 def install_watcher() -> None:
-    """Put `NoWatcher` in place; ros_gz_bridge.watch has just been imported."""
+    """Replace the class in ros_gz_bridge.watch, which has just been imported, by `NoWatcher`."""
     from gz_course.sim.ros_gz_bridge import watch
 
     watch.Watcher = NoWatcher  # type: ignore[assignment, misc]

@@ -1,8 +1,8 @@
-"""Run a submitted Python file as `__main__`, unmodified; the main program of a run whose submission is a node.
+"""The main program of a run whose submission is a node: runs the submitted Python file as `__main__`, unmodified.
 
-Started as `python -P -m course_agent.run_node FILE ARGUMENTS`. rclpy is imported before the file's folder can be
-searched: a file beside it does not stand in for a module of ours or of ROS. Its errors are shown as if it had been
-started alone.
+Started as `python -P -m course_agent.run_node FILE ARGUMENTS`. rclpy is imported before the file's folder is on the
+path, so no file beside it can replace a module of ours or of ROS. Tracebacks look as if the file had been started
+alone.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ PR_SET_PDEATHSIG = 1
 def main() -> None:
     """Run the file named in argv[1] with the remaining arguments."""
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)  # never outlive the grader
-    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # a grader that a script runs with `&` hands that on
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # inherited from a grader that a script started with `&`
         signal.signal(signal.SIGINT, signal.default_int_handler)
     import rclpy  # noqa: F401
 

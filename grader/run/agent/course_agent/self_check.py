@@ -1,7 +1,7 @@
-"""Self-check of the patches: compares what they rely upon with what is installed, before anything is patched.
+"""Self-check of the patches: compares what they depend on with what is installed, before anything is patched.
 
-`rclpy_7_1.py` and `python_3.py` list what they rely upon. The agent checks that as it patches; the grader checks its
-own copies when a run begins (`grader/run/run_loop.py`), so that a library that has changed ends in one clear sentence.
+`rclpy_7_1.py` and `python_3.py` list what they depend on. The agent checks that as it patches; the grader checks its
+own copies when a run begins (`grader/run/run_loop.py`), so that a changed library ends in one clear sentence.
 """
 
 from __future__ import annotations
@@ -12,12 +12,12 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-# `module:Class.function` -> (the parameters it takes, the names that its body uses); empty if any will do.
+# `module:Class.function` -> (the parameters it takes, the names its body uses); empty if any will do.
 Reliance = tuple[str, str]
 
 
 def misfits(relied_upon: Mapping[str, Reliance]) -> list[str]:
-    """Return one clause for each thing that is missing, takes other parameters, or does not use a name any more."""
+    """Return one clause for each item that is missing, takes other parameters, or no longer uses a name."""
     found = []
     for place, (parameters, names) in relied_upon.items():
         module, _, path = place.partition(":")

@@ -9,7 +9,6 @@ from pathlib import Path
 
 
 def print_traceback(error: BaseException) -> None:
-    """Print a traceback that shows none of our own frames, as if the program had been started alone."""
     shown = traceback.TracebackException.from_exception(error)
     seen: set[int] = set()
     chain: list[traceback.TracebackException | None] = [shown]

@@ -1,4 +1,4 @@
-"""What runs inside a box, between its walls going up and the submission's start; imports nothing else of the grader.
+"""The code that runs inside a sandbox before the submission starts; it imports nothing else of the grader.
 
-Every millisecond here is paid by every grading, hence few and small modules: no pathlib, json, contextlib or typing.
+Every grading pays for its start-up time, hence few and small modules: no pathlib, json, contextlib or typing.
 """

@@ -1,6 +1,8 @@
-"""Landlock: which files a process may touch from now on, and nobody outside it may be signalled or traced.
+"""Landlock: restricts the files a process may access, and lets it signal or trace only processes in its own domain.
 
 Needs no privilege and no namespace. Everything not allowed is refused with EACCES; files already open stay open.
+
+Source: landlock(7); Linux kernel documentation, "Landlock: unprivileged access control".
 """
 
 from __future__ import annotations
@@ -13,7 +15,7 @@ import struct
 
 from .kernel import LIBC, checked
 
-TYPE_CHECKING = False  # the module `typing` would take longer to import than all else here
+TYPE_CHECKING = False  # importing `typing` would take longer than everything else here
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
@@ -29,15 +31,15 @@ NETWORK_ABI, SCOPE_ABI = 4, 6
 
 
 def abi() -> int:
-    """Version of Landlock in this kernel; 0 if it has none or it is switched off."""
+    """Return the Landlock version of this kernel; 0 if it has none or it is switched off."""
     found: int = LIBC.syscall(SYS_CREATE_RULESET, None, ctypes.c_size_t(0), ctypes.c_uint(VERSION))
     return max(0, found)
 
 
 def restrict(readable: Iterable[str], writable: Iterable[str], *, tcp: bool = True) -> None:
-    """Allow this process and its children to read and run what lies below `readable`, and all below `writable`.
+    """Allow this process and its children to read and execute below `readable`, and everything below `writable`.
 
-    `tcp` is whether TCP stays open. Paths that do not exist are left out. Needs PR_SET_NO_NEW_PRIVS before. Raises
+    `tcp`: whether TCP stays allowed. Paths that do not exist are ignored. Needs PR_SET_NO_NEW_PRIVS before. Raises
     OSError if this kernel has no Landlock.
     """
     version = abi()

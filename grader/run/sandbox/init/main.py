@@ -1,13 +1,13 @@
-"""The first program inside a box: locks itself in, starts the submission, and ends when it ends.
+"""The first program inside a sandbox: restricts itself, starts the submission, and ends when it ends.
 
-Started by `grader.run.sandbox` as a script with the number of a socket; what to do comes over that socket. With
-namespaces it stays as process 1, collects orphans, passes signals on and tells how the submission ended; when it goes,
-Linux ends everything in the box. Without, it becomes the submission.
+`grader.run.sandbox` starts it as a script with the number of a socket, over which it gets its order. With namespaces it
+stays as process 1, reaps orphans, forwards signals and reports how the submission ended; when it ends, Linux ends
+everything in the sandbox. Without namespaces it becomes the submission.
 """
 
 from __future__ import annotations
 
-# What the modules `signal` and `socket` are made of; those would take longer to import than all else here.
+# The C modules behind `signal` and `socket`, which would take longer to import than everything else here.
 import _signal as signal  # type: ignore[import-not-found]
 import marshal
 import os
@@ -23,11 +23,11 @@ if TYPE_CHECKING:
     from typing import Any, NoReturn
 
 LARGEST = 1 << 20  # [bytes] of a message
-FAILED = 125  # exit code of a box that could not be built
+FAILED = 125  # exit code of a sandbox that could not be built
 
 
 def main() -> None:
-    """Take the order from the socket named in argv[1] and carry it out."""
+    """Read the order from the socket named in argv[1] and carry it out."""
     channel = socket(fileno=int(sys.argv[1]))
     os.set_inheritable(channel.fileno(), False)
     try:
@@ -46,26 +46,26 @@ def main() -> None:
 
 
 def _become(order: dict[str, Any]) -> NoReturn:
-    """Lock this process in and turn it into the submission."""
+    """Restrict this process and execute the submission in it."""
     os.chdir(order["folder"])
     for number, most in order["limits"].items():
         hard = resource.getrlimit(int(number))[1]
         value = most if hard == resource.RLIM_INFINITY else min(most, hard)
         resource.setrlimit(int(number), (value, value))
     kernel.drop_capabilities(order["user"], order["group"])
-    kernel.prctl(kernel.PR_SET_PDEATHSIG, signal.SIGKILL)  # forgotten when the user changed
+    kernel.prctl(kernel.PR_SET_PDEATHSIG, signal.SIGKILL)  # the change of user has reset it
     kernel.prctl(kernel.PR_SET_NO_NEW_PRIVS, 1)
     if order["landlock"]:
         landlock.restrict(order["readable"], order["writable"], tcp=order["tcp"])
     if order["seccomp"]:
         seccomp.install()
-    for number in (signal.SIGINT, signal.SIGPIPE, signal.SIGXFSZ):  # as any program finds them
+    for number in (signal.SIGINT, signal.SIGPIPE, signal.SIGXFSZ):  # restore the defaults that any program expects
         signal.signal(number, signal.SIG_DFL)
     os.execve(order["command"][0], order["command"], order["environment"])
 
 
 def _supervise(order: dict[str, Any], channel: socket) -> NoReturn:
-    """Start the submission and stay until it ends or nobody listens any more."""
+    """Start the submission and stay until it ends or the grader is gone."""
     wake, woken = socketpair(AF_UNIX, SOCK_STREAM)
     for end in (wake, woken):
         end.setblocking(False)
@@ -86,7 +86,7 @@ def _supervise(order: dict[str, Any], channel: socket) -> NoReturn:
             os._exit(FAILED)
     kernel.drop_capabilities(order["user"], order["group"])
     kernel.prctl(kernel.PR_SET_PDEATHSIG, signal.SIGKILL)
-    kernel.prctl(kernel.PR_SET_DUMPABLE, 0)  # nobody in the box may look into this process
+    kernel.prctl(kernel.PR_SET_DUMPABLE, 0)  # nobody in the sandbox may trace this process
     for number in (0, 1, 2, *order["descriptors"]):
         os.close(number)
     while True:
@@ -108,7 +108,7 @@ def _supervise(order: dict[str, Any], channel: socket) -> NoReturn:
 
 
 def _collect(child: int, channel: socket) -> None:
-    """Reap every process that has ended; the end of the submission's is the end of the box."""
+    """Reap every process that has ended; exit when the submission has."""
     while True:
         try:
             ended, status = os.waitpid(-1, os.WNOHANG)
@@ -122,11 +122,11 @@ def _collect(child: int, channel: socket) -> None:
 
 
 def _tell(channel: socket, what: str, value: Any) -> None:
-    """Tell the grader the exit code of the submission, or why there is no box."""
+    """Report the exit code of the submission, or why there is no sandbox."""
     try:  # noqa: SIM105
         channel.send(f"{what} {value}".encode(errors="replace"))
     except OSError:
-        pass  # it is gone, and with it soon this
+        pass  # the grader is gone, so this process ends soon
 
 
 if __name__ == "__main__":

@@ -1,7 +1,8 @@
-"""Builds a box's walls from namespaces, without any program but this Python: what the box has is mounted, then it
-becomes the root.
+"""A sandbox built from namespaces by Python alone: its files are mounted in a new folder, which becomes the root.
 
 Called by `main.py` at level B; at level A bubblewrap has done the same before.
+
+Source: namespaces(7), user_namespaces(7), pivot_root(2).
 """
 
 from __future__ import annotations
@@ -18,9 +19,10 @@ HERE = kernel.MS_NOSUID | kernel.MS_NODEV
 
 
 def build(root: str, host: str, places: list[dict[str, Any]]) -> None:
-    """Return in the box, as its process 1; the process that called waits for it and ends with it.
+    """Return inside the sandbox as its process 1; the calling process waits for it and ends with it.
 
-    `root` is an empty folder to build in, `host` the name of the machine inside, `places` are those of `view.py`.
+    `root` is an empty folder to build in, `host` the host name inside, `places` come from `view.py`. Raises OSError if
+    a step fails.
     """
     user, group = os.geteuid(), os.getegid()
     spaces = kernel.CLONE_NEWNS | kernel.CLONE_NEWPID | kernel.CLONE_NEWIPC | kernel.CLONE_NEWUTS
@@ -34,7 +36,7 @@ def build(root: str, host: str, places: list[dict[str, Any]]) -> None:
     kernel.prctl(kernel.PR_SET_PDEATHSIG, kernel.SIGKILL)
     first = os.fork()
     if first:
-        os.closerange(0, 65536)  # nothing is held open here: readers see the end when the box has ended
+        os.closerange(0, 65536)  # keep nothing open, so that readers see the end of file when the sandbox ends
         os.waitpid(first, 0)
         os._exit(0)
     kernel.prctl(kernel.PR_SET_PDEATHSIG, kernel.SIGKILL)
@@ -51,7 +53,7 @@ def build(root: str, host: str, places: list[dict[str, Any]]) -> None:
 
 
 def _put(root: str, place: dict[str, Any]) -> None:
-    """Make one place; a box's places are read-only but for its file systems in memory."""
+    """Create one place of the sandbox; everything but its tmpfs is read-only."""
     target = root + place["path"]
     kind, source = place["kind"], place["source"]
     if kind == "link":
@@ -76,12 +78,12 @@ def _put(root: str, place: dict[str, Any]) -> None:
 
 
 def tmpfs_limits(place: dict[str, Any]) -> str:
-    """Mount options of a file system in memory that everybody in the box may write to."""
+    """Return the mount options of a tmpfs that every user in the sandbox may write to."""
     return f"size={place['size']},nr_inodes={place['files']},mode=1777"
 
 
 def limit_tmpfs(places: list[dict[str, Any]]) -> None:
-    """Limit the number of files where somebody else has mounted file systems in memory."""
+    """Limit the number of files of each tmpfs that bubblewrap has mounted."""
     for place in places:
         if place["kind"] == "tmpfs":
             kernel.mount("tmpfs", place["path"], "tmpfs", kernel.MS_REMOUNT | HERE, tmpfs_limits(place))

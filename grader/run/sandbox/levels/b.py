@@ -1,4 +1,4 @@
-"""Level B: the same box, built by Python itself (`grader/run/sandbox/init/namespaces.py`), and Landlock within it."""
+"""Level B: the same sandbox, built by Python itself (`grader/run/sandbox/init/namespaces.py`), with Landlock inside."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ LANDLOCK = True
 
 
 def missing() -> str:
-    """Say in a few words what this level lacks here; an empty text if it can be tried."""
+    """Return in a few words what this level lacks here; empty if it can be tried."""
     return "" if landlock.abi() else "this kernel has no Landlock"
 
 
 def command(spec: SandboxSpec, init: list[str]) -> list[str]:
-    """Return the command that runs `init`, which locks itself in and becomes the submission."""
+    """Return the command that runs `init`, which restricts itself and starts the submission."""
     return init

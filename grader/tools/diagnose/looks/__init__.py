@@ -1,5 +1,5 @@
-"""One file for each kind of finding, found by being in this folder.
+"""The kinds of findings, one file each; every module in this folder is asked.
 
-A file has `look(system) -> Iterator[Finding]`, a function of what was observed. `BEFORE = ("no_clock",)` names the
-looks whose findings of the same severity are told later; without it the alphabet decides.
+A file defines `look(system) -> Iterator[Finding]`, a function of what was observed. `BEFORE = ("no_clock",)` names the
+looks whose findings of the same severity are printed later; the default order is alphabetical.
 """

@@ -1,4 +1,4 @@
-"""Time that goes backwards: a reset of the world, or a second source."""
+"""A clock that goes backwards: because of a reset of the world, or a second source."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A bridge that publishes a clock in Gazebo: Gazebo then keeps its own clock off that topic."""
+"""A bridge that publishes a clock in Gazebo: Gazebo then stops publishing its own clock on that topic."""
 
 from __future__ import annotations
 

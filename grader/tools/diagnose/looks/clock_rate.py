@@ -1,4 +1,4 @@
-"""A clock so fast that it costs every Python node a good part of a processor."""
+"""A clock so fast that it costs every Python node a large part of a processor core."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from collections.abc import Iterator
 from gz_course.grader.tools.diagnose.finding import Finding, Severity
 from gz_course.grader.tools.diagnose.system import System
 
-FAST = 400.0  # Hz; at 1000 Hz an idle rclpy node uses 20 to 35 % of a core
+FAST = 400.0  # [Hz]; at 1000 Hz an idle rclpy node uses 20 to 35 % of a core
 
 
 def look(system: System) -> Iterator[Finding]:
-    """Find `/clock` above 400 messages a second."""
+    """Find a `/clock` with more than 400 messages per second."""
     clock = system.ros.clock
     if len(clock) < 2 or (span := clock[-1][0] - clock[0][0]) < 0.5:
         return

@@ -1,4 +1,4 @@
-"""Data without a frame: nobody can tell where it was measured."""
+"""Messages without a frame: their data cannot be located."""
 
 from __future__ import annotations
 

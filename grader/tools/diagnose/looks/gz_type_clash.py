@@ -1,4 +1,4 @@
-"""A bridge names another Gazebo type than its topic carries: gz-transport never connects the two."""
+"""A bridge that names another Gazebo type than its topic has: gz-transport never connects the two."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _ANY = "google.protobuf.Message"
 
 
 def look(system: System) -> Iterator[Finding]:
-    """Find every entry of a bridge whose type is not that of those on the other side."""
+    """Find every entry of a bridge whose type differs from that of the other endpoints of its topic."""
     for bridge, entry in system.entries():
         if not entry.gz_type:
             continue

@@ -1,4 +1,4 @@
-"""An IMU whose yaw starts at zero wherever the robot looks."""
+"""An IMU whose yaw starts at zero for every initial heading of the robot."""
 
 from __future__ import annotations
 

@@ -8,12 +8,12 @@ from gz_course.grader.tools.diagnose.finding import Finding, Severity
 from gz_course.grader.tools.diagnose.system import System
 
 BEFORE = ("empty_frames",)
-SILENCE = 0.5  # s without a command after which a real base would stop
-MOVES = 0.02  # m/s or rad/s
+SILENCE = 0.5  # [s] without a command after which a real base would stop
+MOVES = 0.02  # [m/s] or [rad/s]
 
 
 def look(system: System) -> Iterator[Finding]:
-    """Find drives whose odometry moves after the last command."""
+    """Find drives whose odometry shows motion after the last command."""
     for world in system.gz.worlds:
         for drive in world.drives:
             if not drive.speeds:

@@ -1,4 +1,4 @@
-"""Sensors in a world that lacks the system which runs them: they are there, and silent."""
+"""Sensors in a world without the system that runs them: they exist and stay silent."""
 
 from __future__ import annotations
 

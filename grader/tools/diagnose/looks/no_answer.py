@@ -1,4 +1,4 @@
-"""A node that is in the graph and does not answer: it was killed, hangs, or was never given to an executor."""
+"""A node that is in the graph and does not answer: it was killed, hangs, or was never added to an executor."""
 
 from __future__ import annotations
 

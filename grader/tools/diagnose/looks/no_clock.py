@@ -1,4 +1,4 @@
-"""Nodes that wait for simulated time while no clock comes: their time stays 0 and their timers never fire."""
+"""Nodes that wait for simulated time while there is no clock: their time stays 0 and their timers never fire."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from gz_course.sim.ros_gz_bridge.entry import Direction
 
 
 def look(system: System) -> Iterator[Finding]:
-    """Find nodes with use_sim_time and no `/clock`, or one that is silent."""
+    """Find nodes with use_sim_time if there is no `/clock`, or a silent one."""
     waiting = [node.name for node in system.ros.nodes if node.use_sim_time and not system.is_bridge(node.name)]
     if not waiting or system.ros.clock:
         return

@@ -1,4 +1,4 @@
-"""A world nothing can be spawned into: the system UserCommands, which offers the service, is not loaded."""
+"""A world into which nothing can be spawned: the system UserCommands, which offers the service, is not loaded."""
 
 from __future__ import annotations
 

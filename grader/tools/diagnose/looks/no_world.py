@@ -1,4 +1,4 @@
-"""A bridge, or nodes that need one, and no simulator in this Gazebo partition."""
+"""A bridge, or nodes that need one, without a simulator in this Gazebo partition."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def look(system: System) -> Iterator[Finding]:
     if system.gz.worlds or not entries:
         return
     if any(system.gz_users(entry.gz_topic, publish=way) for _, entry in entries for way in (True, False)):
-        return  # something else than a simulator is at the other end
+        return  # the other end is not a simulator
     elsewhere = [
         f"partition {partition or '(empty)'} has the world {names(worlds)}"
         for partition, worlds in sorted(system.gz.elsewhere.items())

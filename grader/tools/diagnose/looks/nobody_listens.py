@@ -1,4 +1,4 @@
-"""A node or a bridge publishes what nobody hears."""
+"""A node or a bridge that publishes on a topic without subscribers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A node or a bridge waits for a topic nobody publishes; the name that was meant is often near."""
+"""A node or a bridge that subscribes to a topic without publishers; often the intended name is similar."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def _from_ros(system: System) -> Iterator[Finding]:
         yield Finding(
             Severity.ERROR if near else Severity.NOTE,
             f"The bridge {bridge.node} waits for {entry.ros_topic} ({entry.ros_type}), but nobody in ROS publishes it.",
-            _did_you_mean(near) or "Start the node that publishes it; until then Gazebo is told nothing.",
+            _did_you_mean(near) or "Start the node that publishes it; until then Gazebo receives nothing.",
             (_who_sends(system, near),) if near else (f"bridged to {entry.gz_topic} in Gazebo",),
             frozenset({entry.ros_topic}),
         )

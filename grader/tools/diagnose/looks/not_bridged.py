@@ -1,4 +1,4 @@
-"""ROS and Gazebo use a topic of one name and no bridge carries it: it was not started, has gone, or lacks an entry."""
+"""A topic with one name in ROS and Gazebo that no bridge carries: it was not started, has ended, or lacks an entry."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ BEFORE = ("no_answer",)
 
 
 def look(system: System) -> Iterator[Finding]:
-    """Find rOS ends without a partner whose partner is on the Gazebo side."""
+    """Find ROS endpoints without a partner in ROS whose partner is in Gazebo."""
     for topic in sorted({end.topic for end in system.ros.endpoints} - INFRASTRUCTURE):
         for publish in (True, False):
             mine, others = system.ros_ends(topic, publish=publish), system.ros_ends(topic, publish=not publish)

@@ -1,4 +1,4 @@
-"""Images in the frame of the camera's body: ROS takes z as forward there, Gazebo x."""
+"""Images in the frame of the camera's body: ROS takes z as forward, Gazebo x."""
 
 from __future__ import annotations
 

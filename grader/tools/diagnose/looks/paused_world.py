@@ -1,4 +1,4 @@
-"""A world that is paused: topics exist, the clock stands still, sensors and drives are silent."""
+"""A paused world: topics exist, the clock stands still, sensors and drives are silent."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Quality of service that cannot match: a subscription asks for more than a publisher offers, so nothing arrives."""
+"""Incompatible quality of service: a subscription requests more than a publisher offers, so nothing arrives."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from gz_course.grader.tools.diagnose.system import System
 
 
 def look(system: System) -> Iterator[Finding]:
-    """Find every publisher and subscription of one topic and type that do not match."""
+    """Find every publisher and subscription of one topic and type with incompatible QoS."""
     for topic in sorted({end.topic for end in system.ros.endpoints}):
         told = set()
         for sender in system.ros_ends(topic, publish=True):
@@ -33,7 +33,7 @@ def look(system: System) -> Iterator[Finding]:
 
 
 def clashes(offered: Any, wanted: Any) -> list[tuple[str, str, str]]:
-    """Return (policy, offered, requested) of every policy in which a publisher's QoS falls short of a subscription's.
+    """Return (policy, offered, requested) of each policy in which a publisher offers less than is requested.
 
     Source: ROS 2 documentation, "Quality of Service settings", section "QoS compatibilities".
     """
@@ -44,7 +44,7 @@ def clashes(offered: Any, wanted: Any) -> list[tuple[str, str, str]]:
         found.append(("durability", "VOLATILE", "TRANSIENT_LOCAL"))
     for name in ("deadline", "liveliness_lease_duration"):
         asks, offers = getattr(wanted, name).nanoseconds, getattr(offered, name).nanoseconds
-        if asks > 0 and (offers == 0 or asks < offers):  # 0 stands for none, that is, infinity
+        if asks > 0 and (offers == 0 or asks < offers):  # 0 stands for infinity
             found.append((name, f"{offers * 1e-9:g} s" if offers else "none", f"{asks * 1e-9:g} s"))
     by_topic, automatic = LivelinessPolicy.MANUAL_BY_TOPIC, LivelinessPolicy.AUTOMATIC
     if wanted.liveliness == by_topic and offered.liveliness == automatic:

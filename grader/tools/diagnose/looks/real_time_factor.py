@@ -1,4 +1,4 @@
-"""A simulation slower than the wall clock: every rate measured in wall time looks too low."""
+"""A simulation slower than the wall clock: every rate measured in wall time is too low."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ SLOW = 0.8
 
 
 def look(system: System) -> Iterator[Finding]:
-    """Find running worlds with a real-time factor below 0.8, by what passed while they were listened to."""
+    """Find running worlds with a real-time factor below 0.8 while they were observed."""
     for world in system.gz.worlds:
         running = [each for each in world.statistics if not each.paused]
         if len(running) < 5 or len(world.servers) > 1:

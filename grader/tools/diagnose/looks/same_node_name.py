@@ -1,4 +1,4 @@
-"""Two nodes of one name: parameters, services and remappings reach one of them by chance."""
+"""Nodes of one name: parameters, services and remappings reach an arbitrary one of them."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from gz_course.grader.tools.diagnose.system import System
 
 
 def look(system: System) -> Iterator[Finding]:
-    """Find names that more than one node has."""
+    """Find names shared by several nodes."""
     for name, number in sorted(Counter(node.name for node in system.ros.nodes).items()):
         if number > 1:
             yield Finding(

@@ -1,4 +1,4 @@
-"""Published on paper, silent in fact: somebody advertises a topic of the bridge and nothing comes."""
+"""A topic of the bridge that is advertised, but has no messages."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ BEFORE = ("clock_goes_back", "same_node_name")
 
 
 def look(system: System) -> Iterator[Finding]:
-    """Find entries to ROS without a message although the world runs and Gazebo publishes them."""
+    """Find entries to ROS without a message although the world runs and Gazebo publishes the topic."""
     if any(world.statistics and world.statistics[-1].paused for world in system.gz.worlds):
         return
     for bridge, entry in system.entries():

@@ -1,4 +1,4 @@
-"""Stamps of another clock than the system's: use_sim_time was forgotten, or the stamp was never set."""
+"""Stamps of another clock than `/clock`: use_sim_time was forgotten, or the stamp was never set."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from gz_course.grader.tools.diagnose.finding import Finding, Severity
 from gz_course.grader.tools.diagnose.system import System, names
 
 BEFORE = ("nobody_publishes",)
-FAR = 10.0  # s
+FAR = 10.0  # [s]
 
 
 def look(system: System) -> Iterator[Finding]:
-    """Find messages whose stamp is far from the `/clock` of their arrival."""
+    """Find messages whose stamp differs much from `/clock` at their arrival."""
     if not system.ros.clock:
         return
     sim_time = {node.name: node.use_sim_time for node in system.ros.nodes}
@@ -32,7 +32,7 @@ def look(system: System) -> Iterator[Finding]:
             else:
                 sentence = (
                     f"Messages on {topic} from {names(senders)} are stamped {stamp:.1f} s while /clock says "
-                    f"{clock_ns * 1e-9:.1f} s: whoever matches stamps drops them."
+                    f"{clock_ns * 1e-9:.1f} s: subscribers that match stamps drop them."
                 )
                 fix = "Start the node that stamps them with --ros-args -p use_sim_time:=true"
             evidence = tuple(

@@ -1,4 +1,4 @@
-"""A process that was stopped with Ctrl-Z: it looks ended in its terminal, and is there and silent."""
+"""A process that was stopped with Ctrl-Z: its terminal shows a prompt, but it still exists, silent."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Two sources of `/clock`: time jumps to and fro between them."""
+"""Several sources of `/clock`: time jumps back and forth between them."""
 
 from __future__ import annotations
 

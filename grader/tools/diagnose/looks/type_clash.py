@@ -1,4 +1,4 @@
-"""Two types on one ROS topic: DDS never connects such endpoints, and nobody says so."""
+"""Different types on one ROS topic: DDS never connects such endpoints, and reports no error."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A bridge that carries messages the way nobody sends them."""
+"""A bridge whose direction is opposite to that of the messages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Covariances that are all zero: whoever fuses the data takes it for exact, or refuses it."""
+"""Covariances that are all zero: data fusion takes such data for exact, or refuses it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ BEFORE = ("imu_yaw", "real_time_factor")
 
 
 def look(system: System) -> Iterator[Finding]:
-    """Find topics whose messages have nothing but zeros in all their covariances."""
+    """Find topics whose messages have only zeros in all their covariances."""
     for topic, heard in sorted(system.ros.heard.items()):
         if not heard.messages:
             continue

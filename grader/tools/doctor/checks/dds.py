@@ -1,4 +1,4 @@
-"""Does a message get from one process to another over DDS? Tried as the grader does it: own domain, loopback, UDP."""
+"""Does a message get from one process to another over DDS? Tested as the grader uses it: own domain, loopback, UDP."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from gz_course.grader.tools.doctor.verdict import Verdict, failed, fine
 TITLE = "DDS between two processes"
 TOPIC = "/course_doctor"
 
-# The message is kept for whoever comes later (transient local), so neither side needs to be first.
+# The publisher keeps the message for late subscribers (transient local), so neither side needs to be first.
 _COMMON = """
 import sys
 import rclpy

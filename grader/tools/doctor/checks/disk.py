@@ -1,4 +1,4 @@
-"""Is there room for recordings and temporary files, and may they be written?"""
+"""Is there space for recordings and temporary files, and are their folders writable?"""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from gz_course.grader.tools.doctor.probe import Probes
 from gz_course.grader.tools.doctor.verdict import Verdict, failed, fine, warning
 
 TITLE = "disk space and temporary folder"
-LEAST, COMFORTABLE = 200 << 20, 1 << 30  # [bytes] free: a class of recordings is some hundred MB
+LEAST, COMFORTABLE = 200 << 20, 1 << 30  # [bytes] free: the recordings of a class take some hundred MB
 
 
 def examine(probes: Probes) -> Verdict:
-    """Look at the temporary folder and the folder recordings go to (the current one)."""
+    """Examine the temporary folder and the current folder, in which recordings are written."""
     seen = {}
     for folder in (Path(tempfile.gettempdir()), Path.cwd()):
         try:
@@ -30,7 +30,7 @@ def examine(probes: Probes) -> Verdict:
 
 
 def judge(free: dict[Path, int]) -> Verdict:
-    """Return the verdict on so many free bytes in each folder."""
+    """Return the verdict on the free space [bytes] of each folder."""
     folder = min(free, key=lambda each: free[each])
     shown = f"{free[folder] / (1 << 30):.1f} GB free in {folder}"
     if free[folder] < LEAST:

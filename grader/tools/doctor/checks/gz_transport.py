@@ -1,4 +1,4 @@
-"""Do two processes find each other by multicast on loopback, and does a message get through? As `gz topic` needs it."""
+"""Do two processes find each other by multicast on loopback and exchange a message, as `gz topic` needs it?"""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ node.close()
 
 
 def examine(probes: Probes) -> Verdict:
-    """Publish in one process and receive in another, in a partition nobody else uses."""
+    """Publish in one process and receive in another, in a private partition."""
     token = uuid.uuid4().hex
     environment = {"GZ_PARTITION": f"doctor-{token}", "GZ_IP": "127.0.0.1"}
     arguments = (TOPIC, token, f"{max(0.1, probes.seconds_left - 1.0):.1f}")

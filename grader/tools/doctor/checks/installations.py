@@ -1,4 +1,4 @@
-"""Is another ROS 2 or Gazebo set up in this shell, and whose commands answer?"""
+"""Is another ROS 2 or Gazebo set up in this shell, and whose commands come first?"""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ COMMANDS = ("course", "ros2", "gz", "parameter_bridge")
 
 
 def examine(probes: Probes) -> Verdict:
-    """Follow PATH, AMENT_PREFIX_PATH and Python's own path."""
+    """Examine PATH, AMENT_PREFIX_PATH and Python's own path."""
     spec = importlib.util.find_spec("rclpy")
     return judge(os.environ, Path(sys.prefix), spec.origin if spec else None)
 
@@ -26,7 +26,7 @@ def examine(probes: Probes) -> Verdict:
 def judge(environment: Mapping[str, str], prefix: Path, rclpy: str | None) -> Verdict:
     """Return the verdict on a shell's variables for the environment at `prefix`.
 
-    `rclpy` is the file Python imports it from.
+    `rclpy` is the file from which Python imports it.
     """
     fix = "open a terminal in which no other ROS 2 or Gazebo is sourced, and `source .venv/bin/activate` there"
     if rclpy is not None and not Path(rclpy).resolve().is_relative_to(prefix.resolve()):
@@ -40,7 +40,8 @@ def judge(environment: Mapping[str, str], prefix: Path, rclpy: str | None) -> Ve
     ]
     if elsewhere:
         return warning(
-            f"other programs answer: {', '.join(elsewhere)}", f"`source {prefix}/bin/activate` puts ours first"
+            f"other programs come first: {', '.join(elsewhere)}",
+            f"`source {prefix}/bin/activate` puts those of this environment first",
         )
     if missing := [name for name, place in found.items() if place is None]:
         return warning(
@@ -49,5 +50,7 @@ def judge(environment: Mapping[str, str], prefix: Path, rclpy: str | None) -> Ve
         )
     others = [name for name in ("ROS_DISTRO", "GZ_VERSION") if environment.get(name)]
     if others:
-        return warning(f"{others[0]} is set by another installation, but our commands answer", fix)
+        return warning(
+            f"{others[0]} is set by another installation, but the commands of this environment come first", fix
+        )
     return fine(f"no other one is set up; ros2 and gz are those in {prefix / 'bin'}")

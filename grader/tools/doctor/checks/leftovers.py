@@ -1,6 +1,6 @@
 """Has an earlier run left something behind: shared memory of DDS, processes, temporary folders?
 
-Only what belongs to this user is looked at, and only what nobody uses any more is named.
+Only what belongs to this user and is no longer in use is reported.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ SHARED_MEMORY = Path("/dev/shm")
 OF_DDS = ("fastrtps_", "fastdds_", "sem.fastrtps_", "sem.fastdds_")
 OF_THE_COURSE = re.compile(
     r"(course(-(class|dask|doctor|given|verify|workers))?|playground)-\w{8}"
-)  # names of temporary folders
-PARTITIONS = ("student-", "grader-", "playground-")  # of Gazebo, in which only runs of the course take part
-OLD = 3600.0  # [s]; a younger folder may be that of a run that begins
+)  # of temporary folders
+PARTITIONS = ("student-", "grader-", "playground-")  # names of Gazebo partitions that only the course uses
+OLD = 3600.0  # [s]; a younger folder may be that of a run that is starting
 SHOWN = 3
 
 
@@ -55,7 +55,7 @@ def examine(probes: Probes) -> Verdict:
 
 
 def orphaned(process: psutil.Process) -> bool:
-    """Tell whether a process belongs to a run of the course whose grader or notebook is gone."""
+    """Return whether a process belongs to a run of the course whose grader or notebook has ended."""
     try:
         if process.uids().real != os.getuid() or process.ppid() != 1:
             return False
@@ -65,7 +65,7 @@ def orphaned(process: psutil.Process) -> bool:
 
 
 def in_use(processes: Iterable[psutil.Process], folder: Path) -> set[str]:
-    """Return the names of the files in a folder that some process has mapped or open."""
+    """Return the names of the files in a folder that a process has mapped or opened."""
     found: set[str] = set()
     for process in processes:
         here = Path("/proc") / str(process.pid)
@@ -73,24 +73,24 @@ def in_use(processes: Iterable[psutil.Process], folder: Path) -> set[str]:
             maps = (here / "maps").read_text(errors="replace")
             found.update(Path(line.rpartition(" ")[2]).name for line in maps.splitlines() if f"{folder}/" in line)
             found.update(Path(os.readlink(link)).name for link in (here / "fd").iterdir())  # noqa: PTH115
-        except OSError:  # gone meanwhile, or somebody else's
+        except OSError:  # it has ended meanwhile, or belongs to another user
             continue
     return found
 
 
 def unused_segments(folder: Path, used: set[str]) -> list[str]:
-    """Return the names of the files of DDS that are this user's and that no process uses."""
+    """Return the names of this user's files of DDS that no process uses."""
     return sorted(path.name for path in _mine(folder) if path.name.startswith(OF_DDS) and not _belongs(path.name, used))
 
 
 def _belongs(name: str, used: set[str]) -> bool:
-    """Tell whether a file belongs to a segment in use: a lock (`..._el`) and a semaphore (`sem...._mutex`) do."""
+    """Return whether a file belongs to a segment in use, as a lock (`..._el`) and a semaphore (`sem...._mutex`) do."""
     plain = name.removeprefix("sem.").removesuffix("_mutex").removesuffix("_el")
     return any(plain == other.removeprefix("sem.").removesuffix("_mutex").removesuffix("_el") for other in used)
 
 
 def old_folders(folder: Path, now: float) -> list[str]:
-    """Return the names of old temporary folders of this user that name no owner; `now` [s] since the epoch."""
+    """Return the names of this user's old temporary folders without an owner; `now` [s] since the epoch."""
     return sorted(
         path.name
         for path in _mine(folder)

@@ -1,4 +1,4 @@
-"""Is this a Python, on a platform, for which there are ROS wheels? (CPython 3.11 to 3.14 on Linux, x86-64.)"""
+"""Are there ROS wheels for this Python and this platform (CPython 3.11 to 3.14 on Linux, x86-64)?"""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ OLDEST, NEWEST = (3, 11), (3, 14)
 
 
 def examine(probes: Probes) -> Verdict:
-    """Look at the interpreter and the machine."""
+    """Examine the interpreter and the machine."""
     here = f"{platform.python_implementation()} {platform.python_version()}, {platform.system()} {platform.machine()}"
     if (platform.system(), platform.machine(), sys.implementation.name) != ("Linux", "x86_64", "cpython"):
         return failed(here, "use CPython on Linux (x86-64); there are no ROS wheels for anything else")

@@ -1,4 +1,4 @@
-"""Can a recording be written, and read back as it was?"""
+"""Can a recording be written and read back unchanged?"""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ print(f"Rerun {rerun.__version__} wrote {path.stat().st_size} bytes and read the
 
 
 def examine(probes: Probes) -> Verdict:
-    """Write and read a small one, with the grader's own recorder and reader."""
+    """Write and read a small one with the grader's own recorder and reader."""
     try:
         seen = probes.run(_CODE, str(probes.folder / "doctor.rrd")).splitlines()[-1]
     except ProbeError as error:

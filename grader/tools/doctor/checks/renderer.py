@@ -1,4 +1,4 @@
-"""Which ways of drawing do cameras have here? Casting rays always works; OpenGL is a bonus."""
+"""Which renderers can cameras use here? Ray casting always works; OpenGL is optional."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _FIX = (
 
 
 def examine(probes: Probes) -> Verdict:
-    """Ask the simulator whether MuJoCo can draw."""
+    """Ask the simulator whether MuJoCo can render."""
     try:
         backend = probes.run(_CODE)
     except ProbeError as error:

@@ -1,7 +1,7 @@
 """Does this Python find the libraries of the ROS wheels?
 
-The wheels restart every Python once, with their folders in LD_LIBRARY_PATH and a guard that says so. The two travel
-together or not at all: a shell that hands on one of them, or both to another environment, breaks `import rclpy`.
+The wheels restart every Python once, with their folders in LD_LIBRARY_PATH and a guard variable. A shell that hands on
+only one of the two, or both to another environment, breaks `import rclpy`.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ GUARD, LIBRARY_PATH = WHEEL_VARIABLES
 
 
 def examine(probes: Probes) -> Verdict:
-    """Compare the two variables of this process with the folders there are."""
+    """Compare the two variables of this process with the existing folders."""
     return judge(os.environ, library_folders(Path(sysconfig.get_path("purelib"))))
 
 
@@ -42,7 +42,7 @@ def judge(environment: Mapping[str, str], folders: list[Path]) -> Verdict:
         )
     if missing:
         return failed(
-            f"{GUARD} is set but {LIBRARY_PATH} lacks {missing[0]}: they were handed on by halves, or by another "
+            f"{GUARD} is set but {LIBRARY_PATH} lacks {missing[0]}: only one of them was handed on, or both by another "
             "environment",
             unset,
         )

@@ -1,4 +1,4 @@
-"""Can ROS write its log, and the course into your home? rclpy refuses to start where it cannot log."""
+"""Are the folders of ROS's log and of the course in your home writable? rclpy refuses to start where it cannot log."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ TITLE = "ROS log folder"
 
 
 def examine(probes: Probes) -> Verdict:
-    """Write a file where the log will be."""
+    """Write a file into the folder of the log."""
     folder = log_folder(os.environ)
     there = folder
     while not there.exists() and there != there.parent:
@@ -29,7 +29,10 @@ def examine(probes: Probes) -> Verdict:
 
 
 def log_folder(environment: Mapping[str, str]) -> Path:
-    """Return the folder of ROS 2's logs: ROS_LOG_DIR, else ROS_HOME/log, else ~/.ros/log."""
+    """Return the folder of ROS 2's logs: ROS_LOG_DIR, else ROS_HOME/log, else ~/.ros/log.
+
+    Source: ROS 2 documentation, "Logging and logger configuration".
+    """
     if given := environment.get("ROS_LOG_DIR"):
         return Path(given).expanduser()
     if home := environment.get("ROS_HOME"):

@@ -1,6 +1,6 @@
 """Do the ROS 2 variables of this shell let nodes started by hand find each other?
 
-Grading does not depend on them: it sets its own.
+Grading sets its own variables and does not depend on them.
 """
 
 from __future__ import annotations
@@ -14,19 +14,18 @@ from gz_course.grader.tools.doctor.verdict import Verdict, failed, fine, warning
 
 TITLE = "ROS 2 variables"
 MIDDLEWARE = "rmw_fastrtps_cpp"
-LARGEST_DOMAIN = 232  # DDS computes its UDP ports from it: 7400 + 250 * domain + ... must not pass 65535
-LARGEST_SAFE_DOMAIN = 101  # above it the ports are those Linux gives to any outgoing connection
+LARGEST_DOMAIN = 232  # DDS computes its UDP ports from it: 7400 + 250 * domain + ... must not exceed 65535
+LARGEST_SAFE_DOMAIN = 101  # above it the ports are ephemeral ones, which Linux gives to any outgoing connection
 RANGES = ("SUBNET", "LOCALHOST", "OFF", "SYSTEM_DEFAULT")
 PROFILES = ("FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE")
 
 
 def examine(probes: Probes) -> Verdict:
-    """Read them."""
     return judge(os.environ)
 
 
 def judge(environment: Mapping[str, str]) -> Verdict:
-    """Return the verdict on an environment's variables; the worst first."""
+    """Return the verdict on an environment's variables; the worst problem first."""
     domain = environment.get("ROS_DOMAIN_ID", "").strip() or "0"
     middleware = environment.get("RMW_IMPLEMENTATION", "")
     discovery = environment.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "")

@@ -1,4 +1,4 @@
-"""How well does the grader lock a submission in here, and do this shell's own limits leave room for one?"""
+"""Which sandbox level works here, and do this shell's own limits leave room for a submission?"""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from gz_course.grader.tools.doctor.probe import ProbeError, Probes
 from gz_course.grader.tools.doctor.verdict import Verdict, failed, fine, warning
 
 TITLE = "sandbox of submissions"
-# What one rclpy node needs at least, and what to write for it in a shell.
+# What one rclpy node needs at least, and the shell command that allows it.
 NEEDS = {
     resource.RLIMIT_AS: (1 << 30, "address space", "ulimit -v unlimited"),
     resource.RLIMIT_NOFILE: (64, "open files", "ulimit -n 1024"),
@@ -26,11 +26,11 @@ except CourseError as error:
     print(error, flush=True)
 os._exit(0)
 """
-LEAST = "B"  # the lowest level that hostile code does not get out of
+LEAST = "B"  # the lowest level that stops hostile code
 
 
 def examine(probes: Probes) -> Verdict:
-    """Compare what a submission will get with what it needs; then lock a node in, as firmly as it goes."""
+    """Compare what a submission will get with what it needs; then run a node at the best level."""
     for kind, (need, what, fix) in NEEDS.items():
         soft, hard = resource.getrlimit(kind)
         given = [limit for limit in (hard, LIMITS.get(kind, resource.RLIM_INFINITY)) if limit != resource.RLIM_INFINITY]

@@ -1,4 +1,4 @@
-"""Can Fast DDS use shared memory? Nodes started by hand do; grading does without."""
+"""Can Fast DDS use shared memory? Nodes started by hand use it; grading does not."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _UDP = "`export FASTDDS_BUILTIN_TRANSPORTS=UDPv4` in every terminal keeps DDS ou
 
 
 def examine(probes: Probes) -> Verdict:
-    """Write a file there and look how much room there is."""
+    """Write a file there and read how much space is free."""
     try:
         with tempfile.TemporaryFile(dir=FOLDER) as stream:
             stream.write(b"x")

@@ -18,7 +18,7 @@ _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]*")
 
 
 def examine(probes: Probes) -> Verdict:
-    """Compare what is installed with what the course asks for and what it is tested with."""
+    """Compare what is installed with what the course requires and what it is tested with."""
     install = "install again with `pip install -c constraints.txt -e .` in the course's folder"
     try:
         asked = metadata.requires(COURSE) or []
@@ -49,7 +49,7 @@ def normal(name: str) -> str:
 
 
 def required(requirements: Iterable[str]) -> list[str]:
-    """Return the names in a package's list of requirements, those of its extras left out."""
+    """Return the names in a package's list of requirements, without those of its extras."""
     plain = [text for text in requirements if "extra ==" not in text]
     return [normal(found.group()) for text in plain if (found := _NAME.match(text))]
 
@@ -62,7 +62,7 @@ def pinned(text: str) -> dict[str, str]:
 
 
 def installed() -> Mapping[str, str]:
-    """Return name and version of everything this Python can import; the first one found counts, as for an import."""
+    """Return name and version of everything this Python can import; of several copies the first, as in an import."""
     found: dict[str, str] = {}
     for each in metadata.distributions():
         name = each.metadata["Name"]

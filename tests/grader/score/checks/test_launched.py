@@ -56,7 +56,10 @@ def test_a_good_launch_passes(find, kind):
     [
         ({"simulators": [], "simulator_at_end": ""}, "no simulator was started"),
         ({"simulators": [SIMULATOR | {"ran": False, "error": "no such world"}]}, "gz sim said: no such world"),
-        ({"simulators": [SIMULATOR, SIMULATOR]}, "2 simulators were started (a.sdf, a.sdf); all of them tell the time"),
+        (
+            {"simulators": [SIMULATOR, SIMULATOR]},
+            "2 simulators were started (a.sdf, a.sdf); each publishes its own time",
+        ),
         ({"simulator_at_end": ""}, "gz sim had ended before the launch was interrupted"),
         ({"simulators": [], "lines": ["[gz-1] gz sim: which world? Name one"]}, "gz sim said: which world? Name one"),
     ],

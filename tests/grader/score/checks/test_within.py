@@ -40,7 +40,7 @@ def test_an_event_begins_it_and_settling_is_allowed(record, found):
     assert found("within", record(signals), settle=0.2, **after, **BAND).passed
     assert not found("within", record(signals), settle=0.6, **after, **BAND).passed
     silent = found("within", record(steps((0, 0.5))), **after, **BAND)
-    assert (silent.passed, silent.measured) == (False, "there was never a message on /go")
+    assert (silent.passed, silent.measured) == (False, "this never happened: a message on /go")
 
 
 def test_a_run_that_broke_off_keeps_no_band(record, found):
