@@ -1,4 +1,4 @@
-"""Print a recording of `gz sim --record`: `gz log -i FILE`, `gz log -e -t /topic FILE`.
+"""Look into a recording of `gz sim --record`: `gz log -i FILE`, `gz log -e -t /topic FILE`.
 
 FILE is a `state.tlog` or its folder; times are simulated [s].
 """

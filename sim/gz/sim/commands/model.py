@@ -1,4 +1,4 @@
-"""List the models of a running world or print one: `gz model --list`, `gz model -m robot -p`.
+"""List the models of a running world and look at one: `gz model --list`, `gz model -m robot -p`.
 
 Models come from the service `/world/W/scene/info`, poses from the topic `/world/W/pose/info`, both of SceneBroadcaster.
 
