@@ -5,9 +5,7 @@ import re
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
-NOT_YET = (
-    "grader",
-)
+NOT_YET = ("grader",)
 FILLERS = set(
     re.findall(r"\w+", "a an and as by for from in is it its of on one return self that the this to whether with")
 )

@@ -125,9 +125,7 @@ class Network:
         """Return the network of services, opened by the first call. Raises OSError if that fails."""
         with self._services_lock:
             if self._services is None:
-                from gz_course.sim.gz.transport.service_network import (
-                    ServiceNetwork,
-                )  # imported late, because many processes never need it
+                from gz_course.sim.gz.transport.service_network import ServiceNetwork  # many processes never need it
 
                 self._services = ServiceNetwork(self._context, self._settings, self.process_uuid, self._wake)
                 self._wake()

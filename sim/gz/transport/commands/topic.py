@@ -85,10 +85,7 @@ def _echo(node: Node, values: argparse.Namespace) -> int:
     printed = 0
     try:
         with EchoQueue(node, values.topic) as arrivals:
-            from gz_course.sim.gz.msgs.text import (
-                to_json_line,
-                to_text,
-            )  # imported while publishers are being discovered
+            from gz_course.sim.gz.msgs.text import to_json_line, to_text  # imported during discovery
 
             look_at = time.monotonic() + _LOOK_FOR_TOPIC_AFTER_S
             while not values.num or printed < values.num:
