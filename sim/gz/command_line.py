@@ -70,7 +70,6 @@ class Parser(argparse.ArgumentParser):
         return values
 
     def error(self, message: str) -> NoReturn:
-        """Report an error of argparse in one line."""
         self._refuse(NO_VALUE if message.endswith(_VALUE_MISSING) else BAD_VALUE, message)
 
     def _is_set(self, values: argparse.Namespace, option: str) -> bool:

@@ -14,7 +14,6 @@ _INDEX = "share/ament_index/resource_index/packages"
 
 
 def prefixes() -> list[Path]:
-    """Return the folders of AMENT_PREFIX_PATH."""
     return [Path(part) for part in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if part]
 
 

@@ -179,7 +179,6 @@ class LaunchService:
             context._pop_locals()
 
     def _fail(self, error: BaseException) -> None:
-        """Log an error and end the run with exit code 1."""
         self.__return_code = 1
         _LOG.debug("".join(traceback.format_exception(error)).rstrip())
         _LOG.error(f"Caught exception in launch (see debug for traceback): {sentence(error)}")

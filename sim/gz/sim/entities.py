@@ -3,7 +3,7 @@
 The world is 1; every model, link, visual, collision, sensor, joint and light gets the next number in file order. A
 number is not used again until the world is reset, even if its entity was removed.
 
-Source: https://gazebosim.org/api/sim/8/namespacegz_1_1sim.html (Entity, kNullEntity)
+Source: Gazebo Sim API reference, gz::sim::Entity and gz::sim::kNullEntity
 """
 
 from __future__ import annotations

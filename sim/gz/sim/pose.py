@@ -56,7 +56,6 @@ class Pose:
         )
 
     def inverse(self) -> Pose:
-        """Return the inverse transform."""
         conjugate = self.quaternion * (1.0, -1.0, -1.0, -1.0)
         return Pose(-rotate(conjugate, self.position), conjugate)
 

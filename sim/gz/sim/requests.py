@@ -58,7 +58,6 @@ class Requests:
         self._inside = False
 
     def __bool__(self) -> bool:
-        """Return whether a request is queued."""
         return bool(self.waiting)
 
     def own(self) -> None:
@@ -73,7 +72,6 @@ class Requests:
         self._inside = True
 
     def leave_step(self) -> None:
-        """Record that the step has ended."""
         self._inside = False
 
     def refuse_inside_step(self, what: str) -> None:

@@ -59,7 +59,6 @@ class RunningSystems:
         return len(self._running)
 
     def sensors(self) -> Iterator[SensorBase]:
-        """Yield the sensors of all systems."""
         return (sensor for system in self if isinstance(system, SensorSystem) for sensor in system.sensors)
 
     def add_world(self, plugins: Iterable[Plugin]) -> None:

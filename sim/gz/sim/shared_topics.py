@@ -54,7 +54,6 @@ class SharedTopics:
     """Checks all systems and sensors of one world; `Diagnostics` reports each sentence once."""
 
     def __init__(self, diagnostics: Diagnostics) -> None:
-        """Report warnings to `diagnostics`."""
         self._diagnostics = diagnostics
 
     def check(self, talkers: Iterable[Talker]) -> None:

@@ -81,7 +81,6 @@ class Courier:
             return bool(self._waiting)
 
     def withdraw(self, letter: Letter) -> None:
-        """Cancel a pending message."""
         with self._lock, contextlib.suppress(ValueError):
             self._waiting.remove(letter)
 

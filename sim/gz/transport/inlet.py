@@ -95,7 +95,6 @@ class Inlet:
         return True
 
     def ignore(self, name: str) -> None:
-        """Stop receiving a topic."""
         if name in self._filters:
             self._filters.remove(name)
             with self._using():

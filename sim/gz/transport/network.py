@@ -101,11 +101,9 @@ class Network:
         self._outlet.send(name, data, type_name)
 
     def advertise(self, publisher: Publisher) -> None:
-        """Announce a publisher."""
         self._discovery.advertise(self._record(publisher))
 
     def unadvertise(self, publisher: Publisher) -> None:
-        """Announce that a publisher has ended."""
         self._discovery.unadvertise(self._record(publisher))
 
     def subscribe(self, subscription: Subscription) -> None:

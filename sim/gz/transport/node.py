@@ -50,7 +50,6 @@ class Node:
 
     @property
     def options(self) -> NodeOptions:
-        """Return a copy of the node's options."""
         return self._options.copy()
 
     def advertise(

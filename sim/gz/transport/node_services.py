@@ -63,7 +63,6 @@ class NodeServices:
         return bool(ended)
 
     def close(self) -> None:
-        """Withdraw all services."""
         for service in self._offered():
             self._end(service)
 

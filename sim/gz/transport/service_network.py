@@ -82,11 +82,9 @@ class ServiceNetwork:
     # Methods for any thread
 
     def advertise(self, service: Service) -> None:
-        """Announce a service."""
         self.discovery.advertise(self._record(service))
 
     def unadvertise(self, service: Service) -> None:
-        """Announce that a service has ended."""
         self.discovery.unadvertise(self._record(service))
 
     def request(

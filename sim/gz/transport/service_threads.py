@@ -39,7 +39,6 @@ class ServiceThreads:
             self._start_one()
 
     def full(self) -> bool:
-        """Return whether the queue is full."""
         if self._queue.qsize() < _MOST_QUEUED:
             return False
         self._was_full = True

@@ -38,12 +38,10 @@ class Switchboard:
         return self._publishers.get(name, ())
 
     def all_subscriptions(self) -> list[Subscription]:
-        """Return every subscription of the process."""
         with self._changed:
             return [each for group in self._subscriptions.values() for each in group]
 
     def all_publishers(self) -> list[Publisher]:
-        """Return every publisher of the process."""
         with self._changed:
             return [each for group in self._publishers.values() for each in group]
 
@@ -56,7 +54,6 @@ class Switchboard:
         return tuple(each for each in self.publishers(name) if each.scope != Scope.PROCESS)
 
     def add_subscription(self, subscription: Subscription) -> None:
-        """Add a subscription, which receives messages from now on."""
         with self._changed:
             self._set_subscriptions(subscription.name, (*self.subscriptions(subscription.name), subscription))
             self._changed.notify_all()
@@ -102,7 +99,6 @@ class Switchboard:
         return self._services.get(name, ())
 
     def all_services(self) -> list[Service]:
-        """Return every service of the process."""
         with self._changed:
             return [each for group in self._services.values() for each in group]
 

@@ -12,5 +12,4 @@ if TYPE_CHECKING:
 
 
 def perform_substitutions(context: LaunchContext, substitutions: Iterable[Substitution]) -> str:
-    """Return the joined text of all substitutions."""
     return "".join([context.perform_substitution(each) for each in substitutions])

@@ -45,7 +45,6 @@ class PID:
         return cls(**values)
 
     def reset(self) -> None:
-        """Clear the integral and the last error."""
         self.integral = self.last_error = 0.0
 
     def update(self, error: float, dt: float) -> float:

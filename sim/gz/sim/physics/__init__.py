@@ -1,1 +1,1 @@
-"""Converts the description of a world to a MuJoCo model and steps its joints, contacts and state."""
+"""Converts the description of a world to a MuJoCo model, and accesses its joints, contacts and state."""

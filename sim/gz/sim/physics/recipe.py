@@ -87,5 +87,5 @@ def strongest_push(inverse_inertia: float) -> float:
 
 
 def wheel_armature(mass: float, sharing: int, radius: float) -> float:
-    """Return the rotor inertia [kg m^2] of a wheel joint; zero, because the discrete integrator needs none."""
+    """Return the rotor inertia [kg m^2] of a wheel joint; zero with the discrete integrator."""
     return 0.0 if DISCRETE else mass / sharing * radius * radius

@@ -125,7 +125,6 @@ class Channels:
         """The present bias of each channel."""
 
     def start(self) -> None:
-        """Draw the biases of a run."""
         for index, (name, noise) in enumerate(zip(self._names, self._each, strict=True)):
             self.bias[index] = noise.draw_bias(self._sensor.constant_random(f"bias of {name}"))
 

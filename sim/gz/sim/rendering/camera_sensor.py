@@ -146,7 +146,6 @@ class CameraSensor(SensorBase):
         self.publishers[suffix].publish(message)
 
     def publish_cloud(self, suffix: str, points: NDArray[Any], now_ns: int) -> None:
-        """Publish one point per pixel."""
         message = self._types["PointCloudPacked"]()
         self.fill_header(message.header, now_ns)
         fill_cloud(message, points, self.pinhole.height, self.pinhole.width)

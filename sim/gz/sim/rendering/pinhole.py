@@ -87,7 +87,6 @@ class Pinhole:
 
     @property
     def distorted(self) -> bool:
-        """Tell whether the lens has distortion."""
         return any(self.distortion)
 
     def slopes(self) -> tuple[Floats, Floats]:

@@ -16,7 +16,6 @@ def fill_pose(field: Any, position: Iterable[float], quaternion: Iterable[float]
 
 
 def set_pose(field: Any, pose: Pose) -> None:
-    """Write a `Pose` into a gz.msgs.Pose."""
     fill_pose(field, pose.position, pose.quaternion)
 
 

@@ -82,7 +82,7 @@ class Element:
         return child.text if child is not None and child.text else default
 
     def number(self, tag: str, default: float) -> float:
-        """Return child `tag` as a float, which may be infinite. Raises `SdfError` when it is no number or NaN."""
+        """Return child `tag` as a float, which may be infinite. Raises SdfError if it is no number or NaN."""
         child = self.find(tag)
         if child is None or not child.text:
             return default
@@ -113,7 +113,7 @@ class Element:
         return tuple(child.floats(len(default)))
 
     def floats(self, count: int) -> list[float]:
-        """Return the text of this element as `count` floats. Raises `SdfError`, with the text, for anything else."""
+        """Return the text of this element as `count` floats. Raises SdfError with the text for anything else."""
         words = self.text.split()
         wanted = "a number" if count == 1 else f"{count} numbers"
         if len(words) != count:
@@ -169,7 +169,7 @@ def _advice(element: Element, count: int) -> str:
 
 
 def parse(text: str, file: str = "<string>") -> Element:
-    """Parse XML text into its root `Element`; `file` is only used in messages. Raises `SdfError` with the line."""
+    """Parse XML text into its root `Element`; `file` is only used in messages. Raises SdfError with the line."""
     parser = xml.parsers.expat.ParserCreate("utf-8")
     parser.buffer_text = True
     stack: list[Element] = []

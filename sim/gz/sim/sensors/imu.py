@@ -65,7 +65,6 @@ class Imu(SiteSensor):
         return [(axis, noise_at(element, f"imu/{axis}")) for axis in _AXES]
 
     def start(self) -> None:
-        """Begin the schedule and compute the reference frame."""
         super().start()
         found = self._reference_frame()
         self.reference = self.motion.quaternion() if found is None else found

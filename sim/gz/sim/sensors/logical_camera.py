@@ -53,7 +53,6 @@ class LogicalCamera(SiteSensor):
         self._frustum: Any = None
 
     def read_noises(self, element: Element) -> Sequence[tuple[str, Noise]]:
-        """Return no noise."""
         return []
 
     def connect(self, node: Node) -> None:

@@ -119,7 +119,6 @@ class AckermannSteering(System):
         self._complete = all(self._steering) and all(self._wheels)
 
     def start(self) -> None:
-        """Stop at the origin of the odometry, with the present steering angle."""
         self._target = (0.0, 0.0)
         self._angle = 0.0
         self._last = self._before_last = (0.0, 0.0)

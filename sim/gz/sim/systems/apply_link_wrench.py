@@ -52,7 +52,6 @@ class ApplyLinkWrench(System):
     parameters = frozenset(("topic", "topic_persistent", "topic_clear", "persistent", "verbose"))
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
-        """Read the topics and the initial persistent wrenches."""
         element = plugin.element
         if model is not None:
             raise element.error("ApplyLinkWrench belongs directly in the <world>, not inside a <model>")
@@ -80,7 +79,6 @@ class ApplyLinkWrench(System):
         self._pushed: list[int] = []
 
     def start(self) -> None:
-        """Apply only the wrenches of the file."""
         self._once: deque[_Wrench] = deque(maxlen=_MOST)
         self._persistent = list(self._initial)
         self._clear: deque[tuple[int, str, str]] = deque(maxlen=_MOST)

@@ -63,7 +63,6 @@ class DiffDrive(System):
         return [JointServo(joint, WHEEL, radius, len(wheels)) for joint in wheels]
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
-        """Read the parameters; `model` must not be None."""
         scope = ModelScope(world, model, plugin, self.name)
         model = scope.model
         element = plugin.element
@@ -108,7 +107,6 @@ class DiffDrive(System):
         )
 
     def start(self) -> None:
-        """Stop at the origin of the odometry, enabled."""
         self._started = False
         self._reports.start()
         self._target = (0.0, 0.0)

@@ -35,7 +35,6 @@ class JointController(JointCommand):
         return FORCE if element.flag("use_force_commands", False) else VELOCITY
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
-        """Read joints, topic, gains and the initial velocity."""
         super().configure(world, model, plugin)
         element = plugin.element
         self.pid = pid.PID.from_sdf(element, 1.0, 0.0, 0.0, 1.0, -1.0, 1000.0, -1000.0, 0.0)
@@ -43,7 +42,6 @@ class JointController(JointCommand):
         self._initial = element.number("initial_velocity", 0.0)
 
     def start(self) -> None:
-        """Set the initial velocity."""
         self.value = self._initial
         self.pid.reset()
 

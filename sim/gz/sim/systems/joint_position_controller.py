@@ -40,7 +40,6 @@ class JointPositionController(JointCommand):
         return VELOCITY if element.flag("use_velocity_commands", False) else FORCE
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
-        """Read joints, topic, gains and the initial position."""
         super().configure(world, model, plugin)
         element = plugin.element
         self.pid = pid.PID.from_sdf(element, 1.0, 0.1, 0.01, 1.0, -1.0, 1000.0, -1000.0, 0.0)

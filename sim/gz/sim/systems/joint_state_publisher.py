@@ -31,7 +31,6 @@ class JointStatePublisher(System):
     parameters = frozenset(("joint_name", "topic", "update_rate"))
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
-        """Read the joints and the topic."""
         element = plugin.element
         self.world = world
         self.scope = ModelScope(world, model, plugin, self.name)

@@ -71,7 +71,6 @@ class JointTrajectoryController(System):
 
     @classmethod
     def servos(cls, model: Model, plugin: Plugin) -> list[JointServo]:
-        """Request a motor for each joint."""
         return [JointServo(joint.name, FORCE) for joint in _enabled(model, plugin)]
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
@@ -105,7 +104,6 @@ class JointTrajectoryController(System):
             actuated.drive = find_drive(self.world.model, self.scope.model, wish)
 
     def start(self) -> None:
-        """Hold the initial positions, without a trajectory."""
         self._trajectory: _Trajectory | None = None
         for actuated in self.joints.values():
             actuated.start()

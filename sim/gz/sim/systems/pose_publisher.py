@@ -39,7 +39,6 @@ class Stream:
         self._vertices: list[Vertex] = []
 
     def begin(self) -> None:
-        """Restart the schedule at time zero."""
         self._last_ns = 0
 
     def fill(self, vertices: list[Vertex], movers: list[Vertex], pose_v: Any) -> None:
@@ -95,7 +94,6 @@ class PosePublisher(System):
     )
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
-        """Read the parameters; `model` must not be None."""
         element = plugin.element
         if model is None:
             raise element.error("PosePublisher belongs inside a <model>, not directly in the <world>")

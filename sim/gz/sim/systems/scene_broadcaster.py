@@ -106,7 +106,6 @@ class SceneBroadcaster(System):
         self._graph, self._stale = None, True
 
     def connect(self, node: Node) -> None:
-        """Advertise the topics and services."""
         from gz_course.sim.gz.msgs.empty_pb2 import Empty
         from gz_course.sim.gz.msgs.pose_v_pb2 import Pose_V
         from gz_course.sim.gz.msgs.scene_pb2 import Scene

@@ -80,11 +80,9 @@ class TouchPlugin(System):
         self._targets = {geom for geom, path in geoms.paths.items() if self._target in _gazebo_name(world, path)}
 
     def start(self) -> None:
-        """Enable or disable the plugin as the file says."""
         self.enable(self._enabled_at_start)
 
     def connect(self, node: Node) -> None:
-        """Advertise the topic and the service."""
         from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
         from gz_course.sim.gz.msgs.empty_pb2 import Empty
 
@@ -104,7 +102,6 @@ class TouchPlugin(System):
         self._enabled = on
 
     def post_update(self, info: UpdateInfo) -> None:
-        """Check whether the model touches its target."""
         if not self._enabled:
             return
         if not any(other in self._targets for _, _, other in touching(self._world, self._geoms)):

@@ -38,7 +38,6 @@ class UserCommands(System):
         self._world = world
 
     def connect(self, node: Node) -> None:
-        """Offer every command with its blocking variant, and subscribe to material colours."""
         from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
         from gz_course.sim.gz.msgs.material_color_pb2 import MaterialColor
         from gz_course.sim.gz.sim.editing import entity_commands, property_commands

@@ -77,7 +77,6 @@ class VelocityControl(System):
             self.world.diagnostics.warn(self._where, text)
 
     def start(self) -> None:
-        """Set the initial velocities, without commands for links."""
         self._target = self._present = _twist(*self._initial)
         self._link_targets: dict[str, _Twist] = {}
         self._link_present: dict[str, _Twist] = {}
@@ -135,7 +134,6 @@ class VelocityControl(System):
                 self._set(root, rotate(turn, twist.linear), rotate(turn, twist.angular), pose.position)
 
     def post_update(self, info: UpdateInfo) -> None:
-        """Activate the latest commands for the next step."""
         self._present = self._target
         if self._link_targets:
             self._link_present.update(self._link_targets)

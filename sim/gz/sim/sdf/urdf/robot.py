@@ -135,7 +135,7 @@ def read_robot(element: Element, diagnostics: Diagnostics) -> Robot:
 
 
 def numbers(element: Element, attribute: str, count: int, default: tuple[float, ...] | None = None) -> list[float]:
-    """Return an attribute as `count` finite floats. Raises `SdfError` if it is missing and has no `default`."""
+    """Return an attribute as `count` finite floats. Raises SdfError if it is missing and has no `default`."""
     text = element.attributes.get(attribute)
     if text is None:
         if default is not None:
