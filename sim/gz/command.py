@@ -1,7 +1,7 @@
 """The `gz` command: finds the sub-command and runs it.
 
-A sub-command `x` is a file `gz/*/commands/x.py` and nothing else: it is found by looking into the folders and imported
-only when it is called. `gz.command_line` reads its options (`gz topic -l` is gz/transport/commands/topic.py).
+Sub-command `x` is the file `gz/*/commands/x.py`; it is found by listing the folders and imported only when it is
+called. `gz.command_line` reads its options (`gz topic -l` is gz/transport/commands/topic.py).
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ def _help(commands: dict[str, Path]) -> str:
 
 
 def _versions() -> str:
-    from importlib import metadata  # slow to load, and needed only here
+    from importlib import metadata  # slow to import, and needed only here
 
     lines = []
     for name in (_DISTRIBUTION, *_ENGINES):
@@ -70,8 +70,8 @@ def _versions() -> str:
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run `gz` with these arguments (default: those of the process) and return the exit code: that of the sub-command,
-    2 for a command that does not exist, 109 for an unknown option.
+    """Run `gz` with these arguments (default: those of the process); return the exit code of the sub-command, 2 for an
+    unknown command, 109 for an unknown option.
     """
     arguments = list(sys.argv[1:] if argv is None else argv)
     commands = find_commands()
@@ -82,7 +82,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     if first in ("--versions", "--version"):
         print(_versions())
         return 0
-    from gz_course.sim.gz import command_line  # slow to load; help and versions do without
+    from gz_course.sim.gz import command_line  # slow to import; help and versions do not need it
 
     if first not in commands:
         is_option = first.startswith("-")

@@ -1,8 +1,8 @@
-"""The command line of one sub-command of `gz`: its options, and how it ends.
+"""The command line of a sub-command of `gz`: options, usage errors, signals and exit codes.
 
-Every sub-command file `gz/*/commands/x.py` is run through here by the dispatcher (`gz.command`). Wrong usage is one
-line on stderr and an exit code, those of Gazebo's own tools: 104 a value that cannot be read, 107 a missing companion,
-108 options that exclude each other, 109 an unknown option, 114 a missing value.
+Wrong usage prints one line on stderr and returns the code of Gazebo's own tools: 104 an invalid value, 107 a missing
+companion option, 108 options that exclude each other, 109 an unknown option, 114 a missing value.
+
 Source: CLI11, `enum class ExitCodes`, https://github.com/CLIUtils/CLI11/blob/main/include/CLI/Error.hpp
 """
 
@@ -28,10 +28,10 @@ _VALUE_MISSING = ("expected one argument", "expected at least one argument")
 
 
 class Parser(argparse.ArgumentParser):
-    """Options with companions they need and options they exclude."""
+    """An option parser with required companion options and mutually exclusive ones."""
 
     def __init__(self, program: str, description: str) -> None:
-        """Begin with `--help` and `--version`; `program` is what the user has typed so far, such as `gz topic`."""
+        """Add `--help` and `--version`; `program` is what the user has typed so far, such as `gz topic`."""
         # "resolve": a sub-command may have another use for -v.
         super().__init__(prog=program, description=description, allow_abbrev=False, conflict_handler="resolve")
         self._needs: list[tuple[str, tuple[str, ...]]] = []
@@ -40,20 +40,20 @@ class Parser(argparse.ArgumentParser):
         self.add_argument("-v", "--version", action=Version, help="the version, and nothing else")
 
     def needs(self, option: str, *companions: str) -> None:
-        """Refuse `option` from now on without all of its companions (long names)."""
+        """Require all companions (long names) whenever `option` is used."""
         self._needs.append((option, companions))
 
     def excludes(self, *options: str) -> None:
-        """Accept from now on only one of these options (long names)."""
+        """Declare options (long names) of which at most one may be used."""
         self._excludes.append(options)
 
     def commands(self, *options: str) -> None:
-        """Accept exactly one of these options (long names), which says what to do; without any, print the help."""
+        """Declare options (long names) of which exactly one selects the action; without any, the help is printed."""
         self._commands = options
         self.excludes(*options)
 
     def read(self, arguments: Sequence[str]) -> argparse.Namespace:
-        """Return the values of the options. Raises SystemExit after help, after the version and after wrong usage."""
+        """Return the values of the options. Raises SystemExit after help, version and usage errors."""
         values, rest = self.parse_known_args(list(arguments))
         for group in self._excludes:
             found = [option for option in group if self._is_set(values, option)]
@@ -71,7 +71,6 @@ class Parser(argparse.ArgumentParser):
         return values
 
     def error(self, message: str) -> NoReturn:
-        """Refuse, as one line, what argparse found wrong."""
         self._refuse(NO_VALUE if message.endswith(_VALUE_MISSING) else BAD_VALUE, message)
 
     def _is_set(self, values: argparse.Namespace, option: str) -> bool:
@@ -90,13 +89,12 @@ class Parser(argparse.ArgumentParser):
 
 
 class Version(argparse.Action):
-    """An option that prints the version of this distribution and ends."""
+    """An option that prints the version of this distribution and exits."""
 
     def __init__(self, option_strings: Sequence[str], dest: str, help: str | None = None) -> None:
         super().__init__(option_strings, argparse.SUPPRESS, nargs=0, default=argparse.SUPPRESS, help=help)
 
     def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> NoReturn:
-        """Print the version and end."""
         from importlib import metadata
 
         print(metadata.version("gz-ros2-course"))
@@ -123,14 +121,14 @@ def integer(text: str) -> int:
 
 
 def whole_number(text: str) -> int:
-    """Read a count of an option. Raises argparse.ArgumentTypeError for what is no number, below zero or above 1e9."""
+    """Read a count of an option. Raises argparse.ArgumentTypeError unless it is a whole number from 0 to 1e9."""
     if not (text.isascii() and text.isdigit() and int(text[:20]) <= _MOST):
         raise argparse.ArgumentTypeError(f"expected a whole number, zero or more, at most 1e9, but found {text!r}")
     return int(text)
 
 
 def unknown_option(name: str, known: Sequence[str], program: str, kind: str = "option") -> str:
-    """Return the sentence about an option or a command that does not exist."""
+    """Return the sentence about an unknown option or command."""
     hint = did_you_mean(name, known, cutoff=0.5) or f"; see {program} --help"
     return f"there is no {kind} {name!r}{hint}"
 
@@ -138,9 +136,9 @@ def unknown_option(name: str, known: Sequence[str], program: str, kind: str = "o
 def run(module_name: str, program: str, arguments: Sequence[str], description: str) -> int:
     """Import a sub-command and run it; return the exit code.
 
-    The module has `add_arguments(parser)` and `run(values) -> int`. Its ValueError and OSError are errors of the
-    user: the sentence is printed and the code is 1. SIGINT and SIGTERM arrive in it as KeyboardInterrupt, unless it
-    handles them itself. When the reader of a pipe has gone, the command ends quietly.
+    The module has `add_arguments(parser)` and `run(values) -> int`. A ValueError or OSError from it is the user's
+    error: its sentence is printed and the code is 1. SIGINT and SIGTERM arrive as KeyboardInterrupt, unless the module
+    handles them itself. A closed output pipe ends the command silently.
     """
     before = [_handle(number, signal.default_int_handler) for number in _SIGNALS]
     try:
@@ -166,13 +164,13 @@ def run(module_name: str, program: str, arguments: Sequence[str], description: s
 
 
 def leave_signals() -> None:
-    """Ignore SIGINT and SIGTERM from now on, so that the network is told of the end without interruption."""
+    """Ignore SIGINT and SIGTERM from now on, so that shutdown messages are sent without interruption."""
     for number in _SIGNALS:
         _handle(number, signal.SIG_IGN)
 
 
 def _handle(number: int, handler: Any) -> Any:
-    """Set the handler of a signal, where that is allowed; return the one before it."""
+    """Set the handler of a signal where that is allowed; return the previous one."""
     if threading.current_thread() is threading.main_thread():
         return signal.signal(number, handler)
     return None

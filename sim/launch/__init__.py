@@ -1,8 +1,10 @@
 """Launch files: start several programs together, with arguments, and end them together.
 
-The interface of ROS 2's `launch`, for machines without it; where the real one is installed, it is the one that is
-imported. A launch file is loaded by `launch_description_sources`, visited by `LaunchService`, and made of `actions`,
-`substitutions`, `conditions` and `event_handlers`.
+The interface of ROS 2's `launch`, for machines without it; an installed real one takes precedence. A launch file is
+loaded by `launch_description_sources`, visited by `LaunchService`, and made of `actions`, `substitutions`, `conditions`
+and `event_handlers`.
+
+Source: https://github.com/ros2/launch
 """
 
 from gz_course.sim.launch import (

@@ -1,4 +1,4 @@
-"""The base of actions, which a launch file consists of. The actions are in `launch.actions`."""
+"""The base class of actions, the elements of a launch file. The actions are in `launch.actions`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class Action(LaunchDescriptionEntity):
-    """Something to be done, if `condition` holds. A class of one's own overrides `execute`."""
+    """An element of a launch file, executed if `condition` holds; subclasses override `execute`."""
 
     def __init__(self, *, condition: Condition | None = None, **unknown: Any) -> None:
         if unknown:
@@ -39,7 +39,7 @@ class Action(LaunchDescriptionEntity):
         return f"{type(self).__name__}({hex(id(self))})"
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """Return what is visited in any case: nothing when there is a condition."""
+        """Return the entities that are visited unconditionally: none if there is a condition."""
         return self.get_sub_entities() if self.__condition is None else []
 
     def describe_conditional_sub_entities(
@@ -48,11 +48,11 @@ class Action(LaunchDescriptionEntity):
         return [("Conditionally included by " + self.describe(), self.get_sub_entities())] if self.__condition else []
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """Return the entities that are visited when it is executed, as far as they are known beforehand."""
+        """Return the entities that are visited on execution, as far as they are known in advance."""
         return []
 
     def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Execute the action if its condition holds; errors get the place where the action was made."""
+        """Execute the action if its condition holds; errors get the place where the action was created."""
         try:
             if self.__condition is not None and not self.__condition.evaluate(context):
                 return None
@@ -68,7 +68,7 @@ class Action(LaunchDescriptionEntity):
         raise NotImplementedError(f"{type(self).__name__} does not say how it is executed")
 
     def _announce_completion(self, context: LaunchContext) -> None:
-        """Emit ExecutionComplete, now or when the future of this action is done, if anybody waits for it."""
+        """Emit ExecutionComplete if it has a handler, now or when the future of this action is done."""
         from gz_course.sim.launch.events import ExecutionComplete
 
         event = ExecutionComplete(action=self)
@@ -86,7 +86,7 @@ class Action(LaunchDescriptionEntity):
 
 
 def _arguments(kind: type) -> list[str]:
-    """Return the names of all arguments that a class and its bases take by name."""
+    """Return the names of all keyword arguments of a class and its bases."""
     return [
         parameter.name
         for each in kind.__mro__

@@ -1,6 +1,6 @@
-"""Names of packages and of their launch files, for the hints in errors.
+"""Names of packages and of their launch files, for hints in error messages.
 
-Only for the sentences of errors. What a launch file needs from a package, `launch_ros.substitutions` finds.
+Launch files themselves find packages with `launch_ros.substitutions`.
 """
 
 from __future__ import annotations
@@ -15,7 +15,6 @@ _INDEX = "share/ament_index/resource_index/packages"
 
 
 def prefixes() -> list[Path]:
-    """Return the folders of AMENT_PREFIX_PATH."""
     return [Path(part) for part in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if part]
 
 
@@ -30,7 +29,7 @@ def packages_with_launch_file(name: str) -> list[str]:
 
 
 def nearest_package_of(sentence: str) -> str:
-    """Return `; did you mean 'x'?` for a sentence about a package that was not found, else an empty text."""
+    """Return `; did you mean 'x'?` for an error about a missing package, otherwise an empty text."""
     unknown = re.search(r"package '([^']+)' not found", sentence)
     if unknown is None or "did you mean" in sentence:
         return ""

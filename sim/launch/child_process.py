@@ -1,7 +1,7 @@
-"""A child process in a process group of its own, with its output and its end.
+"""A child process in its own process group, with its output and its end.
 
-`ExecuteLocal` owns it. Everything happens in the event loop: output and the end of a process (a pidfd) are file
-descriptors the loop watches. What a child has written before its end is always read before its end is told.
+The event loop watches file descriptors for the output and for the end of the process (a pidfd). The output of a child
+is always read before its end is reported.
 """
 
 from __future__ import annotations
@@ -19,15 +19,15 @@ from gz_course.sim.launch.orphan_watch import unwatch, watch
 
 _CHUNK = 65536
 _LARGEST_PIPE = 1 << 20
-# A child would inherit those that the parent of this process has ignored or blocked.
+# Children inherit ignored and blocked signals of the parent, so these are reset.
 _DEFAULT_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.SIGCHLD)
 
 
 class ChildProcess:
-    """Starts `command` at once; raises OSError if that fails.
+    """A running `command`, started by the constructor. Raises OSError if that fails.
 
-    `on_output(stream, data)` is called with what is read from `stdout` and `stderr`. With `emulate_tty` both are
-    terminals to the child.
+    `on_output(stream, data)` is called with data from `stdout` and `stderr`. With `emulate_tty` both are terminals for
+    the child.
     """
 
     def __init__(
@@ -77,11 +77,11 @@ class ChildProcess:
 
     @property
     def pid(self) -> int:
-        """The id of the process and of its group."""
+        """Return the id of the process, which is also that of its group."""
         return self._process.pid
 
     async def wait(self) -> int:
-        """Return the exit code, -n for signal n, when the process has ended and its output was read."""
+        """Return the exit code, or -n for signal n, after the process has ended and its output was read."""
         await _end_of(self.pid)
         for descriptor in list(self._readers):
             self._read(descriptor, at_most=_LARGEST_PIPE)
@@ -90,7 +90,7 @@ class ChildProcess:
         return code
 
     def has_left_something(self) -> bool:
-        """Return whether processes of its group live on after its end."""
+        """Return whether processes of its group are still running after its end."""
         try:
             os.killpg(self.pid, 0)
         except ProcessLookupError:
@@ -113,7 +113,7 @@ class ChildProcess:
                 os.killpg(self.pid, number)
 
     def kill(self) -> None:
-        """Kill the whole group and reap the child, where no event loop can wait any more."""
+        """Kill the whole group and reap the child; for use without an event loop."""
         self.send_signal(signal.SIGKILL)
         with contextlib.suppress(subprocess.TimeoutExpired):
             self._process.wait(1.0)
@@ -126,7 +126,7 @@ class ChildProcess:
             self._send()
 
     def close(self) -> None:
-        """Close its input and output, when its group has ended."""
+        """Close its input and output after the end of its group."""
         unwatch(self.pid)
         for descriptor in list(self._readers):
             self._close_reader(descriptor)
@@ -153,7 +153,7 @@ class ChildProcess:
                 data = os.read(descriptor, min(at_most, _CHUNK))
             except BlockingIOError:
                 return
-            except OSError:  # a terminal whose other side was closed
+            except OSError:  # a terminal whose other side is closed
                 data = b""
             if not data:
                 self._close_reader(descriptor)
@@ -179,12 +179,12 @@ def _set_default_signals() -> None:
 
 
 def _member_of_group(group: int) -> int | None:
-    """Return a living process of a process group, zombies left out."""
+    """Return a running process of a process group, ignoring zombies."""
     for name in os.listdir("/proc"):  # noqa: PTH208
         if not name.isdigit():
             continue
         with contextlib.suppress(OSError, ValueError), open(f"/proc/{name}/stat", "rb") as file:  # noqa: PTH123
-            # "pid (name) state parent group ..."; the name may hold anything.
+            # "pid (name) state parent group ..."; the name may contain any character.
             state, _, its_group = file.read().rpartition(b")")[2].split()[:3]
             if int(its_group) == group and state not in (b"Z", b"X"):
                 return int(name)
@@ -192,7 +192,7 @@ def _member_of_group(group: int) -> int | None:
 
 
 async def _end_of(pid: int) -> None:
-    """Wait until a process has ended. A child is not reaped."""
+    """Wait until a process has ended, without reaping it."""
     loop = asyncio.get_running_loop()
     ended = loop.create_future()
 
@@ -204,7 +204,7 @@ async def _end_of(pid: int) -> None:
         descriptor = os.pidfd_open(pid)
     except ProcessLookupError:
         return
-    except (AttributeError, OSError):  # an old kernel, or a sandbox that forbids it
+    except (AttributeError, OSError):  # an old kernel, or a sandbox without pidfd
         threading.Thread(target=_wait_in_thread, args=(pid, loop, tell), daemon=True).start()
         await ended
         return
@@ -219,5 +219,5 @@ async def _end_of(pid: int) -> None:
 def _wait_in_thread(pid: int, loop: asyncio.AbstractEventLoop, tell: Callable[[], None]) -> None:
     with contextlib.suppress(ChildProcessError):
         os.waitid(os.P_PID, pid, os.WEXITED | os.WNOWAIT)
-    with contextlib.suppress(RuntimeError):  # the loop was closed meanwhile
+    with contextlib.suppress(RuntimeError):  # the loop was closed in the meantime
         loop.call_soon_threadsafe(tell)

@@ -1,4 +1,6 @@
-"""The base of conditions, which decide whether an action is executed. The conditions are in `launch.conditions`."""
+"""The base class of conditions, which decide whether an action is executed. The conditions are in
+`launch.conditions`.
+"""
 
 from __future__ import annotations
 

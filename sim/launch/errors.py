@@ -1,8 +1,7 @@
 """The errors of launch files: one sentence with the file and the line.
 
-`LaunchService` and `ros2 launch` turn whatever reaches them into a sentence with
-`sentence`. An error gets its place from the user's own code in its traceback, else from where the action in
-question was made (`place_of_caller`, `locate`).
+`LaunchService` and `ros2 launch` format every exception with `sentence`. Its place is the user's code in the traceback,
+otherwise the line at which the action was created (`place_of_caller`, `locate`).
 """
 
 from __future__ import annotations
@@ -40,15 +39,15 @@ class UsedTwiceError(LaunchError, RuntimeError):
 
 
 class NotAvailableError(LaunchError, NotImplementedError):
-    """Something that the full ROS 2 can do and this package cannot."""
+    """A feature of the full ROS 2 that this package does not have."""
 
 
 class NotTextError(LaunchError, TypeError):
-    """A value stands where text or a substitution is expected."""
+    """A value in a place where text or a substitution is expected."""
 
 
 def place_of_caller() -> Place | None:
-    """Return file and line of the user's code that is being executed, None when there is none."""
+    """Return file and line of the calling user code, or None."""
     frame = sys._getframe(1)
     while frame is not None:
         path = frame.f_code.co_filename
@@ -59,7 +58,7 @@ def place_of_caller() -> Place | None:
 
 
 def locate(error: BaseException, place: Place | None) -> None:
-    """Note where the thing that failed was made; the first note stays."""
+    """Record where the failed entity was created, unless that is already recorded."""
     if place is not None and not hasattr(error, "launch_place"):
         error.launch_place = place  # type: ignore[attr-defined]
 
@@ -68,7 +67,7 @@ def sentence(error: BaseException) -> str:
     """Return the error as `file:line: text`; the text starts with the error's type unless it is a LaunchError."""
     if isinstance(error, SyntaxError) and error.filename:
         return f"{error.filename}:{error.lineno}: {type(error).__name__}: {error.msg}"
-    # A KeyError puts its text in quotes; ament's PackageNotFoundError is one.
+    # str() of a KeyError quotes its text; ament's PackageNotFoundError is one.
     text = str(error.args[0]) if isinstance(error, KeyError) and type(error) is not KeyError else str(error)
     text += nearest_package_of(text)
     if not isinstance(error, LaunchError):

@@ -1,9 +1,9 @@
-"""The base of events. The events are in `launch.events`."""
+"""The base class of events. The events are in `launch.events`."""
 
 from __future__ import annotations
 
 
 class Event:
-    """Something that happens while a launch file runs; messages call it `name`."""
+    """An occurrence during a launch; `name` is used in messages."""
 
     name = "launch.Event"

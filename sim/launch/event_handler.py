@@ -1,4 +1,4 @@
-"""The base of event handlers. The handlers are in `launch.event_handlers`."""
+"""The base class of event handlers. The handlers are in `launch.event_handlers`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class EventHandler:
-    """A handler that answers each event that `matcher(event)` accepts with `entities`; only once with `handle_once`."""
+    """Returns `entities` for each event that `matcher(event)` accepts; with `handle_once` only for the first."""
 
     def __init__(
         self,
@@ -43,7 +43,7 @@ class EventHandler:
         return bool(self.__matcher(event))
 
     def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:
-        """Return the answer; a handler with `handle_once` unregisters itself."""
+        """Return the entities for an event; a handler with `handle_once` unregisters itself."""
         if self.handle_once:
             context.unregister_event_handler(self)
         return self.entities
@@ -56,7 +56,7 @@ def answer(reaction: Any, event: Event, context: LaunchContext, what: str) -> li
 
 
 def known_entities(reaction: Any, what: str) -> list[LaunchDescriptionEntity]:
-    """Return the entities of an `on_...` argument known beforehand: those that are not made by a function."""
+    """Return the entities of an `on_...` argument that are known in advance, not returned by a function."""
     if callable(reaction):
         return []
     if not isinstance(reaction, LaunchDescriptionEntity | Iterable):

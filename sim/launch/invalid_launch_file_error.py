@@ -6,4 +6,4 @@ from gz_course.sim.launch.errors import LaunchError
 
 
 class InvalidLaunchFileError(LaunchError):
-    """A launch file is not there, is no launch file, or lacks what a launch file must have."""
+    """A launch file is missing, is no launch file, or lacks a required part."""

@@ -1,7 +1,7 @@
-"""The state of one run of a launch file: configurations, environment, event handlers, pending events.
+"""The state of a running launch: configurations, environment, event handlers, pending events.
 
-`LaunchService` makes it and passes it to every entity it visits. Scopes (configurations, environment, locals) are
-pushed and popped; `GroupAction` does that.
+`LaunchService` creates it and passes it to every visited entity. `GroupAction` pushes and pops scopes of
+configurations, environment and locals.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from gz_course.sim.launch.substitution import Substitution
 
 
 class LaunchContext:
-    """The state of a run. `argv` are the command-line arguments, kept for launch files that read them."""
+    """The state of a launch; `argv` are the command-line arguments for launch files that read them."""
 
     def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False) -> None:
         self.argv = list(argv or ())
@@ -45,21 +45,21 @@ class LaunchContext:
 
     @property
     def is_shutdown(self) -> bool:
-        """Whether the run has begun to end; no process is started any more."""
+        """True once the launch has begun to shut down; no process is started any more."""
         return self.__is_shutdown
 
     def _set_is_shutdown(self, state: bool) -> None:
         self.__is_shutdown = state
 
     def _hold_signal(self, number: int) -> None:
-        """Note a signal that comes during a visit. Raises KeyboardInterrupt, because the visit may never end."""
+        """Record a signal that arrives during a visit. Raises KeyboardInterrupt, because the visit may never return."""
         self._held_signal = number
         if not self.__is_uninterrupted:
             raise KeyboardInterrupt
 
     @contextlib.contextmanager
     def uninterrupted(self) -> Iterator[None]:
-        """Raise the KeyboardInterrupt of a signal after the block, not in it: for the start of a process."""
+        """Postpone the KeyboardInterrupt of a signal to the end of the block, for the start of a process."""
         self.__is_uninterrupted = True
         try:
             yield
@@ -72,7 +72,7 @@ class LaunchContext:
 
     @property
     def launch_configurations(self) -> dict[str, Any]:
-        """The launch configurations of this scope by name."""
+        """Return the launch configurations of this scope by name."""
         return self.__configurations[-1]
 
     def _push_launch_configurations(self) -> None:
@@ -85,7 +85,7 @@ class LaunchContext:
 
     @property
     def environment(self) -> MutableMapping[str, str]:
-        """The environment of this process, which children inherit."""
+        """Return the environment of this process, which children inherit."""
         return os.environ
 
     def _push_environment(self) -> None:
@@ -108,7 +108,7 @@ class LaunchContext:
 
     @property
     def locals(self) -> SimpleNamespace:
-        """The values of this scope: `event`, the path of the current launch file."""
+        """Return the local values of this scope, such as `event` and the path of the current launch file."""
         return SimpleNamespace(**self.get_locals_as_dict())
 
     def get_locals_as_dict(self) -> dict[str, Any]:
@@ -129,12 +129,12 @@ class LaunchContext:
         self.__locals.pop()
 
     def _drop_scopes(self) -> None:
-        """Leave all scopes that an error has left open."""
+        """Pop all scopes that an error has left open."""
         del self.__locals[1:], self.__configurations[1:]
         self.__environments.clear()
 
     def perform_substitution(self, substitution: Substitution) -> str:
-        """Return the text. Raises LaunchError for a `perform` that returns something else."""
+        """Return the text of a substitution. Raises LaunchError if `perform` returns no text."""
         text = substitution.perform(self)
         if not isinstance(text, str):
             raise LaunchError(
@@ -146,7 +146,7 @@ class LaunchContext:
 
     @property
     def asyncio_loop(self) -> asyncio.AbstractEventLoop | None:
-        """The event loop of the run; None before it."""
+        """Return the event loop of the launch, None before its start."""
         return self.__loop
 
     def _set_asyncio_loop(self, loop: asyncio.AbstractEventLoop | None) -> None:
@@ -156,42 +156,42 @@ class LaunchContext:
             self.__wake.set()
 
     def register_event_handler(self, event_handler: EventHandler, append: bool = False) -> None:
-        """Offer events to this handler first; last with `append`."""
+        """Add a handler in front of the others, or with `append` behind them."""
         if append:
             self.__handlers.append(event_handler)
         else:
             self.__handlers.appendleft(event_handler)
 
     def unregister_event_handler(self, event_handler: EventHandler) -> None:
-        """Raise ValueError if the handler is not registered."""
+        """Remove a handler. Raises ValueError if it is not registered."""
         self.__handlers.remove(event_handler)
 
     def would_handle_event(self, event: Event) -> bool:
-        """Return whether any handler would answer, or a matcher fails: handling the event reports that."""
+        """Return whether a handler matches, or its matcher fails, which is reported when the event is handled."""
         try:
             return any(handler.matches(event) for handler in self.__handlers)
         except Exception:
             return True
 
     def handlers_of(self, event: Event) -> list[EventHandler]:
-        """Return the handlers of this event, the newest first."""
+        """Return the handlers of this event, newest first."""
         return [handler for handler in self.__handlers if handler.matches(event)]
 
     async def emit_event(self, event: Event) -> None:
         self.emit_event_sync(event)
 
     def emit_event_sync(self, event: Event) -> None:
-        """Queue an event; from any thread."""
+        """Queue an event; thread-safe."""
         self.__events.append(event)
         self._wake_up()
 
     def _next_event(self) -> Event | None:
         return self.__events.popleft() if self.__events else None
 
-    # What the run waits for
+    # Completion
 
     def add_completion_future(self, future: asyncio.Future[None]) -> None:
-        """Keep the run going until the future is done. An exception in it ends the run."""
+        """Keep the launch running until the future is done; an exception in it ends the launch."""
         if future in self.__futures or (future.done() and (future.cancelled() or future.exception() is None)):
             return
         self.__futures.add(future)

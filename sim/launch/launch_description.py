@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class LaunchDescription(LaunchDescriptionEntity):
-    """A list of actions and launch descriptions; `add_action` adds to its end."""
+    """A list of entities: actions and launch descriptions."""
 
     def __init__(
         self,
@@ -60,10 +60,10 @@ class LaunchDescription(LaunchDescriptionEntity):
         return list(self.entities)
 
     def get_launch_arguments(self, conditional_inclusion: bool = False) -> list[DeclareLaunchArgument]:
-        """Return the arguments that are declared here and in included files, each name once.
+        """Return the arguments declared here and in included files, each name once.
 
-        Arguments inside of something conditional are marked as such. Files whose path needs the launch to run are
-        left out.
+        Arguments inside of conditional entities are marked as such. Included files whose path is not known before the
+        launch runs are omitted.
         """
         found = self.get_launch_arguments_with_include_launch_description_actions(conditional_inclusion)
         arguments: dict[Any, DeclareLaunchArgument] = {}
@@ -74,7 +74,7 @@ class LaunchDescription(LaunchDescriptionEntity):
     def get_launch_arguments_with_include_launch_description_actions(
         self, conditional_inclusion: bool = False, *, only_search_local: bool = False
     ) -> list[tuple[DeclareLaunchArgument, list[IncludeLaunchDescription]]]:
-        """Return the declared arguments, each with the chain of includes to it, the innermost last."""
+        """Return the declared arguments, each with its chain of includes, the innermost last."""
         from gz_course.sim.launch.actions import (
             DeclareLaunchArgument,
             IncludeLaunchDescription,
@@ -91,7 +91,7 @@ class LaunchDescription(LaunchDescriptionEntity):
                     entity._conditionally_included |= conditional or entity.condition is not None
                     found.append((entity, chain))
                 if isinstance(entity, ResetLaunchConfigurations):
-                    return  # what follows cannot see arguments from outside
+                    return  # the following entities cannot see arguments from outside
                 deeper = chain
                 if isinstance(entity, IncludeLaunchDescription):
                     if only_search_local or entity.leads_back_into(chain):

@@ -1,6 +1,6 @@
-"""The base of what a launch description consists of: something that can be visited, and may lead to more entities.
+"""The base class of actions and launch descriptions, which can be visited and may return further entities.
 
-`visit` walks depth first through an entity and all it leads to; `LaunchService` calls it for each event.
+`visit` visits an entity and its descendants depth first; `LaunchService` calls it for each event.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class LaunchDescriptionEntity:
         return repr(self)
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """Return the entities that follow in any case, as far as they are known before the visit."""
+        """Return the entities that follow unconditionally, as far as they are known before the visit."""
         return []
 
     def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
@@ -35,14 +35,14 @@ class LaunchDescriptionEntity:
         return []
 
     def get_asyncio_future(self) -> Future[None] | None:
-        """Return a future that is done when the entity is; None when a visit completes it."""
+        """Return a future that is done when the entity is; None if it is done after the visit."""
         return None
 
 
 def listed(entities: Any, what: str) -> list[LaunchDescriptionEntity]:
     """Return one entity, an iterable of them or None as a list.
 
-    Raises LaunchError if something else is among them; `what` tells the user where it came from.
+    Raises LaunchError for anything else; `what` names its origin in the error.
     """
     if entities is None:
         return []
@@ -56,7 +56,7 @@ def listed(entities: Any, what: str) -> list[LaunchDescriptionEntity]:
 
 
 def visit(entity: LaunchDescriptionEntity, context: LaunchContext) -> None:
-    """Visit an entity and everything it leads to, depth first; note their futures in the context."""
+    """Visit an entity and its descendants, depth first; add their futures to the context."""
     if not isinstance(entity, LaunchDescriptionEntity):
         raise LaunchError(f"{entity!r} of type {type(entity).__name__} stands where an action is expected")
     following = entity.visit(context)

@@ -1,4 +1,4 @@
-"""The source of an included launch description: the description itself, or a file that is loaded when needed."""
+"""The source of an included launch description: the description itself, or a file to load."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class LaunchDescriptionSource:
-    """A launch description, or the `location` of one. A class of one's own overrides `_get_launch_description`."""
+    """A launch description, or its `location`; subclasses override `_get_launch_description`."""
 
     def __init__(
         self,
@@ -35,21 +35,21 @@ class LaunchDescriptionSource:
 
     @property
     def location(self) -> str:
-        """The path, or its description as long as it is not known."""
+        """Return the path, or a description of its substitutions before they are performed."""
         return self.__expanded_location or describe_substitutions(self.__location)
 
     @property
     def plain_location(self) -> str | None:
-        """The path if it is known before the launch runs, else None."""
+        """Return the path if it is known before the launch runs, else None."""
         from gz_course.sim.launch.substitutions import TextSubstitution
 
         texts = [part.text for part in self.__location if isinstance(part, TextSubstitution)]
         return "".join(texts) if texts and len(texts) == len(self.__location) else None
 
     def try_get_launch_description_without_context(self) -> LaunchDescription | None:
-        """Return the launch description if it can be had before the launch runs, else None.
+        """Return the launch description if it is available before the launch runs, else None.
 
-        Raises whatever loading the file raises.
+        Raises the errors of loading the file.
         """
         if self.__launch_description is None and self.plain_location is not None:
             self._load(self.plain_location)
@@ -74,7 +74,7 @@ class LaunchDescriptionSource:
 
 
 def as_source(source: Any) -> LaunchDescriptionSource:
-    """Return the source for an argument of IncludeLaunchDescription: a source, or the path of a launch file."""
+    """Return a source for an argument of IncludeLaunchDescription: a source or the path of a launch file."""
     if isinstance(source, LaunchDescriptionSource):
         return source
     from gz_course.sim.launch.launch_description import LaunchDescription

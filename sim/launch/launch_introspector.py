@@ -10,7 +10,7 @@ from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEnti
 
 
 class LaunchIntrospector:
-    """A formatter of launch descriptions."""
+    """Formats launch descriptions as indented text."""
 
     def format_launch_description(self, launch_description: LaunchDescription) -> str:
         name = repr(launch_description).replace("gz_course.sim.launch", "launch")  # as its public name is

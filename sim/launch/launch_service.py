@@ -1,11 +1,11 @@
-"""The run of launch descriptions: visits them, passes events to event handlers, and ends every process it started.
+"""Runs launch descriptions: visits them, passes events to event handlers, and ends every process that was started.
 
     service = LaunchService()
     service.include_launch_description(description)
     exit_code = service.run()
 
-`ros2 launch` does this. One event after the other is offered to all handlers; their answers are visited. The run
-ends after a shutdown, when every process, timer and coroutine has ended; it shuts down by itself when it is idle.
+Events are processed one after the other: each is offered to all handlers, and the returned entities are visited. The
+run ends when every process, timer and coroutine has ended after a shutdown; an idle launch shuts down by itself.
 
 Source: ros2/launch, launch/launch_service.py and launch/doc/source/architecture.rst
 """
@@ -33,7 +33,7 @@ _LOG = launch_logging.get_logger("launch")
 
 
 class LaunchService:
-    """One run. `argv` is kept for launch files that read it; `noninteractive` means that nobody is at a terminal."""
+    """One run. `argv` is stored for launch files that read it; `noninteractive` means that no user is at a terminal."""
 
     def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False, debug: bool = False) -> None:
         self.context = LaunchContext(argv=argv, noninteractive=noninteractive)
@@ -47,20 +47,20 @@ class LaunchService:
 
     @property
     def event_loop(self) -> asyncio.AbstractEventLoop | None:
-        """The event loop while it runs, else None."""
+        """Return the event loop while it runs, else None."""
         return self.__loop
 
     def include_launch_description(self, launch_description: LaunchDescription) -> None:
         self.emit_event(IncludeLaunchDescription(launch_description))
 
     def emit_event(self, event: Event) -> None:
-        """Queue an event; from any thread, before and during the run."""
+        """Queue an event before or during the run; thread-safe."""
         self.context.emit_event_sync(event)
 
     def shutdown(self, force_sync: bool = False) -> Coroutine[None, None, None] | None:
-        """End the run as if nothing was left to be done; from any thread.
+        """End the run as if it were idle; thread-safe.
 
-        Called in the event loop of the run it returns a coroutine that waits for nothing, for `await`.
+        Called in the event loop of the run it returns a coroutine that completes at once, for `await`.
         """
         self.emit_event(Shutdown(reason="LaunchService.shutdown() called"))
         try:
@@ -70,9 +70,10 @@ class LaunchService:
         return _nothing() if inside and not force_sync else None
 
     def run(self, *, shutdown_when_idle: bool = True) -> int:
-        """Run to the end: 0, or 1 when the launch itself failed. In any thread, also where a loop is running.
+        """Run until the end; return 0, or 1 if the launch itself failed. Works in any thread, also beside a running
+        loop.
 
-        The exit codes of processes do not count. In the main thread SIGINT, SIGTERM, SIGHUP and SIGQUIT end the run.
+        Exit codes of processes are ignored. In the main thread SIGINT, SIGTERM, SIGHUP and SIGQUIT end the run.
         """
         work = self.run_async(shutdown_when_idle=shutdown_when_idle)
         try:
@@ -83,7 +84,7 @@ class LaunchService:
         return self._run_in_thread(work)
 
     def _run_in_thread(self, work: Coroutine[None, None, int]) -> int:
-        """Run beside an event loop that waits meanwhile, as in a notebook."""
+        """Run in another thread while the event loop of this one waits, as in a notebook."""
         outcome: concurrent.futures.Future[int] = concurrent.futures.Future()
 
         def run() -> None:
@@ -100,7 +101,7 @@ class LaunchService:
                 self._interrupt_soon(signal.SIGINT)
 
     async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
-        """Run to the end in the event loop that awaits this; as `run`."""
+        """Run until the end in the current event loop, like `run`."""
         with self.__lock:
             if self.__is_running:
                 raise LaunchError("this LaunchService is running already; make another one")
@@ -145,7 +146,7 @@ class LaunchService:
             await context._something_happens()
 
     def _process(self, event: Event) -> None:
-        """Offer an event to all handlers and visit what they answer."""
+        """Offer an event to all handlers and visit the entities they return."""
         _LOG.debug(f"processing event: '{event.name}'")
         if isinstance(event, Shutdown):
             if self.context.is_shutdown:
@@ -178,7 +179,6 @@ class LaunchService:
             context._pop_locals()
 
     def _fail(self, error: BaseException) -> None:
-        """Log the error and end the run with exit code 1."""
         self.__return_code = 1
         _LOG.debug("".join(traceback.format_exception(error)).rstrip())
         _LOG.error(f"Caught exception in launch (see debug for traceback): {sentence(error)}")
@@ -187,9 +187,9 @@ class LaunchService:
     # Signals
 
     def _take_signals(self) -> Callable[[], None]:
-        """Handle signals in the main thread; return what undoes that.
+        """Install signal handlers in the main thread; return a function that restores the previous ones.
 
-        Handlers of the real kind: they work where the parent has set SIGINT to ignored, as a shell's `&` does.
+        Uses `signal.signal`, which also works if the parent has set SIGINT to ignored, as a shell's `&` does.
         """
         if threading.current_thread() is not threading.main_thread():
             return lambda: None
@@ -197,7 +197,7 @@ class LaunchService:
         for number in (signal.SIGINT, *_OTHER_ENDS):
             signal.signal(number, self._on_signal)
         if before[signal.SIGCHLD] is signal.SIG_IGN:
-            signal.signal(signal.SIGCHLD, signal.SIG_DFL)  # else the exit codes of children would be lost
+            signal.signal(signal.SIGCHLD, signal.SIG_DFL)  # otherwise the exit codes of children would be lost
 
         def restore() -> None:
             for number, handler in before.items():

@@ -1,8 +1,8 @@
-"""The end of processes whose launch was killed.
+"""Ends processes whose launch was killed.
 
-`ChildProcess` registers each process group here from its start to its end. While there is any, a small shell outside
-of the launch's session reads them from a pipe. The pipe closes with the launch, however that ends: groups that are
-left then get SIGINT, later SIGTERM, later SIGKILL. After a proper end none is left, and the shell ends at once.
+`ChildProcess` registers each process group from its start to its end. While there is one, a small shell outside of the
+launch's session reads the groups from a pipe. The pipe closes when the launch ends for any reason: remaining groups
+then get SIGINT, later SIGTERM, later SIGKILL. After a normal end none remains, and the shell exits at once.
 """
 
 from __future__ import annotations
@@ -96,7 +96,7 @@ _watch = _Watch()
 
 
 def _forget() -> None:
-    """Close the parent's pipe in a fork, which has no processes of its own yet."""
+    """Close the parent's pipe in a forked child, which has no process groups of its own yet."""
     global _watch
     if _watch._pipe >= 0:
         os.close(_watch._pipe)

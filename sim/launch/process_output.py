@@ -1,12 +1,12 @@
-"""The output of processes: to the screen, to launch.log and to files of their own.
+"""The output of processes: on the screen, in launch.log and in files of their own.
 
-`output=` of an action chooses:
+`output=` of an action selects:
 
     screen   both streams on the screen
-    log      both in launch.log, stderr on the screen as well (the default)
+    log      both in launch.log, stderr also on the screen (the default)
     both     both in launch.log and on the screen
     own_log  <label>-stdout.log, <label>-stderr.log and <label>.log (both streams) in the log folder
-    full     all of it
+    full     all of these
 
 or with a dict: `{"stdout": "screen", "stderr": {"log", "own_log"}}`.
 
@@ -25,7 +25,7 @@ from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.launch.errors import LaunchError
 from gz_course.sim.launch.logging import launch_config, stamp
 
-_LONGEST_LINE = 65536  # bytes; what comes without any newline is cut, not kept for ever
+_LONGEST_LINE = 65536  # bytes; longer output without a newline is split, to bound memory
 STREAMS = ("stdout", "stderr")
 _OVERRIDE = "OVERRIDE_LAUNCH_PROCESS_OUTPUT"
 _SINKS = ("screen", "log", "own_log")
@@ -40,7 +40,7 @@ _WORDS: dict[str, dict[str, set[str]]] = {
 
 
 def sinks(output: str | dict[str, Any]) -> dict[str, set[str]]:
-    """Return the sinks of each stream for an `output=` argument. Raises LaunchError for words that mean nothing."""
+    """Return the sinks of each stream for an `output=` argument. Raises LaunchError for unknown words."""
     chosen: dict[str, Any]
     output = os.environ.get(_OVERRIDE) or output
     if isinstance(output, str):
@@ -65,7 +65,7 @@ def sinks(output: str | dict[str, Any]) -> dict[str, set[str]]:
 
 
 class ProcessOutput:
-    """The output of one process under its label; `line_format(line)` makes a line for the screen."""
+    """The output of one process under its label; `line_format(line)` formats a line for the screen."""
 
     def __init__(
         self, label: str, output: str | dict[str, Any], *, cached: bool, line_format: Callable[[str], str] | None
@@ -78,7 +78,7 @@ class ProcessOutput:
         self._files: dict[str, BinaryIO] = {}
 
     def feed(self, stream: str, data: bytes) -> None:
-        """Write the lines that `data`, read from a stream, completes."""
+        """Write the lines that are complete after `data` was read from a stream."""
         if self._cache is not None:
             self._cache[stream] += data
         complete, newline, rest = (self._rest[stream] + data).rpartition(b"\n")
@@ -102,7 +102,7 @@ class ProcessOutput:
         self._files.clear()
 
     def cached(self, stream: str) -> bytes:
-        """Return the output of a stream so far. Raises LaunchError unless made with `cached`."""
+        """Return the output of a stream so far. Raises LaunchError without `cached`."""
         if self._cache is None:
             raise LaunchError(f"the {stream} of {self._label} was not kept; give the action cached_output=True")
         return bytes(self._cache[stream])

@@ -1,4 +1,4 @@
-"""The settings of ExecuteLocal: checked when it is made, performed when it is executed."""
+"""The settings of ExecuteLocal, checked when it is created and performed when it is executed."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ class ProcessSettings:
 
 
 def timeout_substitutions(name: str, value: Any) -> list[Substitution]:
-    """Return a time-out [s] as substitutions; None means the launch configuration `name`, else 5."""
+    """Return a time-out [s] as substitutions; None means the launch configuration `name`, with default 5."""
     if value is None:
         return [LaunchConfiguration(name, default=_DEFAULT_TIMEOUT)]
     return normalize_to_list_of_substitutions(str(value) if isinstance(value, int | float) else value)
 
 
 def seconds(context: LaunchContext, parts: list[Substitution]) -> float:
-    """Return the performed time-out. Raises LaunchError when it is no number of seconds."""
+    """Return the performed time-out [s]. Raises LaunchError if it is no number of seconds."""
     text = perform_substitutions(context, parts)
     try:
         value = float(text)
@@ -50,7 +50,7 @@ def seconds(context: LaunchContext, parts: list[Substitution]) -> float:
 
 
 def normalized_output(output: Any) -> Any:
-    """Return an `output=`, checked if it is known already, else as substitutions. Raises LaunchError."""
+    """Return an `output=`, checked if it is plain text, else as substitutions. Raises LaunchError."""
     if isinstance(output, str | dict):
         sinks(output)
         return output

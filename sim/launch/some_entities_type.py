@@ -1,4 +1,4 @@
-"""The type of one or several entities, as actions and handlers take them."""
+"""The argument type of actions and handlers for one or several entities."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The type of text, a substitution or a list of both, as actions and substitutions take it."""
+"""The argument type of actions and substitutions for text, a substitution or a list of both."""
 
 from __future__ import annotations
 

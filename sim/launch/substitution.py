@@ -1,8 +1,7 @@
-"""A piece of text that is known only when the launch file runs.
+"""Text that is known only when the launch file runs; the base class of everything in `launch.substitutions`.
 
-The base of everything in `launch.substitutions`. Actions store what the user gave them as lists of substitutions
-(`launch.utilities.normalize_to_list_of_substitutions`) and turn them into text when they are executed
-(`launch.utilities.perform_substitutions`).
+Actions store arguments as lists of substitutions (`launch.utilities.normalize_to_list_of_substitutions`) and turn them
+into text when they are executed (`launch.utilities.perform_substitutions`).
 """
 
 from __future__ import annotations
@@ -14,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class Substitution:
-    """Text that `perform` computes. A class of one's own overrides `perform` and `describe`."""
+    """Text that `perform` computes; subclasses override `perform` and `describe`."""
 
     def perform(self, context: LaunchContext) -> str:
         """Return the text. Raises SubstitutionFailure, or another LaunchError."""

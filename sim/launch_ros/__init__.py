@@ -1,4 +1,7 @@
-"""ROS nodes in launch files: the interface of ROS 2's `launch_ros`, built on the `launch` beside it."""
+"""ROS nodes in launch files: the interface of ROS 2's `launch_ros`, built on this project's `launch`.
+
+Source: https://github.com/ros2/launch_ros
+"""
 
 from gz_course.sim.launch_ros import actions, descriptions, parameter_descriptions, substitutions
 

@@ -1,4 +1,4 @@
-"""The rules for names of nodes and namespaces, without loading rclpy, which takes long.
+"""The rules for names of nodes and namespaces, without rclpy, which is slow to import.
 
 Source: ros2/rmw, rmw/src/validate_node_name.c and rmw/src/validate_namespace.c
 """
@@ -15,7 +15,7 @@ _LONGEST_NAMESPACE = 245
 
 
 def check_node_name(name: str) -> None:
-    """Raise LaunchError for a name that no node can have."""
+    """Raise LaunchError for an invalid node name."""
     if not _TOKEN.fullmatch(name):
         raise LaunchError(
             f"the node name '{name}' is not valid: letters, digits and _ are allowed, and no digit at its beginning"
@@ -25,7 +25,7 @@ def check_node_name(name: str) -> None:
 
 
 def check_namespace(namespace: str) -> None:
-    """Raise LaunchError when this is no absolute namespace, `/` or `/a/b`."""
+    """Raise LaunchError unless this is an absolute namespace, `/` or `/a/b`."""
     parts = namespace.split("/")[1:]
     if not namespace.startswith("/") or (namespace != "/" and not all(_TOKEN.fullmatch(part) for part in parts)):
         raise LaunchError(
@@ -37,7 +37,7 @@ def check_namespace(namespace: str) -> None:
 
 
 def joined(base: str | None, namespace: str | None) -> str | None:
-    """Return a namespace inside of another; an absolute one stands for itself. None when there is neither.
+    """Return a namespace relative to `base`; an absolute one is unchanged. None if there is neither.
 
     The result begins with `/` and does not end with one, except for `/` itself.
     """

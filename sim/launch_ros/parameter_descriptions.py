@@ -18,10 +18,10 @@ from gz_course.sim.launch_ros.parameter_values import Value, check_value, coerce
 
 
 class ParameterValue:
-    """A value whose type is given: `value_type` is str, int, float, bool or List[...] of one of them.
+    """A value of a given type: `value_type` is str, int, float, bool or List[...] of one of them.
 
-    Without a type it is the value itself. What is text, such as the result of `Command`, needs `value_type=str`,
-    or it is read as YAML.
+    Without a type it is the value itself. A text, such as the result of `Command`, is parsed as YAML unless
+    `value_type` is str.
     """
 
     def __init__(self, value: Any, *, value_type: Any = None) -> None:
@@ -35,7 +35,7 @@ class ParameterValue:
         return self.__value
 
     def evaluate(self, context: LaunchContext, name: str = "") -> Value:
-        """Return the value a node is to get. Raises ParameterTypeError (a TypeError)."""
+        """Return the value for the node. Raises ParameterTypeError (a TypeError)."""
         if self.value_type is None:
             return evaluate_value(context, name, self.__value)
         value = self.__value
@@ -47,7 +47,7 @@ class ParameterValue:
 
 
 class Parameter:
-    """One parameter: its name, its value, and the type of the value if that is given."""
+    """One parameter: its name, its value, and optionally the type of the value."""
 
     def __init__(self, name: SomeSubstitutionsType, value: Any, *, value_type: Any = None) -> None:
         self.__name = normalize_to_list_of_substitutions(name)
@@ -55,7 +55,6 @@ class Parameter:
 
     @property
     def name(self) -> list[Substitution]:
-        """The name."""
         return self.__name
 
     @property
@@ -72,7 +71,7 @@ class Parameter:
 
 
 class ParameterFile:
-    """A parameter file; with `allow_substs` it may hold `$(var name)` and other substitutions."""
+    """A parameter file; with `allow_substs` it may contain `$(var name)` and other substitutions."""
 
     def __init__(
         self,
@@ -87,7 +86,7 @@ class ParameterFile:
         self.__made: Path | None = None
 
     def evaluate(self, context: LaunchContext) -> Path:
-        """Return the path of the file to be used, a new one when it holds substitutions."""
+        """Return the path of the file, or of a new one with the substitutions performed."""
         import yaml
 
         from gz_course.sim.launch.conditions import evaluate_condition_expression
@@ -97,7 +96,7 @@ class ParameterFile:
             return path
         source = path.read_text(encoding="utf-8")
         try:
-            # Comments may hold what is no substitution; loading the YAML drops them.
+            # Comments may contain invalid substitutions; loading the YAML removes them.
             plain = yaml.safe_dump(yaml.safe_load(source), width=float("inf"))
             text = perform_substitutions(context, parse_substitution(plain))
             yaml.safe_load(text)
@@ -115,7 +114,7 @@ class ParameterFile:
 
 
 def write_parameter_file(text: str) -> Path:
-    """Write a parameter file into the folder for temporary files; return its path."""
+    """Write a temporary parameter file; return its path."""
     descriptor, path = tempfile.mkstemp(prefix="launch_params_")
     with os.fdopen(descriptor, "w", encoding="utf-8") as file:
         file.write(text)

@@ -1,11 +1,11 @@
-"""The types of parameter values that a launch file gives.
+"""The types of parameter values in a launch file.
 
-    'text'                           stays text, also '5'
-    True, 3, 0.5                     stay what they are
-    [1, 2.5]                         a list of one type; whole numbers beside fractions become fractions
-    LaunchConfiguration('x')         text, read as YAML: 3 is a number, true a boolean, [1, 2] a list
-    ['a', LaunchConfiguration('x')]  one text put together, read as YAML
-    [['a'], [LaunchConfiguration('x')]]   a list; each of its parts put together and read as YAML
+    'text'                           text, also '5'
+    True, 3, 0.5                     unchanged
+    [1, 2.5]                         a list of one type; integers beside floats become floats
+    LaunchConfiguration('x')         text, parsed as YAML: 3 is a number, true a boolean, [1, 2] a list
+    ['a', LaunchConfiguration('x')]  one joined text, parsed as YAML
+    [['a'], [LaunchConfiguration('x')]]   a list; each item is joined and parsed as YAML
     ParameterValue(x, value_type=T)  of type T
 
 Source: ros2/launch_ros, launch_ros/utilities/normalize_parameters.py and evaluate_parameters.py
@@ -31,7 +31,7 @@ class ParameterTypeError(LaunchError, TypeError):
 
 
 def check_value(name: str, value: Any) -> None:
-    """Raise ParameterTypeError for a value that cannot become a parameter's, as far as that is known already."""
+    """Raise ParameterTypeError for a value that cannot be a parameter, as far as that is known before the launch."""
     from gz_course.sim.launch_ros.parameter_descriptions import ParameterValue
 
     if isinstance(value, Mapping):
@@ -50,7 +50,7 @@ def check_value(name: str, value: Any) -> None:
 
 
 def evaluate_value(context: LaunchContext, name: str, value: Any) -> Value:
-    """Return the value a node is to get. Raises ParameterTypeError."""
+    """Return the value for the node. Raises ParameterTypeError."""
     from gz_course.sim.launch_ros.parameter_descriptions import ParameterValue
 
     if isinstance(value, ParameterValue):
@@ -81,8 +81,8 @@ def _evaluate_item(context: LaunchContext, name: str, item: Any) -> Any:
 
 
 def from_yaml(name: str, text: str) -> Value:
-    """Return what a text means in YAML. Raises ParameterTypeError for what no parameter can be."""
-    import yaml  # not needed by most launch files, and slow to load
+    """Parse a text as YAML. Raises ParameterTypeError if no parameter can have this value."""
+    import yaml  # slow to import, and not needed by most launch files
 
     if text == "":
         return ""
@@ -107,7 +107,7 @@ def from_yaml(name: str, text: str) -> Value:
 
 
 def uniform(name: str, items: Iterable[Any]) -> Any:
-    """Return items of one type as a list; whole numbers beside fractions become fractions."""
+    """Return items of one type as a list; integers beside floats become floats."""
     values = list(items)
     if not values:
         raise ParameterTypeError(f"the parameter '{name}' is an empty list; ROS cannot tell its type, leave it out")
@@ -124,7 +124,7 @@ def uniform(name: str, items: Iterable[Any]) -> Any:
 
 
 def coerce(name: str, value: Any, value_type: Any) -> Value:
-    """Return a value as the type that ParameterValue names. Raises ParameterTypeError."""
+    """Convert a value to the type that ParameterValue names. Raises ParameterTypeError."""
     if get_origin(value_type) is list:
         item_type = get_args(value_type)[0]
         if isinstance(value, str):
@@ -155,7 +155,7 @@ def _not_of_type(name: str, value: Any, value_type: Any) -> ParameterTypeError:
 
 
 def flattened(context: LaunchContext, parameters: Mapping[Any, Any], prefix: str = "") -> dict[str, Value]:
-    """Return the evaluated values by name; the names of nested dicts are joined with dots."""
+    """Return the evaluated values by name; names of nested dicts are joined with dots."""
     result: dict[str, Value] = {}
     for key, value in parameters.items():
         name = prefix + perform_substitutions(context, normalize_to_list_of_substitutions(key))
@@ -175,7 +175,7 @@ def as_argument(value: Value) -> str:
 
 
 def as_file(node: str, parameters: Mapping[str, Value]) -> str:
-    """Return the text of a parameter file for the node of this full name, or `/**` for any."""
+    """Return the text of a parameter file for the node of this full name, or `/**` for every node."""
     import yaml
 
     content = {node: {"ros__parameters": dict(sorted(parameters.items()))}}

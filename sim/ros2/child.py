@@ -1,8 +1,8 @@
-"""The program that `ros2 run` starts in the foreground, and the signals passed on to it.
+"""Runs the program of `ros2 run` in the foreground and forwards signals to it.
 
-Without a terminal the child gets a process group of its own, and a signal sent to this
-process reaches that whole group. On a terminal the child stays in this process's group, so that Ctrl-C, Ctrl-Z
-and reading keys work as if it had been started directly; only what the terminal has not delivered is passed on.
+Without a terminal the child has its own process group, and a signal sent to this process is forwarded to that group. On
+a terminal the child stays in this process's group, so that Ctrl-C, Ctrl-Z and reading keys work as if it had been
+started directly; only signals that the terminal has not delivered are forwarded.
 """
 
 from __future__ import annotations
@@ -18,16 +18,16 @@ PASSED_ON = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 class ChildError(Exception):
-    """The program could not be started: one sentence."""
+    """The program could not be started; the text is one sentence."""
 
 
 def run_child(command: Sequence[str]) -> int:
-    """Run a command to its end; return its exit code, or -n when signal n ended it.
+    """Run a command until its end; return its exit code, or -n after signal n.
 
     Raises ChildError if it does not start.
     """
-    # Blocked signals are fetched one by one below: none is lost, not even one the parent has set to ignored.
-    # SIGCHLD must not be ignored, or the child's exit code would be dropped.
+    # Blocked signals are fetched one by one below, so that none is lost, even if the parent has set it to ignored.
+    # SIGCHLD must not be ignored, or the child's exit code would be lost.
     signal.signal(signal.SIGCHLD, signal.SIG_DFL)
     awaited = {*PASSED_ON, signal.SIGCHLD}
     before = signal.pthread_sigmask(signal.SIG_BLOCK, awaited)
@@ -43,7 +43,7 @@ def run_child(command: Sequence[str]) -> int:
             elif not on_terminal:
                 os.killpg(child, received.si_signo)
             elif received.si_code <= 0:
-                # Sent by a process. A signal of the terminal has a positive code, and has reached the child already.
+                # Sent by a process; a signal of the terminal has a positive code and has already reached the child.
                 os.kill(child, received.si_signo)
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
@@ -58,7 +58,7 @@ def _on_terminal() -> bool:
 
 
 def _start(command: Sequence[str], own_group: bool) -> int:
-    """Start the command with the signals a shell would set; return its process id."""
+    """Start the command with default signal handling; return its process id."""
     program = shutil.which(command[0])
     if program is None:
         raise ChildError(f"there is no program {command[0]!r} to start it with")

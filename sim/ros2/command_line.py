@@ -1,10 +1,10 @@
 """The `ros2` command: finds the command and its verb, reads their options and runs them.
 
-`ros2 topic echo /scan` calls `main` of `command/topic/echo.py`, `ros2 run …` that of `command/run.py`. Such a
-file has `add_arguments(parser)` and `main(arguments)`; the first line of its docstring is its help. Nothing is
-listed by hand and only the file in question is imported.
+`ros2 topic echo /scan` calls `main` of `command/topic/echo.py`, `ros2 run …` that of `command/run.py`. Such a file has
+`add_arguments(parser)` and `main(arguments)`; the first line of its docstring is its help. Commands are found by
+listing the folder; only the file of the command is imported.
 
-Source of commands, options and printed words: ros2/ros2cli
+Source: https://github.com/ros2/ros2cli (commands, options and printed words)
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ from gz_course.sim.ros2.hand_over import hand_over
 
 COMMANDS = Path(__file__).parent / "command"
 _INTERRUPTED = 2
-_GRAPH = "ros2.graph"  # loaded by verbs that have a node
+_GRAPH = "ros2.graph"  # imported by verbs that have a node
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run `ros2` with these arguments (default: those of the process); return the exit code.
 
-    0 on success, 1 when the command could not do its work, 2 for wrong usage or after SIGINT or SIGTERM.
+    0 on success, 1 if the command failed, 2 for wrong usage or after SIGINT or SIGTERM.
     """
     is_program = arguments is None
     arguments = list(sys.argv[1:] if arguments is None else arguments)
@@ -55,7 +55,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _explained(arguments: list[str]) -> int:
     """Run `ros2`; report every error as one sentence, and return the exit code."""
-    # A shell's '&' starts programs with SIGINT ignored, and a node must announce its end: both signals arrive as
+    # A shell's '&' starts programs with SIGINT ignored, but a node must announce its end: both signals arrive as
     # KeyboardInterrupt.
     interruption.listen()
     try:
@@ -71,7 +71,7 @@ def _explained(arguments: list[str]) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     except Exception as error:
-        if sys.flags.dev_mode:  # `python -X dev -m gz_course.sim.ros2 …` shows where
+        if sys.flags.dev_mode:  # `python -X dev -m gz_course.sim.ros2 …` shows the traceback
             raise
         sentence = str(error).partition("\n")[0]
         print(f"ros2: internal error: {type(error).__name__}: {sentence}", file=sys.stderr)

@@ -23,7 +23,7 @@ Given = Mapping[str, Any]
 
 
 def complete(**options: Any) -> None:
-    """Write what the word at the cursor can become, and end the process; `options` are those of argcomplete."""
+    """Print the completions of the word at the cursor and end the process; `options` are those of argcomplete."""
     import argcomplete
 
     from gz_course.sim.ros2.command_line import COMMANDS
@@ -36,7 +36,7 @@ def complete(**options: Any) -> None:
 
 
 def _add_verbs(parser: argparse.ArgumentParser, folder: Path, words: list[str]) -> None:
-    """Add the commands or verbs of a folder, with arguments only for the one that `words` begin with."""
+    """Add the commands or verbs of a folder, with arguments only for the one named by the first of `words`."""
     from gz_course.sim.ros2.command_line import found, load
 
     known = found(folder)
@@ -57,7 +57,7 @@ def _add_verbs(parser: argparse.ArgumentParser, folder: Path, words: list[str]) 
 
 
 def _completer(names: Callable[[Given], Iterable[str]]) -> Callable[..., list[str]]:
-    """Return a completer for argcomplete; it offers nothing when the arguments before are wrong."""
+    """Return a completer for argcomplete, which offers nothing if the preceding arguments are wrong."""
 
     def completer(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
         try:
@@ -77,7 +77,7 @@ def _live(question: Callable[[Any], Iterable[str]]) -> list[str]:
 
 
 def _types(name: str, names_and_types: str, kind: str) -> Callable[[Given], Iterable[str]]:
-    """Return a function for the types of the live topic or service `name`, or all interfaces of a kind."""
+    """Return a function that lists the types of the live topic or service `name`, or all interfaces of a kind."""
 
     def types(given: Given) -> Iterable[str]:
         from gz_course.sim.ros2.interface import interface_names
@@ -133,7 +133,7 @@ def _interfaces(given: Given) -> Iterable[str]:
 
 
 def _values(given: Given) -> Iterable[str]:
-    """Return a message with default values in one line, to be edited."""
+    """Return a message with default values in one line, for editing."""
     from gz_course.sim.ros2.interface import message_class, service_class
     from gz_course.sim.ros2.message_text import to_line
 

@@ -1,11 +1,11 @@
-"""The quick discovery of every DDS participant of this machine.
+"""Fast discovery of every DDS participant of this machine.
 
-`graph.Graph` asks here whether all participants are known. Two facts are used. Each participant of a domain holds
-a UDP port whose number follows from the domain, so the system's table of ports says how many there are. And a
-participant introduces itself to every newcomer: Fast DDS does so at once, but while the newcomer is not listening
-yet, and then not before its next announcement, 3 s later. So a scout is sent to each of those ports: the
-announcement of a participant that does not exist, with our own address. All introduce themselves again, to us,
-and forget the scout at once, because its farewell follows in the next packet.
+`graph.Graph` asks here whether all participants are known. Each participant of a domain holds a UDP port whose number
+follows from the domain, so the system's table of ports tells how many there are. A participant announces itself to
+every newcomer: Fast DDS does so at once, possibly before the newcomer listens, and then only in its next periodic
+announcement 3 [s] later. Therefore the announcement of a non-existing participant (a scout) with this process's address
+is sent to each port. All participants then announce themselves again to this process, and forget the scout, because its
+farewell follows in the next packet.
 
 Source: OMG DDSI-RTPS 2.2, https://www.omg.org/spec/DDSI-RTPS/2.2, sections 8.5.3, 9.4.5, 9.6.1 and 9.6.2
 """
@@ -25,14 +25,14 @@ SCOUT_EVERY = 0.25  # [s] between scouts while a participant is missing
 _PORT_TABLE = Path("/proc/net/udp")
 _OWN_FILES = Path("/proc/self/fd")
 _FIRST_PORT, _PORTS_PER_DOMAIN, _PORTS_PER_PARTICIPANT, _PARTICIPANTS = 7410, 250, 2, 120
-_EVERY_ROS_PARTICIPANT = "ros_discovery_info"  # the topic on which each publishes its nodes
-_PREFIX, _HOST = 12, 4  # bytes of an endpoint's identifier that name its participant, and its vendor and host
+_EVERY_ROS_PARTICIPANT = "ros_discovery_info"  # the topic on which each ROS participant publishes its nodes
+_PREFIX, _HOST = 12, 4  # bytes of a GUID that identify the participant, and its vendor and host
 
 
 class Participants:
     """The participants of one domain on this machine, as seen by one node.
 
-    It is made before the node, whose port is the one this process opens meanwhile; then `attach` sets the node.
+    Created before the node, so that the node's port is the one this process opens afterwards; `attach` sets the node.
     """
 
     def __init__(self, domain: int) -> None:
@@ -48,7 +48,9 @@ class Participants:
         self._node = node
 
     def all_known(self) -> bool | None:
-        """Return whether the node knows all participants; send a scout now and then if not. None: unknown."""
+        """Return whether the node knows all participants, None if that is unknown; send scouts while some are
+        missing.
+        """
         ports = self._ports()
         own = self._own_port(ports)
         if own is None:
@@ -61,7 +63,7 @@ class Participants:
         return False
 
     def _ports(self) -> dict[int, str]:
-        """Return the sockets (inodes) of the domain's participants by port; empty where the system does not tell."""
+        """Return the sockets (inodes) of the domain's participants by port; empty if the system does not list them."""
         try:
             lines = _PORT_TABLE.read_text(encoding="ascii").splitlines()[1:]
         except OSError:
@@ -75,7 +77,7 @@ class Participants:
         return next((port for port, inode in ports.items() if inode in own), None)
 
     def _known(self) -> set[bytes]:
-        """Return the participants of this host, this one among them, that the node knows."""
+        """Return the participants of this host that the node knows, including its own."""
         ends = self._node.get_publishers_info_by_topic(_EVERY_ROS_PARTICIPANT, no_mangle=True)
         prefixes = {bytes(end.endpoint_gid)[:_PREFIX] for end in ends}
         if not self._own_prefix:
@@ -87,14 +89,14 @@ class Participants:
 
 def _own_sockets() -> Iterator[str]:
     for file in _OWN_FILES.iterdir():
-        with contextlib.suppress(OSError):  # closed meanwhile
+        with contextlib.suppress(OSError):  # closed in the meantime
             target = str(file.readlink())
             if target.startswith("socket:["):
                 yield target[8:-1]
 
 
 def _send_scout(reply_port: int, ports: list[int], host: bytes) -> None:
-    """Announce a participant that listens on `reply_port` of this machine to these ports, and its farewell."""
+    """Announce a participant that listens on `reply_port` of this machine to these ports, then its farewell."""
     prefix = host.ljust(_HOST, b"\0") + secrets.token_bytes(_PREFIX - _HOST)
     with contextlib.suppress(OSError), socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
         for packet in (announcement(prefix, reply_port), farewell(prefix)):
@@ -109,7 +111,7 @@ def announcement(prefix: bytes, port: int) -> bytes:
         (0x15, bytes([2, 2, 0, 0])),  # protocol version
         (0x16, bytes(4)),  # vendor: none
         (0x50, _guid(prefix)),
-        (0x32, locator),  # where to answer: metatraffic
+        (0x32, locator),  # address for replies: metatraffic
         (0x31, locator),
         (0x02, struct.pack("<iI", 1, 0)),  # lease duration: 1 s
         (0x58, struct.pack("<I", 0b11)),  # endpoints: announcer and detector of participants
@@ -118,7 +120,7 @@ def announcement(prefix: bytes, port: int) -> bytes:
 
 
 def farewell(prefix: bytes) -> bytes:
-    """Return the RTPS packet that announces the end of that participant."""
+    """Return the RTPS packet that announces the end of a participant."""
     disposed_and_unregistered = bytes([0, 0, 0, 0b11])
     inline = _list([(0x70, _guid(prefix)), (0x71, disposed_and_unregistered)])
     return _packet(prefix, number=2, flags=0x0B, inline=inline, payload=_list([(0x50, _guid(prefix))]))

@@ -1,9 +1,9 @@
-"""The live ROS graph, as a node of the command sees it.
+"""The live ROS graph, as seen by a node of the command.
 
-There is no daemon that would know the graph already. Verbs that list wait until every DDS participant of this machine
-is known (`discovery`) with all its nodes and endpoints, and nothing changes any more (`settle`, or `--spin-time`);
-verbs with a target go on as soon as it is there (`wait_for`), or report that it is not once all participants are known.
-Everything has a deadline.
+There is no daemon that already knows the graph. Verbs that list wait until every DDS participant of this machine is
+known (`discovery`) with all its nodes and endpoints and nothing changes any more (`settle`, or `--spin-time`); verbs
+with a target continue as soon as it is found (`wait_for`), or report that it is missing once all participants are
+known. Every wait has a deadline.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ FIRST_CONTACT = 3.3  # [s] within which every node announces itself to a new one
 OTHER_MACHINES = 0.5  # [s] for answers over a network
 QUIET = 0.2  # [s] without a change after which a graph counts as complete
 SETTLE_DEADLINE = 6.0  # [s] for a graph that never stops changing
-TARGET_DEADLINE = 5.0  # [s] for what a user has named
-GIVE_UP = 2.0  # [s] after which it does not exist, if all participants are known; its node may just be starting
-_POLL = 0.02  # [s]; the graph announces changes only to a spinning executor, and not all of them
+TARGET_DEADLINE = 5.0  # [s] for a target named by the user
+GIVE_UP = 2.0  # [s] after which a target is missing if all participants are known; its node may just be starting
+_POLL = 0.02  # [s]; the graph reports changes only to a spinning executor, and not all of them
 UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"  # an endpoint whose node has not been announced yet
 
 Found = TypeVar("Found")
@@ -55,15 +55,15 @@ def is_hidden(name: str) -> bool:
 
 
 class Graph:
-    """The graph as seen by a node of its own, a hidden one (`_ros2cli_<pid>`); a context manager."""
+    """A context manager for the graph as seen by its own hidden node (`_ros2cli_<pid>`)."""
 
     def __init__(self, arguments: argparse.Namespace, node_name: str | None = None) -> None:
         self._spin_time: float | None = arguments.spin_time
         self._context = rclpy.Context()
-        # Shared memory outlives a process that is killed and can block the next one; every node speaks UDP too.
+        # Shared memory outlives a killed process and can block the next one; every node speaks UDP, too.
         os.environ.setdefault("FASTDDS_BUILTIN_TRANSPORTS", "UDPv4")
         try:
-            # No log file is written, so that no writable home is needed; signals stay Python's.
+            # No log file is written, so that no writable home is needed; Python keeps its signal handlers.
             rclpy.init(
                 args=["--ros-args", "--disable-external-lib-logs"],
                 context=self._context,
@@ -100,12 +100,12 @@ class Graph:
         self._context.try_shutdown()
 
     def spin_once(self, timeout: float = 0.1) -> None:
-        """Run what has arrived, waiting up to `timeout` [s] for it."""
+        """Process received data, waiting up to `timeout` [s] for it."""
         self._executor.spin_once(timeout_sec=timeout)
         check()
 
     def spin_until(self, condition: Callable[[], bool], timeout: float | None = None) -> bool:
-        """Run what arrives until the condition is true; return False if it is not within `timeout` [s]."""
+        """Process received data until the condition is true; return False if it is not within `timeout` [s]."""
         end = None if timeout is None else time.monotonic() + timeout
         while not condition():
             left = 0.1 if end is None else min(0.1, end - time.monotonic())
@@ -115,7 +115,7 @@ class Graph:
         return True
 
     def spin_for(self, duration: float) -> None:
-        """Run what arrives for `duration` [s]."""
+        """Process received data for `duration` [s]."""
         self.spin_until(lambda: False, duration)
 
     def topics(self, hidden: bool = False) -> NamesAndTypes:
@@ -127,7 +127,7 @@ class Graph:
         return _shown(self.node.get_service_names_and_types(), hidden)
 
     def nodes(self, hidden: bool = False) -> list[str]:
-        """Return the full names of the nodes, sorted; a name as often as there are nodes of that name."""
+        """Return the full names of the nodes, sorted, with duplicates."""
         names = (_join(namespace, name) for name, namespace in self.node.get_node_names_and_namespaces())
         own = self.node.get_fully_qualified_name()
         return sorted(name for name in names if name != own and (hidden or not is_hidden(name)))
@@ -136,33 +136,33 @@ class Graph:
         """Wait until the graph seems complete, at most `deadline` [s], or exactly --spin-time."""
         if self._spin_time is not None:
             end = self._born + self._spin_time
-            # Called each time, because it calls the missing participants.
+            # Called each time, because it also sends scouts to missing participants.
             self._wait(lambda: (self._participants.all_known(), time.monotonic() >= end)[1], self._spin_time)
         else:
             self._wait(lambda: self._complete(QUIET), deadline)
 
     def wait_for(self, find: Callable[[], Found]) -> Found:
-        """Return what `find` returns as soon as that is true; with --spin-time exactly after that."""
+        """Return the first true result of `find`; with --spin-time its result after exactly that time."""
         if self._spin_time is not None:
             self.settle()
         else:
             given_up = self._born + GIVE_UP
 
             def decided() -> bool:
-                complete = self._complete(QUIET)  # called each time, because it calls the missing participants
+                complete = self._complete(QUIET)  # called each time, because it also sends scouts
                 return bool(find()) or (complete and time.monotonic() >= given_up)
 
             self._wait(decided, TARGET_DEADLINE)
         return find()
 
     def wait_for_topic(self, name: str) -> list[str]:
-        """Return the types of a topic when its endpoints are known; empty if it does not come."""
+        """Return the types of a topic when its endpoints are known; empty if it does not appear."""
         if self.wait_for(lambda: self._types(name)) and self._spin_time is None:
             self._wait(lambda: self._complete(QUIET / 2), 1.0)
         return self._types(name)
 
     def wait_for_publisher(self, name: str, timeout: float) -> bool:
-        """Return whether a publisher of the topic comes within `timeout` [s]."""
+        """Return whether a publisher of the topic appears within `timeout` [s]."""
         return self._wait(lambda: self._participants.all_known() and self.node.count_publishers(name) > 0, timeout)
 
     def _types(self, name: str) -> list[str]:
@@ -186,15 +186,15 @@ class Graph:
         all_known = self._participants.all_known()
         earliest = self._born + (OTHER_MACHINES if _listens_to_other_machines() else 0.0)
         if all_known is not True:
-            # It is unknown, or a participant does not answer: a program that is no ROS node, or one that hangs.
+            # Unknown, or a participant does not answer: a program that is no ROS node, or one that hangs.
             earliest = self._born + FIRST_CONTACT
         nodes, endpoints, _ = seen
-        # A node and its endpoints arrive separately, in any order: both must be known.
+        # A node and its endpoints arrive separately in any order; both must be known.
         whole = nodes == {node for _, node, _ in endpoints}
         return whole and now >= max(earliest, self._changed + quiet)
 
     def _snapshot(self) -> tuple[set[str], set[tuple[str, str, str]], set[str]]:
-        """Return the other nodes, (topic, node, endpoint's identifier) of their endpoints, and all services."""
+        """Return the other nodes, (topic, node, GUID) of their endpoints, and all services."""
         own = self.node.get_fully_qualified_name()
         endpoints = set()
         for topic, _ in self.node.get_topic_names_and_types():

@@ -1,7 +1,7 @@
-"""The hand-over to a real `ros2`, when a ROS 2 installation is set up in this shell.
+"""Hands over to a real `ros2` if a ROS 2 installation is set up in this shell.
 
-`command_line` calls it first. A sourced ROS 2 is in AMENT_PREFIX_PATH; its `ros2` then
-replaces this process. One that is installed into this very Python environment is called as a library.
+A sourced ROS 2 is in AMENT_PREFIX_PATH; its `ros2` replaces this process. One that is installed in this Python
+environment is called as a library.
 """
 
 from __future__ import annotations
@@ -13,15 +13,15 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-# Both or none: a guard without the libraries, or libraries of two installations, break rclpy.
+# Both or none: the guard without the libraries, or libraries of two installations, break rclpy.
 _WHEELS_GUARD = "_ROS_WHEELS_BOOTSTRAP_COMPLETE"
 _LIBRARY_PATH = "LD_LIBRARY_PATH"
 
 
 def hand_over(arguments: Sequence[str]) -> int | None:
-    """Run a real `ros2` with these arguments; return its exit code, None if there is no real one.
+    """Run a real `ros2` with these arguments; return its exit code, or None if there is none.
 
-    Does not return when a sourced ROS 2 takes over.
+    Does not return if a sourced ROS 2 takes over.
     """
     program = sourced_ros2(os.environ)
     if program is not None:

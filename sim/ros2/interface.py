@@ -1,8 +1,8 @@
-"""From the name of an interface (message, service, action) to its Python class and its definition file.
+"""Finds the Python class and the definition file of an interface (message, service, action) by its name.
 
 `sensor_msgs/msg/LaserScan` (or `sensor_msgs/LaserScan`) is the class LaserScan of sensor_msgs.msg and the file
 msg/LaserScan.msg in the share folder of the package. The ament index lists the interfaces. Errors name the nearest
-interface that is installed.
+installed interface.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _INDEX = "rosidl_interfaces"
 
 
 def add_kind_options(parser: argparse.ArgumentParser) -> None:
-    """Add the options for which kinds are shown; `kinds` is the list of them, empty for all."""
+    """Add the options that select kinds; `kinds` is the list of them, empty for all."""
     for letter, word, kind in (("m", "msgs", "msg"), ("s", "srvs", "srv"), ("a", "actions", "action")):
         parser.add_argument(
             f"-{letter}",
@@ -39,12 +39,12 @@ def add_kind_options(parser: argparse.ArgumentParser) -> None:
 
 
 def chosen_kinds(arguments: argparse.Namespace) -> list[str]:
-    """Return the kinds that the options of `add_kind_options` ask for."""
+    """Return the kinds selected by the options of `add_kind_options`."""
     return [kind for kind in KINDS if kind in arguments.kinds or not arguments.kinds]
 
 
 def add_interface_type(parser: argparse.ArgumentParser, more: str = "") -> None:
-    """Add the argument `type`; `more` ends its help."""
+    """Add the argument `type`; `more` is appended to its help."""
     text = f"Show an interface definition (e.g. 'std_msgs/msg/String'){more}"
     parser.add_argument("type", metavar="interface_type", help=text)
 
@@ -96,7 +96,7 @@ def package_interfaces(package: str, kind: str) -> list[str]:
 
 
 def interface_names(*kinds: str) -> list[str]:
-    """Return `package/kind/Name` of every installed interface of these kinds (none given: all), sorted."""
+    """Return `package/kind/Name` of every installed interface of these kinds (default: all), sorted."""
     return sorted(
         name
         for package in interface_packages()

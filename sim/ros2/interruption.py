@@ -1,7 +1,6 @@
-"""SIGINT and SIGTERM as a KeyboardInterrupt that is not lost: at the latest the next `check` raises it.
+"""Turns SIGINT and SIGTERM into a KeyboardInterrupt that is not lost: the next `check` raises it at the latest.
 
 Python drops an exception that a signal raises in a callback from C or in a `__del__`, and rclpy has many of both.
-`command_line` listens; `graph.Graph` checks in every loop that waits.
 """
 
 from __future__ import annotations
@@ -14,7 +13,7 @@ _heard = False
 
 
 def listen() -> None:
-    """Listen to both signals, also where a shell's `&` has set SIGINT to ignored."""
+    """Handle both signals, even if a shell's `&` has set SIGINT to ignored."""
     global _heard
     _heard = False
     for number in (signal.SIGINT, signal.SIGTERM):
@@ -23,13 +22,13 @@ def listen() -> None:
 
 
 def check() -> None:
-    """Raise KeyboardInterrupt if a signal has come."""
+    """Raise KeyboardInterrupt if a signal has arrived."""
     if _heard:
         raise KeyboardInterrupt
 
 
 def _unraisable(dropped: sys.UnraisableHookArgs) -> None:
-    """Keep quiet about an interruption that Python drops: `check` raises it again."""
+    """Suppress the report about an interruption that Python drops, because `check` raises it again."""
     if not (_heard and isinstance(dropped.exc_value, KeyboardInterrupt)):
         sys.__unraisablehook__(dropped)
 

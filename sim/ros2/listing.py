@@ -20,6 +20,6 @@ def add_listing_options(parser: argparse.ArgumentParser, noun: str) -> None:
 
 
 def print_names(names: Sequence[str], count: bool) -> None:
-    """Print one name a line, or only their number."""
+    """Print one name per line, or only their number."""
     for line in [len(names)] if count else names:
         print(line)

@@ -1,7 +1,4 @@
-"""The measurement of a topic, for `ros2 topic hz`, `bw` and `delay`.
-
-Each passes a function for a message and one for the report, once a second; `measure` waits and listens.
-"""
+"""Measures a topic for `ros2 topic hz`, `bw` and `delay`."""
 
 from __future__ import annotations
 
@@ -33,9 +30,9 @@ def add_window(parser: argparse.ArgumentParser, default: int) -> None:
 
 
 def awaited_topic(graph: Graph, topic: str) -> tuple[str, Any]:
-    """Return full name and message class of a topic as soon as it exists; report the wait.
+    """Wait for a topic and report the wait; return its full name and message class.
 
-    Raises CommandError for an impossible name, an unknown type or several types.
+    Raises CommandError for an invalid name, an unknown type or several types.
     """
     name = full_name(graph, topic)
     types = graph.wait_for_topic(name)
@@ -57,7 +54,7 @@ def measure(
     *,
     raw: bool = False,
 ) -> None:
-    """Call `arrived` with each message (`raw`: with its bytes on the wire) and print `report` every second, for ever.
+    """Call `arrived` with each message (`raw`: serialized), and print `report` every second, without end.
 
     An empty report is not printed.
     """
@@ -73,7 +70,7 @@ def measure(
 
 
 def spread(values: Collection[float]) -> str:
-    """Return the second line of a report on these times [s] (at least one)."""
+    """Return the second line of a report: the statistics of at least one time [s]."""
     mean = sum(values) / len(values)
     deviation = math.sqrt(sum((value - mean) ** 2 for value in values) / len(values))
     return f"\tmin: {min(values):.3f}s max: {max(values):.3f}s std dev: {deviation:.5f}s window: {len(values)}"

@@ -1,6 +1,6 @@
-"""A ROS message as text: block YAML as `ros2 topic echo` shows it, or one line of CSV.
+"""A ROS message as text: block YAML as in `ros2 topic echo`, or one line of CSV.
 
-Fields come in the order of the message definition. What is longer than the limit is cut and ends in `...`.
+Fields are in the order of the message definition. Values longer than the limit are cut and end in `...`.
 
 Source: ros2/rosidl_runtime_py, rosidl_runtime_py/convert.py
 """
@@ -21,7 +21,7 @@ _SEQUENCES = (list, tuple, array.array, np.ndarray)
 
 @dataclass(frozen=True)
 class TextFormat:
-    """How a message is shown: `limit` items or characters (None: all), with or without arrays and strings."""
+    """The format of a message: `limit` items or characters (None: all), with or without arrays and strings."""
 
     limit: int | None = 128
     arrays: bool = True
@@ -30,7 +30,7 @@ class TextFormat:
 
 
 def is_message(value: Any) -> bool:
-    """Return whether a value is a message and not one of its plain fields."""
+    """Return whether a value is a message and not a plain field."""
     return hasattr(value, "get_fields_and_field_types")
 
 
@@ -59,7 +59,7 @@ def to_csv(message: Any, form: TextFormat) -> str:
 
 
 class _Dumper(yaml.SafeDumper):
-    """A dumper that writes a shared value each time it occurs."""
+    """A dumper that writes shared values in full instead of as aliases."""
 
     def ignore_aliases(self, data: Any) -> bool:
         return True
@@ -75,7 +75,7 @@ _Dumper.add_representer(str, _text)
 
 
 class _LineDumper(_Dumper):
-    """A dumper that writes no line break."""
+    """A dumper that writes everything in one line."""
 
 
 def _line(dumper: yaml.SafeDumper, text: str) -> yaml.ScalarNode:
@@ -87,7 +87,7 @@ _LineDumper.add_representer(str, _line)
 
 
 def _plain(value: Any, kind: str, form: TextFormat) -> Any:
-    """Return the value in Python's own types; `kind` is the type the message definition gives it."""
+    """Return the value in Python's own types; `kind` is its type in the message definition."""
     if is_message(value):
         fields = value.get_fields_and_field_types()
         return {name: _plain(getattr(value, name), field, form) for name, field in fields.items()}

@@ -1,8 +1,8 @@
-"""From YAML, as an argument of `ros2 topic pub` and `ros2 service call`, to a ROS message.
+"""Converts YAML, as an argument of `ros2 topic pub` and `ros2 service call`, to a ROS message.
 
-The other direction of `message_text`: what `ros2 topic echo` prints can be published again. A value is read as what
-its field is, not as what YAML would guess: `data: yes` is a text for a string and true for a bool. Two words stand for
-the time of sending: `now` for a `builtin_interfaces/Time`, `auto` for a `std_msgs/Header`.
+The inverse of `message_text`: output of `ros2 topic echo` can be published again. A value is converted to the type of
+its field, not guessed as in YAML: `data: yes` is a text for a string and true for a bool. Two words stand for the time
+of sending: `now` for a `builtin_interfaces/Time`, `auto` for a `std_msgs/Header`.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ Stamp = Callable[[Any], None]
 
 
 def parse_yaml(text: str) -> yaml.Node | None:
-    """Return the document of a text, None for an empty one. Raises CommandError with the place if it is not YAML."""
+    """Parse a text; return None if it is empty. Raises CommandError with the position if it is not YAML."""
     try:
         return yaml.compose(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
     except yaml.MarkedYAMLError as error:
@@ -50,9 +50,9 @@ def parse_yaml(text: str) -> yaml.Node | None:
 
 
 def fill(message: Any, text: str) -> list[Stamp]:
-    """Set the fields a YAML text names; return what has to be called with the time of each sending.
+    """Set the fields that a YAML text names; return the functions to call with the time of each sending.
 
-    Raises CommandError for a text that is no YAML, no mapping, or does not fit the message.
+    Raises CommandError if the text is no YAML, no mapping, or does not fit the message.
     """
     document = parse_yaml(text)
     stamps: list[Stamp] = []
@@ -72,7 +72,7 @@ def fill(message: Any, text: str) -> list[Stamp]:
 
 @dataclass(frozen=True)
 class _Place:
-    """A place in a message, for errors: the name of the type and the path of the field."""
+    """A place in a message for errors: the type name and the path of the field."""
 
     kind: str
     path: str = ""
@@ -91,7 +91,7 @@ class _Place:
 
 
 def _what(node: yaml.Node) -> str:
-    """Return a value as the user has written it, or its kind if it is long."""
+    """Return a value as the user wrote it, or its kind if it is long."""
     if isinstance(node, yaml.MappingNode):
         return "a dictionary"
     if isinstance(node, yaml.SequenceNode):
@@ -198,7 +198,7 @@ def _bool(node: yaml.ScalarNode, place: _Place) -> bool:
 def _float(node: yaml.ScalarNode, name: str, place: _Place) -> float:
     text = str(node.value)
     try:
-        # YAML writes .inf and .nan; Python's words for them are taken as well.
+        # YAML writes .inf and .nan; Python's words for them are accepted, too.
         value = float(text.replace(".inf", "inf").replace(".Inf", "inf").replace(".nan", "nan").replace(".NaN", "nan"))
     except ValueError:
         raise place.wants(f"a {name}", node) from None
@@ -222,7 +222,7 @@ def _int(node: yaml.ScalarNode, name: str, lowest: int, highest: int, place: _Pl
         value = int(text) if text.lstrip("+-").isdecimal() else int(text, 0)
     except ValueError:
         try:
-            whole = float(text)  # 1e3 and 2.0 are whole numbers too
+            whole = float(text)  # 1e3 and 2.0 are whole numbers, too
             value = int(whole)
         except (ValueError, OverflowError):
             raise place.wants(f"a whole number ({name})", node) from None

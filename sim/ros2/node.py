@@ -1,4 +1,4 @@
-"""The node a user has named, for `ros2 node info` and every verb of `ros2 param`."""
+"""Finds the node that a user has named, for `ros2 node info` and the verbs of `ros2 param`."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from gz_course.sim.ros2.topic import warn
 
 
 def find_node(graph: Graph, name: str, unknown: str) -> str:
-    """Return the full name of a node as soon as it is there.
+    """Return the full name of a node as soon as it is found.
 
     A name without a leading / is in the root namespace. Warns if several nodes share the name. Raises CommandError
-    with the sentence `unknown` if the node does not come.
+    with the sentence `unknown` if the node is not found.
     """
     full = name if name.startswith("/") else f"/{name}"
     count = graph.wait_for(lambda: graph.nodes(hidden=True).count(full))

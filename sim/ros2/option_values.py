@@ -1,4 +1,4 @@
-"""Types of numbers for options; argparse turns their ValueError into a usage error with exit code 2."""
+"""Number types for options; argparse turns their ValueError into a usage error with exit code 2."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 
 
 def seconds(text: str) -> float:
-    """Return a finite time [s] from 0 on. Raises ValueError."""
+    """Parse a finite time [s], at least 0. Raises ValueError."""
     value = float(text)
     if not 0.0 <= value < math.inf:
         raise ValueError
@@ -14,7 +14,7 @@ def seconds(text: str) -> float:
 
 
 def rate(text: str) -> float:
-    """Return a finite rate [Hz] above 0. Raises ValueError."""
+    """Parse a finite rate [Hz] above 0. Raises ValueError."""
     value = float(text)
     if not 0.0 < value < math.inf:
         raise ValueError
@@ -22,7 +22,7 @@ def rate(text: str) -> float:
 
 
 def whole_number(text: str) -> int:
-    """Return a number from 0 on. Raises ValueError."""
+    """Parse an integer, at least 0. Raises ValueError."""
     value = int(text)
     if value < 0:
         raise ValueError
@@ -30,7 +30,7 @@ def whole_number(text: str) -> int:
 
 
 def positive_number(text: str) -> int:
-    """Return a number from 1 on. Raises ValueError."""
+    """Parse an integer, at least 1. Raises ValueError."""
     value = int(text)
     if value < 1:
         raise ValueError

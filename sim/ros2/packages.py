@@ -1,7 +1,7 @@
-"""The packages ROS knows here and their executables, read from the ament index.
+"""The known ROS packages and their executables, read from the ament index.
 
-Shared by `ros2 run` and `ros2 pkg`. A package stands where AMENT_PREFIX_PATH names it first; its executables
-are all executable files below `<prefix>/lib/<package>`.
+A package is in the first prefix of AMENT_PREFIX_PATH that contains it; its executables are all executable files below
+`<prefix>/lib/<package>`.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Parameters of a running node, for the verbs of `ros2 param`.
 
-A node serves its parameters under `<node>/list_parameters`, `get_parameters` and so on (package rcl_interfaces); values
-cross as `rcl_interfaces/ParameterValue`. On the command line a value is YAML: `5` is an integer, `5.0` a double,
+A node offers its parameters as services `<node>/list_parameters`, `get_parameters` and so on (package rcl_interfaces);
+values are `rcl_interfaces/ParameterValue`. On the command line a value is YAML: `5` is an integer, `5.0` a double,
 `'5'` a string, `[1, 2]` an integer array.
 
 Source: ros2/rcl_interfaces, rcl_interfaces/msg/ParameterValue.msg
@@ -59,16 +59,16 @@ class NodeParameters:
         return call(self._graph, client, request, ANSWER_DEADLINE, hint)
 
     def names(self, prefixes: Sequence[str] = ()) -> list[str]:
-        """Return all parameters, or those below these prefixes, sorted."""
+        """Return all parameters, or those with these prefixes, sorted."""
         response = self._call(ListParameters, "list_parameters", ListParameters.Request(prefixes=list(prefixes)))
         return sorted(response.result.names)
 
     def values(self, names: Sequence[str]) -> list[ParameterValue]:
-        """Return the value of each; a value that is not set for one that does not exist."""
+        """Return the value of each parameter, PARAMETER_NOT_SET for one that does not exist."""
         found = list(self._call(GetParameters, "get_parameters", GetParameters.Request(names=list(names))).values)
         if len(found) == len(names):
             return found
-        # A node answers with nothing at all if one of several does not exist.
+        # A node returns nothing at all if one of several does not exist.
         return [ParameterValue()] if len(names) == 1 else [self.values([name])[0] for name in names]
 
     def descriptors(self, names: Sequence[str]) -> list[Any]:
@@ -82,7 +82,9 @@ class NodeParameters:
         return found
 
     def set(self, name: str, value: ParameterValue) -> tuple[bool, str]:
-        """Return whether the node has taken the value, and `: <reason>` if it gives one. PARAMETER_NOT_SET deletes."""
+        """Set a parameter; return whether the node accepts it, and `: <reason>` if it gives one. PARAMETER_NOT_SET
+        deletes.
+        """
         if type_word(value.type).endswith(" array"):
             value = _as(self.values([name])[0].type, value)
         request = SetParameters.Request(parameters=[ParameterMessage(name=name, value=value)])
@@ -92,14 +94,14 @@ class NodeParameters:
         return results[0].successful, f": {results[0].reason}" if results[0].reason else ""
 
     def not_set(self, name: str, known: Iterable[str] | None = None) -> CommandError:
-        """Return the error for a parameter that does not exist, with the nearest name."""
+        """Return the error for a missing parameter, with the nearest name."""
         names = set(self.names() if known is None else known)
-        # A declared parameter without a value has the right name.
+        # A declared parameter may have no value.
         return CommandError("Parameter not set" + ("" if name in names else did_you_mean(name, names)))
 
 
 def add_node_options(parser: argparse.ArgumentParser) -> None:
-    """Add the options of every verb for the parameters of one node."""
+    """Add the options of every verb about the parameters of one node."""
     add_graph_options(parser)
     parser.add_argument("node_name", help="Name of the ROS node")
     parser.add_argument("--include-hidden-nodes", action="store_true", help="Accepted: a node is named anyway")
@@ -123,7 +125,7 @@ def python_value(value: ParameterValue) -> Any:
 
 
 def _as(kind: int, value: ParameterValue) -> ParameterValue:
-    """Return the list as `kind`, that of the parameter: an empty list has none, and bytes look like numbers."""
+    """Convert a list to `kind`, the parameter's type: an empty list has none, and bytes look like integers."""
     items = python_value(value)
     if not items and type_word(kind).endswith(" array"):
         return ParameterValue(type=kind)
@@ -145,11 +147,11 @@ def type_word(kind: int) -> str:
 
 def value_from_yaml(text: str) -> ParameterValue:
     """Return the parameter value of a YAML text. Raises CommandError for what no parameter can be."""
-    parse_yaml(text)  # says what is wrong and where
+    parse_yaml(text)  # raises an error with the position
     try:
         value = yaml.safe_load(text)
     except (yaml.YAMLError, ValueError, RecursionError):
-        value = text  # e.g. a date that does not exist: a parameter knows no dates
+        value = text  # for example an invalid date; parameters have no dates
     if not isinstance(value, bool | int | float | str | list | dict):
         value = text.strip()  # nothing, null, a date
     if value == text.strip() and _EXPONENT.fullmatch(value):
@@ -158,7 +160,7 @@ def value_from_yaml(text: str) -> ParameterValue:
 
 
 def parameter_value(value: Any, shown: str) -> ParameterValue:
-    """Return the parameter value of a Python value; `shown` is the user's text for it, for the error."""
+    """Return the parameter value of a Python value; `shown` is the user's text for error messages."""
     kind, converted = _typed(value, shown)
     message = ParameterValue(type=kind)
     setattr(message, _FIELDS[kind][2], converted)
@@ -189,7 +191,7 @@ def _typed_list(items: list[Any], shown: str) -> tuple[int, list[Any]]:
         return ParameterType.PARAMETER_INTEGER_ARRAY, [_int64(item, shown) for item in items]
     if kinds and kinds <= {int, float}:
         return ParameterType.PARAMETER_DOUBLE_ARRAY, [float(item) for item in items]
-    if kinds <= {str}:  # an empty list, too: the node reports the type it wants
+    if kinds <= {str}:  # also an empty list: the node reports the type it expects
         return ParameterType.PARAMETER_STRING_ARRAY, items
     raise CommandError(f"{_short(shown)} cannot be a parameter: the items of a list must be of one kind")
 
@@ -205,14 +207,14 @@ def _short(text: str) -> str:
 
 
 def nested(parameters: dict[str, Any]) -> dict[str, Any]:
-    """Return parameters with names like `a.b.c` as nested dictionaries, as parameter files hold them."""
+    """Convert parameters with names like `a.b.c` to nested dictionaries, as in parameter files."""
     tree: dict[str, Any] = {}
     for name, value in sorted(parameters.items()):
         *groups, last = name.split(".")
         place = tree
         for depth, group in enumerate(groups):
             inner = place.setdefault(group, {})
-            if not isinstance(inner, dict):  # `a` and `a.b` both exist: a file can hold the second flat only
+            if not isinstance(inner, dict):  # `a` and `a.b` both exist: a file can contain the second one only flat
                 last = ".".join([*groups[depth:], last])
                 break
             place = inner
@@ -221,7 +223,7 @@ def nested(parameters: dict[str, Any]) -> dict[str, Any]:
 
 
 def flat(tree: dict[Any, Any], prefix: str = "") -> dict[str, Any]:
-    """Return nested dictionaries as parameters with names like `a.b.c`."""
+    """Convert nested dictionaries to parameters with names like `a.b.c`."""
     found: dict[str, Any] = {}
     for name, value in tree.items():
         full = f"{prefix}{name}"

@@ -25,7 +25,7 @@ _POLICIES = {
 
 
 def add_qos_options(parser: argparse.ArgumentParser, default: str) -> None:
-    """Add an option for each policy; `default` describes what holds without them."""
+    """Add an option for each policy; `default` describes the value without options."""
     qos = parser.add_argument_group("quality of service", f"default: {default}")
     presets = [profile.name.lower() for profile in QoSPresetProfiles]
     qos.add_argument("--qos-profile", choices=presets, help="Preset to start from")
@@ -38,7 +38,7 @@ def add_qos_options(parser: argparse.ArgumentParser, default: str) -> None:
 
 
 def chosen_qos(arguments: argparse.Namespace, default: QoSProfile) -> QoSProfile:
-    """Return the preset of the options, or else `default`, with the chosen policies."""
+    """Return the preset of the options, or `default`, with the chosen policies."""
     qos = QoSPresetProfiles.get_from_short_key(arguments.qos_profile) if arguments.qos_profile else default
     if arguments.qos_depth is not None:
         qos.depth = arguments.qos_depth

@@ -1,4 +1,4 @@
-"""Names of services, and calls, for the verbs of `ros2 service` and `ros2 param`."""
+"""Service names and calls for the verbs of `ros2 service` and `ros2 param`."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from gz_course.sim.ros2.errors import CommandError
 from gz_course.sim.ros2.graph import Graph
 from gz_course.sim.ros2.topic import full_name
 
-ANSWER_DEADLINE = 5.0  # [s] for services that answer from memory, those of parameters
+ANSWER_DEADLINE = 5.0  # [s] for services of parameters, which answer from memory
 
 
 def service_name(graph: Graph, name: str) -> str:
-    """Return the name with its namespace. Raises CommandError for one that ROS does not allow."""
+    """Return the name with its namespace. Raises CommandError for an invalid name."""
     return full_name(graph, name, is_service=True)
 
 
 def service_types(graph: Graph, name: str) -> list[str]:
-    """Return the types of a service as soon as it is there; empty if it does not come."""
+    """Return the types of a service as soon as it is found; empty if it is not."""
     return graph.wait_for(lambda: dict(graph.services(hidden=True)).get(name, []))
 
 
@@ -29,9 +29,10 @@ def nearest_service(graph: Graph, name: str) -> str:
 
 
 def call(graph: Graph, client: Any, request: Any, timeout: float | None, hint: str = "") -> Any:
-    """Return the response of a service that is there.
+    """Call an available service; return the response.
 
-    Raises CommandError if the service goes away, or is silent for `timeout` [s]; `hint` ends the latter sentence.
+    Raises CommandError if the service disappears or does not answer within `timeout` [s]; `hint` is appended to the
+    latter sentence.
     """
     future = client.call_async(request)
     gone = False

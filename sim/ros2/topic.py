@@ -1,6 +1,6 @@
-"""A topic, its type, its QoS and a filter, for the verbs of `ros2 topic`.
+"""Topic names, types, QoS and message filters for the verbs of `ros2 topic`.
 
-Names without a leading / are in the root namespace, that of the command's node.
+Names without a leading / are in the root namespace.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from gz_course.sim.ros2.interface import message_class
 
 
 def full_name(graph: Graph, name: str, is_service: bool = False) -> str:
-    """Return the name with its namespace. Raises CommandError for one that ROS does not allow."""
+    """Return the name with its namespace. Raises CommandError for an invalid name."""
     try:
         expanded = expand_topic_name(name, graph.node.get_name(), graph.node.get_namespace())
         validate_full_topic_name(expanded, is_service=is_service)
@@ -41,14 +41,14 @@ def not_published(name: str) -> None:
 
 
 def only_type(name: str, types: list[str], verb: str) -> Any:
-    """Return the message class of a topic with these types. Raises CommandError for several."""
+    """Return the message class of a topic with these types. Raises CommandError if there are several."""
     if len(types) > 1:
         raise CommandError(f"Cannot {verb} topic '{name}', as it contains more than one type: [{', '.join(types)}]")
     return message_class(types[0])
 
 
 def following_qos(graph: Graph, name: str) -> QoSProfile:
-    """Return the strictest QoS that all publishers of the topic offer; best effort and volatile without one."""
+    """Return the strictest QoS that all publishers of the topic offer; without a publisher best effort and volatile."""
     qos = QoSPresetProfiles.get_from_short_key("sensor_data")
     offers = [end.qos_profile for end in graph.node.get_publishers_info_by_topic(name)]
     if offers and all(offer.reliability == ReliabilityPolicy.RELIABLE for offer in offers):
@@ -59,7 +59,7 @@ def following_qos(graph: Graph, name: str) -> QoSProfile:
 
 
 def message_filter(expression: str | None) -> Callable[[Any], bool] | None:
-    """Return a function of the message `m` from a Python expression such as `m.x > 1`."""
+    """Return a function of a message `m` for a Python expression such as `m.x > 1`."""
     if expression is None:
         return None
     try:
@@ -77,5 +77,5 @@ def message_filter(expression: str | None) -> Callable[[Any], bool] | None:
 
 
 def warn(sentence: str) -> None:
-    """Print a hint to stderr, apart from the lines a program reads."""
+    """Print a hint to stderr, so that stdout has only data."""
     print(sentence, file=sys.stderr)

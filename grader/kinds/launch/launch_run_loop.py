@@ -117,7 +117,7 @@ class LaunchRunLoop(RunLoop):
         return super()._wall_limit + START_UP
 
     def _state(self) -> dict[str, Any]:
-        """What runs at the end, before the launch is interrupted."""
+        """Return the facts about what runs at the end, before the launch gets Ctrl-C."""
         simulator = self._programs.simulator
         return self._programs.facts() | {
             "running": self._processes.running,

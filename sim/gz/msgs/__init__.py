@@ -1,11 +1,11 @@
 """Messages of Gazebo (gz.msgs): real protobuf classes, built on first use.
 
 `from gz.msgs.twist_pb2 import Twist` works as with the official package; `message_class("gz.msgs.Twist")` finds a class
-by the type name that travels with every message. The definitions are the texts in `proto/`, one file for each file of
-gz-msgs 10 (Harmonic); a file is read, with those it imports, when one of its classes is requested. Fields that Fortress
-has too are compared with it in `tests/conformance`. `proto/fortress/` holds the definitions that differ in Fortress.
-This package imports nothing else of the project.
-Source: gz-msgs 10, https://github.com/gazebosim/gz-msgs/tree/gz-msgs10/proto/gz/msgs
+by the type name that travels with every message. `proto/` holds one file for each file of gz-msgs 10 (Harmonic), read
+with its imports when one of its classes is requested. `tests/conformance` compares the fields with Fortress;
+`proto/fortress/` holds the definitions that differ there. This package imports nothing else of the project.
+
+Source: https://github.com/gazebosim/gz-msgs/tree/gz-msgs10/proto/gz/msgs
 """
 
 from gz_course.sim.gz.msgs.pb2_modules import PROTO_MODULES

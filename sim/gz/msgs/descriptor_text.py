@@ -1,9 +1,8 @@
 """Message definitions as text: the output of `gz msg --info TYPE`.
 
-Written from the descriptor of the linked class, in the layout of C++ protobuf: nested types first, full type names with
-a leading dot, an indentation of two spaces.
-Source: `Descriptor::DebugString`,
-https://github.com/protocolbuffers/protobuf/blob/main/src/google/protobuf/descriptor.cc
+The layout is that of C++ protobuf: nested types first, full type names with a leading dot, two spaces of indentation.
+
+Source: https://github.com/protocolbuffers/protobuf/blob/main/src/google/protobuf/descriptor.cc (DebugString)
 """
 
 from __future__ import annotations

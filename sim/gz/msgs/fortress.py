@@ -1,8 +1,9 @@
 """Messages of Gazebo Fortress, the older version whose types are called `ignition.msgs.X`.
 
 They have the same bytes as gz.msgs.X, with one exception: later versions inserted covariances between the fields of the
-IMU. Its old form is in `proto/fortress/`; gz.transport converts a message that has the other name.
-Source: ign-msgs 8, https://github.com/gazebosim/gz-msgs/blob/ign-msgs8/proto/ignition/msgs/imu.proto
+IMU. Its old form is in `proto/fortress/`; gz.transport converts between the two.
+
+Source: https://github.com/gazebosim/gz-msgs/blob/ign-msgs8/proto/ignition/msgs/imu.proto
 """
 
 from __future__ import annotations
@@ -11,15 +12,15 @@ from gz_course.sim.gz.msgs.registry import canonical_name, differs_in_fortress, 
 
 
 def same_type(name: str, other: str) -> bool:
-    """Return whether two type names mean the same type, whatever their spelling."""
+    """Return whether two type names mean the same type in any spelling."""
     return name == other or canonical_name(name) == canonical_name(other)
 
 
 def converted(data: bytes, from_name: str, to_name: str) -> bytes:
-    """Return a serialized message of one spelling of a type in the layout of another; mostly the same bytes.
+    """Convert a serialized message from one spelling of its type to another; mostly the bytes are the same.
 
     Fields that the target does not have (the covariances of an IMU) are dropped. Raises
-    google.protobuf.message.DecodeError when the bytes have to be read and cannot be.
+    google.protobuf.message.DecodeError if the bytes must be parsed and are invalid.
     """
     if from_name == to_name or not differs_in_fortress(from_name):
         return data

@@ -1,8 +1,8 @@
-"""Reader of `.proto` texts, which makes the descriptors from which protobuf builds message classes.
+"""Parser of `.proto` texts; protobuf builds message classes from the descriptors it returns.
 
-First step of the data path: `proto/twist.proto` -> FileDescriptorProto -> (registry) message class -> bytes on the
-wire. It reads the part of proto3 that Gazebo's messages use: package, import, message (nested too), enum, oneof, map,
+It reads the part of proto3 that Gazebo's messages use: package, import, message (nested too), enum, oneof, map,
 repeated, optional, reserved and field options, which are skipped.
+
 Source: https://protobuf.dev/reference/protobuf/proto3-spec/
 """
 
@@ -38,11 +38,11 @@ SCALARS = {
 
 
 class ProtoSyntaxError(ValueError):
-    """A `.proto` text that cannot be read; the message names file, line, what was expected and what was found."""
+    """A `.proto` text that cannot be parsed; the message has file, line, what was expected and what was found."""
 
 
 class _Reader:
-    """A recursive-descent reader over the tokens of one file."""
+    """A recursive-descent parser over the tokens of one file."""
 
     def __init__(self, text: str, path: str) -> None:
         self._path = path
@@ -113,7 +113,7 @@ class _Reader:
                 pass
 
     def file(self, name: str) -> FileDescriptorProto:
-        """Read the whole file; `name` is the one by which other files import it."""
+        """Parse the whole file; other files import it by `name`."""
         result = FileDescriptorProto(name=name, syntax="proto3")
         while self._peek():
             keyword = self._name("syntax, package, import, option, message or enum")
@@ -194,7 +194,7 @@ class _Reader:
         scalar = SCALARS.get(type_name)
         if scalar is not None:
             field.type = scalar
-        else:  # message or enum: the descriptor pool finds out which, and where, when it links the file
+        else:  # message or enum: the descriptor pool resolves it when it links the file
             field.type_name = type_name
 
     def _name_and_number(self, field: FieldDescriptorProto) -> None:
@@ -204,12 +204,12 @@ class _Reader:
         first = self._next
         self._skip_options()
         options = [token for token, _ in self._tokens[first : self._next]]
-        if "packed" in options:  # the only option that shows, in `gz msg --info`
+        if "packed" in options:  # the only option that is visible, in `gz msg --info`
             field.options.packed = options[options.index("packed") + 1 :][:2] == ["=", "true"]
         self._expect(";")
 
     def _map_type(self, message: DescriptorProto, field: FieldDescriptorProto) -> None:
-        """Read a map, which is a repeated nested message with the fields key and value."""
+        """Parse a map, which is a repeated nested message with the fields key and value."""
         self._expect("<")
         key = self._name("the key type of the map")
         self._expect(",")
@@ -242,7 +242,7 @@ class _Reader:
 def read_proto(text: str, name: str, path: str | None = None) -> FileDescriptorProto:
     """Return the descriptor of one `.proto` text.
 
-    `name` is the one by which other files import it ("gz/msgs/twist.proto"); `path` names it in error messages
-    (default: `name`). Raises ProtoSyntaxError.
+    Other files import it by `name` ("gz/msgs/twist.proto"); `path` (default: `name`) is used in error messages.
+    Raises ProtoSyntaxError.
     """
     return _Reader(text, path or name).file(name)

@@ -1,7 +1,7 @@
-"""Preference of a real installation of Gazebo's Python packages, where there is one.
+"""Prefers a real installation of Gazebo's Python packages if there is one.
 
-`gz.transport13` and `gz.msgs10` exist here as other names of gz.transport and gz.msgs. `gz` is a namespace package, so
-another folder of the import path may hold packages of the same names; those are preferred.
+`gz.transport13` and `gz.msgs10` are aliases of gz.transport and gz.msgs. `gz` is a namespace package, so another folder
+of the import path may contain packages of the same names; those take precedence.
 """
 
 from __future__ import annotations
@@ -14,10 +14,10 @@ _tried: set[str] = set()  # packages whose real installation is being executed
 
 
 def give_way(package: str, own_file: str) -> bool:
-    """Put the package of this name that is not ours into sys.modules; return whether there is one.
+    """Put another package of this name into sys.modules; return whether there is one.
 
-    Called by the `__init__.py` of an alias, with its `__name__` and `__file__`. Raises ImportError if that file is
-    being tried as a real installation: it is another copy of ours on the import path, and the search continues.
+    Called by the `__init__.py` of an alias with its `__name__` and `__file__`. Raises ImportError if that file is
+    itself being tried as a real installation, because it is another copy of this alias.
     """
     if package in _tried:
         raise ImportError(f"{own_file} is another copy of this package, no installation of Gazebo's", name=package)
@@ -31,7 +31,7 @@ def give_way(package: str, own_file: str) -> bool:
 
 
 def _executed(package: str, file: Path) -> bool:
-    """Execute the package in `file` in the place of ours; return whether it could be imported."""
+    """Execute the package in `file` in place of the alias; return whether it could be imported."""
     spec = importlib.util.spec_from_file_location(package, file, submodule_search_locations=[str(file.parent)])
     if spec is None or spec.loader is None:
         return False
@@ -40,7 +40,7 @@ def _executed(package: str, file: Path) -> bool:
     _tried.add(package)
     try:
         spec.loader.exec_module(module)
-    except ImportError:  # for another Python, without its libraries, or a copy of ours: as if it were not there
+    except ImportError:  # made for another Python, libraries missing, or a copy of this alias: ignored
         sys.modules[package] = ours
         return False
     finally:

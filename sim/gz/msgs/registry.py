@@ -1,8 +1,7 @@
 """Registry of the protobuf classes of Gazebo's types, which are built on first use.
 
-Between `proto/*.proto` (read by proto_reader) and the users of classes: `gz.msgs.X_pb2` modules, gz.transport, the
-bridge, the command line. All classes are in one private descriptor pool, so that they cannot collide with a gz-msgs
-package installed beside this one.
+All classes are in one private descriptor pool, so that they cannot collide with a gz-msgs package installed beside this
+one.
 """
 
 from __future__ import annotations
@@ -33,13 +32,13 @@ _lock = threading.RLock()
 
 
 class UnknownTypeError(ValueError):
-    """An unknown name of a message type; the message names the nearest ones."""
+    """An unknown message type; the error names the nearest ones."""
 
 
 def load_file(stem: str) -> Any:
     """Return the FileDescriptor of `proto/<stem>.proto`, linked with everything it imports.
 
-    Raises FileNotFoundError when there is no such file.
+    Raises FileNotFoundError if there is no such file.
     """
     with _lock:
         _load(stem)
@@ -64,7 +63,7 @@ def file_stems() -> list[str]:
 
 @functools.cache
 def _home_of_each_type() -> dict[str, tuple[str, str]]:
-    """Return (kind, file stem) by top-level name, from the texts of all files without linking any."""
+    """Return (kind, file stem) by top-level name, read from the texts of all files without linking any."""
     homes: dict[str, tuple[str, str]] = {}
     for stem in file_stems():
         text = (PROTO_FOLDER / f"{stem}.proto").read_text(encoding="utf-8")

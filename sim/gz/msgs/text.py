@@ -1,10 +1,10 @@
 """Messages as text: the output of `gz topic -e` and the input of `gz topic -p`.
 
-Between message objects and the terminal: to_text() and to_json_line() write, from_text() reads protobuf's text format.
-The output is byte for byte that of Gazebo's own tools (DebugString and the JSON writer of C++ protobuf), so that
-scripts which read one can read the other.
-Source: text format, https://protobuf.dev/reference/protobuf/textformat-spec/; JSON,
-https://protobuf.dev/programming-guides/json/
+to_text() and to_json_line() write, from_text() reads protobuf's text format. The output equals that of Gazebo's own
+tools (DebugString and the JSON writer of C++ protobuf) byte for byte, so that scripts can read both.
+
+Source: https://protobuf.dev/reference/protobuf/textformat-spec/
+Source: https://protobuf.dev/programming-guides/json/
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ _LONG_INTEGERS = (
 
 
 class MessageTextError(ValueError):
-    """A text that is no message of the expected type; names the place and what was expected."""
+    """A text that is no message of the expected type; the error names the position and what was expected."""
 
 
 def to_text(message: Message) -> str:
@@ -103,7 +103,7 @@ def _number(value: float, single: bool) -> str:
         return "nan" if math.isnan(value) else "inf" if value > 0 else "-inf"
     short, long = ("%.6g", "%.9g") if single else ("%.15g", "%.17g")
     text = short % value
-    if single:  # the C library reports too small singles as an error, which makes the C++ writer take the long form
+    if single:  # the C library reports an underflow as an error, so that the C++ writer takes the long form
         same = _as_single(float(text)) == value and (value == 0.0 or abs(value) >= _SMALLEST_NORMAL_SINGLE)
     else:
         same = float(text) == value
@@ -113,12 +113,12 @@ def _number(value: float, single: bool) -> str:
 def _as_single(value: float) -> float:
     try:
         return struct.unpack("f", struct.pack("f", value))[0]
-    except OverflowError:  # rounds to more than a single can hold
+    except OverflowError:  # rounds to more than the largest float32
         return math.inf
 
 
 def from_text(text: str, message_class: type[AnyMessage]) -> AnyMessage:
-    """Return the message of a text such as `linear: {x: 0.5}, angular: {z: 0.2}`.
+    """Parse the message in a text such as `linear: {x: 0.5}, angular: {z: 0.2}`.
 
     Raises MessageTextError: one sentence with line and column and, for an unknown field, the nearest name.
     """
@@ -162,9 +162,9 @@ def _fields_of(start: object, full_name: str) -> list[str]:
 
 
 def to_json_line(message: Message) -> str:
-    """Return a message as one line of JSON, without spaces.
+    """Return a message as one line of JSON without spaces.
 
-    Names are in lowerCamelCase, fields with default values are left out, 64-bit integers and infinities are strings,
+    Names are in lowerCamelCase, fields with default values are omitted, 64-bit integers and infinities are strings,
     bytes are in base64.
     """
     return (

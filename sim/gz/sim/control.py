@@ -1,8 +1,8 @@
-"""Running, pausing, stepping and rewinding a world: what the service `/world/W/control` asks of a running server.
+"""Pauses, steps and rewinds a running world as the service `/world/W/control` requests.
 
-`Server.run` asks `Control` before every batch whether, and how far, time may go on. Requests come through
-`World.requests`, so all of this happens in the stepping thread. The rules are Gazebo's: every request says whether the
-world is paused afterwards; steps are only counted for one that is; a reset rewinds and does not pause.
+`Server.run` asks `Control` before every batch how many steps are allowed. Requests arrive through `World.requests`, so
+all of this runs in the stepping thread. As in Gazebo every request sets whether the world is paused afterwards,
+`multi_step` applies to a paused world only, and a reset rewinds without pausing.
 
 Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/SimulationRunner.cc
 """
@@ -21,10 +21,10 @@ MOST_STEPS = 2**32 - 1
 
 
 class Control:
-    """Whether time goes on, and when it is to stop by itself."""
+    """The run state of a world: whether it is paused, and the steps left until it pauses again."""
 
     def __init__(self, world: World, on_rewind: Callable[[], None]) -> None:
-        """Begin unpaused; `on_rewind()` is called after time was set back."""
+        """Start unpaused; `on_rewind()` is called after time was set back."""
         self._world = world
         self._on_rewind = on_rewind
         self.paused = False
@@ -34,7 +34,7 @@ class Control:
         self._run_to_ns: int | None = None
 
     def apply(self, message: Any) -> None:
-        """Do what a gz.msgs.WorldControl says; raise `SimError` for what cannot be done."""
+        """Apply a gz.msgs.WorldControl. Raises SimError if it cannot be applied."""
         if (
             message.HasField("reset")
             and message.reset.model_only
@@ -64,7 +64,7 @@ class Control:
                 raise SimError(f"run_to_sim_time {wanted * 1e-9:g} s is not ahead of the present time, {now:g} s")
 
     def steps_allowed(self, most: int) -> int:
-        """Return how many steps, up to `most`, may be done before the next question."""
+        """Return how many steps, up to `most`, may be run before the next call."""
         if self._steps_left:
             most = min(most, self._steps_left)
         if self._run_to_ns is not None:
@@ -73,7 +73,7 @@ class Control:
         return most
 
     def stepped(self, count: int) -> None:
-        """Take note that `count` steps were done; pause when that was all."""
+        """Count `count` steps, and pause after the last requested one."""
         if self._steps_left:
             self._steps_left -= min(count, self._steps_left)
             if not self._steps_left:

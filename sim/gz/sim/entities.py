@@ -1,8 +1,9 @@
 """The numbers of a world's entities, as Gazebo's messages carry them (`Pose.id`, `Entity.id`, `Model.id`).
 
-The world is 1; every model, link, visual, collision, sensor, joint and light gets the next number in the order of the
-file, and keeps it. A number is not used again, even after its entity was removed, until the world is reset.
-`World` keeps the one instance of a world; UserCommands, SceneBroadcaster and PosePublisher ask it.
+The world is 1; every model, link, visual, collision, sensor, joint and light gets the next number in file order. A
+number is not used again until the world is reset, even if its entity was removed.
+
+Source: Gazebo Sim API reference, gz::sim::Entity and gz::sim::kNullEntity
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from gz_course.sim.gz.sim.sdf.description import Light, Model, WorldDescription
 @dataclass(frozen=True, slots=True)
 class Entity:
     """One entity: its number, its `kind` (world, model, link, visual, collision, sensor, joint, light), and the `path`
-    of names that leads to it below the world, outermost first. Nested models' names are scoped: `arm::hand`.
+    of names below the world, outermost first. Names of nested models are scoped: `arm::hand`.
     """
 
     number: int
@@ -25,7 +26,6 @@ class Entity:
 
     @property
     def name(self) -> str:
-        """Its own name: the last part of the path."""
         return self.path[-1].rsplit("::", 1)[-1]
 
 
@@ -36,7 +36,7 @@ class Entities:
         self.restart(world)
 
     def restart(self, world: WorldDescription) -> None:
-        """Number everything as at the beginning, because the world was rewound."""
+        """Assign all numbers again as at the start, because the world was reset."""
         self._by_number: dict[int, Entity] = {}
         self._numbers: dict[tuple[str, tuple[str, ...]], int] = {}
         self._last = 0
@@ -49,7 +49,7 @@ class Entities:
             self._add("joint", (joint.name,))
 
     def add_model(self, model: Model) -> int:
-        """Number a new model with everything in it; return the model's number."""
+        """Add a new model with all its parts; return the model's number."""
         number = self._add("model", (model.name,))
         for nested in model.nested:
             self._add("model", (model.name, nested.name))
@@ -64,11 +64,11 @@ class Entities:
         return number
 
     def add_light(self, light: Light) -> int:
-        """Number a new light of the world."""
+        """Add a new light of the world; return its number."""
         return self._add("light", (light.name,))
 
     def remove(self, kind: str, name: str) -> list[int]:
-        """Forget a model (with everything in it) or a light of the world; return their numbers."""
+        """Remove a model (with its parts) or a light of the world; return their numbers."""
         below = kind == "model"
         gone = [
             each
@@ -81,15 +81,14 @@ class Entities:
         return [each.number for each in gone]
 
     def number(self, kind: str, *path: str) -> int:
-        """Return the number of an entity, 0 (Gazebo's "no entity") when there is none of that name."""
+        """Return the number of an entity, 0 (Gazebo's null entity) if there is none of that name."""
         return self._numbers.get((kind, path), 0)
 
     def find(self, number: int) -> Entity | None:
-        """Return the entity with that number."""
         return self._by_number.get(number)
 
     def __iter__(self) -> Iterator[Entity]:
-        """Yield all entities by number."""
+        """Yield all entities in the order of their numbers."""
         return iter(self._by_number.values())
 
     def _add(self, kind: str, path: tuple[str, ...]) -> int:

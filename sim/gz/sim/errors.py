@@ -1,5 +1,4 @@
-"""What can go wrong with a world, said in one sentence that names the file, the line and the nearest valid
-name.
+"""Errors and warnings about a world: one sentence with the file, the line and the nearest valid name.
 
 Used by the SDF reader, the model builder, the systems and the `gz sim` command.
 """
@@ -17,22 +16,22 @@ _LONGEST = 1000  # characters of one sentence
 
 
 class SimError(Exception):
-    """Base of everything this package raises on purpose; its text is one sentence fit for a student."""
+    """Base of the errors this package raises deliberately; the text is one sentence for students."""
 
 
 class SdfError(SimError, ValueError):
-    """An SDF file that cannot be run. The text starts with `file:line:`."""
+    """An SDF file that cannot be run; the text begins with `file:line:`."""
 
 
 class ResourceError(SdfError, FileNotFoundError):
-    """A world, model or mesh file that was not found. The text names the nearest file that exists."""
+    """A world, model or mesh file that was not found; the text names the nearest existing file."""
 
     def __str__(self) -> str:
         return str(self.args[0]) if self.args else ""
 
 
 def one_line(sentence: str) -> str:
-    """Return the sentence without line breaks; what it quotes from a file may have them, and may be very long."""
+    """Return the sentence without line breaks and shortened, because it may quote text of a file."""
     words = " ".join(sentence.split())
     return words if len(words) <= _LONGEST else f"{words[: _LONGEST // 2]} ... {words[-_LONGEST // 2 :]}"
 
@@ -41,9 +40,9 @@ def one_line(sentence: str) -> str:
 class Diagnostics:
     """Collects the warnings of one world; each distinct sentence is logged once and kept in `warnings`.
 
-    With `strict` nothing is logged while the world is being read and built: `refuse`, called when that is done, raises
-    one error with all of them. After that call warnings are logged as they come, those within `refusing` excepted.
-    What is only a `doubt` is never refused. With `quiet` nothing is logged at all.
+    With `strict` nothing is logged during loading: `refuse`, called at its end, raises one error with all warnings.
+    Later warnings are logged at once, except within `refusing`. A `doubt` never causes an error. With `quiet` nothing
+    is logged at all.
     """
 
     warnings: list[str] = field(default_factory=list)
@@ -57,7 +56,7 @@ class Diagnostics:
         self._report(where, sentence, doubt=False)
 
     def doubt(self, where: str, sentence: str) -> None:
-        """Report something that is carried as it is written, but hardly meant so."""
+        """Report something that is used as written but is probably a mistake."""
         self._report(where, sentence, doubt=True)
 
     def _report(self, where: str, sentence: str, doubt: bool) -> None:
@@ -74,7 +73,7 @@ class Diagnostics:
             LOG.warning("%s", text)
 
     def warn_once(self, subject: str, where: str, sentence: str) -> None:
-        """Report `sentence` about the first place where `subject` comes up, and be silent about the others."""
+        """Report `sentence` for the first place at which `subject` occurs, and ignore the others."""
         if subject not in self._known and len(self._known) <= _MOST_WARNINGS:
             self._known.add(subject)
             self.warn(where, sentence)
@@ -84,7 +83,7 @@ class Diagnostics:
 
     @contextmanager
     def refusing(self) -> Iterator[None]:
-        """Treat a later part of loading as strictly as the first."""
+        """Apply strict loading to a later part, such as a model that is created."""
         since, self.strict = len(self.warnings), self._asked
         try:
             yield
@@ -93,7 +92,7 @@ class Diagnostics:
         self._refuse(refused if self._asked else [])
 
     def refuse(self) -> None:
-        """End strict loading: raise `SdfError` with every sentence, a line each, when there is one."""
+        """End strict loading. Raises SdfError with all collected sentences, one per line, if there are any."""
         strict, self.strict = self.strict, False
         self._refuse(self.warnings if strict else [])
 

@@ -1,7 +1,7 @@
 """The magnetic field of the earth by latitude and longitude: the World Magnetic Model at its epoch 2025.0.
 
-The magnetometer asks for it when the world lies on the earth. The Gauss coefficients go to degree 8; the higher degrees
-would change less than half a degree and 0.25 uT.
+Used by the magnetometer. The Gauss coefficients go up to degree 8; the higher degrees change the field by less than
+half a degree and 0.25 [uT].
 
 Source: NOAA and British Geological Survey, World Magnetic Model 2025 (public domain)
 """
@@ -14,7 +14,7 @@ import math
 REFERENCE_RADIUS = 6371200.0
 """Radius [m] of the sphere the coefficients belong to."""
 _DEGREE = 8
-# Cosine and sine coefficients (nT): degree 1 orders 0 and 1, degree 2 orders 0 to 2, ...
+# Cosine and sine coefficients [nT]: degree 1 orders 0 and 1, degree 2 orders 0 to 2, ...
 _COSINE = (
     (-29351.8, -1410.8),
     (-2556.6, 2951.1, 1649.3),
@@ -38,13 +38,13 @@ _SINE = (
 
 
 def earth_field(latitude_deg: float, longitude_deg: float) -> tuple[float, float, float]:
-    """Return the field (T) north, east and down at sea level, to the nearest thousandth of a degree."""
+    """Return the field [T] north, east and down at sea level; angles are rounded to a thousandth of a degree."""
     return _field(round(latitude_deg, 3), round(longitude_deg, 3))
 
 
 @functools.lru_cache(maxsize=256)
 def _field(latitude_deg: float, longitude_deg: float) -> tuple[float, float, float]:
-    # Where the place is on the sphere: geocentric latitude and radius of a point of the WGS84 ellipsoid.
+    # Geocentric latitude and radius of the point on the WGS84 ellipsoid.
     a, b = 6378137.0, 6356752.314245
     latitude = math.radians(max(-89.999, min(89.999, latitude_deg)))
     longitude = math.radians(longitude_deg)
@@ -67,7 +67,9 @@ def _field(latitude_deg: float, longitude_deg: float) -> tuple[float, float, flo
 
 
 def _legendre(angle: float) -> tuple[list[list[float]], list[list[float]]]:
-    """Return the Schmidt quasi-normal Legendre functions of cos(angle), [n][m], and their slopes by the angle."""
+    """Return the Schmidt semi-normalized Legendre functions of cos(angle), [n][m], and their derivatives by the
+    angle.
+    """
     c, s = math.cos(angle), math.sin(angle)
     size = _DEGREE + 1
     values = [[0.0] * size for _ in range(size)]

@@ -1,7 +1,8 @@
-"""Position and orientation in space, as SDF writes them and MuJoCo wants them.
+"""Rigid transforms and quaternions, used for every frame computation.
 
-Every frame computation of the SDF reader, the builder, the sensors and the truth interface goes through
-`Pose`. Quaternions are (w, x, y, z), Hamilton convention, unit length; lengths in metres, angles in radians.
+Quaternions are (w, x, y, z), Hamilton convention, unit length; lengths are in [m], angles in [rad].
+
+Source: http://sdformat.org/tutorials?tut=specify_pose (roll, pitch, yaw)
 """
 
 from __future__ import annotations
@@ -26,8 +27,7 @@ def _frozen(values: Sequence[float] | Vector, length: int) -> Vector:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Pose:
-    """A rigid transform: where a frame's origin stands (`position`, m) and how it is turned (`quaternion`,
-    wxyz).
+    """A rigid transform: the `position` [m] of a frame's origin and the orientation `quaternion` (wxyz).
 
     `parent_child = Pose(...)` maps coordinates of the child frame to coordinates of the parent frame.
     """
@@ -45,7 +45,7 @@ class Pose:
 
     @classmethod
     def from_rpy(cls, position: Sequence[float], rpy: Sequence[float]) -> Pose:
-        """Make a pose from SDF's fixed-axis roll, pitch, yaw (rad): R = Rz(yaw) Ry(pitch) Rx(roll)."""
+        """Return the pose for SDF's fixed-axis roll, pitch, yaw [rad]: R = Rz(yaw) Ry(pitch) Rx(roll)."""
         return cls(position, quaternion_from_rpy(*rpy))
 
     def __mul__(self, other: Pose) -> Pose:
@@ -56,16 +56,15 @@ class Pose:
         )
 
     def inverse(self) -> Pose:
-        """Return the transform the other way round."""
         conjugate = self.quaternion * (1.0, -1.0, -1.0, -1.0)
         return Pose(-rotate(conjugate, self.position), conjugate)
 
     def transform(self, point: Sequence[float] | Vector) -> Vector:
-        """Return the coordinates, in the parent frame, of a point given in the child frame (m)."""
+        """Return the coordinates [m] in the parent frame of a point given in the child frame."""
         return self.position + rotate(self.quaternion, np.asarray(point, dtype=np.float64))
 
     def rpy(self) -> tuple[float, float, float]:
-        """Return roll, pitch, yaw (rad) about fixed axes."""
+        """Return roll, pitch, yaw [rad] about fixed axes."""
         w, x, y, z = (float(v) for v in self.quaternion)
         sine = max(-1.0, min(1.0, 2.0 * (w * y - z * x)))
         return (
@@ -75,11 +74,11 @@ class Pose:
         )
 
     def yaw(self) -> float:
-        """Return the heading about the z axis (rad, -pi..pi)."""
+        """Return the heading about the z axis, -pi..pi [rad]."""
         return self.rpy()[2]
 
     def is_close(self, other: Pose, tolerance: float = 1e-9) -> bool:
-        """Tell whether both poses are the same within `tolerance` (q and -q are the same rotation)."""
+        """Tell whether both poses are equal within `tolerance` (q and -q are the same rotation)."""
         return bool(
             np.max(np.abs(self.position - other.position)) <= tolerance
             and 1.0 - abs(float(np.dot(self.quaternion, other.quaternion))) <= tolerance
@@ -88,16 +87,14 @@ class Pose:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Velocity:
-    """Velocity of a frame seen from the world: `linear` (m/s) of its origin and `angular` (rad/s), world
-    axes.
-    """
+    """Velocity of a frame relative to the world, in world axes: `linear` [m/s] of its origin and `angular` [rad/s]."""
 
     linear: Vector
     angular: Vector
 
 
 def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Vector:
-    """Return the unit quaternion (wxyz) of fixed-axis roll, pitch, yaw in radians."""
+    """Return the unit quaternion (wxyz) of fixed-axis roll, pitch, yaw [rad]."""
     cr, sr = math.cos(roll / 2.0), math.sin(roll / 2.0)
     cp, sp = math.cos(pitch / 2.0), math.sin(pitch / 2.0)
     cy, sy = math.cos(yaw / 2.0), math.sin(yaw / 2.0)
@@ -126,10 +123,10 @@ def multiply(a: Vector, b: Vector) -> Vector:
 
 
 def rotate(quaternion: Vector, vector: Vector) -> Vector:
-    """Return `vector` turned by `quaternion` (wxyz)."""
+    """Return `vector` rotated by `quaternion` (wxyz)."""
     w, x, y, z = quaternion.tolist()
     vx, vy, vz = vector.tolist()
-    # v + 2 w (q x v) + 2 q x (q x v), in plain floats: much faster than arrays of three.
+    # v + 2 w (q x v) + 2 q x (q x v) in plain floats, much faster than arrays of three.
     tx, ty, tz = 2.0 * (y * vz - z * vy), 2.0 * (z * vx - x * vz), 2.0 * (x * vy - y * vx)
     return np.array(
         (
@@ -141,7 +138,7 @@ def rotate(quaternion: Vector, vector: Vector) -> Vector:
 
 
 def matrix(quaternion: Vector) -> NDArray[np.float64]:
-    """Return the 3x3 rotation matrix of a unit quaternion (wxyz)."""
+    """Return the rotation matrix (3, 3) of a unit quaternion (wxyz)."""
     w, x, y, z = (float(v) for v in quaternion)
     return np.array(
         (
@@ -153,7 +150,7 @@ def matrix(quaternion: Vector) -> NDArray[np.float64]:
 
 
 def quaternion_between(start: Sequence[float] | Vector, end: Sequence[float] | Vector) -> Vector:
-    """Return the shortest rotation (wxyz) that turns direction `start` into direction `end`."""
+    """Return the shortest rotation (wxyz) from direction `start` to direction `end`."""
     a = np.asarray(start, dtype=np.float64) / np.linalg.norm(start)
     b = np.asarray(end, dtype=np.float64) / np.linalg.norm(end)
     dot = float(a @ b)

@@ -1,10 +1,9 @@
-"""The queue of what other threads want done to a world; it is done between two steps.
+"""The queue of changes that other threads request of a world; they are made between two steps.
 
-Service callbacks run in the threads of the transport; nothing but the stepping thread may touch a world. They
-hand their work to `Requests.call` or `put`; `World.step` and the paused `Server` call `serve`. Whoever is the
-stepping thread itself, and not inside a step, is served at once: so a program that steps a world and calls its
-services never waits for itself. The stepping thread is who made the world, until another thread steps or serves it;
-that one waits until what is being done at once is done.
+Service callbacks run in threads of the transport, but only the stepping thread may access a world. They pass functions
+to `Requests.call` or `put`; `World.step` and the paused `Server` call `serve`. A request by the stepping thread outside
+of a step runs at once, so that a program can step a world and call its services. The stepping thread is the one that
+created the world, until another thread steps or serves it; that thread waits for a request that is running.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ PATIENCE_S = 5.0
 
 
 class Request:
-    """One piece of work and what became of it."""
+    """One function to run, its result and its error."""
 
     def __init__(self, work: Callable[[], Any]) -> None:
         self.work = work
@@ -31,23 +30,23 @@ class Request:
         self._taken = threading.Lock()
 
     def take(self) -> bool:
-        """Claim the work, to do it or to give it up; True for the first who asks."""
+        """Claim the request, to run or to abandon it; True for the first caller only."""
         return self._taken.acquire(blocking=False)
 
     def run(self) -> None:
-        """Do the work, unless the caller has given it up."""
+        """Run the function, unless the caller has abandoned the request."""
         if not self.take():
             return
         try:
             self.result = self.work()
-        except Exception as error:  # the caller's, and not a reason to stop the world
+        except Exception as error:  # raised in the caller; the world goes on
             self.error = error
         finally:
             self.done.set()
 
 
 class Requests:
-    """The queue of one world. Thread-safe, except for what is said to belong to the stepping thread."""
+    """The queue of one world; thread-safe, except for methods of the stepping thread."""
 
     def __init__(self) -> None:
         self.waiting: deque[Request] = deque()
@@ -59,31 +58,29 @@ class Requests:
         self._inside = False
 
     def __bool__(self) -> bool:
-        """Return whether something waits."""
         return bool(self.waiting)
 
     def own(self) -> None:
-        """Make the calling thread the stepping thread, from now on."""
+        """Make the calling thread the stepping thread."""
         caller = threading.get_ident()
         if caller != self._owner:
             with self._handover:
                 self._owner = caller
 
     def enter_step(self) -> None:
-        """Note that the calling thread, which owns the world, is inside a step."""
+        """Record that the stepping thread is inside a step."""
         self._inside = True
 
     def leave_step(self) -> None:
-        """Note that the step is over."""
         self._inside = False
 
     def refuse_inside_step(self, what: str) -> None:
-        """Raise `SimError` when a system asks for a change of the world while it is being stepped."""
+        """Raise SimError if a system requests a change of the world during a step."""
         if self._inside:
             raise SimError(f"a world cannot {what} in the middle of a step; put the work into world.requests instead")
 
     def put(self, work: Callable[[], Any]) -> Request:
-        """Queue work, or do it at once when the caller is the stepping thread between two steps."""
+        """Queue a function, or run it at once if the caller is the stepping thread between two steps."""
         request = Request(work)
         if threading.get_ident() == self._owner and not self._inside:
             with self._handover:
@@ -96,10 +93,10 @@ class Requests:
         return request
 
     def call(self, work: Callable[[], Any], patience: float = PATIENCE_S) -> Any:
-        """Have work done and return its result; raise what it raised.
+        """Run a function in the stepping thread; return its result or raise its error.
 
-        Raises `SimError` when the world was not stepped for `patience` seconds, or when called from inside a step by
-        the stepping thread, which would wait for itself; the work is then not done.
+        Raises SimError, without running it, if the world was not stepped for `patience` [s], or if the stepping thread
+        calls from inside a step and would wait for itself.
         """
         request = self.put(work)
         if threading.get_ident() == self._owner and not request.done.is_set():
@@ -113,21 +110,21 @@ class Requests:
         return request.result
 
     def serve(self) -> None:
-        """Do the work that waits now; called by the stepping thread between steps. Errors nobody waits for are the
-        business of the work itself.
+        """Run the queued requests; called by the stepping thread between steps. A function passed to `put` must handle
+        its own errors.
         """
         self.own()
         for _ in range(len(self.waiting)):
             self.waiting.popleft().run()
 
     def wait(self, timeout: float) -> None:
-        """Return when work waits, or after `timeout` seconds."""
+        """Return when a request is queued, or after `timeout` [s]."""
         with self._arrived:
             self._arrived.wait_for(lambda: bool(self.waiting), timeout)
 
 
 def logged(work: Callable[[], Any], about: str) -> Callable[[], bool]:
-    """Wrap work nobody waits for: what goes wrong becomes one logged sentence about `about`; returns success."""
+    """Wrap a function that nobody waits for: log an error as one sentence about `about`, and return success."""
 
     def run() -> bool:
         try:

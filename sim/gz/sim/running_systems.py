@@ -1,8 +1,8 @@
-"""The systems that run in a world: chosen from the plugins, configured, bound, started, connected, and ended.
+"""The systems of a world: creates them from the plugins, configures, binds, starts, connects and closes them.
 
 `World` calls `add` for the plugins of the world and of every model, `bind` after each build of MuJoCo's model and
-`start` at time zero, and runs the collected hooks around every step. Every system has a transport node of its own, so
-that its topics and services end with its model.
+`start` at time zero, and runs the collected hooks around every step. Every system has its own transport node, so that
+its topics and services end with its model.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ Hook = Callable[[UpdateInfo], None]
 
 @dataclass(eq=False)
 class Running:
-    """A system with the model it belongs to (None: the world) and its node, once the world is attached to one."""
+    """A system, its model (None: the world), and its node once the world is connected."""
 
     system: System
     model: Model | None
@@ -38,7 +38,7 @@ class Running:
 
 
 class RunningSystems:
-    """The systems of one world, those of the world first, then those of the models in their order."""
+    """The systems of one world: those of the world first, then those of the models in order."""
 
     def __init__(self, world: WorldAccess) -> None:
         self._world = world
@@ -59,20 +59,19 @@ class RunningSystems:
         return len(self._running)
 
     def sensors(self) -> Iterator[SensorBase]:
-        """Yield the sensors of all systems."""
         return (sensor for system in self if isinstance(system, SensorSystem) for sensor in system.sensors)
 
     def add_world(self, plugins: Iterable[Plugin]) -> None:
-        """Make and configure the systems of the world itself."""
+        """Create and configure the systems of the world itself."""
         for plugin in plugins:
             found = find_system(plugin, self._world.diagnostics)
             if found is not None:
                 self._make(found, None, plugin)
 
     def add(self, model: Model) -> list[Running]:
-        """Make and configure the systems of a model; return them.
+        """Create, configure and return the systems of a model.
 
-        Raises `SdfError` for parameters they cannot work with; no system of the model is left then.
+        Raises SdfError for invalid parameters; none of the model's systems is kept then.
         """
         before = list(self._running)
         taken = self.servos[model.name] = []
@@ -108,7 +107,7 @@ class RunningSystems:
         self._running.append(Running(made, model, plugin))
 
     def bind(self) -> None:
-        """Let all systems look up their indices in MuJoCo's model, and collect their hooks in order."""
+        """Bind all systems to MuJoCo's model, and collect their hooks in order."""
         order = {id(model): number for number, model in enumerate(self._world.description.models)}
         self._running.sort(key=lambda each: -1 if each.model is None else order.get(id(each.model), len(order)))
         for each in self._running:
@@ -121,17 +120,17 @@ class RunningSystems:
         return [getattr(each, hook) for each in self if getattr(type(each), hook) is not getattr(System, hook)]
 
     def start(self, only: Iterable[Running] | None = None) -> None:
-        """Start all systems, or only these, from the present state."""
+        """Start all systems, or `only` these, from the present state."""
         for each in self._running if only is None else only:
             each.system.start()
 
     def connect(self, node: Node) -> None:
-        """Give every system, also those added later, a node with the options of `node`."""
+        """Connect every system, also those added later, with a node that has the options of `node`."""
         self._options_of = node
         self.connect_new()
 
     def connect_new(self) -> None:
-        """Connect the systems that have no node yet, if the world is attached to one."""
+        """Connect the systems that have no node yet, if the world is connected."""
         if self._options_of is None:
             return
         for each in self._running:
@@ -141,7 +140,7 @@ class RunningSystems:
         self._shared_topics.check(self._talkers())
 
     def _talkers(self) -> Iterator[Talker]:
-        """Yield all systems and sensors that have a node, in the order in which they came."""
+        """Yield all connected systems and sensors in the order in which they were added."""
         for each in self._running:
             system, name = each.system, each.model.name if each.model is not None else ""
             if isinstance(system, SensorSystem):
@@ -155,7 +154,7 @@ class RunningSystems:
                 yield Talker(system.name, shown, name, each.plugin.element, each.node, joins)
 
     def remove(self, model: Model) -> None:
-        """End the systems of a model and their topics and services."""
+        """Close the systems of a model with their topics and services."""
         gone = [each for each in self._running if each.model is model]
         self._running = [each for each in self._running if each.model is not model]
         self.servos.pop(model.name, None)
@@ -163,7 +162,7 @@ class RunningSystems:
             self._end(each)
 
     def close(self) -> None:
-        """Close the nodes of all systems; the systems stay."""
+        """Close the nodes of all systems; the systems themselves remain."""
         for each in self._running:
             self._end(each)
             each.node = None
@@ -175,7 +174,7 @@ class RunningSystems:
             running.node.close()
 
     def check_world(self) -> None:
-        """Warn of a world that loads plugins but not Physics."""
+        """Warn about a world that has plugins but no Physics."""
         description = self._world.description
         wanted = {system_name(plugin) for plugin in description.plugins}
         if wanted and "Physics" not in wanted:
@@ -186,7 +185,7 @@ class RunningSystems:
             )
 
     def check_sensors(self, model: Model) -> None:
-        """Warn of each sensor of a model that no system runs."""
+        """Warn about each sensor of a model that no system runs."""
         running = {each.name for each in self}
         for sensor in model.sensors():
             text = _why_silent(sensor, running)
@@ -211,7 +210,7 @@ def _why_silent(sensor: Sensor, running: set[str]) -> str:
 
 
 def default_plugins(world: Element) -> list[Plugin]:
-    """Return what Gazebo runs in a world that names no plugin: Physics, UserCommands and SceneBroadcaster."""
+    """Return Gazebo's systems for a world without plugins: Physics, UserCommands and SceneBroadcaster."""
     made: list[Plugin] = []
     for name, filename in (
         ("Physics", "gz-sim-physics-system"),

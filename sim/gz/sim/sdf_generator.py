@@ -1,8 +1,7 @@
-"""A running world becomes an SDF text that loads again with every model and light where it is now.
+"""Writes a running world as SDF text with the present poses of its models and lights.
 
-Behind the service `/world/W/generate_world_sdf`, recordings, and `gz model`. As in Gazebo the models are written as
-they were read, with their present poses; joints stand at zero again when the text is loaded. An `<include>` stays
-one, unless it is to be expanded.
+Used by the service `/world/W/generate_world_sdf`, recordings and `gz model`. As in Gazebo the models are written as
+they were read; joints are at zero when the text is loaded. An `<include>` is kept, unless it is to be expanded.
 """
 
 from __future__ import annotations
@@ -26,10 +25,10 @@ _ROOTS = ("model", "light", "include")
 
 
 def generate_world(world: WorldAccess, *, expand_includes: bool = False) -> str:
-    """Return the SDF text of a world as it is at this moment.
+    """Return the SDF text of a world as it is now.
 
-    With `expand_includes` the content of included models is written out, where it follows the same SDF version as
-    the world; relative `<uri>`s become absolute paths.
+    `expand_includes` writes the content of included models if it has the same SDF version as the world; relative
+    `<uri>`s become absolute paths.
     """
     return _Generator(world, expand_includes).text()
 
@@ -47,7 +46,7 @@ class _Generator:
         models, lights = list(description.models), list(description.lights)
         for child in source.children:
             if child.tag == "joint" and not any(joint.element is child for joint in description.joints):
-                continue  # one of its models went
+                continue  # one of its models was removed
             if child.tag not in _ROOTS:
                 written.children.append(self._physics(child) if child.tag == "physics" else _copy(child))
                 continue
@@ -66,7 +65,7 @@ class _Generator:
         return f'<?xml version="1.0" ?>\n{to_xml(root)}\n'
 
     def _physics(self, element: Element) -> Element:
-        """Write the step size and the real-time factor that hold now."""
+        """Write the present step size and real-time factor."""
         made = _copy(element)
         description = self._world.description
         for tag, value in (
@@ -116,11 +115,11 @@ class _Generator:
 
 
 def _came_from(element: Element, name: str, child: Element) -> bool:
-    """Return whether a model or light is what this child of `<world>` brought."""
+    """Return whether a model or light was made from this child of `<world>`."""
     if child.tag != "include":
         return element is child
     if child.attributes.get("merge", "false").lower() in ("true", "1"):
-        return False  # what it brought is written out
+        return False  # its content is written out
     if child.text_of("name", name) != name:
         return False
     base = Path(child.file).parent if child.file != "<string>" else None
@@ -137,7 +136,7 @@ def _placed(element: Element, pose: Pose, version: tuple[int, int]) -> Element:
 
 
 def _copy(element: Element) -> Element:
-    """Copy an element; a `<uri>` that is relative to its file becomes absolute, since the text has no file."""
+    """Copy an element; a relative `<uri>` becomes absolute, because the text has no file."""
     made = copy.copy(element)
     made.attributes = dict(element.attributes)
     made.children = [_copy(child) for child in element.children]

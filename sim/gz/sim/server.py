@@ -1,12 +1,11 @@
-"""The server of a world: publishes its clock and statistics, and runs it against the wall clock.
+"""The server of a world: publishes its clock and statistics, and runs it at wall-clock pace.
 
-`gz sim` and launch files use `run`; a grader that owns the time uses `step`. Topics, as in Gazebo: `/clock`
-and `/world/W/clock` (gz.msgs.Clock), `/stats` and `/world/W/stats` (gz.msgs.WorldStatistics) at 10 Hz. Services
-are in `world_services`; requests are answered between two steps, also while the world is paused.
+`gz sim` and launch files use `run`, the grader uses `step`. Topics, as in Gazebo: `/clock` and `/world/W/clock`
+(gz.msgs.Clock), `/stats` and `/world/W/stats` (gz.msgs.WorldStatistics) at 10 Hz. Services are in `world_services`;
+requests are handled between two steps, also while the world is paused.
 
-The clock is published after every call of `step`, and by `run` every 5 ms of simulated time (every step when steps are
-longer), at most. Gazebo publishes it at every step; at steps of 1 ms that costs each rclpy node a third of a core
-and tells it nothing that a robot's node could use.
+The clock is published after every call of `step`, and by `run` at most every 5 ms of simulated time. Gazebo publishes
+it at every step; at 1 ms that takes each rclpy node a third of a core without a benefit for a robot's node.
 """
 
 from __future__ import annotations
@@ -33,10 +32,10 @@ _NOTICE_S = 0.05
 
 
 class Server:
-    """Owns a world and the node it talks through. `paused` may be set from any thread while `run` runs."""
+    """Runs a world on a transport node; `paused` may be set from any thread during `run`."""
 
     def __init__(self, world: World, node: Node) -> None:
-        """Attach `world` to `node` (unless it already is), advertise clock and statistics, and offer the services."""
+        """Attach `world` to `node` (if not yet attached), advertise clock and statistics, and offer the services."""
         self.world = world
         self.node = node
         self.control = Control(world, self._on_rewind)
@@ -56,7 +55,7 @@ class Server:
 
     @property
     def paused(self) -> bool:
-        """Return whether time stands still in `run`; `step` goes on regardless."""
+        """Return whether `run` is paused; `step` ignores it."""
         return self.control.paused
 
     @paused.setter
@@ -64,8 +63,10 @@ class Server:
         self.control.paused = paused
 
     def step(self, n: int = 1) -> None:
-        """Run `n` steps, then publish the clock, and the statistics each time 0.1 s of simulated time has
-        passed. What clients asked for is done before the steps. Raises `SimError` as `World.step` does.
+        """Run `n` steps, publish the clock and, each 0.1 [s] of simulated time, the statistics; pending requests come
+        first.
+
+        Raises SimError as `World.step` does.
         """
         world = self.world
         world.step(n)
@@ -82,13 +83,13 @@ class Server:
         iterations: int = 0,
         stop: threading.Event | None = None,
     ) -> None:
-        """Step until `stop` is set, a client stops the server, or `iterations` steps are done (0: no end), paced to
-        the wall clock.
+        """Step at wall-clock pace until `stop` is set, a client stops the server, or `iterations` steps are done (0: no
+        end).
 
-        `real_time_factor` 1 is real time, 0 as fast as possible, None what the world says; `update_rate` (steps per
-        second of wall time) replaces it. When the machine is too slow, simulated time falls behind; it is not caught
-        up later in a burst. While paused, clock and statistics are sent ten times a second and clients are served.
-        Unstable physics pauses the world; with `iterations`, which would then never end, it raises `SimError`.
+        `real_time_factor` 1 is real time, 0 as fast as possible, None that of the world; `update_rate` (steps per
+        second of wall time) replaces it. On a slow machine simulated time falls behind and is not caught up in a burst.
+        While paused, clock and statistics are published ten times per second and requests are handled. Unstable physics
+        pauses the world, or raises SimError with `iterations`, which would never be reached.
         """
         stop = stop or threading.Event()
         world = self.world
@@ -132,7 +133,7 @@ class Server:
         return self.world.description.real_time_factor if real_time_factor is None else real_time_factor
 
     def _advance(self, count: int, strict: bool) -> bool:
-        """Step and publish the clock; on unstable physics pause, say so and return False."""
+        """Step and publish the clock; on unstable physics pause, log it and return False."""
         try:
             self.world.step(count)
         except SimError as error:
@@ -146,7 +147,7 @@ class Server:
         return True
 
     def _wait_paused(self, stop: threading.Event) -> None:
-        """Serve clients at once, and tell the time ten times a second, until unpaused or stopped."""
+        """Handle requests at once and publish the time ten times per second, until unpaused or stopped."""
         self._pause_began = beat = time.monotonic_ns()
         self._factor = 0.0
         self._tell_paused()
@@ -167,7 +168,7 @@ class Server:
         self.world.paused_update()
 
     def _on_rewind(self) -> None:
-        """Begin anew with the clock of this world."""
+        """Restart the clocks of the server after the world was rewound."""
         self._next_stats_ns = self.world.sim_time_ns + STATS_PERIOD_NS
         self._started = time.monotonic_ns()
         self._pause_ns = 0
@@ -175,11 +176,11 @@ class Server:
             self._pause_began = self._started
 
     def _pause_time_ns(self, now: int) -> int:
-        """Return how long the world has stood still since it began, at the monotonic time `now`."""
+        """Return how long the world has been paused since the start [ns], at the monotonic time `now` [ns]."""
         return self._pause_ns + (now - self._pause_began if self._pause_began is not None else 0)
 
     def _real_time_ns(self) -> int:
-        """Return how long the world has run since it began; as in Gazebo this stands still in a pause."""
+        """Return how long the world has run since the start [ns]; as in Gazebo without pauses."""
         now = time.monotonic_ns()
         return now - self._started - self._pause_time_ns(now)
 

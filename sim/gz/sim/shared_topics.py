@@ -1,8 +1,8 @@
-"""Warnings of topics that two robots or sensors of a world share: their data mix, or one command moves both.
+"""Warnings about topics that two robots or sensors of a world share: their data mix, or one command moves both.
 
-`RunningSystems` calls `SharedTopics.check` each time systems were connected; a warning names both. Sharing that is
-meant stays silent: transforms name what they are about, the joints of one model may follow
-one command, and a TriggeredPublisher stands between others by its nature.
+`RunningSystems` calls `SharedTopics.check` each time systems were connected; a warning names both. Intended sharing is
+not reported: transforms name their frames, joints of one model may follow one command, and a TriggeredPublisher
+connects topics of others.
 """
 
 from __future__ import annotations
@@ -32,8 +32,9 @@ _MOST_NAMED = 3  # topics in one sentence
 
 @dataclass(frozen=True, eq=False)
 class Talker:
-    """A system or a sensor on its own node; `element` is its `<plugin>` or `<sensor>`, `shown` how sentences call it.
-    `model` is empty for a system of the world, `joins` True for one that may join any topic as a matter of course.
+    """A system or a sensor with its node; `element` is its `<plugin>` or `<sensor>`, `shown` its name in sentences.
+
+    `model` is empty for a system of the world; `joins` is True if it may share any topic.
     """
 
     system: str
@@ -50,10 +51,9 @@ Rule = Callable[[Talker, Talker, str], bool]
 
 
 class SharedTopics:
-    """Looks at all who talk in one world; what was said already is not said again (`Diagnostics`)."""
+    """Checks all systems and sensors of one world; `Diagnostics` reports each sentence once."""
 
     def __init__(self, diagnostics: Diagnostics) -> None:
-        """`diagnostics` gets the warnings."""
         self._diagnostics = diagnostics
 
     def check(self, talkers: Iterable[Talker]) -> None:
@@ -93,7 +93,7 @@ class SharedTopics:
             )
 
     def _pairs(self, users: Users, clash: Rule) -> Iterator[tuple[Talker, Talker, str, str]]:
-        """Yield for each talker on a topic at most one pair: the first one that it gets in the way of, and it."""
+        """Yield at most one pair for each talker on a topic: the first talker that it conflicts with, and itself."""
         for topic, present in users.items():
             for place, (second, kind) in enumerate(present):
                 for first, other in present[:place]:
@@ -134,7 +134,7 @@ def _both_act(first: Talker, second: Talker, kind: str) -> bool:
 
 
 def _stated(element: Element, topic: str) -> Element | None:
-    """Return the element that names a topic or the stem of it, as `lidar` is that of `/lidar/points`."""
+    """Return the element that names a topic or its prefix, as `lidar` in `/lidar/points`."""
     for child in element.children:
         name = f"/{child.text.strip('/')}" if "topic" in child.tag and child.text else ""
         if name and (name == topic or topic.startswith(f"{name}/")):

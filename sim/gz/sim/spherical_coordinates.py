@@ -1,11 +1,11 @@
-"""The place of a world on a planet: `<spherical_coordinates>` of SDF, and metres from and to latitude and longitude.
+"""The place of a world on a planet (`<spherical_coordinates>`), and conversions between metres, latitude and longitude.
 
-`gz.sim.sdf.reader` reads it into the world's description; NavSat, Magnetometer and the IMU ask it. The world's axes
-are east, north, up at the origin, turned by `heading_deg` about up. The conversion on
-the ellipsoid goes through planet-centred (ECEF) coordinates.
+NavSat, Magnetometer and the IMU use it. The world's axes are east, north, up at the origin, rotated by `heading_deg`
+about up. The conversion on the ellipsoid goes through planet-centred (ECEF) coordinates.
 
 Source: https://gssc.esa.int/navipedia, "Ellipsoidal and Cartesian Coordinates Conversion" and "Transformations between
 ECEF and ENU coordinates"
+Source: National Geospatial-Intelligence Agency, World Geodetic System 1984 (NGA.STND.0036)
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ SURFACES = {
 
 @dataclass(frozen=True)
 class SphericalCoordinates:
-    """Latitude, longitude (degrees) and elevation (m) of the world's origin, and how its axes are turned:
-    `heading_deg` is the angle from east to the x axis, anti-clockwise.
+    """Latitude, longitude [deg] and elevation [m] of the world's origin; `heading_deg` [deg] is the angle from east to
+    the x axis, counter-clockwise.
     """
 
     surface_model: str = "EARTH_WGS84"
@@ -45,8 +45,9 @@ class SphericalCoordinates:
 
     @classmethod
     def from_sdf(cls, element: Element | None, diagnostics: Diagnostics) -> SphericalCoordinates | None:
-        """Read `<spherical_coordinates>`; return None if there is none. Raises `SdfError` for an unknown surface, axes
-        that are not positive and angles that are not finite.
+        """Read `<spherical_coordinates>`; None if there is none.
+
+        Raises SdfError for an unknown surface, axes that are not positive and angles that are not finite.
         """
         if element is None:
             return None
@@ -73,7 +74,7 @@ class SphericalCoordinates:
         return cls(surface, latitude, longitude, elevation, heading, equatorial, polar)
 
     def spherical(self, position: Vector) -> tuple[float, float, float]:
-        """Return latitude, longitude (degrees) and elevation (m) of a point of the world (3,) in metres."""
+        """Return latitude, longitude [deg] and elevation [m] of a point (3,) [m] in the world frame."""
         x, y, z = self._origin() + self._east_north_up() @ (self._heading() @ position)
         a, b = self.surface_axis_equatorial, self.surface_axis_polar
         across = math.hypot(x, y)
@@ -88,7 +89,7 @@ class SphericalCoordinates:
         return math.degrees(latitude), math.degrees(math.atan2(y, x)), elevation
 
     def local(self, latitude_deg: float, longitude_deg: float, elevation: float) -> Vector:
-        """Return where (3,) in the world, in metres, a latitude, longitude (degrees) and elevation (m) is."""
+        """Return the point (3,) [m] in the world frame at a latitude, longitude [deg] and elevation [m]."""
         away = self._ecef(latitude_deg, longitude_deg, elevation) - self._origin()
         found: Vector = self._heading().T @ (self._east_north_up().T @ away)
         return found
@@ -106,12 +107,12 @@ class SphericalCoordinates:
         return np.array((across * math.cos(longitude), across * math.sin(longitude), up))
 
     def _east_north_up(self) -> NDArray[np.float64]:
-        """Return the matrix (3, 3) whose columns are east, north and up at the origin, seen from the planet."""
+        """Return the matrix (3, 3) whose columns are east, north and up at the origin in ECEF axes."""
         latitude, longitude = math.radians(self.latitude_deg), math.radians(self.longitude_deg)
         sp, cp, sl, cl = math.sin(latitude), math.cos(latitude), math.sin(longitude), math.cos(longitude)
         return np.array(((-sl, -cl * sp, cl * cp), (cl, -sl * sp, sl * cp), (0.0, cp, sp)))
 
     def _heading(self) -> NDArray[np.float64]:
-        """Return the matrix (3, 3) that turns the world's axes into east, north and up."""
+        """Return the matrix (3, 3) that rotates the world's axes into east, north and up."""
         c, s = math.cos(math.radians(self.heading_deg)), math.sin(math.radians(self.heading_deg))
         return np.array(((c, -s, 0.0), (s, c, 0.0), (0.0, 0.0, 1.0)))

@@ -43,7 +43,7 @@ class Entry:
 
 @dataclass(frozen=True)
 class TopicSummary:
-    """What a log holds of one topic; times in ns of simulated time."""
+    """The messages of one topic in a log; times in [ns] of simulated time."""
 
     topic: str
     type_name: str
@@ -54,10 +54,10 @@ class TopicSummary:
 
 
 class LogWriter:
-    """Writes one log; every few hundred messages are made safe together. Used by one thread at a time."""
+    """Writes one log and commits every few hundred messages; not thread-safe."""
 
     def __init__(self, path: Path) -> None:
-        """Create the file; raise `SimError` when that cannot be."""
+        """Create the file. Raises SimError if that fails."""
         self._path = path
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -74,7 +74,7 @@ class LogWriter:
         self._closed = False
 
     def write(self, entry: Entry) -> None:
-        """Append a message; raise `SimError` when the disk refuses."""
+        """Append a message. Raises SimError if writing fails."""
         try:
             values = (entry.time_ns, self._topic(entry.topic, entry.type_name), entry.data)
             self._database.execute("INSERT INTO messages (time_recv, topic_id, message) VALUES (?, ?, ?)", values)
@@ -99,7 +99,7 @@ class LogWriter:
         return found
 
     def close(self) -> None:
-        """Make everything safe and close the file; closing twice does nothing."""
+        """Commit and close the file; closing twice does nothing."""
         if self._closed:
             return
         self._closed = True
@@ -112,10 +112,10 @@ class LogWriter:
 
 
 class Log:
-    """A log that exists; raises `SimError` for a file that is none."""
+    """An existing log. Raises SimError if the file is no log."""
 
     def __init__(self, path: Path) -> None:
-        """`path` is the file, or the folder it lies in."""
+        """Open the file `path`, or the log in the folder `path`."""
         self.path = path / FILE_NAME if path.is_dir() else path
         if not self.path.is_file():
             raise SimError(f"there is no log '{self.path}'; gz sim --record --record-path FOLDER writes one")
@@ -126,7 +126,7 @@ class Log:
             raise SimError(f"'{self.path}' is not a log of Gazebo ({error})") from None
 
     def topics(self) -> list[TopicSummary]:
-        """Return what there is of every topic, sorted by name."""
+        """Return a summary of every topic, sorted by name."""
         rows = self._database.execute(
             "SELECT topics.name, message_types.name, COUNT(*), MIN(time_recv), MAX(time_recv), SUM(LENGTH(message)) "
             "FROM messages JOIN topics ON topics.id = topic_id "
@@ -135,7 +135,7 @@ class Log:
         return [TopicSummary(*row) for row in rows]
 
     def messages(self, topic: str | None = None) -> Iterator[Entry]:
-        """Yield the messages, of one topic or of all, in the order in which they came."""
+        """Yield the messages of one topic or of all, in recorded order."""
         rows = self._database.execute(
             "SELECT topics.name, message_types.name, time_recv, message FROM messages "
             "JOIN topics ON topics.id = topic_id JOIN message_types ON message_types.id = message_type_id "
@@ -146,5 +146,4 @@ class Log:
             yield Entry(*row)
 
     def close(self) -> None:
-        """Close the file."""
         self._database.close()

@@ -1,7 +1,6 @@
-"""The true state of a world: poses and velocities by name, the visible shapes, the addresses of joints.
+"""The true state of a world: poses and velocities by name, visible shapes, and addresses of joints.
 
-`World.truth` is asked by graders, systems and sensors. MuJoCo's world poses lag one step behind after a step; `refresh`
-brings them up to the present.
+After a step MuJoCo's world poses are one step old; `refresh` updates them.
 """
 
 from __future__ import annotations
@@ -29,9 +28,9 @@ class JointAddress:
 
 
 class Truth:
-    """The poses and velocities of one world; every question is answered from the present state.
+    """The poses and velocities of one world in its present state.
 
-    Raises `SimError` with the nearest name for a model or link that is not there.
+    Raises SimError with the nearest name for an unknown model or link.
     """
 
     model: mujoco.MjModel
@@ -46,8 +45,8 @@ class Truth:
         """Whether MuJoCo's world poses may lag behind; set by whoever changes the state."""
 
     def bind(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        """Answer from a model that was just built: look up, per moving model, the body of its canonical link and the
-        model's frame seen from it.
+        """Use a new MuJoCo model: look up, for each moving model, the body of its canonical link and its frame in that
+        link.
         """
         self.model, self.data, self.stale = model, data, True
         self._canonical.clear()
@@ -60,13 +59,13 @@ class Truth:
                 self._canonical[each.name] = (body, canonical.pose.inverse())
 
     def refresh(self) -> None:
-        """Bring MuJoCo's world poses (`data.xpos`, `site_xpos`, ...) up to the present; a step leaves them behind."""
+        """Update MuJoCo's world poses (`data.xpos`, `site_xpos`, ...), which are one step old after a step."""
         if self.stale:
             mujoco.mj_kinematics(self.model, self.data)
             self.stale = False
 
     def model_names(self, *, static: bool = False) -> list[str]:
-        """Return the names of the models that can move, in file order; with `static` the others follow."""
+        """Return the names of the models that can move, in file order; with `static` followed by the others."""
         moving = [model.name for model in self._description.models if not model.static]
         return moving + [model.name for model in self._description.models if model.static] if static else moving
 
@@ -126,7 +125,7 @@ class Truth:
         return self._link_pose(model, canonical) * canonical.pose.inverse() * nested.pose
 
     def find_model(self, name: str) -> Model:
-        """Return a model of the world."""
+        """Return a model of the world. Raises SimError if there is none."""
         found = self.models.get(name)
         if found is None:
             hint = did_you_mean(name, self.models, listing="its models are")
@@ -135,7 +134,7 @@ class Truth:
 
     @staticmethod
     def find_link(model: Model, name: str) -> Link:
-        """Return a link of a model by its scoped name."""
+        """Return a link of a model by its scoped name. Raises SimError if there is none."""
         found = model.link(name)
         if found is None:
             hint = did_you_mean(name, [each.name for each in model.links], listing="its links are")

@@ -1,6 +1,6 @@
-"""What a world looks like: every `<visual>` as a plain shape, for recordings and viewers.
+"""The visible shapes of a world as plain data, for recordings and viewers.
 
-`Truth.geometry` lists these once; `Truth.link_pose` tells where their links are.
+`Truth.geometry` lists them once; `Truth.link_pose` gives the poses of their links.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ from gz_course.sim.gz.sim.sdf.description import WorldDescription
 class VisualShape:
     """One visible shape, fixed to a link.
 
-    `kind` is box, sphere, cylinder, capsule, ellipsoid, cone, plane, mesh, polyline or heightmap. `size` holds full
-    extents in metres along the shape's own axes: box (x, y, z); sphere (d, d, d); cylinder (d, d, length); capsule
-    (d, d, length without its caps); ellipsoid (2 rx, 2 ry, 2 rz); cone (d, d, height); plane (x, y, 0); others their
-    bounding box. Cylinders, capsules and cones stand along z, a plane's normal is z: a `<normal>` is already part of
-    `pose`. `pose` is the shape in its link's frame, `rgba` its colour (each 0..1).
+    `kind` is box, sphere, cylinder, capsule, ellipsoid, cone, plane, mesh, polyline or heightmap. `size` [m] holds full
+    extents along the shape's own axes: box (x, y, z); sphere (d, d, d); cylinder (d, d, length); capsule (d, d, length
+    without its caps); ellipsoid (2 rx, 2 ry, 2 rz); cone (d, d, height); plane (x, y, 0); bounding box for the others.
+    The axis of cylinders, capsules and cones is z, and so is a plane's normal: a `<normal>` is already part of `pose`.
+    `pose` is that of the shape in its link's frame; values of `rgba` are 0..1.
 
-    `vertices` (n, 3) float32 in metres in the shape's own frame and `triangles` (m, 3) int32 are the surface of a cone,
-    mesh, polyline or heightmap, None for the other kinds. Equal meshes are the same arrays; they cannot be written to.
+    `vertices` (n, 3) float32 [m] in the shape's own frame and `triangles` (m, 3) int32 are the surface of a cone, mesh,
+    polyline or heightmap, None for the other kinds. Equal meshes share the same read-only arrays.
     """
 
     model: str

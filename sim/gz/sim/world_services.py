@@ -1,8 +1,8 @@
-"""The services a server offers beside those of its systems, under Gazebo's names and types.
+"""The services of a server itself, with Gazebo's names and types.
 
 `/world/W/control`, `/world/W/control/state`, `/world/W/generate_world_sdf`, `/gazebo/worlds`,
 `/gazebo/resource_paths/get|add|resolve`, `/gazebo/starting_world` and `/server_control`. Callbacks run in the
-transport's threads; what touches the world goes through `World.requests`.
+transport's threads; access to the world goes through `World.requests`.
 
 Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/ServerPrivate.cc
 """
@@ -39,7 +39,7 @@ class WorldServices:
     """Offers the services of one server on its node; they end with the node."""
 
     def __init__(self, world: World, node: Node, control: Control, stop: Callable[[], None]) -> None:
-        """Offer them at once; `stop()` is called, from any thread, when a client asks the server to end."""
+        """Offer the services; `stop()` is called, from any thread, when a client asks the server to end."""
         self._world = world
         self._control = control
         self._stop = stop
@@ -63,7 +63,7 @@ class WorldServices:
         work = logged(lambda: self._control.apply(request), topic)
         asked = self._world.requests.put(work)
         if not asked.done.wait(CONTROL_PATIENCE_S):
-            return Boolean(data=True)  # as in Gazebo: it was taken, and is obeyed when the world is stepped
+            return Boolean(data=True)  # as in Gazebo: accepted, and applied when the world is stepped
         return Boolean(data=bool(asked.result))
 
     def _on_control_state(self, request: Any) -> Any:
@@ -111,7 +111,7 @@ class WorldServices:
             self._stop()
         others = [
             field.name for field, _ in request.ListFields() if field.name not in ("header", "stop")
-        ]  # saving, opening and cloning belong to Gazebo Classic; Gazebo itself ignores them
+        ]  # saving, opening and cloning belong to Gazebo Classic; Gazebo ignores them
         if others:
             LOG.error("/server_control: %s is not supported, only stop is", others[0])
         return Boolean(data=request.stop and not others)

@@ -1,8 +1,10 @@
-"""Topics and services of Gazebo (gz.transport), in one process or between many.
+"""Topics and services of Gazebo (gz.transport), within one process or between processes.
 
-The names and signatures are those of the official Python binding, so code moves to a full Gazebo by changing the
-import. What the binding lacks (`Scope` for a whole node, `wait_for_subscribers`, `advertise_service`, `close`) is
-marked where it is defined.
+Names and signatures are those of the official Python binding, so that code moves to a full Gazebo by changing the
+import. Additions (`Scope` for a whole node, `wait_for_subscribers`, `advertise_service`, `close`) are marked where they
+are defined.
+
+Source: https://gazebosim.org/api/transport/13/
 """
 
 from gz_course.sim.gz.transport.message_info import MessageInfo, MessagePublisher, ServicePublisher

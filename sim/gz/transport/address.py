@@ -1,7 +1,7 @@
-"""Which addresses of others may be used: numeric ones, and on 127.0.0.1 only those of this machine.
+"""Decides which addresses of other processes may be used: numeric ones, and from 127.0.0.1 only those of this machine.
 
-Every address that comes out of a datagram or a request is checked here before a socket connects to it, so that a
-process on 127.0.0.1 sends nothing to another machine, whoever invites it, and a name never has to be looked up.
+Every address received in a datagram or a request is checked here before a socket connects to it. A process on 127.0.0.1
+therefore sends nothing to other machines, and no name has to be resolved.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ _NUMERIC = re.compile(r"tcp://(\d{1,3}(?:\.\d{1,3}){3}):(\d{1,5})", re.ASCII)
 
 
 def is_loopback(ip: str) -> bool:
-    """Return whether an IPv4 address is one of 127.0.0.0/8."""
+    """Return whether an IPv4 address is in 127.0.0.0/8."""
     return ip.startswith("127.")
 
 
@@ -32,7 +32,9 @@ def is_of_this_machine(ip: str) -> bool:
 
 
 def within_reach(ip: str, own_ip: str) -> bool:
-    """Return whether a process at `own_ip` deals with one at `ip`: from 127.0.0.1, with this machine only."""
+    """Return whether a process at `own_ip` may communicate with one at `ip`: from 127.0.0.1 only within this
+    machine.
+    """
     return not is_loopback(own_ip) or is_of_this_machine(ip)
 
 

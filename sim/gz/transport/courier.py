@@ -1,7 +1,9 @@
-"""The socket through which requests and responses leave this process.
+"""Sends service requests and responses to other processes.
 
-Any thread may send. ZeroMQ knows a peer only after the handshake that follows connect(), and refuses until then;
-what is refused is kept and tried again by the I/O thread every millisecond until its deadline, so nobody sleeps.
+Any thread may send. A ZeroMQ ROUTER socket rejects messages to a peer until the handshake after connect() is complete;
+the I/O thread retries rejected messages every millisecond until their deadline.
+
+Source: https://zguide.zeromq.org/docs/chapter3/ (ROUTER sockets)
 """
 
 from __future__ import annotations
@@ -26,33 +28,33 @@ Target = tuple[str, bytes, Sequence[bytes]]
 
 
 class Letter:
-    """Something to be sent to the first of several targets that can be reached."""
+    """A message for the first of several targets that can be reached."""
 
     def __init__(self, targets: Callable[[], Iterable[Target]], deadline: float, on_sent: Callable[[], None]) -> None:
-        """`targets()` is asked at each attempt; after `deadline` (monotonic clock [s]) there is none."""
+        """Create a message; `targets()` is called at each attempt until `deadline` (monotonic clock [s])."""
         self.targets = targets
         self.deadline = deadline
         self.on_sent = on_sent
 
 
 class Courier:
-    """A ROUTER socket that connects to everybody it has something for."""
+    """A ROUTER socket that connects to every target of its messages."""
 
     def __init__(self, context: zmq.Context[zmq.Socket[bytes]], wake: Callable[[], None]) -> None:
-        """`wake()` makes the I/O thread call retry() soon."""
+        """Open the socket; `wake()` makes the I/O thread call retry() soon."""
         self._wake = wake
         self._lock = threading.Lock()
         self._waiting: list[Letter] = []
-        self._connected: dict[str, None] = {}  # the address used last is the last one
+        self._connected: dict[str, None] = {}  # the last entry is the most recently used address
         self._socket = context.socket(zmq.ROUTER)
         self._socket.setsockopt(zmq.ROUTER_MANDATORY, 1)
-        self._socket.setsockopt(zmq.IMMEDIATE, 1)  # nothing is queued for a peer whose connection is lost
+        self._socket.setsockopt(zmq.IMMEDIATE, 1)  # no queue for peers whose connection is lost
         self._socket.setsockopt(zmq.LINGER, 200)
         self._socket.setsockopt(zmq.RECONNECT_IVL, _RECONNECT_MS)
         self._socket.setsockopt(zmq.RECONNECT_IVL_MAX, _RECONNECT_MOST_MS)
 
     def send(self, letter: Letter) -> None:
-        """Send now, or as soon as a target can be reached."""
+        """Send at once, or as soon as a target can be reached."""
         if self._attempt(letter):
             letter.on_sent()
             return
@@ -62,7 +64,7 @@ class Courier:
         self._wake()
 
     def retry(self) -> bool:
-        """Send what waits, drop what is too late; return whether something still waits. I/O thread only."""
+        """Send pending messages and drop expired ones; return whether any is still pending. I/O thread only."""
         if not self._waiting:
             return False
         with self._lock:
@@ -79,7 +81,6 @@ class Courier:
             return bool(self._waiting)
 
     def withdraw(self, letter: Letter) -> None:
-        """Give a letter up."""
         with self._lock, contextlib.suppress(ValueError):
             self._waiting.remove(letter)
 
@@ -91,7 +92,7 @@ class Courier:
                 try:
                     self._socket.send_multipart((routing_id, *frames), zmq.NOBLOCK)
                     return True
-                except zmq.ZMQError as error:  # EHOSTUNREACH: not connected yet; EAGAIN: too much under way
+                except zmq.ZMQError as error:  # EHOSTUNREACH: not connected yet; EAGAIN: the queue is full
                     if error.errno not in (zmq.EHOSTUNREACH, zmq.EAGAIN):
                         complain(f"{address} cannot be reached: {error}.")
         return False
@@ -110,7 +111,7 @@ class Courier:
         return True
 
     def leave(self, address: str) -> None:
-        """Disconnect from a process that is gone."""
+        """Disconnect from a process that has ended."""
         with self._lock:
             if address in self._connected and not self._socket.closed:
                 self._leave(address)
@@ -121,6 +122,6 @@ class Courier:
             self._socket.disconnect(address)
 
     def close(self) -> None:
-        """Close the socket; what is under way is still sent for a moment."""
+        """Close the socket; messages in transit are still sent for a moment."""
         with self._lock:
             self._socket.close()

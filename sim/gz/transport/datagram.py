@@ -1,6 +1,4 @@
-"""The datagrams by which processes find one another: a length of two bytes (little-endian), then a gz.msgs.Discovery.
-
-Between the UDP socket and discovery.py. Whatever is not a datagram of this protocol version is dropped here.
+"""The datagrams of discovery: a little-endian length of two bytes, then a gz.msgs.Discovery.
 
 Source: https://github.com/gazebosim/gz-transport/blob/gz-transport13/include/gz/transport/Discovery.hh
 Source: https://github.com/gazebosim/gz-msgs/blob/gz-msgs10/proto/gz/msgs/discovery.proto

@@ -1,8 +1,7 @@
-"""Discovery by multicast: finds the publishers (or services) of other processes, and announces our own.
+"""Discovery by multicast: finds the publishers or services of other processes, and announces those of this process.
 
-One DiscoveryChannel is one UDP port: heartbeats, announcements, questions ("who has this topic?") and
-farewells. It runs inside the I/O thread; sending and looking things up is allowed from every thread. What is
-special to topics is in topic_discovery.py.
+A DiscoveryChannel is one UDP port with heartbeats, announcements, questions ("who has this topic?") and farewells. It
+runs in the I/O thread; any thread may send and look up. topic_discovery.py adds what only topics have.
 
 Source: https://github.com/gazebosim/gz-transport/blob/gz-transport13/include/gz/transport/Discovery.hh
 """
@@ -50,8 +49,8 @@ class DiscoveryChannel:
     ) -> None:
         """Open the sockets.
 
-        `own(topic)` gives what this process offers on a topic (None: on all); `on_advertise(record, is_new)`
-        and `on_gone(records)` are called in the thread that calls receive() and tick().
+        `own(topic)` returns the publishers or services of this process on a topic (None: all). `on_advertise(record,
+        is_new)` and `on_gone(records)` are called in the thread of receive() and tick().
         """
         self.process_uuid = process_uuid
         self._settings = settings
@@ -99,18 +98,18 @@ class DiscoveryChannel:
         return f"{seen} ({error.strerror}): is GZ_IP an address of this machine, and its network up?"
 
     def fileno(self) -> int:
-        """Return the descriptor that becomes readable when datagrams wait."""
+        """Return the file descriptor that is readable when datagrams are waiting."""
         return self._socket.fileno()
 
-    # ---- what the other processes offer
+    # Publishers or services of other processes
 
     def known(self, topic: str) -> list[Discovery.Publisher]:
-        """Return what other processes offer on a topic (fully qualified)."""
+        """Return the known publishers or services of other processes on a fully qualified topic."""
         with self._lock:
             return list(self._records.get(topic, {}).values())
 
     def all_known(self) -> list[Discovery.Publisher]:
-        """Return everything other processes offer."""
+        """Return all known publishers or services of other processes."""
         with self._lock:
             return [record for group in self._records.values() for record in group.values()]
 
@@ -118,18 +117,18 @@ class DiscoveryChannel:
         """Return the time [s] until all_known() is complete, 0 if it is."""
         return max(0.0, self._started + COMPLETE_AFTER_S - time.monotonic())
 
-    # ---- sending
+    # Sending
 
     def advertise(self, record: Discovery.Publisher) -> None:
         """Announce a publisher or service of this process."""
         self.send(Discovery.ADVERTISE, record)
 
     def unadvertise(self, record: Discovery.Publisher) -> None:
-        """Announce that a publisher or service of this process is gone."""
+        """Announce that a publisher or service of this process has ended."""
         self.send(Discovery.UNADVERTISE, record)
 
     def ask(self, topic: str) -> None:
-        """Ask who offers a topic; those who do advertise it again."""
+        """Ask for the publishers or services of a topic, which are then advertised again."""
         message = self._message(Discovery.SUBSCRIBE)
         message.sub.topic = topic
         self._send(message)
@@ -153,22 +152,22 @@ class DiscoveryChannel:
             self._socket.sendto(datagram.encode(message), self._target)
             self._send_failed = False
         except (BlockingIOError, InterruptedError):
-            pass  # a full buffer: datagrams may be lost anyway, and the next heartbeat repeats what matters
+            pass  # a full buffer: datagrams may be lost anyway, and the next heartbeat repeats the information
         except (OSError, ValueError) as error:
             if self._open and not self._send_failed:
                 self._send_failed = True
                 complain(f"Other processes cannot be told about this one: {error}.")
 
-    # ---- receiving and the clock (one thread only)
+    # Receiving and timers (I/O thread only)
 
     def receive(self) -> None:
-        """Take the datagrams that wait, up to a limit, so that a flood of them does not starve the data."""
+        """Handle the waiting datagrams, up to a limit, so that a flood of them does not delay data."""
         for _ in range(_MOST_AT_ONCE):
             try:
                 data, source = self._socket.recvfrom(datagram.MAX_DATAGRAM_BYTES)
             except (BlockingIOError, InterruptedError):
                 return
-            except OSError:  # closed by another thread, or an error of an earlier send that is reported here
+            except OSError:  # closed by another thread, or a late error of an earlier send
                 return
             message = datagram.decode(data)
             if message is None or message.process_uuid == self.process_uuid or message.flags.relay:
@@ -181,7 +180,7 @@ class DiscoveryChannel:
             self.handle(message, source[0])
 
     def handle(self, message: Discovery, source_ip: str) -> None:
-        """Act on one message of another process."""
+        """Process one message of another process."""
         kind = message.type
         if kind == Discovery.SUBSCRIBE:
             for record in self._own(message.sub.topic):
@@ -197,7 +196,7 @@ class DiscoveryChannel:
                 self.handle_other(message)
 
     def handle_other(self, message: Discovery) -> None:
-        """Act on a message that only one kind of channel knows; the plain channel ignores it."""
+        """Process a message of a type that a subclass knows; this class ignores it."""
 
     def _acceptable(self, message: Discovery, source_ip: str) -> bool:
         record = message.pub
@@ -237,7 +236,7 @@ class DiscoveryChannel:
         self._forget(lambda each: each.process_uuid == process_uuid, list(self._records))
 
     def forget_subscribers_of(self, process_uuid: str) -> None:
-        """Drop what else is known of a process that is gone; the plain channel knows nothing else."""
+        """Forget the subscribers of a process that has ended; this class keeps none."""
 
     def _forget(self, condition: Callable[[Discovery.Publisher], bool], topics: list[str]) -> None:
         gone: list[Discovery.Publisher] = []
@@ -252,7 +251,7 @@ class DiscoveryChannel:
             self._on_gone(gone)
 
     def tick(self) -> float:
-        """Send the heartbeat when due, drop silent processes; return the time [s] until the next call is due."""
+        """Send the heartbeat if due and drop silent processes; return the time [s] until the next call."""
         now = time.monotonic()
         if now >= self._next_heartbeat:
             self._next_heartbeat = now + HEARTBEAT_S
@@ -269,16 +268,16 @@ class DiscoveryChannel:
             self._next_check = max(self._next_check, now + _CHECK_EVERY_S)
         return max(0.001, min(self._next_heartbeat, self._next_check) - now + 0.001)
 
-    # ---- the end
+    # Closing
 
     def say_farewell(self) -> None:
-        """Unadvertise everything and say BYE, so that nobody has to wait for the silence limit."""
+        """Unadvertise everything and send BYE, so that others need not wait for the silence limit."""
         for record in self._own(None):
             self.unadvertise(record)
         self._send_about_process(Discovery.BYE)
 
     def close(self) -> None:
-        """Close the socket without telling anybody; see say_farewell()."""
+        """Close the socket without a message to others; see say_farewell()."""
         self._open = False
         with contextlib.suppress(OSError):
             self._socket.close()

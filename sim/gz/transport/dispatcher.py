@@ -1,8 +1,8 @@
-"""The thread that receives messages of other processes and calls the callbacks, in the order of arrival.
+"""The thread that receives messages of other processes and calls subscription callbacks in the order of arrival.
 
-Between the receiving socket and the subscriptions. It is a thread of its own so that a callback may take its
-time, and may itself advertise, subscribe or wait, without stopping discovery; and it reads the socket itself, so
-that a message has no other thread to pass. When callbacks are too slow, ZeroMQ's queue fills up and drops.
+It has its own thread, so that a slow callback, or one that advertises, subscribes or waits, does not stop discovery,
+and it reads the socket itself, to save a thread switch per message. If callbacks are too slow, ZeroMQ's queue fills up
+and drops messages.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ _MOST_DESCRIBED = 1000
 
 
 class Dispatcher:
-    """The thread that takes messages out of the inlet."""
+    """The thread that reads messages from the inlet."""
 
     def __init__(self, switchboard: Switchboard, inlet: Inlet) -> None:
         self._switchboard = switchboard
@@ -37,14 +37,14 @@ class Dispatcher:
         self._thread.start()
 
     def wake(self) -> None:
-        """Make the thread look at the socket: whoever else used it may have taken its signal."""
+        """Make the thread check the socket, because another user of the socket may have consumed its signal."""
         try:
             self._wake_sender.send(b"!")
         except OSError:  # full: it will wake up anyway; closed: it has stopped
             return
 
     def stop(self, timeout: float) -> bool:
-        """End the thread after the callback it is in; wait at most `timeout` [s]; return whether it has ended."""
+        """Stop the thread after its current callback; wait at most `timeout` [s] and return whether it has ended."""
         self._open = False
         self.wake()
         if self._thread is not threading.current_thread():
@@ -70,7 +70,7 @@ class Dispatcher:
                 continue
             try:
                 self._deliver(arrival)
-            except BaseException as error:  # SystemExit in a callback must not end the delivery of messages
+            except BaseException as error:  # SystemExit in a callback must not stop delivery
                 complain(f"Delivering a message of {arrival.name!r} ended with {type(error).__name__}: {error}")
 
     def _deliver(self, arrival: Arrival) -> None:
@@ -87,7 +87,7 @@ class Dispatcher:
         try:
             name, type_name = arrival.name.decode(), arrival.type_name.decode()
             partition, topic = naming.split(name)
-        except ValueError:  # not a name, or not even text
+        except ValueError:  # invalid name or invalid UTF-8
             return None
         if len(self._described) >= _MOST_DESCRIBED:
             self._described.clear()

@@ -1,8 +1,7 @@
 """The messages of a topic as a queue, for a program that prints them.
 
-Between a subscription (whose callbacks run in the thread of the transport) and the main thread, which can be
-interrupted. When the reader is too slow the queue fills up, and messages are lost where they always are, in the
-sockets, instead of filling the memory.
+Callbacks run in the transport's thread, the reader in the main thread, which can be interrupted. If the reader is too
+slow the queue fills up and the sockets drop messages, so that memory stays bounded.
 """
 
 from __future__ import annotations
@@ -33,15 +32,15 @@ class Arrival(NamedTuple):
 
 
 class EchoQueue:
-    """Subscribes to a topic, to messages of every type, for as long as it is entered."""
+    """A context manager that subscribes to messages of every type on a topic."""
 
     def __init__(self, node: Node, topic: str) -> None:
-        """Subscribe. Raises ValueError if the topic name breaks a rule."""
+        """Subscribe. Raises ValueError if the topic name is invalid."""
         self._node, self._topic = node, topic
         self._queue: queue.Queue[Arrival] = queue.Queue(_WAITING)
         self._ended = threading.Event()
         self._stdout = select.poll()
-        with contextlib.suppress(OSError, ValueError):  # no file behind it
+        with contextlib.suppress(OSError, ValueError):  # standard output without a file descriptor
             self._stdout.register(sys.stdout.fileno(), 0)
         node.subscribe_raw(topic, self._keep)
 
@@ -50,7 +49,9 @@ class EchoQueue:
             self._queue.put(Arrival(data, info.type, time.monotonic_ns()))
 
     def next(self, deadline: float) -> Arrival | None:
-        """Return the next message; None at the deadline (time.monotonic() [s]), or earlier to look at reader_gone()."""
+        """Return the next message; None at the deadline (time.monotonic() [s]), or earlier so that reader_gone() is
+        checked.
+        """
         wait = min(deadline - time.monotonic(), _LOOK_AT_READER_S)
         try:
             return self._queue.get(timeout=wait) if wait > 0 else self._queue.get_nowait()
@@ -58,7 +59,7 @@ class EchoQueue:
             return None
 
     def reader_gone(self) -> bool:
-        """Return whether standard output is a pipe that nobody reads any more."""
+        """Return whether standard output is a pipe whose reader has closed it."""
         return bool(self._stdout.poll(0))
 
     def __enter__(self) -> EchoQueue:

@@ -1,7 +1,7 @@
 """The environment variables of gz-transport, with the defaults of this course.
 
-Read once for each node (partition) and once for each process (addresses and ports). One default differs from
-gz-transport's: without GZ_IP everything stays on 127.0.0.1, so nobody's robot is driven from the next desk.
+They are read once per node (partition) and once per process (addresses and ports). One default differs from
+gz-transport: without GZ_IP all traffic stays on 127.0.0.1, so that nobody drives a robot on another machine by mistake.
 To reach other machines, set GZ_IP to the address of this one.
 
 Source: https://github.com/gazebosim/gz-transport/blob/gz-transport13/src/NodeShared.cc
@@ -33,12 +33,12 @@ _NOT_IMPLEMENTED = (
 
 
 def complain(sentence: str) -> None:
-    """Print one line on stderr: the way this package speaks when there is nobody to raise an error to."""
+    """Print one line on stderr, where no exception can reach the user."""
     print(f"[gz.transport] {sentence}", file=sys.stderr, flush=True)
 
 
 def default_partition(environment: Mapping[str, str] | None = None) -> str:
-    """GZ_PARTITION when it is set (even empty), otherwise `<host name>:<user>`."""
+    """Return GZ_PARTITION if it is set (even empty), otherwise `<host name>:<user>`."""
     environment = os.environ if environment is None else environment
     if "GZ_PARTITION" in environment:
         return environment["GZ_PARTITION"]
@@ -50,7 +50,7 @@ def _user(environment: Mapping[str, str]) -> str:
         return environment["USER"]
     try:
         return pwd.getpwuid(os.getuid()).pw_name
-    except KeyError:  # a uid without an account, as containers often have: nobody shares its partition
+    except KeyError:  # a uid without an account, common in containers
         complain(
             f"The user id {os.getuid()} has no name, so this process has a partition of its own "
             "and finds nobody; set USER or GZ_PARTITION."
@@ -71,7 +71,7 @@ class NetworkSettings:
 
     @classmethod
     def from_environment(cls, environment: Mapping[str, str] | None = None) -> NetworkSettings:
-        """Return the settings; a value that cannot be used is reported on stderr and its default taken, as in gz."""
+        """Return the settings; an invalid value is reported on stderr and replaced by its default, as in gz."""
         environment = os.environ if environment is None else environment
         for name in _NOT_IMPLEMENTED:
             if environment.get(name, "") not in ("", "0"):

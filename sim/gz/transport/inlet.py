@@ -1,8 +1,9 @@
-"""The socket through which this process receives messages of others.
+"""Receives messages of other processes.
 
-It connects to the publishers that discovery has found, and sets a filter for each topic: that is the I/O thread's
-part; the dispatcher thread receives. The filter of ZeroMQ lets through everything that begins like the topic, so
-the exact name is compared again on delivery.
+The I/O thread connects the SUB socket to the publishers found by discovery and sets a filter for each topic; the
+dispatcher thread receives. ZeroMQ filters by prefix, so the exact name is compared again on delivery.
+
+Source: https://zguide.zeromq.org/docs/chapter1/ (publish-subscribe)
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ LEAVE_AFTER_S = 5.0
 """So long the connection to a publisher that is gone stays open: what it sent last is still to be read."""
 _LARGEST_FRAME = 1 << 30
 _FRAMES = 4
-_MORE, _NO_WAIT = int(zmq.RCVMORE), int(zmq.NOBLOCK)  # the plain numbers are faster
+_MORE, _NO_WAIT = int(zmq.RCVMORE), int(zmq.NOBLOCK)  # plain ints are faster
 _MOST_UNUSABLE = 1000
 _RECONNECT_MS, _RECONNECT_MOST_MS = 100, 2000
 
@@ -35,7 +36,7 @@ class Arrival(NamedTuple):
 
 
 class Inlet:
-    """The receiving half of the data path between processes."""
+    """The receiving side of messages between processes."""
 
     def __init__(self, context: zmq.Context[zmq.Socket[bytes]], high_water_mark: int) -> None:
         self._lock = threading.Lock()
@@ -59,16 +60,16 @@ class Inlet:
             yield
 
     def was_used(self) -> bool:
-        """Return whether the socket was used, other than by receive(), which must then look again; and forget it."""
+        """Return and clear whether the socket was used other than by receive(), which must then check it again."""
         used, self._was_used = self._was_used, False
         return used
 
     def fileno(self) -> int:
-        """Return the descriptor that becomes readable when receive() may have something."""
+        """Return the file descriptor that is readable when receive() may return a message."""
         return self._descriptor
 
     def listen(self, name: str, address: str) -> bool:
-        """Receive a topic from the process at `address`; return False if the address cannot be used."""
+        """Receive a topic from the process at `address`; return False if the address is not usable."""
         self._leaving.pop(address, None)
         if name not in self._filters:
             with self._using():
@@ -94,19 +95,18 @@ class Inlet:
         return True
 
     def ignore(self, name: str) -> None:
-        """Stop receiving a topic."""
         if name in self._filters:
             self._filters.remove(name)
             with self._using():
                 self.socket.setsockopt(zmq.UNSUBSCRIBE, name.encode())
 
     def leave_soon(self, address: str) -> None:
-        """Disconnect from a process that is gone, but not before its last messages are read."""
+        """Disconnect from a process that has ended, after a delay for its last messages."""
         if address in self._connected:
             self._leaving.setdefault(address, time.monotonic() + LEAVE_AFTER_S)
 
     def leave_due(self) -> None:
-        """Disconnect from the addresses whose time has come."""
+        """Disconnect from the addresses whose delay has passed."""
         if not self._leaving:
             return
         now = time.monotonic()
@@ -118,7 +118,7 @@ class Inlet:
                 self.socket.disconnect(address)
 
     def receive(self) -> Arrival | None:
-        """Return the next message, or None if there is none; never waits."""
+        """Return the next message, or None if there is none; does not block."""
         receive, more = self.socket.recv, self.socket.getsockopt
         while True:
             with self._lock:

@@ -1,7 +1,6 @@
-"""What is known about a message besides its contents, and about a publisher or subscriber besides its name.
+"""Metadata of messages, publishers, subscribers and services.
 
-MessageInfo accompanies the bytes into callbacks of subscribe_raw(); MessagePublisher is what topic_info()
-lists, ServicePublisher what service_info() lists.
+Callbacks of subscribe_raw() get a MessageInfo; topic_info() lists MessagePublisher, service_info() ServicePublisher.
 """
 
 from __future__ import annotations
@@ -13,7 +12,7 @@ from gz_course.sim.gz.transport.options import UNTHROTTLED, AdvertiseMessageOpti
 
 @dataclass(frozen=True, slots=True)
 class MessageInfo:
-    """Where a message came from."""
+    """The origin of a message."""
 
     topic: str
     """Topic name without the partition, e.g. `/cmd_vel`."""
@@ -48,7 +47,7 @@ class MessagePublisher:
 
     @property
     def options(self) -> AdvertiseMessageOptions:
-        """Return what it was advertised with, as far as others are told."""
+        """Return the advertised options, as far as other processes know them."""
         return AdvertiseMessageOptions(self.scope, self.msgs_per_sec)
 
 
@@ -75,5 +74,5 @@ class ServicePublisher:
 
     @property
     def options(self) -> AdvertiseServiceOptions:
-        """Return what it was advertised with, as far as others are told."""
+        """Return the advertised options, as far as other processes know them."""
         return AdvertiseServiceOptions(self.scope)

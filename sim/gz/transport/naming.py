@@ -1,7 +1,6 @@
-"""The rules for names of topics, services, namespaces and partitions, and their form on the wire.
+"""The rules for names of topics, services, namespaces and partitions, and for fully qualified names.
 
-Every name a user gives passes through here before anything else happens: `cmd_vel` in namespace `robot1` and
-partition `class` becomes `@/class@/robot1/cmd_vel`.
+`cmd_vel` in namespace `robot1` and partition `class` is `@/class@/robot1/cmd_vel`.
 
 Source: https://github.com/gazebosim/gz-transport/blob/gz-transport13/src/TopicUtils.cc
 """
@@ -13,7 +12,7 @@ _FORBIDDEN = {"~": "'~'", " ": "a space", "@": "'@'", "//": "'//'", ":=": "':='"
 
 
 def broken_rule(name: str, *, may_be_empty: bool) -> str | None:
-    """Return the rule that `name` breaks, as half a sentence ("must not contain '//'"), or None when it is valid."""
+    """Return the rule that `name` breaks, as half a sentence ("must not contain '//'"), or None if it is valid."""
     if not name and not may_be_empty:
         return "must not be empty"
     if name == "/":
@@ -31,22 +30,22 @@ def broken_rule(name: str, *, may_be_empty: bool) -> str | None:
 
 
 def is_valid_topic(name: str) -> bool:
-    """Return whether `name` may be the name of a topic or service."""
+    """Return whether `name` is valid for a topic or service."""
     return broken_rule(name, may_be_empty=False) is None
 
 
 def is_valid_namespace(name: str) -> bool:
-    """Return whether `name` may be a namespace; empty is valid."""
+    """Return whether `name` is valid for a namespace, which may be empty."""
     return broken_rule(name, may_be_empty=True) is None
 
 
 def is_valid_partition(name: str) -> bool:
-    """Return whether `name` may be a partition; empty is valid."""
+    """Return whether `name` is valid for a partition, which may be empty."""
     return broken_rule(name, may_be_empty=True) is None
 
 
 def check(name: str, what: str, *, may_be_empty: bool = False) -> str:
-    """Return `name`, or raise ValueError with the rule it breaks; `what` is "topic", "partition", ..."""
+    """Return `name`. Raises ValueError with the rule it breaks; `what` is "topic", "partition", ..."""
     rule = broken_rule(name, may_be_empty=may_be_empty)
     if rule is None:
         return name
@@ -57,9 +56,9 @@ def check(name: str, what: str, *, may_be_empty: bool = False) -> str:
 
 
 def as_valid_topic(name: str) -> str:
-    """Return the valid topic name nearest to `name`, or an empty string when there is none.
+    """Return the valid topic name nearest to `name`, or an empty text if there is none.
 
-    Spaces become underscores; `@`, `~`, `:=` and `//` are dropped.
+    Spaces become underscores; `@`, `~`, `:=` and `//` are removed.
     """
     name = name.replace(" ", "_")
     for text in ("@", "~", ":=", "//"):
@@ -68,10 +67,10 @@ def as_valid_topic(name: str) -> str:
 
 
 def fully_qualified(partition: str, namespace: str, topic: str, what: str = "topic") -> str:
-    """Return the name on the wire: `@/partition@/namespace/topic`.
+    """Return the fully qualified name `@/partition@/namespace/topic`.
 
-    A topic that starts with `/` is absolute and ignores the namespace; `what` is what errors call the topic. Raises
-    ValueError when a part breaks a rule or the whole is longer than 65535 bytes.
+    A topic that starts with `/` is absolute and ignores the namespace; errors call the topic `what`. Raises ValueError
+    if a part breaks a rule or the whole is longer than 65535 bytes.
     """
     check(partition, "partition", may_be_empty=True)
     check(namespace, "namespace", may_be_empty=True)
@@ -96,12 +95,12 @@ def fully_qualified(partition: str, namespace: str, topic: str, what: str = "top
 
 
 def partition_prefix(partition: str) -> str:
-    """Return what every fully qualified name of a partition begins with: `@/partition@`."""
+    """Return the prefix of all fully qualified names of a partition: `@/partition@`."""
     return fully_qualified(partition, "", "/any").removesuffix("/any")
 
 
 def split(name: str) -> tuple[str, str]:
-    """Return (partition without its leading slash, topic) of a fully qualified name; raise ValueError if it is none."""
+    """Return (partition without leading slash, topic) of a fully qualified name. Raises ValueError if it is none."""
     first, last = name.find("@"), name.rfind("@")
     if first != 0 or last == first or not name[last + 1 :]:
         raise ValueError(f"{name[:200]!r} is not a fully qualified name: expected '@/partition@/topic'.")

@@ -1,8 +1,10 @@
-"""The network of this process: everything that reaches other processes goes through here.
+"""The connection of this process to other processes.
 
-Created when the first node that is not PROCESS-only needs it. One I/O thread owns discovery and the receiving
-socket; publishers send through the outlet from their own threads. A process that is forked gets a network of
-its own when it needs one, with everything its nodes have; at exit the others are told.
+It is created when a node whose scope is not PROCESS first needs it. One I/O thread runs discovery and manages the
+receiving socket; publishers send through the outlet from their own threads. A forked child creates its own network when
+it needs one, with all its nodes; at exit the other processes are notified.
+
+Source: https://github.com/gazebosim/gz-transport/blob/gz-transport13/src/NodeShared.cc
 """
 
 from __future__ import annotations
@@ -43,10 +45,10 @@ _LINGER_MS = 200
 
 
 class Network:
-    """Sockets and threads of one process."""
+    """The sockets and threads of one process."""
 
     def __init__(self, settings: NetworkSettings) -> None:
-        """Open the sockets and start the threads. Raises OSError if the network cannot be used."""
+        """Open the sockets and start the threads. Raises OSError if no network can be used."""
         self.process_uuid = str(uuid.uuid4())
         self._open = True
         self._settings = settings
@@ -92,35 +94,33 @@ class Network:
         for service in offered:
             self.services().advertise(service)
 
-    # ---- called from any thread
+    # Methods for any thread
 
     def send(self, name: bytes, data: bytes, type_name: bytes) -> None:
-        """Send a message to the processes that have subscribed to the fully qualified topic."""
+        """Send a message to the processes that subscribe to the fully qualified topic."""
         self._outlet.send(name, data, type_name)
 
     def advertise(self, publisher: Publisher) -> None:
-        """Tell the others about a publisher."""
         self._discovery.advertise(self._record(publisher))
 
     def unadvertise(self, publisher: Publisher) -> None:
-        """Tell the others that a publisher is gone."""
         self._discovery.unadvertise(self._record(publisher))
 
     def subscribe(self, subscription: Subscription) -> None:
-        """Connect a subscription to the publishers of its topic, now and later."""
+        """Connect a subscription to present and future publishers of its topic."""
         self._do(lambda: self._connect_known(subscription))
 
     def unsubscribe(self, subscription: Subscription) -> None:
-        """Tell the publishers that a subscription, no longer in the switchboard, has ended."""
+        """Notify publishers that a subscription, already removed from the switchboard, has ended."""
         self._do(lambda: self._disconnect(subscription))
 
     def listening_processes(self, name: str, type_name: str) -> int:
-        """Return how many other processes would receive a message of this topic and type that is sent now."""
+        """Return how many other processes would receive a message of this topic and type now."""
         announced = self._discovery.subscriber_processes(name, type_name)
         return min(announced, self._outlet.listeners(name.encode())) if announced else 0
 
     def services(self) -> ServiceNetwork:
-        """Return the half of the network for services, opened by the first call. Raises OSError if it cannot be."""
+        """Return the network of services, opened by the first call. Raises OSError if that fails."""
         with self._services_lock:
             if self._services is None:
                 from gz_course.sim.gz.transport.service_network import ServiceNetwork  # many processes never need it
@@ -130,7 +130,7 @@ class Network:
             return self._services
 
     def known_publishers(self, name: str) -> list[MessagePublisher]:
-        """Return publishers of other processes on a fully qualified topic, as far as known now."""
+        """Return the presently known publishers of other processes on a fully qualified topic."""
         return [info for _, info in _listed(list(self._discovery.known(name)))]
 
     def known_elsewhere(
@@ -138,7 +138,7 @@ class Network:
     ) -> tuple[list[tuple[str, MessagePublisher]], list[tuple[str, MessagePublisher]]]:
         """Return (publishers, subscribers) of all other processes and partitions, with fully qualified names.
 
-        Waits until the others had time to answer: about one second for the first call of a process.
+        Waits until the others had time to answer: about 1 [s] at the first call of a process.
         """
         if not self._open:
             return [], []
@@ -147,7 +147,7 @@ class Network:
         return _listed(self._discovery.all_known()), _listed(self._discovery.subscribers())
 
     def close(self) -> None:
-        """Tell the others, stop the threads and close the sockets."""
+        """Notify the other processes, stop the threads and close the sockets."""
         if not self._open:
             return
         self._discovery.say_farewell()
@@ -171,7 +171,7 @@ class Network:
         self._wake_receiver.close()
 
     def abandon_after_fork(self) -> None:
-        """Close, in a forked child, the copies of what belongs to the parent, and tell nobody."""
+        """Close the copies of the parent's resources in a forked child, without notifying anybody."""
         self._open = False
         self._discovery.close()
         if self._services:
@@ -188,7 +188,7 @@ class Network:
         with contextlib.suppress(OSError):  # full: it will wake up anyway; closed: it has stopped
             self._wake_sender.send(b"!")
 
-    # ---- the I/O thread
+    # I/O thread
 
     def _run(self) -> None:
         poller = zmq.Poller()
@@ -197,7 +197,7 @@ class Network:
         while self._open:
             try:
                 self._one_round(poller)
-            except Exception as error:  # nothing that arrives may end this thread
+            except Exception as error:  # no received data may end this thread
                 if self._open:
                     complain(f"Something was received that could not be used ({type(error).__name__}: {error}).")
 
@@ -216,7 +216,7 @@ class Network:
             self._commands.popleft()()
         if self._discovery.fileno() in ready:
             self._discovery.receive()
-        self._outlet.take_notices()  # always: its descriptor signals a change once, and a signal may be missed
+        self._outlet.take_notices()  # always, because the edge-triggered descriptor signals a change only once
         if services:
             services.take(ready)
         if self._inlet.was_used():
@@ -250,7 +250,7 @@ class Network:
                 self._tell(record, node, again=is_new)
 
     def _tell(self, record: Discovery.Publisher, node_uuid: str, again: bool = True) -> None:
-        """Tell a publisher that a node listens; repeated every second, since datagrams can be lost."""
+        """Notify a publisher of a subscriber; repeated every second, because datagrams can be lost."""
         key = (record.topic, record.process_uuid, record.node_uuid, node_uuid)
         now = time.monotonic()
         if again or now - self._told.get(key, 0.0) > 0.9 * HEARTBEAT_S:
@@ -264,7 +264,7 @@ class Network:
         for address in {record.address for record in records} - still_there:
             self._inlet.leave_soon(address)
 
-    # ---- what this process has
+    # Publishers and subscriptions of this process
 
     def _own_publishers(self, topic: str | None) -> Iterable[Discovery.Publisher]:
         if topic is not None:
@@ -308,7 +308,7 @@ def _listed(records: list[Discovery.Publisher]) -> list[tuple[str, MessagePublis
     return found
 
 
-# ---- the one network of this process
+# The network of this process
 
 _network: Network | None = None
 _inherited: list[Network] = []
@@ -316,7 +316,7 @@ _creation = threading.Lock()
 
 
 def joined() -> Network:
-    """Return the network of this process; created by the first call.
+    """Return the network of this process, created by the first call.
 
     Raises OSError if not even 127.0.0.1 can be used.
     """

@@ -1,7 +1,9 @@
-"""A node: the entry to all topics and services. It advertises, subscribes, calls, and lists what there is.
+"""The node, through which a program advertises, subscribes, calls services and lists topics.
 
-A node turns names into fully qualified ones, keeps its publishers and subscriptions, and registers them in
-the switchboard of the process and, unless its scope is PROCESS, with the network. Its services are in `NodeServices`.
+It qualifies names, owns publishers and subscriptions, and registers them in the switchboard of the process and, unless
+its scope is PROCESS, with the network. `NodeServices` implements its services.
+
+Source: https://gazebosim.org/api/transport/13/
 """
 
 from __future__ import annotations
@@ -35,10 +37,10 @@ DEFAULT_TIMEOUT_MS = 1000
 
 
 class Node:
-    """A participant in the topics and services of its partition. Use it in a `with` statement, or close() it."""
+    """A participant in the topics and services of its partition; use it in a `with` statement, or call close()."""
 
     def __init__(self, options: NodeOptions | None = None) -> None:
-        """Join no network yet: that happens at the first advertise, subscribe, call or list."""
+        """Create a node; it joins the network at the first advertise, subscribe, call or list."""
         self._options = (options or NodeOptions()).copy()
         self._uuid = str(uuid.uuid4())
         self._services = NodeServices(self._options, self._uuid)
@@ -48,7 +50,6 @@ class Node:
 
     @property
     def options(self) -> NodeOptions:
-        """Return a copy of the node's options."""
         return self._options.copy()
 
     def advertise(
@@ -56,7 +57,7 @@ class Node:
     ) -> Publisher:
         """Return a publisher on `topic`; `message_type` is a message class, or a type name for publish_raw().
 
-        Raises ValueError if the topic name breaks a rule or this node advertises it already.
+        Raises ValueError if the topic name is invalid or this node already advertises it.
         """
         self._check_open()
         options = options or AdvertiseMessageOptions()
@@ -81,11 +82,11 @@ class Node:
         callback: Callable[[Any], Any],
         options: SubscribeOptions | None = None,
     ) -> bool:
-        """Call `callback(message)` for every message of this type on `topic`. Type first, then topic.
+        """Call `callback(message)` for every message of this type on `topic`; return True.
 
-        Messages of this process arrive in the publisher's thread, others in one dispatcher thread, so a
-        callback may run in two threads at a time. Messages of another type are not delivered.
-        Raises ValueError if the topic name breaks a rule, TypeError for a wrong kind of argument.
+        Messages of this process arrive in the publisher's thread, others in one dispatcher thread, so two calls may run
+        at a time. Messages of other types are not delivered. Raises ValueError if the topic name is invalid, TypeError
+        for an argument of a wrong type.
         """
         if not (isinstance(message_type, type) and issubclass(message_type, Message)):
             raise TypeError(
@@ -101,7 +102,9 @@ class Node:
         message_type: str = GENERIC_TYPE,
         options: SubscribeOptions | None = None,
     ) -> bool:
-        """Call `callback(data, info)` with each serialized message; without a type name, of every type."""
+        """Call `callback(data, info)` with each serialized message; without a type name, with messages of every
+        type.
+        """
         return self._subscribe(topic, type_name(message_type), callback, options, None)
 
     def _subscribe(
@@ -139,22 +142,22 @@ class Node:
         return bool(ended)
 
     def _end(self, subscription: Subscription) -> None:
-        with contextlib.suppress(ValueError):  # another thread ended it at the same moment
+        with contextlib.suppress(ValueError):  # another thread ended it at the same time
             self._subscriptions.remove(subscription)
         SWITCHBOARD.remove_subscription(subscription)
         if network := network_for(subscription.scope):
             network.unsubscribe(subscription)
 
     def advertised_topics(self) -> list[str]:
-        """Return the topics this node publishes on, sorted, without partition."""
+        """Return the topics this node advertises, sorted, without partition."""
         return sorted({each.topic for each in self._publishers if each.valid()})
 
     def subscribed_topics(self) -> list[str]:
-        """Return the topics this node listens to, sorted, without partition."""
+        """Return the topics this node subscribes to, sorted, without partition."""
         return sorted({naming.split(each.name)[1] for each in self._subscriptions})
 
     def endpoints(self) -> tuple[list[tuple[str, str]], list[tuple[str, str]]]:
-        """Return what this node publishes and what it listens to, each a list of (topic, type name), oldest first.
+        """Return publishers and subscriptions of this node, each as a list of (topic, type name), oldest first.
 
         Not in the official binding.
         """
@@ -164,8 +167,8 @@ class Node:
     def topic_list(self) -> list[str]:
         """Return all topics of the partition, sorted: those with publishers first, then those with subscribers only.
 
-        The first call in a process waits about one second, so that every other process can announce itself. A node
-        with scope PROCESS answers at once, for its own process.
+        The first call in a process waits about 1 [s], so that other processes can announce themselves. A node with
+        scope PROCESS returns the topics of its own process at once.
         """
         published, subscribed = self.publishers_and_subscribers()
         first = {each.topic for each in published}
@@ -178,9 +181,9 @@ class Node:
         return [each for each in published if each.topic == plain], [each for each in subscribed if each.topic == plain]
 
     def known_publishers(self, topic: str) -> list[MessagePublisher]:
-        """Return the publishers of a topic that this process knows of; never waits, so a new one may be missing.
+        """Return the known publishers of a topic; does not wait, so a new one may be missing.
 
-        A publisher of a killed process leaves the list within about three seconds. Not in the official binding.
+        A publisher of a killed process leaves the list after about 3 [s]. Not in the official binding.
         """
         name = self._options.qualified(topic)
         found = [
@@ -225,13 +228,13 @@ class Node:
         callback: Callable[[Any], Any],
         options: AdvertiseServiceOptions | None = None,
     ) -> bool:
-        """Offer a service: `callback(request)` returns the response, or (bool, response), False for a failure.
+        """Offer a service: `callback(request)` returns the response, or (bool, response) with False for a failure.
 
-        With gz.msgs.Empty as response type requests are one-way and nothing is returned. Requests of other
-        processes come one at a time, in a thread of their own; those of this process in the requester's thread.
-        An exception is reported on stderr and to the requester, as a failure. Raises ValueError if the name breaks a
-        rule or this node offers the service already, TypeError for arguments of the wrong kind.
-        Not in the official binding, which cannot offer services.
+        With gz.msgs.Empty as response type requests are one-way and nothing is returned. Requests of other processes
+        are handled one at a time in a separate thread, those of this process in the requester's thread. An exception is
+        reported on stderr, and as a failure to the requester. Raises ValueError if the name is invalid or already
+        offered by this node, TypeError for arguments of a wrong type. Not in the official binding, which cannot offer
+        services.
         """
         self._check_open()
         self._services.advertise(service, request_type, response_type, callback, options or AdvertiseServiceOptions())
@@ -255,9 +258,9 @@ class Node:
     ) -> tuple[bool, Any]:
         """Call a service; return whether it succeeded, and the response.
 
-        After a failure, or without an answer within `timeout_ms`, the response is an empty message. A service without
-        arguments takes None (or a message) of type gz.msgs.Empty. With gz.msgs.Empty as response type the call
-        is one-way: True as soon as it is sent. Providers with other types are not asked, as in Gazebo.
+        After a failure, or without a response within `timeout_ms` [ms], the response is an empty message. A service
+        without arguments takes None (or a message) of type gz.msgs.Empty. With gz.msgs.Empty as response type the call
+        is one-way and returns True when it is sent. As in Gazebo providers with other types are not called.
         """
         if request is None:
             request = request_type()
@@ -277,14 +280,14 @@ class Node:
     def request_raw(
         self, service: str, request: bytes, request_type: str, response_type: str, timeout_ms: int = DEFAULT_TIMEOUT_MS
     ) -> tuple[bool, bytes]:
-        """Call a service like request(), with serialized messages and names of types."""
+        """Call a service like request(), with serialized messages and type names."""
         outcome = self.call_raw(service, request, request_type, response_type, timeout_ms)
         return outcome.result, outcome.response
 
     def call_raw(
         self, service: str, request: bytes, request_type: str, response_type: str, timeout_ms: int = DEFAULT_TIMEOUT_MS
     ) -> CallResult:
-        """Call a service like request_raw(), and tell a provider that failed from one that did not answer.
+        """Call a service like request_raw(); the result distinguishes a failed provider from a missing response.
 
         Not in the official binding.
         """
@@ -305,7 +308,7 @@ class Node:
         return self._services.publishers()
 
     def close(self) -> None:
-        """Close all publishers and end all subscriptions and services of this node. Closing twice does nothing."""
+        """Close all publishers, subscriptions and services of this node; closing twice does nothing."""
         self._open = False
         for publisher in self._publishers:
             publisher.close()

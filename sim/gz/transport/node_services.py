@@ -1,6 +1,6 @@
-"""The services of one node: offered, called and listed; `Node` hands its service methods on to this part.
+"""The services of one node: offering, calling and listing them, for the service methods of `Node`.
 
-A service of the same process is called directly, in the thread of the requester; others through the network.
+A service of the same process is called directly in the requester's thread, others through the network.
 """
 
 from __future__ import annotations
@@ -35,7 +35,6 @@ class NodeServices:
         callback: Callable[[Any], Any],
         options: AdvertiseServiceOptions,
     ) -> None:
-        """Offer a service."""
         if not callable(callback):
             raise TypeError(f"The callback for service {service!r} cannot be called: it is {callback!r}.")
         names = [type_name(request_type), type_name(response_type)]
@@ -56,7 +55,7 @@ class NodeServices:
             network.services().advertise(offered)
 
     def unadvertise(self, service: str) -> bool:
-        """Withdraw a service; return False if the node offers none of that name."""
+        """Withdraw a service; return False if the node does not offer it."""
         name = self._options.qualified(service, "service")
         ended = [each for each in self._offered() if each.name == name]
         for each in ended:
@@ -64,7 +63,6 @@ class NodeServices:
         return bool(ended)
 
     def close(self) -> None:
-        """Withdraw all services."""
         for service in self._offered():
             self._end(service)
 
@@ -73,7 +71,7 @@ class NodeServices:
         return sorted({each.topic for each in self._offered()})
 
     def call(self, service: str, request: bytes, request_type: str, response_type: str, timeout_ms: int) -> CallResult:
-        """Call a service with a serialized request and wait at most `timeout_ms` for the response."""
+        """Call a service with a serialized request; wait at most `timeout_ms` [ms] for the response."""
         name = self._options.qualified(service, "service")
         if isinstance(timeout_ms, bool) or not isinstance(timeout_ms, int) or timeout_ms < 0:
             raise ValueError(f"timeout_ms is {timeout_ms!r}, but a whole number of milliseconds was expected.")

@@ -1,7 +1,4 @@
-"""The option objects of gz-transport for nodes, publishers, services and subscriptions.
-
-They only hold values; node.py, publisher.py and subscription.py act on them.
-"""
+"""The options of gz-transport for nodes, publishers, services and subscriptions, as plain values."""
 
 from __future__ import annotations
 
@@ -16,7 +13,10 @@ UNTHROTTLED = 2**64 - 1
 
 
 class Scope(enum.IntEnum):
-    """How far a publisher reaches. The numbers are those of the wire."""
+    """How far a publisher reaches; the numbers are those of the protocol.
+
+    Source: https://github.com/gazebosim/gz-msgs/blob/gz-msgs10/proto/gz/msgs/discovery.proto (Scope)
+    """
 
     PROCESS = 0
     HOST = 1
@@ -33,7 +33,7 @@ Options = TypeVar("Options", bound="_Options")
 
 
 class _Options:
-    """What all options have in common: they can be copied, and compared by what they hold."""
+    """Common base of all options: copying, and comparison by value."""
 
     def __copy__(self: Options) -> Options:
         other = type(self).__new__(type(self))
@@ -57,10 +57,10 @@ class AdvertiseOptions(_Options):
     """Options of publishers and services: a scope, and (not in the official binding) `fortress`."""
 
     def __init__(self, scope: Scope | AdvertiseOptions = Scope.ALL, fortress: bool = False) -> None:
-        """Take the values, or other options to copy.
+        """Set the values, or copy other options.
 
-        With `fortress` the types are announced as `ignition.msgs.X`, which is what Fortress calls them; its tools
-        and bridges then understand them, and newer ones do not.
+        With `fortress` the types are announced under their Fortress names `ignition.msgs.X`, which tools and bridges of
+        Fortress understand and newer ones do not.
         """
         other = scope if isinstance(scope, AdvertiseOptions) else None
         self.scope = Scope(scope) if other is None else other.scope  # type: ignore[arg-type]
@@ -68,7 +68,7 @@ class AdvertiseOptions(_Options):
 
     @property
     def scope(self) -> Scope:
-        """Return how far it reaches: this process, this machine, or all."""
+        """Return the reach: this process, this machine, or all machines."""
         return self._scope
 
     @scope.setter
@@ -77,11 +77,11 @@ class AdvertiseOptions(_Options):
 
 
 class AdvertiseServiceOptions(AdvertiseOptions):
-    """Options of a service."""
+    """The scope of a service, and `fortress`; a type of its own as in the official binding."""
 
 
 class AdvertiseMessageOptions(AdvertiseOptions):
-    """Options of a publisher: besides its scope, the most messages per second it sends."""
+    """Options of a publisher: its scope and its maximum message rate."""
 
     def __init__(
         self,
@@ -94,7 +94,7 @@ class AdvertiseMessageOptions(AdvertiseOptions):
 
     @property
     def msgs_per_sec(self) -> int:
-        """Return the most messages per second that are sent; the rest is dropped. UNTHROTTLED for no limit."""
+        """Return the maximum number of sent messages per second; the rest is dropped. UNTHROTTLED means no limit."""
         return self._msgs_per_sec
 
     @msgs_per_sec.setter
@@ -107,7 +107,7 @@ class AdvertiseMessageOptions(AdvertiseOptions):
 
 
 class SubscribeOptions(_Options):
-    """Options of a subscription: the most messages per second it takes, and whether it hears its own node."""
+    """Options of a subscription: the maximum message rate, and whether messages of its own node are delivered."""
 
     def __init__(self, msgs_per_sec: int | SubscribeOptions = UNTHROTTLED, ignore_local_messages: bool = False) -> None:
         if isinstance(msgs_per_sec, SubscribeOptions):
@@ -118,7 +118,9 @@ class SubscribeOptions(_Options):
 
     @property
     def msgs_per_sec(self) -> int:
-        """Return the most messages per second for the callback; the rest is dropped. UNTHROTTLED for no limit."""
+        """Return the maximum number of delivered messages per second; the rest is dropped. UNTHROTTLED means no
+        limit.
+        """
         return self._msgs_per_sec
 
     @msgs_per_sec.setter
@@ -133,9 +135,8 @@ class SubscribeOptions(_Options):
 class NodeOptions(_Options):
     """Options of a node: partition, namespace, topic remappings and a scope, which the official binding does not have.
 
-    With `scope=Scope.PROCESS` the node uses no socket and no thread: it talks with the nodes of its own
-    process only, and nothing from outside reaches it. Raises ValueError with the broken rule for invalid
-    names.
+    With `scope=Scope.PROCESS` the node uses no socket and no thread, and communicates only within its process.
+    Raises ValueError with the broken rule for invalid names.
     """
 
     def __init__(
@@ -151,7 +152,7 @@ class NodeOptions(_Options):
 
     @property
     def partition(self) -> str:
-        """Nodes hear one another only within one partition. Default: GZ_PARTITION or `<host name>:<user>`."""
+        """Return the partition; nodes communicate only within one. Default: GZ_PARTITION or `<host name>:<user>`."""
         return self._partition
 
     @partition.setter
@@ -160,7 +161,7 @@ class NodeOptions(_Options):
 
     @property
     def namespace(self) -> str:
-        """Return what stands before every topic that does not start with `/`."""
+        """Return the prefix of every topic that does not start with `/`."""
         return self._namespace
 
     @namespace.setter
@@ -168,7 +169,7 @@ class NodeOptions(_Options):
         self._namespace = naming.check(namespace, "namespace", may_be_empty=True)
 
     def add_topic_remap(self, from_topic: str, to_topic: str) -> bool:
-        """Let `from_topic` mean `to_topic`; return False if `from_topic` was remapped before."""
+        """Remap `from_topic` to `to_topic`; return False if `from_topic` already is remapped."""
         naming.check(from_topic, "topic")
         naming.check(to_topic, "topic")
         if from_topic in self._remappings:
@@ -177,17 +178,17 @@ class NodeOptions(_Options):
         return True
 
     def topic_remap(self, from_topic: str) -> tuple[bool, str]:
-        """Return (True, what `from_topic` means in this node), or (False, "") when it was not remapped."""
+        """Return (True, the remapped name), or (False, "") if `from_topic` is not remapped."""
         return from_topic in self._remappings, self._remappings.get(from_topic, "")
 
     def renamed(self, topic: str) -> str:
-        """Return the topic that `topic` means in this node: another one when remapped, otherwise itself."""
+        """Return the remapped name of `topic`, or `topic` itself."""
         return self._remappings.get(topic, topic)
 
     def qualified(self, topic: str, what: str = "topic") -> str:
-        """Return the fully qualified name of a topic or service of the node; raise ValueError if a rule is broken."""
+        """Return the fully qualified name of a topic or service of the node. Raises ValueError if it is invalid."""
         return naming.fully_qualified(self.partition, self.namespace, self.renamed(topic), what)
 
     def copy(self) -> NodeOptions:
-        """Return an independent copy, so a node does not change when its options object is used again."""
+        """Return an independent copy, so that later changes of the original do not affect the node."""
         return self.__copy__()

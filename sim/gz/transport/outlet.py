@@ -1,8 +1,8 @@
-"""The socket through which this process sends messages to others, and the count of who listens.
+"""Sends messages to other processes and counts their subscriptions.
 
-Publishers call send() from any thread; the I/O thread calls take_notices() when the descriptor is readable.
-It is an XPUB socket: it tells which topics the connected processes have subscribed to, so that a publisher
-can know when its first message will arrive. Frames of a message: topic, our address, bytes, type name.
+Publishers call send() from any thread; the I/O thread calls take_notices() when the descriptor is readable. An XPUB
+socket reports the topics that connected processes subscribe to, so that a publisher can tell whether its first message
+will arrive. Frames of a message: topic, own address, bytes, type name.
 
 Source: https://github.com/gazebosim/gz-transport/blob/gz-transport13/src/NodeShared.cc (NodeShared::Publish)
 """
@@ -15,11 +15,11 @@ from collections.abc import Callable
 import zmq
 
 _NO_COPY_FROM_BYTES = 65536
-_MORE, _EVENTS, _READABLE = int(zmq.SNDMORE), int(zmq.EVENTS), int(zmq.POLLIN)  # the plain numbers are faster
+_MORE, _EVENTS, _READABLE = int(zmq.SNDMORE), int(zmq.EVENTS), int(zmq.POLLIN)  # plain ints are faster
 
 
 class Outlet:
-    """The sending half of the data path between processes."""
+    """The sending side of messages between processes."""
 
     def __init__(
         self,
@@ -28,7 +28,7 @@ class Outlet:
         high_water_mark: int,
         on_change: Callable[[], None],
     ) -> None:
-        """Bind a free port of `ip`; `on_change()` is called, with no lock held, when listeners change."""
+        """Bind a free port of `ip`; `on_change()` is called without a lock when the subscriptions change."""
         self._on_change = on_change
         self._lock = threading.Lock()
         self._listeners: dict[bytes, int] = {}
@@ -43,32 +43,32 @@ class Outlet:
         self._descriptor = int(self._socket.getsockopt(zmq.FD))
 
     def fileno(self) -> int:
-        """Return the descriptor that becomes readable when take_notices() may have something."""
+        """Return the file descriptor that is readable when take_notices() may have work."""
         return self._descriptor
 
     def listeners(self, name: bytes) -> int:
-        """Return how many processes have subscribed to this fully qualified topic."""
+        """Return how many processes subscribe to this fully qualified topic."""
         return self._listeners.get(name, 0)
 
     def send(self, name: bytes, data: bytes, type_name: bytes) -> None:
-        """Send to the processes that have subscribed; never waits, so a slow process misses messages."""
+        """Send to the subscribed processes; does not block, so a slow process misses messages."""
         if not self._listeners.get(name):
             return
         with self._lock:
             if self._socket.closed:
                 return
-            send = self._send  # frame by frame: send_multipart() takes three times as long
+            send = self._send  # frame by frame, because send_multipart() takes three times as long
             send(name, _MORE)
             send(self._address_on_wire, _MORE)
             send(data, _MORE, len(data) < _NO_COPY_FROM_BYTES)
             send(type_name)
-            # sending may have used up the descriptor's signal, so what it signalled has to be looked for here
+            # sending may consume the signal of the edge-triggered descriptor, so its cause is checked here
             changed = self._drain()
         if changed:
             self._on_change()
 
     def take_notices(self) -> None:
-        """Count the subscriptions that came and went."""
+        """Update the counts of subscriptions."""
         with self._lock:
             changed = not self._socket.closed and self._drain()
         if changed:
@@ -89,6 +89,6 @@ class Outlet:
         return changed
 
     def close(self) -> None:
-        """Close the socket; messages under way are still sent for a moment."""
+        """Close the socket; messages in transit are still sent for a moment."""
         with self._lock:
             self._socket.close()

@@ -1,7 +1,7 @@
-"""A publisher: sends messages on one topic.
+"""A publisher sends messages on one topic.
 
-The start of the data path: publish() serializes once and hands the bytes to the network, if another process listens,
-and to every subscription of this process, in the caller's thread, before it returns.
+publish() serializes a message once, passes the bytes to the network if another process subscribes, and calls every
+subscription of this process in the caller's thread before it returns.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 class Publisher:
-    """The result of Node.advertise(); closed with close() or together with its node."""
+    """The result of Node.advertise(), closed by close() or with its node."""
 
     def __init__(
         self,
@@ -35,7 +35,7 @@ class Publisher:
         options: AdvertiseMessageOptions,
     ) -> None:
         """`name` is fully qualified. Use Node.advertise() instead of calling this."""
-        self._joined: Callable[[], Network] | None = None  # None: no other process is reached
+        self._joined: Callable[[], Network] | None = None  # None: other processes are not reached
         if scope != Scope.PROCESS:
             from gz_course.sim.gz.transport import network
 
@@ -47,20 +47,20 @@ class Publisher:
         self.msgs_per_sec = options.msgs_per_sec
         self.throttled = options.throttled
         self._name_on_wire, self._type_on_wire = name.encode(), type_name.encode()
-        self._message_class: type[Message] | None = None  # that of the first message, to know others faster
+        self._message_class: type[Message] | None = None  # class of the first message, to check further ones faster
         self._partition, self.topic = naming.split(name)
         self._throttle = Throttle(options.msgs_per_sec)
         self._open = True
 
     def valid(self) -> bool:
-        """Return whether it can publish: True until it is closed."""
+        """Return whether it can publish: True until close()."""
         return self._open
 
     def publish(self, message: Message) -> bool:
-        """Send a message; same-process callbacks have run when this returns.
+        """Send a message; callbacks of the same process have returned when this returns.
 
-        Return True also if nobody listens or a rate limit dropped the message; False, with a line on stderr, if the
-        message has another type than advertised, and False if the publisher is closed.
+        Return True also without subscribers and if the rate limit dropped the message; False if the message has another
+        type than advertised, with a line on stderr, or if the publisher is closed.
         """
         if type(message) is self._message_class:
             return self._send(message.SerializeToString())
@@ -74,11 +74,11 @@ class Publisher:
         return self.publish_raw(message.SerializeToString(), message.DESCRIPTOR.full_name)
 
     def publish_raw(self, data: bytes, type_name: str) -> bool:
-        """Send a message that is serialized already; otherwise like publish()."""
+        """Send a message that is already serialized; otherwise like publish()."""
         if not self._open:
             return False
         if type_name != self.type_name:
-            if same_type(type_name, self.type_name):  # one of them is Fortress's name
+            if same_type(type_name, self.type_name):  # one of them is the Fortress name
                 return self.publish_raw(converted(data, type_name, self.type_name), self.type_name)
             complain(
                 f"The topic [{self.topic}] was advertised with type {self.type_name}, "
@@ -102,16 +102,16 @@ class Publisher:
         return True
 
     def has_connections(self) -> bool:
-        """Return whether a subscription of this or another process with a matching type listens."""
+        """Return whether this or another process has a subscription of a matching type."""
         return self._connections() > 0
 
     def wait_for_subscribers(self, count: int = 1, timeout: float = 5.0) -> bool:
         """Wait until `count` subscribers would receive the next message; return False after `timeout` [s].
 
-        Each subscription of this process counts as one and each other process as one. After True the next
-        message is not lost. Not in the official binding.
+        Each subscription of this process counts as one, each other process as one. After True the next message is not
+        lost. Not in the official binding.
         """
-        self._connections()  # a forked child joins the network here, which the wait below must not do
+        self._connections()  # A forked child joins the network here, because it must not do so inside the wait below.
         return SWITCHBOARD.wait_for(lambda: self._connections() >= count, timeout)
 
     def throttled_update_ready(self) -> bool:
@@ -119,7 +119,7 @@ class Publisher:
         return self._throttle.ready()
 
     def close(self) -> None:
-        """Stop publishing and tell the other processes. Closing twice does nothing."""
+        """Stop publishing and notify the other processes; closing twice does nothing."""
         if not self._open:
             return
         self._open = False

@@ -1,4 +1,4 @@
-"""The way out of this process that a scope allows: the network, joined when it is first needed, or none."""
+"""Returns the network that a scope requires, and joins it when it is first needed."""
 
 from __future__ import annotations
 

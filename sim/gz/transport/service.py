@@ -1,8 +1,7 @@
 """A service of this process: its types, and how its callback is called.
 
-The end of the path of a request, which comes from a requester of the same process (in the requester's thread) or from
-the service threads (from other processes). Whatever the callback does, there is an outcome: an exception or a
-wrong return value is one line on stderr and a failed call for the requester.
+Requests come from the same process (in the requester's thread) or from other processes (in a service thread). An
+exception or a wrong return value of the callback prints one line on stderr and is a failed call for the requester.
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ EMPTY_TYPE = "gz.msgs.Empty"
 
 
 class CallResult(NamedTuple):
-    """What became of a request."""
+    """The outcome of a request."""
 
     executed: bool
     """False when no response came in time, for whatever reason."""
@@ -52,7 +51,7 @@ class Service:
         scope: Scope,
         callback: Callable[[Any], Any],
     ) -> None:
-        """`name` is fully qualified; the types are the names told to others. Use Node.advertise_service()."""
+        """`name` is fully qualified; types are announced under the given names. Use Node.advertise_service()."""
         self.name = name
         self.topic = naming.split(name)[1]
         self.request_type = request_type
@@ -65,15 +64,14 @@ class Service:
 
     @property
     def one_way(self) -> bool:
-        """Return whether requesters get no response."""
         return is_one_way(self.response_type)
 
     def matches(self, request_type: str, response_type: str) -> bool:
-        """Return whether a request with these types is for this service."""
+        """Return whether a request with these types is meant for this service."""
         return same_types(self.request_type, self.response_type, request_type, response_type)
 
     def answer(self, data: bytes) -> CallResult:
-        """Call the callback with the request; never raise an Exception."""
+        """Call the callback with the request; raises no Exception."""
         try:
             request = self._request_class.FromString(data)
         except DecodeError:
@@ -107,10 +105,10 @@ class Service:
 
 
 def is_one_way(response_type: str) -> bool:
-    """Return whether this type of response means that there is no response."""
+    """Return whether this response type makes a service one-way."""
     return canonical_name(response_type) == EMPTY_TYPE
 
 
 def same_types(request: str, response: str, other_request: str, other_response: str) -> bool:
-    """Return whether two pairs of type names mean the same, `ignition.msgs.X` being `gz.msgs.X`."""
+    """Return whether two pairs of type names are equal, where `ignition.msgs.X` equals `gz.msgs.X`."""
     return same_type(request, other_request) and same_type(response, other_response)

@@ -1,8 +1,10 @@
-"""Services between processes: finds providers, sends requests, takes requests of others, returns responses.
+"""Services between processes: finds providers, and exchanges requests and responses with other processes.
 
-Part of the network of a process, opened when the first service is advertised, called or listed. It lives in
-the same I/O thread; requests are sent from the caller's thread, which then waits for the response. Frames of
-request and response: gz-transport's service protocol, version 10.
+It is opened when the first service is advertised, called or listed, and shares the I/O thread of the network; requests
+are sent from the caller's thread, which then waits for the response. Messages follow gz-transport's service protocol,
+version 10.
+
+Source: https://github.com/gazebosim/gz-transport/blob/gz-transport13/src/NodeShared.cc (SendPendingRemoteReqs)
 """
 
 from __future__ import annotations
@@ -35,7 +37,7 @@ _LARGEST_FRAME = 1 << 30
 
 
 class _Pending:
-    """A request that waits for its response (or, one-way, for being sent)."""
+    """A request that waits for its response or, if one-way, for being sent."""
 
     def __init__(self, name: str, node_uuid: str) -> None:
         self.key = str(uuid.uuid4()).encode()
@@ -50,7 +52,7 @@ class _Pending:
 
 
 class ServiceNetwork:
-    """Discovery and sockets of services of one process."""
+    """Discovery and sockets for the services of one process."""
 
     def __init__(
         self,
@@ -59,7 +61,7 @@ class ServiceNetwork:
         process_uuid: str,
         wake: Callable[[], None],
     ) -> None:
-        """Open the sockets. Raises OSError if the network cannot be used."""
+        """Open the sockets. Raises OSError if no network can be used."""
         self._process_uuid = process_uuid
         self._ip = settings.ip
         self._pending: dict[bytes, _Pending] = {}
@@ -77,20 +79,18 @@ class ServiceNetwork:
         self._courier = Courier(context, wake)
         self._threads = ServiceThreads(wake)
 
-    # ---- called from any thread
+    # Methods for any thread
 
     def advertise(self, service: Service) -> None:
-        """Tell the others about a service."""
         self.discovery.advertise(self._record(service))
 
     def unadvertise(self, service: Service) -> None:
-        """Tell the others that a service is gone."""
         self.discovery.unadvertise(self._record(service))
 
     def request(
         self, name: str, node_uuid: str, data: bytes, request_type: str, response_type: str, timeout_s: float
     ) -> CallResult:
-        """Call a service of another process and wait at most `timeout_s` for the response."""
+        """Call a service of another process; wait at most `timeout_s` [s] for the response."""
         pending = _Pending(name, node_uuid)
         one_way = is_one_way(response_type)
         deadline = time.monotonic() + timeout_s
@@ -111,7 +111,7 @@ class ServiceNetwork:
         return pending.outcome
 
     def providers(self, name: str, request_type: str, response_type: str) -> list[Discovery.Publisher]:
-        """Return the providers of a service in other processes, with matching types."""
+        """Return the providers of a service in other processes whose types match."""
         return [
             record
             for record in self.discovery.known(name)
@@ -121,7 +121,7 @@ class ServiceNetwork:
 
     def _targets(self, pending: _Pending, data: bytes, request_type: str, response_type: str) -> Iterator[Target]:
         for record in self.providers(pending.name.decode(), request_type, response_type):
-            # with the provider's spelling of the types, because Gazebo compares them letter by letter
+            # types in the provider's spelling, because Gazebo compares them literally
             frames = (
                 pending.name,
                 self._receiver_address.encode(),
@@ -137,15 +137,15 @@ class ServiceNetwork:
     def known_elsewhere(self) -> list[tuple[str, ServicePublisher]]:
         """Return the services of all other processes and partitions, with fully qualified names.
 
-        Waits until the others had time to announce them: about one second for the first call of a process.
+        Waits until the others had time to announce them: about 1 [s] at the first call of a process.
         """
         time.sleep(self.discovery.seconds_until_complete())
         return [(record.topic, _listed(record)) for record in self.discovery.all_known() if record.HasField("srv_pub")]
 
-    # ---- the I/O thread
+    # I/O thread
 
     def sources(self) -> Iterable[tuple[zmq.Socket[bytes] | int, int]]:
-        """Yield what to poll, and for which events."""
+        """Yield the sockets and descriptors to poll, with their events."""
         yield self.discovery.fileno(), zmq.POLLIN
         yield self.receiver, zmq.POLLIN
         yield self.replier, 0 if self._threads.full() else zmq.POLLIN
@@ -161,7 +161,7 @@ class ServiceNetwork:
                 self._take_request(frames)
 
     def tick(self) -> float:
-        """Send what is due and what could not be sent before; return the time [s] until the next call is due."""
+        """Send what is due and retry what failed; return the time [s] until the next call."""
         wait_s = self.discovery.tick()
         return min(wait_s, RETRY_S) if self._courier.retry() else wait_s
 
@@ -203,7 +203,7 @@ class ServiceNetwork:
         for address in {record.address for record in records} - still_there:
             self._courier.leave(address)
 
-    # ---- what this process has
+    # Services of this process
 
     def _own_services(self, name: str | None) -> Iterable[Discovery.Publisher]:
         services = SWITCHBOARD.all_services() if name is None else SWITCHBOARD.services(name)
@@ -222,7 +222,7 @@ class ServiceNetwork:
         record.srv_pub.response_type = service.response_type
         return record
 
-    # ---- the end
+    # Closing
 
     def stop_threads(self) -> None:
         self._threads.stop()

@@ -1,8 +1,7 @@
 """The threads that run service callbacks for requests of other processes, one at a time.
 
-Between the I/O thread and the services. There is more than one thread only while a callback waits for the
-response to a request of its own: then the next one takes its turn, so that two processes may call one another
-back without waiting for ever.
+A further thread runs only while a callback waits for the response to its own request, so that two processes can call
+each other without a deadlock.
 """
 
 from __future__ import annotations
@@ -20,27 +19,26 @@ _own = threading.local()
 
 
 class ServiceThreads:
-    """A queue of work and the threads that empty it, of which one runs and the others wait for responses."""
+    """A queue of functions and the threads that run them: one at a time, others wait for responses."""
 
     def __init__(self, on_room: Callable[[], None]) -> None:
-        """`on_room()` is called when full() is over."""
+        """`on_room()` is called when full() becomes False again."""
         self._on_room = on_room
         self._queue: queue.SimpleQueue[Callable[[], None] | None] = queue.SimpleQueue()
         self._turn = threading.Lock()
         self._count_lock = threading.Lock()
-        self._free = 0  # threads that are in their loop, not waiting inside a callback
+        self._free = 0  # threads in their loop, not waiting inside a callback
         self._all = 0
         self._was_full = False
         self._open = True
 
     def put(self, work: Callable[[], None]) -> None:
-        """Queue work; the first call starts the first thread."""
+        """Queue a function; the first call starts the first thread."""
         self._queue.put(work)
         if not self._all:
             self._start_one()
 
     def full(self) -> bool:
-        """Return whether no more should be put in."""
         if self._queue.qsize() < _MOST_QUEUED:
             return False
         self._was_full = True
@@ -58,13 +56,13 @@ class ServiceThreads:
         _own.threads = self
         while True:
             with self._count_lock:
-                if self._free > 1:  # somebody came back from waiting: one loop is enough
+                if self._free > 1:  # another thread has returned from waiting: one loop is enough
                     self._free -= 1
                     self._all -= 1
                     return
             work = self._queue.get()
             if work is None:
-                self._queue.put(None)  # for the next thread
+                self._queue.put(None)  # wakes the next thread
                 return
             with self._turn:
                 try:
@@ -76,7 +74,7 @@ class ServiceThreads:
                 self._on_room()
 
     def stop(self) -> None:
-        """End the threads after the callbacks they are in."""
+        """End the threads after their current callbacks."""
         self._open = False
         self._queue.put(None)
 
@@ -94,7 +92,7 @@ class ServiceThreads:
 
 @contextlib.contextmanager
 def while_waiting() -> Iterator[None]:
-    """Let the next service callback run while this one waits for a response."""
+    """Allow the next service callback to run while this one waits for a response."""
     threads: ServiceThreads | None = getattr(_own, "threads", None)
     if threads is None:
         yield

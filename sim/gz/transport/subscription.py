@@ -1,8 +1,7 @@
-"""A subscription: which messages its callback takes, and how it is called.
+"""A subscription: selects messages by type and options and calls its callback.
 
-The end of the data path. Messages come from publishers of the same process (in the publisher's thread, before
-publish() returns) or from the dispatcher thread (from other processes). The callback always gets its own
-copy.
+Messages come from publishers of the same process (in the publisher's thread, before publish() returns) or from the
+dispatcher thread (from other processes). The callback always gets its own copy.
 """
 
 from __future__ import annotations
@@ -39,7 +38,7 @@ class Subscription:
         callback: Callable[..., Any],
         message_type: type[Message] | None = None,
     ) -> None:
-        """`name` is fully qualified; without `message_type` the callback is given (bytes, MessageInfo)."""
+        """`name` is fully qualified; without `message_type` the callback gets (bytes, MessageInfo)."""
         self.name = name
         self.type_name = type_name
         self.node_uuid = node_uuid
@@ -52,14 +51,14 @@ class Subscription:
         self._message_type = message_type
 
     def accepts(self, type_name: str) -> bool:
-        """Return whether messages of this type are for this subscription."""
+        """Return whether this subscription accepts messages of this type."""
         return self.type_name in (type_name, GENERIC_TYPE) or same_type(self.type_name, type_name)
 
     def deliver(self, data: bytes, info: MessageInfo, from_node: str | None = None) -> None:
-        """Call the callback with a fresh copy, unless type, options or broken bytes forbid it.
+        """Call the callback with a new copy, unless type, options or invalid bytes prevent it.
 
-        An exception of the callback becomes one line on stderr. `from_node` is the publishing node, if it is
-        one of this process.
+        An exception of the callback prints one line on stderr. `from_node` is the publishing node if it is in this
+        process.
         """
         if not self.active or (info.type != self.type_name and not self.accepts(info.type)):
             return
@@ -82,7 +81,7 @@ class Subscription:
 
 
 def one_line(error: Exception) -> str:
-    """Return what a callback raised, and where in the user's file: `raised KeyError: 'x' (robot.py:12)`."""
+    """Return the exception of a callback with its place in the user's file: `raised KeyError: 'x' (robot.py:12)`."""
     frames = traceback.extract_tb(sys.exc_info()[2])
     own = Path(__file__).parent
     places = [frame for frame in frames if Path(frame.filename).parent != own] or list(frames)

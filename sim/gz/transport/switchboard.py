@@ -1,7 +1,7 @@
-"""The table of who publishes and who listens in this process; both delivery paths look at it.
+"""The publishers, subscriptions and services of this process.
 
-Same-process messages go publisher -> switchboard -> callback without leaving the thread; the network looks
-here for what to advertise and whom to hand what arrives. Readers take immutable tuples and need no lock.
+Messages within the process go from a publisher through this table to callbacks in the same thread; the network uses it
+for announcements and for the delivery of received messages. Readers get immutable tuples and need no lock.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class Switchboard:
-    """The publishers, subscriptions and services of this process, by fully qualified name."""
+    """Publishers, subscriptions and services by fully qualified name; thread-safe."""
 
     def __init__(self) -> None:
         self._changed = threading.Condition(threading.Lock())
@@ -38,31 +38,28 @@ class Switchboard:
         return self._publishers.get(name, ())
 
     def all_subscriptions(self) -> list[Subscription]:
-        """Return every subscription of the process."""
         with self._changed:
             return [each for group in self._subscriptions.values() for each in group]
 
     def all_publishers(self) -> list[Publisher]:
-        """Return every publisher of the process."""
         with self._changed:
             return [each for group in self._publishers.values() for each in group]
 
     def networked_subscriptions(self, name: str) -> tuple[Subscription, ...]:
-        """Return the subscriptions of a topic that may hear other processes."""
+        """Return the subscriptions of a topic whose scope includes other processes."""
         return self._networked.get(name, ())
 
     def networked_publishers(self, name: str) -> tuple[Publisher, ...]:
-        """Return the publishers of a topic that other processes may know of."""
+        """Return the publishers of a topic whose scope includes other processes."""
         return tuple(each for each in self.publishers(name) if each.scope != Scope.PROCESS)
 
     def add_subscription(self, subscription: Subscription) -> None:
-        """Deliver the messages of its topic to a subscription from now on."""
         with self._changed:
             self._set_subscriptions(subscription.name, (*self.subscriptions(subscription.name), subscription))
             self._changed.notify_all()
 
     def remove_subscription(self, subscription: Subscription) -> None:
-        """Deliver nothing to a subscription any more, not even messages that are under way."""
+        """Remove a subscription; messages in transit are not delivered to it."""
         subscription.active = False
         with self._changed:
             group = self.subscriptions(subscription.name)
@@ -78,7 +75,7 @@ class Switchboard:
                 table.pop(name, None)
 
     def add_publisher(self, publisher: Publisher) -> None:
-        """Add a publisher; raise ValueError if its node already has one on this topic."""
+        """Add a publisher. Raises ValueError if its node already has one on this topic."""
         with self._changed:
             group = self._publishers.get(publisher.name, ())
             if any(each.node_uuid == publisher.node_uuid for each in group):
@@ -102,12 +99,11 @@ class Switchboard:
         return self._services.get(name, ())
 
     def all_services(self) -> list[Service]:
-        """Return every service of the process."""
         with self._changed:
             return [each for group in self._services.values() for each in group]
 
     def add_service(self, service: Service) -> None:
-        """Add a service; raise ValueError if its node already offers one of this name."""
+        """Add a service. Raises ValueError if its node already offers one of this name."""
         with self._changed:
             group = self._services.get(service.name, ())
             if any(each.node_uuid == service.node_uuid for each in group):
@@ -126,24 +122,24 @@ class Switchboard:
                 self._services.pop(service.name, None)
 
     def notify(self) -> None:
-        """Wake everybody in wait_for(): something outside this table changed."""
+        """Wake all callers of wait_for(), because state outside this table has changed."""
         with self._changed:
             self._changed.notify_all()
 
     def wait_for(self, condition: Callable[[], bool], timeout: float) -> bool:
-        """Wait until `condition()` holds, at most `timeout` seconds; return whether it holds."""
+        """Wait until `condition()` is true, at most `timeout` [s]; return whether it is."""
         with self._changed:
             return self._changed.wait_for(condition, timeout)
 
     def hold_for_fork(self) -> None:
-        """Keep other threads from changing the table while the process is being copied."""
+        """Lock the table while the process is forked."""
         self._changed.acquire()
 
     def release_after_fork(self) -> None:
         self._changed.release()
 
     def renew_after_fork(self) -> None:
-        """Give the child, which keeps the table, a lock of its own."""
+        """Give the forked child, which keeps the table, a new lock."""
         self._changed = threading.Condition(threading.Lock())
 
 

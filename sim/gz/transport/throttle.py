@@ -1,7 +1,6 @@
-"""A rate limit in messages per second.
+"""A rate limit in messages per second, for publishers and subscriptions.
 
-It sits before sending in a publisher and before the callback in a subscription. Measured on the monotonic clock
-of the machine, as in gz-transport; simulated time plays no part.
+As in gz-transport it uses the monotonic clock of the machine, not simulated time.
 """
 
 from __future__ import annotations
@@ -13,7 +12,7 @@ from gz_course.sim.gz.transport.options import UNTHROTTLED
 
 
 class Throttle:
-    """At least 1 / msgs_per_sec seconds between two messages that pass."""
+    """Enforces at least 1 / msgs_per_sec [s] between two messages."""
 
     def __init__(self, msgs_per_sec: int) -> None:
         self._period_ns = 0 if msgs_per_sec == UNTHROTTLED else round(1e9 / msgs_per_sec)
@@ -25,7 +24,7 @@ class Throttle:
         return not self._period_ns or time.monotonic_ns() >= self._next_ns
 
     def passes(self) -> bool:
-        """Return whether this message passes; if it does, the waiting time starts anew."""
+        """Return whether this message passes; if so, the interval starts again."""
         if not self._period_ns:
             return True
         with self._lock:

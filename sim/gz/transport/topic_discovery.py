@@ -1,7 +1,7 @@
-"""The discovery channel of topics: besides publishers it knows who has subscribed to ours.
+"""The discovery channel of topics, which also knows the subscribers of this process's publishers.
 
-Subscribers tell a publisher that they have connected (NEW_CONNECTION) and that they left (END_CONNECTION),
-and answer the question who subscribes to what (SUBSCRIBERS_REQ), which only lists need.
+Subscribers notify a publisher when they connect (NEW_CONNECTION) and leave (END_CONNECTION), and answer the request for
+all subscriptions (SUBSCRIBERS_REQ), which only lists need.
 
 Source: https://github.com/gazebosim/gz-transport/blob/gz-transport13/src/NodeShared.cc (NewConnection, EndConnection)
 """
@@ -40,7 +40,7 @@ class TopicDiscovery(DiscoveryChannel):
         on_gone: Callable[[list[Discovery.Publisher]], None],
         on_subscribers: Callable[[], None],
     ) -> None:
-        """See DiscoveryChannel; `on_subscribers()` is called when subscribers of ours came or went."""
+        """See DiscoveryChannel; `on_subscribers()` is called when subscribers of this process's publishers change."""
         super().__init__(process_uuid, settings, settings.message_port, own, on_advertise, on_gone)
         self._own_subscriptions = own_subscriptions
         self._own_address = own_address
@@ -50,7 +50,7 @@ class TopicDiscovery(DiscoveryChannel):
         self._listed: dict[str, dict[SubscriberKey, Discovery.Publisher]] = {}
 
     def subscriber_processes(self, topic: str, type_name: str) -> int:
-        """Return how many other processes have said that they listen to our publisher of this topic and type."""
+        """Return how many other processes subscribe to this process's publisher of this topic and type."""
         with self._table_lock:
             group = self._connected.get(topic, {})
             return len(
@@ -58,7 +58,7 @@ class TopicDiscovery(DiscoveryChannel):
             )
 
     def ask_for_subscribers(self) -> None:
-        """Start collecting who subscribes to what; the answers show up in subscribers()."""
+        """Request the subscriptions of all processes; subscribers() returns the answers."""
         with self._table_lock:
             self._listed.clear()
         self._send_about_process(Discovery.SUBSCRIBERS_REQ)
@@ -68,7 +68,7 @@ class TopicDiscovery(DiscoveryChannel):
         time.sleep(max(ANSWER_TIME_S, self.seconds_until_complete()))
 
     def subscribers(self) -> list[Discovery.Publisher]:
-        """Return the subscribers of other processes, as far as they answered or are connected to us."""
+        """Return the subscribers of other processes that answered or are connected to this process."""
         with self._table_lock:
             found = {(topic, *key): record for topic, group in self._listed.items() for key, record in group.items()}
             for topic, group in self._connected.items():
@@ -79,7 +79,7 @@ class TopicDiscovery(DiscoveryChannel):
         return list(found.values())
 
     def send_new_connection(self, publisher: Discovery.Publisher, node_uuid: str) -> None:
-        """Tell the process of a publisher that this node now listens to it."""
+        """Notify the process of a publisher that this node subscribes to it."""
         record = Discovery.Publisher()
         record.CopyFrom(publisher)
         record.process_uuid = self.process_uuid
@@ -88,7 +88,7 @@ class TopicDiscovery(DiscoveryChannel):
         self.send(Discovery.NEW_CONNECTION, record)
 
     def send_end_connection(self, topic: str, node_uuid: str) -> None:
-        """Tell the publishers of a topic that this node listens no longer."""
+        """Notify the publishers of a topic that this node no longer subscribes."""
         processes = {record.process_uuid for record in self.known(topic)}
         for process_uuid in [*sorted(processes), ""]:
             record = self._about_subscriber(topic, node_uuid, GENERIC_TYPE)
@@ -107,7 +107,7 @@ class TopicDiscovery(DiscoveryChannel):
         return record
 
     def handle(self, message: Discovery, source_ip: str) -> None:
-        """Act on one message; answer the question for subscribers, which has no topic."""
+        """Process one message; answer the request for subscribers, which has no topic."""
         if message.type == Discovery.SUBSCRIBERS_REQ:
             for each in self._own_subscriptions():
                 self.send(
@@ -118,7 +118,7 @@ class TopicDiscovery(DiscoveryChannel):
             super().handle(message, source_ip)
 
     def handle_other(self, message: Discovery) -> None:
-        """Keep the tables of subscribers up to date."""
+        """Update the tables of subscribers."""
         record, key = message.pub, (message.pub.process_uuid, message.pub.node_uuid)
         if message.type == Discovery.SUBSCRIBERS_REP:
             with self._table_lock:
@@ -134,7 +134,7 @@ class TopicDiscovery(DiscoveryChannel):
             self._on_subscribers()
 
     def forget_subscribers_of(self, process_uuid: str) -> None:
-        """Drop the subscribers of a process that is gone."""
+        """Forget the subscribers of a process that has ended."""
         tables: tuple[dict[str, dict[SubscriberKey, Any]], ...] = (self._connected, self._listed)
         with self._table_lock:
             for table in tables:

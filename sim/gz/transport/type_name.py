@@ -1,4 +1,4 @@
-"""Names of message types: what a user may give, and how Fortress, the older Gazebo, spells them."""
+"""Names of message types: conversion from classes and to the spelling of Fortress."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ _PACKAGE, _FORTRESS_PACKAGE = "gz.msgs.", "ignition.msgs."
 
 
 def type_name(message_type: type[Message] | str) -> str:
-    """Return the name of a message class; a name is returned as it is. Raises TypeError for anything else."""
+    """Return the name of a message class, or a given name unchanged. Raises TypeError for anything else."""
     if isinstance(message_type, str):
         return message_type
     if isinstance(message_type, type) and issubclass(message_type, Message):

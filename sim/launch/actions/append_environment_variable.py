@@ -12,7 +12,7 @@ from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, p
 
 
 class AppendEnvironmentVariable(SetEnvironmentVariable):
-    """An action that adds a value behind that of a variable, or before it with `prepend`, with `separator` between."""
+    """Appends a value to a variable, or prepends it with `prepend`; `separator` stands between the values."""
 
     def __init__(
         self,

@@ -1,4 +1,4 @@
-"""The action that declares an argument, given as `name:=value` or by the file that includes it."""
+"""The action that declares an argument, passed as `name:=value` or by an including file."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, p
 
 
 class DeclareLaunchArgument(Action):
-    """An action that makes the value of the argument `name` the launch configuration of that name.
+    """Declares the argument `name`, whose value becomes the launch configuration of that name.
 
-    Without `default_value` it must be given. With `choices` its value must be one of them; a default that is plain
-    text is checked at once (InvalidArgumentError).
+    Without `default_value` the argument is required. With `choices` its value must be one of them; a default that is
+    plain text is checked at once (InvalidArgumentError).
     """
 
     def __init__(
@@ -51,9 +51,9 @@ class DeclareLaunchArgument(Action):
         return f"DeclareLaunchArgument('{self.name}')"
 
     def execute(self, context: LaunchContext) -> None:
-        """Keep the value that was given, else set the default.
+        """Keep the passed value, or set the default.
 
-        Raises MissingArgumentError when there is neither, InvalidArgumentError for a value that is no choice.
+        Raises MissingArgumentError if there is neither, InvalidArgumentError if the value is not one of the choices.
         """
         configurations = context.launch_configurations
         if self.name not in configurations:

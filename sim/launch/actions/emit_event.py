@@ -11,7 +11,7 @@ from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEnti
 
 
 class EmitEvent(Action):
-    """An action that emits `event`."""
+    """Emits `event` when it is executed."""
 
     def __init__(self, *, event: Event, **kwargs: Any) -> None:
         super().__init__(**kwargs)

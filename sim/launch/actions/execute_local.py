@@ -1,7 +1,7 @@
-"""The action that runs a process on this machine.
+"""The action that runs a process on this machine; the base of ExecuteProcess and thereby of launch_ros' Node.
 
-The base of ExecuteProcess, which Node of launch_ros builds on. `execute` prepares the command; the process
-(`launch.child_process`) starts when the whole launch description has been visited, and ends with the launch.
+`execute` prepares the command; the process (`launch.child_process`) starts after the whole launch description has been
+visited, and ends with the launch.
 """
 
 from __future__ import annotations
@@ -48,18 +48,18 @@ from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
 from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions
 
 _IO_EVENTS = {"stdout": ProcessStdout, "stderr": ProcessStderr}
-_GRACE = 1.0  # [s] for what a process has left in the background, after the process itself has ended
+_GRACE = 1.0  # [s] for background processes, after the process itself has ended
 OnExit = SomeEntitiesType | Callable[[ProcessExited, LaunchContext], SomeEntitiesType | None] | None
 
 
 class ExecuteLocal(Action):
-    """An action that runs a `process_description` once.
+    """Runs a `process_description`.
 
-    `output` says where its output goes (`launch.process_output`); `emulate_tty` lets it believe it has a terminal;
-    `cached_output` keeps its output for `get_stdout` and `get_stderr`; `log_cmd` prints its command. `on_exit`
-    answers its end, as the handler of OnProcessExit would. With `respawn` it is started again when it ends, after
-    `respawn_delay` [s], `respawn_max_retries` times (-1: without limit). At the end of the launch it gets SIGINT,
-    after `sigterm_timeout` [s] SIGTERM, and after further `sigkill_timeout` [s] SIGKILL.
+    `output` selects where its output goes (`launch.process_output`); `emulate_tty` gives it a pseudo-terminal;
+    `cached_output` keeps its output for `get_stdout` and `get_stderr`; `log_cmd` logs its command. `on_exit` is handled
+    like that of OnProcessExit. With `respawn` it is restarted when it ends, after `respawn_delay` [s], at most
+    `respawn_max_retries` times (-1: without limit). At the end of the launch it gets SIGINT, after `sigterm_timeout`
+    [s] SIGTERM, and after another `sigkill_timeout` [s] SIGKILL.
     """
 
     def __init__(
@@ -109,11 +109,11 @@ class ExecuteLocal(Action):
         self.__gone = asyncio.Event()
 
     def get_stdout(self) -> str:
-        """Return the output so far. Raises LaunchError unless made with `cached_output`."""
+        """Return the output so far. Raises LaunchError without `cached_output`."""
         return self._cached("stdout")
 
     def get_stderr(self) -> str:
-        """Return the output so far. Raises LaunchError unless made with `cached_output`."""
+        """Return the output so far. Raises LaunchError without `cached_output`."""
         return self._cached("stderr")
 
     def _cached(self, stream: str) -> str:
@@ -136,12 +136,12 @@ class ExecuteLocal(Action):
         self.process_description.prepare(context, self)
 
     def cleanup(self) -> None:
-        """Remove what `prepare` made, when the process has ended for good."""
+        """Remove the temporary results of `prepare` after the last end of the process."""
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Prepare the command and have it started soon.
+        """Prepare the command and schedule its start.
 
-        Raises UsedTwiceError when it was executed before, and what performing the substitutions raises.
+        Raises UsedTwiceError if it was executed before, and the errors of its substitutions.
         """
         if self.__task is not None:
             raise UsedTwiceError(
@@ -174,7 +174,7 @@ class ExecuteLocal(Action):
         return lambda line: text.format(this=self, line=line)
 
     async def _run(self, context: LaunchContext, settings: ProcessSettings) -> None:
-        """Run the process from its first start to its last end."""
+        """Run the process with all its restarts."""
         try:
             retries = 0
             while not (context.is_shutdown or self.__must_stop.is_set()):
@@ -191,7 +191,7 @@ class ExecuteLocal(Action):
             self.cleanup()
 
     async def _live_once(self, context: LaunchContext, settings: ProcessSettings) -> bool:
-        """Run the process once; return whether it may be run again."""
+        """Run the process once; return whether it may be restarted."""
         child = self._start(context, settings)
         self.__child = child
         self.__ended.clear()
@@ -210,7 +210,7 @@ class ExecuteLocal(Action):
             self.__ended.set()
             if child.has_left_something():
                 await self._wait_for_what_is_left(child, context, settings)
-        except asyncio.CancelledError:  # the event loop ends without waiting for the launch
+        except asyncio.CancelledError:  # the event loop ends before the launch
             child.kill()
             raise
         finally:
@@ -225,9 +225,9 @@ class ExecuteLocal(Action):
     async def _wait_for_what_is_left(
         self, child: ChildProcess, context: LaunchContext, settings: ProcessSettings
     ) -> None:
-        """Wait for processes that the process has left in the background: they belong to the launch, too."""
+        """Wait for the background processes of the process, which belong to the launch, too."""
         if settings.respawn and not context.is_shutdown:
-            child.send_signal(signal.SIGKILL)  # the next one starts afresh
+            child.send_signal(signal.SIGKILL)  # before the restart
         elif not context.is_shutdown:
             settings.logger.warning(
                 "it has left processes in the background; the launch waits for them, and ends them when it ends"
@@ -274,7 +274,7 @@ class ExecuteLocal(Action):
         return child
 
     def _stop(self, settings: ProcessSettings, *, silent: bool) -> None:
-        """Begin to end the process: SIGINT, later SIGTERM, later SIGKILL."""
+        """Start ending the process: SIGINT, then SIGTERM, then SIGKILL."""
         self.__must_stop.set()
         running = self.__child is not None and not self.__gone.is_set()
         if running and self.__stopping is None:
@@ -286,7 +286,7 @@ class ExecuteLocal(Action):
             self._signal(number, settings, silent=silent and number == signal.SIGINT)
             patience = settings.timeouts[number]
             if await _happens(self.__ended, patience):
-                # Background processes of a shell ignore SIGINT: no long wait for them.
+                # Background processes of a shell ignore SIGINT, so a long wait is useless.
                 if await _happens(self.__gone, min(patience, _GRACE)):
                     return
             else:
@@ -309,7 +309,7 @@ class ExecuteLocal(Action):
         if isinstance(event, ProcessExited):
             return answer(self.__on_exit, event, context, "on_exit")
         if isinstance(event, Shutdown):
-            # At a terminal, Ctrl-C needs no explanation.
+            # Ctrl-C at a terminal needs no explanation.
             at_terminal = not context.noninteractive and sys.stdin is not None and sys.stdin.isatty()
             self._stop(settings, silent=event.due_to_sigint and at_terminal)
         elif isinstance(event, ShutdownProcess):
@@ -329,7 +329,7 @@ class ExecuteLocal(Action):
 
 
 class _ProcessHandler(EventHandler):
-    """A handler that passes the events of a process to its action."""
+    """Passes the events of a process to its action."""
 
     def __init__(self, action: ExecuteLocal, settings: ProcessSettings) -> None:
         super().__init__(matcher=action._concerns)
@@ -341,7 +341,7 @@ class _ProcessHandler(EventHandler):
 
 
 async def _happens(event: asyncio.Event, within: float) -> bool:
-    """Wait for an event for `within` [s]; return whether it came."""
+    """Wait for an event for `within` [s]; return whether it was set."""
     with contextlib.suppress(TimeoutError):
         await asyncio.wait_for(event.wait(), within)
     return event.is_set()

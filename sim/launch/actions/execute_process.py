@@ -13,11 +13,11 @@ from gz_course.sim.launch.utilities import describe_substitutions
 
 
 class ExecuteProcess(ExecuteLocal):
-    """An action that runs `cmd`, a list of words; with `shell=True` they are joined by spaces and given to /bin/sh.
+    """Runs `cmd`, a list of words; with `shell=True` they are joined by spaces and passed to /bin/sh.
 
-    `cwd` is the folder it starts in, `env` replaces the environment, `additional_env` adds to it, `prefix` goes
-    before the command, `name` stands in its label. The other arguments are those of ExecuteLocal. A plain text as
-    `cmd` needs `shell=True`.
+    `cwd` is its working directory, `env` replaces the environment, `additional_env` adds to it, `prefix` is put before
+    the command, `name` is used in its label. The other arguments are those of ExecuteLocal. A plain text as `cmd`
+    requires `shell=True`.
     """
 
     def __init__(
@@ -38,12 +38,12 @@ class ExecuteProcess(ExecuteLocal):
 
     @property
     def name(self) -> list[Substitution] | str | None:
-        """The label once it is known, before that the given name."""
+        """Return the label after the start, the given name before."""
         return self.process_description.final_name or self.process_description.name
 
     @property
     def cmd(self) -> list[Any]:
-        """The words once they are known, before that their substitutions."""
+        """Return the words after the start, their substitutions before."""
         return self.process_description.final_cmd or self.process_description.cmd
 
     @property
@@ -52,7 +52,7 @@ class ExecuteProcess(ExecuteLocal):
 
     @property
     def env(self) -> Any:
-        """The environment once it is known, before that the given one."""
+        """Return the environment after the start, the given one before."""
         return self.process_description.final_env or self.process_description.env
 
     @property

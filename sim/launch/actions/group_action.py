@@ -1,4 +1,4 @@
-"""The action for several actions that share a scope and a condition."""
+"""The action that groups actions under one scope and one condition."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
 
 
 class GroupAction(Action):
-    """An action that visits `actions`; with `scoped` their changes of configurations and environment end with them.
+    """Visits `actions`; with `scoped` their changes of configurations and environment end with the group.
 
-    With `forwarding=False` they see no configurations of the outside, only the `launch_configurations` given here.
+    With `forwarding=False` they see only the given `launch_configurations`, not those outside of the group.
     """
 
     def __init__(

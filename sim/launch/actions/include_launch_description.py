@@ -31,10 +31,10 @@ Pairs = Iterable[tuple[SomeSubstitutionsType, SomeSubstitutionsType]]
 
 
 class IncludeLaunchDescription(Action):
-    """An action that visits the launch description of `launch_description_source`, a source or a path.
+    """Visits the launch description of `launch_description_source`, a source or a path.
 
-    `launch_arguments` are pairs or a dict. The included file shares the scope of this one: it sees all
-    configurations, and what it sets stays; GroupAction keeps it apart.
+    `launch_arguments` are pairs or a dict. The included file shares the scope of the including one: it sees all
+    configurations, and its changes remain; use GroupAction to limit them.
     """
 
     def __init__(
@@ -53,7 +53,7 @@ class IncludeLaunchDescription(Action):
         return f"IncludeLaunchDescription({self.launch_description_source.location})"
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """Return the launch description if it can be loaded now; execution reports one that cannot."""
+        """Return the launch description if it can be loaded now; errors are reported on execution."""
         try:
             description = self.launch_description_source.try_get_launch_description_without_context()
         except Exception as error:
@@ -64,7 +64,7 @@ class IncludeLaunchDescription(Action):
         return [] if description is None else [description]
 
     def leads_back_into(self, chain: Iterable[IncludeLaunchDescription]) -> bool:
-        """Return whether one of these includes the same file."""
+        """Return whether one of the including files is the file itself."""
         own = self.launch_description_source.plain_location
         others = [each.launch_description_source.plain_location for each in chain]
         return own is not None and any(other is not None and _same(own, other) for other in others)
@@ -72,8 +72,7 @@ class IncludeLaunchDescription(Action):
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Load the launch file; return its arguments and its launch description.
 
-        Raises MissingArgumentError, LaunchError for files that include each other without end, and whatever loading
-        the file raises.
+        Raises MissingArgumentError, LaunchError for endless recursion of files, and the errors of loading the file.
         """
         outside = context.get_locals_as_dict()
         before = {name: outside.get(name) for name in (CURRENT_FILE, CURRENT_FOLDER, _CHAIN)}
@@ -94,7 +93,7 @@ class IncludeLaunchDescription(Action):
         return [*setting, description, OpaqueFunction(function=leave)]
 
     def _extended_chain(self, chain: tuple[tuple[str, str], ...], context: LaunchContext) -> tuple:
-        """Return the files being included, each with its configurations. Raises LaunchError for an endless chain."""
+        """Return the files being included with their configurations. Raises LaunchError for endless recursion."""
         configurations = repr(sorted(context.launch_configurations.items(), key=lambda item: item[0]))
         here = (self.launch_description_source.location, configurations)
         if self.launch_description_source.plain_location is None and here[0] == "''":
@@ -116,7 +115,7 @@ class IncludeLaunchDescription(Action):
                 )
 
     def _warn_of_unknown(self, description: LaunchDescription, given: list[str]) -> None:
-        """Warn of an argument that cannot have an effect: most likely its name is misspelt."""
+        """Warn about an argument that has no effect, probably because of a typo in its name."""
         if not given or _may_use_anything(description, [self]):
             return
         known = {argument.name for argument in description.get_launch_arguments()}
@@ -134,7 +133,7 @@ class IncludeLaunchDescription(Action):
 
 
 def _may_use_anything(entity: LaunchDescriptionEntity, chain: list[IncludeLaunchDescription]) -> bool:
-    """Return whether a part cannot be inspected, and may use any launch configuration."""
+    """Return whether an entity cannot be inspected and may use any launch configuration."""
     if isinstance(entity, OpaqueFunction | OpaqueCoroutine):
         return True
     if isinstance(entity, IncludeLaunchDescription):

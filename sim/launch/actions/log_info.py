@@ -16,7 +16,7 @@ from gz_course.sim.launch.utilities import (
 
 
 class LogInfo(Action):
-    """An action that prints `[INFO] [launch.user]: msg`."""
+    """Logs `[INFO] [launch.user]: msg`."""
 
     def __init__(self, *, msg: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)

@@ -1,4 +1,4 @@
-"""The action that runs a coroutine beside the launch."""
+"""The action that runs a coroutine in parallel to the launch."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEnti
 
 
 class OpaqueCoroutine(Action):
-    """An action that runs `coroutine(context, *args, **kwargs)`. The launch waits for it; a shutdown cancels it."""
+    """Runs `coroutine(context, *args, **kwargs)`. The launch waits for it; a shutdown cancels it."""
 
     def __init__(
         self,

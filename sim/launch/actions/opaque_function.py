@@ -12,7 +12,7 @@ from gz_course.sim.launch.some_entities_type import SomeEntitiesType
 
 
 class OpaqueFunction(Action):
-    """An action that calls `function(context, *args, **kwargs)`, which may return actions."""
+    """Calls `function(context, *args, **kwargs)`, which may return actions."""
 
     def __init__(
         self,

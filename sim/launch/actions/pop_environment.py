@@ -7,7 +7,7 @@ from gz_course.sim.launch.launch_context import LaunchContext
 
 
 class PopEnvironment(Action):
-    """An action that ends the scope that PushEnvironment began."""
+    """Restores the environment saved by PushEnvironment."""
 
     def execute(self, context: LaunchContext) -> None:
         context._pop_environment()

@@ -7,7 +7,7 @@ from gz_course.sim.launch.launch_context import LaunchContext
 
 
 class PopLaunchConfigurations(Action):
-    """An action that ends the scope that PushLaunchConfigurations began."""
+    """Restores the configurations saved by PushLaunchConfigurations."""
 
     def execute(self, context: LaunchContext) -> None:
         context._pop_launch_configurations()

@@ -7,7 +7,7 @@ from gz_course.sim.launch.launch_context import LaunchContext
 
 
 class PushEnvironment(Action):
-    """An action that begins a scope: PopEnvironment undoes what is set from now on."""
+    """Saves the environment for PopEnvironment."""
 
     def execute(self, context: LaunchContext) -> None:
         context._push_environment()

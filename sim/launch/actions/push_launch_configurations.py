@@ -7,7 +7,7 @@ from gz_course.sim.launch.launch_context import LaunchContext
 
 
 class PushLaunchConfigurations(Action):
-    """An action that begins a scope: PopLaunchConfigurations undoes what is set from now on."""
+    """Saves the launch configurations for PopLaunchConfigurations."""
 
     def execute(self, context: LaunchContext) -> None:
         context._push_launch_configurations()

@@ -12,7 +12,7 @@ from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEnti
 
 
 class RegisterEventHandler(Action):
-    """An action that registers an event handler, which is asked before those that are registered already."""
+    """Registers an event handler in front of those already registered."""
 
     def __init__(self, event_handler: EventHandler, **kwargs: Any) -> None:
         super().__init__(**kwargs)

@@ -7,7 +7,7 @@ from gz_course.sim.launch.launch_context import LaunchContext
 
 
 class ResetEnvironment(Action):
-    """An action that makes the environment what it was before the launch."""
+    """Restores the environment that existed before the launch."""
 
     def execute(self, context: LaunchContext) -> None:
         context._reset_environment()

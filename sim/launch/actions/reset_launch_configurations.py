@@ -12,7 +12,7 @@ from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, p
 
 
 class ResetLaunchConfigurations(Action):
-    """An action that removes all launch configurations, and sets those given."""
+    """Removes all launch configurations and sets the given ones."""
 
     def __init__(
         self,
@@ -26,7 +26,7 @@ class ResetLaunchConfigurations(Action):
         ]
 
     def execute(self, context: LaunchContext) -> None:
-        """Perform the values that are kept before all others are removed: they may refer to them."""
+        """Evaluate the new values before removing the configurations, to which they may refer."""
         kept = {perform_substitutions(context, name): perform_substitutions(context, v) for name, v in self.__kept}
         context.launch_configurations.clear()
         context.launch_configurations.update(kept)

@@ -9,7 +9,7 @@ from gz_course.sim.launch.launch_context import LaunchContext
 
 
 class SetEnvironmentVariable(SetVariable):
-    """An action that gives an environment variable, which processes inherit, a value."""
+    """Sets an environment variable of this process, which child processes inherit."""
 
     def _variables(self, context: LaunchContext) -> MutableMapping[str, str]:
         return context.environment

@@ -10,7 +10,7 @@ from gz_course.sim.launch.launch_context import LaunchContext
 
 
 class SetLaunchConfiguration(SetVariable):
-    """An action that gives a launch configuration a value."""
+    """Sets the value of a launch configuration."""
 
     def _variables(self, context: LaunchContext) -> MutableMapping[str, Any]:
         return context.launch_configurations

@@ -16,7 +16,7 @@ from gz_course.sim.launch.utilities import (
 
 
 class SetVariable(Action):
-    """The base of actions that give the variable `name` a value; `_variables` says among which."""
+    """Base of actions that set the variable `name`; `_variables` returns the mapping it belongs to."""
 
     def __init__(self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)

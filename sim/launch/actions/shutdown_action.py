@@ -13,7 +13,7 @@ from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEnti
 
 
 class Shutdown(EmitEvent):
-    """An action that ends the launch. As `on_exit` of a process it says that this process was required."""
+    """Ends the launch; as `on_exit` of a process its reason is that this process was required."""
 
     def __init__(self, *, reason: str = "reason not given", **kwargs: Any) -> None:
         super().__init__(event=ShutdownEvent(reason=reason), **kwargs)

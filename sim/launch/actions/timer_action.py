@@ -1,4 +1,4 @@
-"""The action that visits others after some time."""
+"""The action that visits other actions after a delay."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, p
 
 
 class TimerAction(Action):
-    """An action that visits `actions` once, `period` [s] after it was executed; the end of the launch cancels it."""
+    """Visits `actions` once, `period` [s] after its execution; the end of the launch cancels it."""
 
     def __init__(
         self,
@@ -49,7 +49,7 @@ class TimerAction(Action):
         return self.__future
 
     def cancel(self) -> None:
-        """Cancel the timer, also one that is executed later."""
+        """Cancel the timer, also before its execution."""
         self.__canceled = True
         self._settle()
 
@@ -86,7 +86,7 @@ class TimerAction(Action):
 
 
 class _TimerHandler(EventHandler):
-    """A handler that visits the actions at the timer's event, and cancels the timer at the end of the launch."""
+    """Visits the actions at the timer's event, and cancels the timer at the end of the launch."""
 
     def __init__(self, timer: TimerAction, cancel_on_shutdown: bool) -> None:
         super().__init__(matcher=self._concerns_the_timer)

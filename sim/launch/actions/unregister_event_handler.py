@@ -11,7 +11,7 @@ from gz_course.sim.launch.launch_context import LaunchContext
 
 
 class UnregisterEventHandler(Action):
-    """An action that unregisters an event handler. Raises LaunchError if it is not registered."""
+    """Unregisters an event handler. Raises LaunchError if it is not registered."""
 
     def __init__(self, event_handler: EventHandler, **kwargs: Any) -> None:
         super().__init__(**kwargs)

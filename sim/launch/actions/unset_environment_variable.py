@@ -11,7 +11,7 @@ from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, p
 
 
 class UnsetEnvironmentVariable(Action):
-    """An action that removes an environment variable; nothing happens when it is not set."""
+    """Removes an environment variable, if it is set."""
 
     def __init__(self, name: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)

@@ -11,7 +11,7 @@ from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, p
 
 
 class UnsetLaunchConfiguration(Action):
-    """An action that removes a launch configuration; nothing happens when there is none of that name."""
+    """Removes a launch configuration, if it is set."""
 
     def __init__(self, name: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)

@@ -1,4 +1,4 @@
-"""Reads true or false out of text: the rule of conditions, boolean substitutions and boolean launch arguments."""
+"""Converts text to a boolean, for conditions, boolean substitutions and boolean launch arguments."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def evaluate_condition_expression(context: LaunchContext, expression: Sequence[S
 
 
 def as_bool(text: str) -> bool | None:
-    """Return what the text means, upper or lower case; None when it is neither true nor false."""
+    """Return the boolean for a text in upper or lower case; None if it is neither true nor false."""
     word = text.strip().lower()
     if word in VALID_TRUE_EXPRESSIONS:
         return True

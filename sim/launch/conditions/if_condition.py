@@ -13,7 +13,7 @@ class IfCondition(Condition):
     """A condition that holds when the text is `true` or `1`."""
 
     def __init__(self, predicate_expression: SomeSubstitutionsType) -> None:
-        # Python's True and False are accepted as well.
+        # Python's True and False are accepted, too.
         given = str(predicate_expression) if isinstance(predicate_expression, bool) else predicate_expression
         self._expression = normalize_to_list_of_substitutions(given)
         super().__init__(predicate=self._holds)

@@ -9,7 +9,7 @@ from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, p
 
 
 class LaunchConfigurationEquals(Condition):
-    """A condition that holds when the configuration has this value; with None: when it does not exist."""
+    """Holds if the configuration has this value; with None, if it does not exist."""
 
     def __init__(self, launch_configuration_name: str, expected_value: SomeSubstitutionsType | None) -> None:
         self._name = launch_configuration_name

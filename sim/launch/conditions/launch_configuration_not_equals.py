@@ -7,7 +7,7 @@ from gz_course.sim.launch.launch_context import LaunchContext
 
 
 class LaunchConfigurationNotEquals(LaunchConfigurationEquals):
-    """A condition that holds when LaunchConfigurationEquals does not."""
+    """Holds if LaunchConfigurationEquals does not."""
 
     def _equals(self, context: LaunchContext) -> bool:
         return not super()._equals(context)

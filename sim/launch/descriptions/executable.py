@@ -23,8 +23,8 @@ Environment = Mapping[SomeSubstitutionsType, SomeSubstitutionsType]
 class Executable:
     """A command: its words `cmd`, words `prefix` before them, and a `name` for the label.
 
-    `env` replaces the environment, `additional_env` adds to it. `prepare` performs all of it; the results are the
-    properties that start with `final_`.
+    `env` replaces the environment, `additional_env` adds to it. `prepare` performs all substitutions; the results are
+    the properties that start with `final_`.
     """
 
     def __init__(
@@ -51,9 +51,9 @@ class Executable:
         self.final_env: dict[str, str] | None = None
 
     def prepare(self, context: LaunchContext, action: Action | None, more_words: Iterable[str] = ()) -> None:
-        """Perform all substitutions; `more_words` go to the end of the command.
+        """Perform all substitutions; `more_words` are appended to the command.
 
-        Raises LaunchError or whatever a substitution raises.
+        Raises LaunchError and the errors of substitutions.
         """
         words = [*[perform_substitutions(context, word) for word in self.cmd], *more_words]
         if not words or not words[0]:

@@ -1,4 +1,4 @@
-"""The base of event handlers that wait for what happens to an action."""
+"""The base class of event handlers for events of actions."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Reaction = SomeEntitiesType | Callable[[Any, "LaunchContext"], SomeEntitiesType 
 
 
 class OnActionEventBase(EventHandler):
-    """A handler of events of a class, of one action, of those a function accepts, or of all (None).
+    """Handles events of one class: those of one action, of actions that a function accepts, or of all (None).
 
     `on_event` is an action, a list of actions, or a function(event, context) that may return them.
     """

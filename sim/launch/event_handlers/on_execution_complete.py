@@ -1,4 +1,4 @@
-"""The event handler that waits for an action to be complete."""
+"""The event handler for the completion of an action."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from gz_course.sim.launch.events import ExecutionComplete
 
 
 class OnExecutionComplete(OnActionEventBase):
-    """A handler that answers the completion of an action with `on_completion`."""
+    """Handles the completion of an action with `on_completion`."""
 
     def __init__(self, *, target_action: TargetAction = None, on_completion: Reaction, **kwargs: Any) -> None:
         super().__init__(

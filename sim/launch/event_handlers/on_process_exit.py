@@ -1,4 +1,4 @@
-"""The event handler that waits for the end of a process."""
+"""The event handler for the end of a process."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from gz_course.sim.launch.events.process import ProcessExited
 
 
 class OnProcessExit(OnActionEventBase):
-    """A handler that answers the end of a process with `on_exit`."""
+    """Handles the end of a process with `on_exit`."""
 
     def __init__(self, *, target_action: TargetAction = None, on_exit: Reaction, **kwargs: Any) -> None:
         super().__init__(

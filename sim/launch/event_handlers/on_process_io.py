@@ -1,4 +1,4 @@
-"""The event handler that waits for the output of a process."""
+"""The event handler for the output of a process."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ OnIO = Callable[[ProcessIO], SomeEntitiesType | None]
 
 
 class OnProcessIO(OnActionEventBase):
-    """A handler of what a process prints: `on_stdout(event)` and `on_stderr(event)`, with the bytes `event.text`."""
+    """Handles output of a process with `on_stdout(event)` and `on_stderr(event)`; `event.text` holds the bytes."""
 
     def __init__(
         self,

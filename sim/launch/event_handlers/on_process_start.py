@@ -1,4 +1,4 @@
-"""The event handler that waits for the start of a process."""
+"""The event handler for the start of a process."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from gz_course.sim.launch.events.process import ProcessStarted
 
 
 class OnProcessStart(OnActionEventBase):
-    """A handler that answers the start of a process with `on_start`."""
+    """Handles the start of a process with `on_start`."""
 
     def __init__(self, *, target_action: TargetAction = None, on_start: Reaction, **kwargs: Any) -> None:
         super().__init__(

@@ -1,4 +1,4 @@
-"""The event handler that waits for the end of the launch."""
+"""The event handler for the end of the launch."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _ARGUMENT = "on_shutdown of OnShutdown"
 
 
 class OnShutdown(EventHandler):
-    """A handler of Shutdown, with actions or with a function(event, context). No process is started any more."""
+    """Handles Shutdown with actions or a function(event, context); no further process is started."""
 
     def __init__(self, *, on_shutdown: Reaction, **kwargs: Any) -> None:
         self._reaction = on_shutdown

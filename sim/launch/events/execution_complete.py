@@ -1,4 +1,4 @@
-"""The event that an action is complete."""
+"""The event for the completion of an action."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 class ExecutionComplete(Event):
-    """The event that `action` was executed, and its process, timer or coroutine has ended."""
+    """Emitted after `action` was executed and its process, timer or coroutine has ended."""
 
     name = "launch.events.ExecutionComplete"
 

@@ -1,4 +1,4 @@
-"""The event that brings in a launch description."""
+"""The event that includes a launch description."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 class IncludeLaunchDescription(Event):
-    """The event that asks LaunchService to visit a launch description."""
+    """Makes LaunchService visit a launch description."""
 
     name = "launch.events.IncludeLaunchDescription"
 

@@ -6,7 +6,7 @@ from gz_course.sim.launch.event import Event
 
 
 class Shutdown(Event):
-    """The event that ends the launch, with a `reason` in words; `due_to_sigint` tells Ctrl-C from other reasons."""
+    """Ends the launch with a `reason` in words; `due_to_sigint` is True after Ctrl-C."""
 
     name = "launch.events.Shutdown"
 

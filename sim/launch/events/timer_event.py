@@ -1,4 +1,4 @@
-"""The event that a timer is due."""
+"""The event of an expired timer."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from gz_course.sim.launch.event import Event
 
 
 class TimerEvent(Event):
-    """The event that the period of a TimerAction has passed."""
+    """Emitted when the period of a TimerAction has passed."""
 
     name = "launch.events.TimerEvent"
 

@@ -1,4 +1,4 @@
-"""Substitutions written as text, `$(var name)`, as parameter files with `allow_substs` hold them."""
+"""Substitutions written as text, `$(var name)`, in parameter files with `allow_substs`."""
 
 from gz_course.sim.launch.frontend.parse_substitution import expose_substitution, parse_substitution
 

@@ -43,19 +43,19 @@ _makers: dict[str, tuple[int, int, Callable[..., Substitution]]] = {
 
 
 def expose_substitution(name: str, at_least: int, at_most: int, make: Callable[..., Substitution]) -> None:
-    """Let `$(name ...)` mean `make(...)`, called with so many lists of substitutions."""
+    """Register `$(name ...)` as `make(...)`, called with `at_least` to `at_most` lists of substitutions."""
     _makers[name] = (at_least, at_most, make)
 
 
 def parse_substitution(text: str) -> list[Substitution]:
-    """Return the text as a list of substitutions. Raises SubstitutionFailure for what cannot be read."""
+    """Parse a text into a list of substitutions. Raises SubstitutionFailure for invalid text."""
     parts, end = _parse_parts(text, 0, nested=False)
     assert end == len(text)
     return parts
 
 
 def _parse_parts(text: str, start: int, *, nested: bool) -> tuple[list[Substitution], int]:
-    """Return text and substitutions from `start` to the end, or to a blank or `)` when nested, and where that is."""
+    """Parse text and substitutions from `start` to the end, or to a blank or `)` if nested; return them and the end."""
     parts: list[Substitution] = []
     plain: list[str] = []
     quote = ""
@@ -86,7 +86,7 @@ def _parse_parts(text: str, start: int, *, nested: bool) -> tuple[list[Substitut
 
 
 def _parse_call(text: str, start: int) -> tuple[Substitution, int]:
-    """Return the `$(name argument ...)` that begins at `start`, and where it ends."""
+    """Parse the `$(name argument ...)` at `start`; return the substitution and its end."""
     position = start + 2
     words: list[list[Substitution]] = []
     while True:

@@ -1,4 +1,4 @@
-"""Sources of launch descriptions: Python launch files. XML and YAML launch files are refused with a sentence."""
+"""Sources of launch descriptions: Python launch files. XML and YAML launch files are rejected with an error."""
 
 from gz_course.sim.launch.invalid_launch_file_error import InvalidLaunchFileError
 from gz_course.sim.launch.launch_description_sources.any_launch_description_source import AnyLaunchDescriptionSource

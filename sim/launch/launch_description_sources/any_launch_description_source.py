@@ -13,7 +13,7 @@ from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
 
 
 class AnyLaunchDescriptionSource(LaunchDescriptionSource):
-    """The launch file at a path, which may be put together from substitutions."""
+    """The launch file at a path, which may contain substitutions."""
 
     def __init__(self, launch_file_path: SomeSubstitutionsType | os.PathLike[str]) -> None:
         super().__init__(location=launch_file_path, method="any launch file")

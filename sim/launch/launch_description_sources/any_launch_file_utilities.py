@@ -1,4 +1,4 @@
-"""The loader of launch files of any kind, told by their names."""
+"""The loader of launch files of any kind, which their file names determine."""
 
 from __future__ import annotations
 

@@ -15,13 +15,13 @@ _FUNCTION = "generate_launch_description"
 
 
 class InvalidPythonLaunchFileError(InvalidLaunchFileError):
-    """A Python file is not there, or is no launch file."""
+    """A Python file is missing or is no launch file."""
 
 
 def load_python_launch_file_as_module(python_launch_file_path: str) -> ModuleType:
-    """Execute a Python launch file; return it as a module, which is not registered anywhere.
+    """Execute a Python launch file; return it as a module that is not in `sys.modules`.
 
-    Raises InvalidPythonLaunchFileError when it cannot be read, SyntaxError, and whatever its code raises.
+    Raises InvalidPythonLaunchFileError if it cannot be read, SyntaxError, and the errors of its code.
     """
     path = Path(python_launch_file_path)
     try:
@@ -35,17 +35,17 @@ def load_python_launch_file_as_module(python_launch_file_path: str) -> ModuleTyp
     except (SyntaxError, ValueError) as error:
         if isinstance(error, SyntaxError) and error.filename:
             raise
-        # Null bytes, for example.
+        # for example null bytes
         raise InvalidPythonLaunchFileError(f"{path}: this is no Python file: {error}") from None
     exec(code, module.__dict__)
     return module
 
 
 def get_launch_description_from_python_launch_file(python_launch_file_path: str) -> LaunchDescription:
-    """Return what generate_launch_description() of a file returns.
+    """Return the result of generate_launch_description() of a file.
 
-    Raises InvalidPythonLaunchFileError when there is no such function or it returns something else, and whatever
-    load_python_launch_file_as_module or the function raises.
+    Raises InvalidPythonLaunchFileError if the function is missing or returns no LaunchDescription, and the errors of
+    load_python_launch_file_as_module and of the function.
     """
     module = load_python_launch_file_as_module(python_launch_file_path)
     function = getattr(module, _FUNCTION, None)
@@ -68,7 +68,7 @@ def get_launch_description_from_python_launch_file(python_launch_file_path: str)
 
 
 def _described(value: object) -> str:
-    """Return a value in few words: a list of actions would fill the screen."""
+    """Return a short description of a value, because a list of actions would fill the screen."""
     text = repr(value)
     return f"{text} of type {type(value).__name__}" if len(text) <= 60 else f"a {type(value).__name__}"
 
@@ -84,7 +84,7 @@ def _not_readable(path: Path, error: OSError) -> str:
 
 
 def _a_package_has(path: Path) -> str:
-    """Return the end of a sentence: how to write a bare file name that a ROS package has."""
+    """Return the end of an error sentence: how to refer to a file name that a ROS package has."""
     if path.parent != Path():
         return ""
     found = packages_with_launch_file(path.name)

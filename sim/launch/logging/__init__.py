@@ -2,9 +2,8 @@
 
     launch.logging.get_logger("my_launch").info("up and running")
 
-prints `[INFO] [my_launch]: up and running` and writes the same with a time in front to `launch.log`. The log folder
-is `<date>-<time>-<host>-<pid>` below ROS_LOG_DIR, else ROS_HOME/log, else ~/.ros/log; it is made when the first line
-is logged.
+prints `[INFO] [my_launch]: up and running` and writes the same with a time stamp to `launch.log`. The log folder is
+`<date>-<time>-<host>-<pid>` below ROS_LOG_DIR, else ROS_HOME/log, else ~/.ros/log; the first logged line creates it.
 
 Source: ros2/launch, launch/logging/__init__.py
 """
@@ -26,7 +25,7 @@ LOG_FORMAT = "{0.created:.7f} [{0.levelname}] [{0.name}]: {1}"
 
 
 class LaunchConfig:
-    """Level, log folder, screen and log file of the whole process; the one instance is `launch_config`."""
+    """Level, log folder, screen and log file of the process; the only instance is `launch_config`."""
 
     def __init__(self) -> None:
         self._log_file: TextIO | None = None
@@ -43,7 +42,7 @@ class LaunchConfig:
 
     @property
     def level(self) -> int:
-        """The level below which nothing is logged; set it with a number or a name of `logging`."""
+        """Return the level below which nothing is logged; set it to a number or a name of `logging`."""
         return self._level
 
     @level.setter
@@ -57,7 +56,7 @@ class LaunchConfig:
 
     @property
     def log_dir(self) -> str:
-        """The folder of this process's log files; asking for it makes it."""
+        """Return the folder of this process's log files, and create it."""
         if self._log_dir is None:
             self._open_log()
         assert self._log_dir is not None
@@ -73,7 +72,7 @@ class LaunchConfig:
         return str(Path(self.log_dir) / file_name)
 
     def announce(self) -> None:
-        """Log once where the log files are and what is logged."""
+        """Log the log folder and the verbosity once."""
         if self._announced:
             return
         self._announced = True
@@ -82,7 +81,7 @@ class LaunchConfig:
         get_logger("launch").info(f"Default logging verbosity is set to {logging.getLevelName(self._level)}")
 
     def write_to_screen(self, text: str) -> None:
-        """Write whole lines to stdout. A reader that has gone away does not stop the launch."""
+        """Write whole lines to stdout; a closed pipe does not stop the launch."""
         if self._screen_is_gone:
             return
         try:
@@ -94,11 +93,11 @@ class LaunchConfig:
         except (OSError, ValueError):
             self._screen_is_gone = True
             with contextlib.suppress(OSError, ValueError):
-                # What is buffered would fail again, with a traceback, when Python exits.
+                # Buffered text would fail again, with a traceback, when Python exits.
                 os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
     def write_to_log(self, text: str) -> None:
-        """Write whole lines to launch.log, if there can be one."""
+        """Write whole lines to launch.log, if it can be created."""
         if self._log_dir is None:
             self._open_log()
         if self._log_file is not None:
@@ -134,7 +133,7 @@ def _log_base() -> Path:
 
 
 def _point_latest_at(base: Path, folder: Path) -> None:
-    """Point the link `latest` to this run's folder; several launches may do so at once."""
+    """Point the link `latest` to this run's folder; safe for simultaneous launches."""
     link = base / f".latest-{os.getpid()}"
     link.unlink(missing_ok=True)
     link.symlink_to(folder.name)
@@ -145,7 +144,7 @@ def _point_latest_at(base: Path, folder: Path) -> None:
 
 
 class _Handler(logging.Handler):
-    """A handler that writes to screen and log file."""
+    """Writes to screen and log file."""
 
     def emit(self, record: logging.LogRecord) -> None:
         message = record.getMessage()
@@ -156,7 +155,7 @@ class _Handler(logging.Handler):
 
 
 class _Logger(logging.Logger):
-    """A logger that `logging` does not know, and whose cache of levels it would therefore not update."""
+    """A logger outside of the hierarchy of `logging`, which therefore does not update its level cache."""
 
     def isEnabledFor(self, level: int) -> bool:
         return level >= self.level
@@ -168,7 +167,7 @@ launch_config = LaunchConfig()
 
 
 def get_logger(name: str = "launch") -> logging.Logger:
-    """Return the logger of this name. It is apart from the loggers of `logging`, whatever the name."""
+    """Return the logger of this name, which is independent of the loggers of `logging`."""
     if name not in _loggers:
         logger = _Logger(name, launch_config.level)
         logger.addHandler(_handler)
@@ -177,11 +176,11 @@ def get_logger(name: str = "launch") -> logging.Logger:
 
 
 def reset() -> None:
-    """Forget the log folder and the level: the next launch of this process has its own."""
+    """Reset log folder and level, so that the next launch of this process gets its own."""
     launch_config._reset()
     launch_config.level = logging.INFO
 
 
 def stamp() -> str:
-    """Return the time [s since 1970] as it stands at the start of a line in launch.log."""
+    """Return the present time [s since 1970] in the format of launch.log."""
     return f"{time.time():.7f}"

@@ -1,4 +1,4 @@
-"""Text that is known only when the launch file runs: values of arguments, paths, results of commands."""
+"""Texts that are known only when the launch file runs: values of arguments, paths, results of commands."""
 
 from gz_course.sim.launch.substitutions.anon_name import AnonName
 from gz_course.sim.launch.substitutions.boolean_substitution import (

@@ -1,4 +1,4 @@
-"""The substitution for a name that nobody else uses."""
+"""The substitution for a unique name."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _ANONYMOUS_NAMES = "anon_names"
 
 
 class AnonName(Substitution):
-    """A name that nobody else uses; the same one for the same `name` in one run."""
+    """A unique name, the same one for the same `name` within a run."""
 
     def __init__(self, name: SomeSubstitutionsType) -> None:
         self.name = normalize_to_list_of_substitutions(name)
@@ -29,7 +29,7 @@ class AnonName(Substitution):
         return f"AnonName({describe_substitutions(self.name)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """Return `<name>_<user>_<host>_<process>_<number>`, fit for a node's name."""
+        """Return `<name>_<user>_<host>_<process>_<number>`, a valid node name."""
         name = perform_substitutions(context, self.name)
         known: dict[str, str] = context.get_locals_as_dict().get(_ANONYMOUS_NAMES, {})
         if name not in known:

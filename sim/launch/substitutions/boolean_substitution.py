@@ -1,4 +1,4 @@
-"""Substitutions whose text is `true` or `false`, from operands that are."""
+"""Substitutions whose text is `true` or `false`, computed from boolean operands."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from gz_course.sim.launch.utilities import (
 
 
 class BooleanSubstitution(Substitution):
-    """The base of substitutions that answer `true` or `false` from some operands."""
+    """Base of substitutions that compute `true` or `false` from their operands."""
 
     def __init__(self, *operands: SomeSubstitutionsType) -> None:
         self._operands = [operand_substitutions(operand) for operand in operands]
@@ -27,7 +27,7 @@ class BooleanSubstitution(Substitution):
         return f"{type(self).__name__}({', '.join(describe_substitutions(each) for each in self._operands)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """Return `true` or `false`. Raises SubstitutionFailure when an operand is neither."""
+        """Return `true` or `false`. Raises SubstitutionFailure if an operand is neither."""
         return str(self._answer(context)).lower()
 
     def _answer(self, context: LaunchContext) -> bool:
@@ -38,7 +38,7 @@ class BooleanSubstitution(Substitution):
 
 
 class NotSubstitution(BooleanSubstitution):
-    """`true` when `value` is false."""
+    """`true` if `value` is false."""
 
     def __init__(self, value: SomeSubstitutionsType) -> None:
         super().__init__(value)
@@ -49,35 +49,35 @@ class NotSubstitution(BooleanSubstitution):
 
 
 class AllSubstitution(BooleanSubstitution):
-    """`true` when all of any number of operands are."""
+    """`true` if all operands are true."""
 
     def _answer(self, context: LaunchContext) -> bool:
         return all(self._values(context))
 
 
 class AnySubstitution(BooleanSubstitution):
-    """`true` when one of any number of operands is."""
+    """`true` if at least one operand is true."""
 
     def _answer(self, context: LaunchContext) -> bool:
         return any(self._values(context))
 
 
 class AndSubstitution(AllSubstitution):
-    """`true` when both operands are."""
+    """`true` if both operands are true."""
 
     def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
         super().__init__(left, right)
 
 
 class OrSubstitution(AnySubstitution):
-    """`true` when one of the two operands is."""
+    """`true` if at least one of two operands is true."""
 
     def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
         super().__init__(left, right)
 
 
 def performed_bool(context: LaunchContext, substitutions: list[Substitution], what: str) -> bool:
-    """Return the performed text as a bool. Raises SubstitutionFailure when it is neither true nor false."""
+    """Return the performed text as a bool. Raises SubstitutionFailure if it is neither true nor false."""
     text = perform_substitutions(context, substitutions)
     value = as_bool(text)
     if value is None:

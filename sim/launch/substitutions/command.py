@@ -24,10 +24,10 @@ _TRACE = ("Traceback (most recent", "During handling of the above", "The above e
 
 
 class Command(Substitution):
-    """The output of `command`, which is split into words as a shell would, and started without one.
+    """The output of `command`, which is split into words like in a shell and started without one.
 
-    `on_stderr` says what happens when the command writes to stderr: `fail` (the default), `ignore`, `warn`, or
-    `capture` it behind the output. A failing command is a SubstitutionFailure in any case.
+    `on_stderr` selects what output on stderr does: `fail` (the default), `ignore`, `warn`, or `capture` to append it. A
+    failing command always raises SubstitutionFailure.
     """
 
     def __init__(self, command: SomeSubstitutionsType, *, on_stderr: SomeSubstitutionsType = "fail") -> None:
@@ -38,7 +38,7 @@ class Command(Substitution):
         return f"Command({describe_substitutions(self.command)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """Run the command to its end; return what it wrote to stdout, the last newline included."""
+        """Run the command until its end; return its stdout including the last newline."""
         text = perform_substitutions(context, self.command)
         on_stderr = perform_substitutions(context, self.on_stderr)
         if on_stderr not in _ON_STDERR:
@@ -66,14 +66,14 @@ class Command(Substitution):
 
 
 def _without_traces(errors: str) -> str:
-    """Return the text without the places of Python's tracebacks, which are not in the launch file."""
+    """Return the text without tracebacks, whose lines are not in the launch file."""
     if _TRACE[0] not in errors:
         return errors.strip()
     return "; ".join(line for line in errors.splitlines() if line and not line.startswith((" ", *_TRACE)))
 
 
 def _run(words: list[str], context: LaunchContext) -> tuple[int, str, str]:
-    """Return exit code, stdout and stderr of a command, which an interruption of this function kills."""
+    """Return exit code, stdout and stderr of a command; an interruption of this function kills it."""
     process = None
     try:
         with context.uninterrupted():

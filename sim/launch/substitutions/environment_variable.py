@@ -1,4 +1,4 @@
-"""The substitution for the value of an environment variable, as processes of the launch see it."""
+"""The substitution for the value of an environment variable in the launch."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, p
 
 
 class EnvironmentVariable(Substitution):
-    """The value of `name`, else `default_value`; SubstitutionFailure when there is neither."""
+    """The value of `name`, else `default_value`; SubstitutionFailure if there is neither."""
 
     def __init__(self, name: SomeSubstitutionsType, *, default_value: SomeSubstitutionsType | None = None) -> None:
         self.name = normalize_to_list_of_substitutions(name)

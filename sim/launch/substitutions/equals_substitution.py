@@ -1,4 +1,4 @@
-"""The substitution that tells whether two texts are equal."""
+"""The substitution that compares two texts."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from gz_course.sim.launch.utilities import perform_substitutions
 
 
 class EqualsSubstitution(BooleanSubstitution):
-    """`true` when both sides are equal: as booleans, else as numbers, else as text."""
+    """`true` if both sides are equal: as booleans, else as numbers, else as text."""
 
     def __init__(self, left: Any, right: Any) -> None:
         super().__init__(left, right)

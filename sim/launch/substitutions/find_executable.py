@@ -37,7 +37,7 @@ class FindExecutable(Substitution):
 
 
 def nearest_program(name: str, context: LaunchContext) -> str:
-    """Return the end of a sentence that names the program on PATH whose name is nearest, empty if none is near."""
+    """Return the end of a sentence that names the most similar program on PATH, empty if none is similar."""
     known = []
     for folder in context.environment.get("PATH", os.defpath).split(os.pathsep):
         if folder and os.path.isdir(folder):  # noqa: PTH112

@@ -10,7 +10,7 @@ from gz_course.sim.launch.utilities import describe_substitutions, perform_subst
 
 
 class IfElseSubstitution(Substitution):
-    """`if_value` when the condition is true, else `else_value`; both are empty unless given."""
+    """`if_value` if the condition is true, else `else_value`; both are empty by default."""
 
     def __init__(
         self,
@@ -26,6 +26,6 @@ class IfElseSubstitution(Substitution):
         return f"IfElse({', '.join(map(describe_substitutions, (self.condition, self.if_value, self.else_value)))})"
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the text that is chosen. Raises SubstitutionFailure when the condition is no boolean."""
+        """Return the selected text. Raises SubstitutionFailure if the condition is no boolean."""
         holds = performed_bool(context, self.condition, "IfElse")
         return perform_substitutions(context, self.if_value if holds else self.else_value)

@@ -1,4 +1,4 @@
-"""The substitution for the value of a launch argument, or of what SetLaunchConfiguration has set."""
+"""The substitution for the value of a launch argument or launch configuration."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, p
 
 
 class LaunchConfiguration(Substitution):
-    """The value of `variable_name`, else `default`; SubstitutionFailure when there is neither.
+    """The value of `variable_name`, else `default`; SubstitutionFailure if there is neither.
 
-    A default that is no text, such as a number, becomes text with str().
+    A default of another type, such as a number, is converted with str().
     """
 
     def __init__(self, variable_name: SomeSubstitutionsType, *, default: Any | Iterable[Any] | None = None) -> None:

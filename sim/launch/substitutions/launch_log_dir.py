@@ -8,7 +8,7 @@ from gz_course.sim.launch.substitution import Substitution
 
 
 class LaunchLogDir(Substitution):
-    """The folder in which this run keeps its log files."""
+    """The folder of this run's log files."""
 
     def describe(self) -> str:
         return "LaunchLogDir()"

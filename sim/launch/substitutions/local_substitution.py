@@ -11,7 +11,7 @@ from gz_course.sim.launch.substitutions.substitution_failure import Substitution
 
 
 class LocalSubstitution(Substitution):
-    """A part of `context.locals`, for example `event.returncode` in the actions of an event handler."""
+    """A value of `context.locals`, for example `event.returncode` in the actions of an event handler."""
 
     def __init__(self, expression: str, description: str | None = None) -> None:
         self.expression = expression
@@ -21,7 +21,7 @@ class LocalSubstitution(Substitution):
         return f"LocalVar('{self.__description or self.expression}')"
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the value as text. Raises SubstitutionFailure when there is no such part."""
+        """Return the value as text. Raises SubstitutionFailure if it does not exist."""
         name, *attributes = self.expression.split(".")
         value = local_value(context, name, f"there is no '{name}' in the launch file's locals")
         for attribute in attributes:

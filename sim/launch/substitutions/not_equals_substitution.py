@@ -1,4 +1,4 @@
-"""The substitution that tells whether two texts differ."""
+"""The substitution that is the negation of EqualsSubstitution."""
 
 from __future__ import annotations
 

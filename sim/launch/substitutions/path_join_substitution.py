@@ -16,7 +16,7 @@ from gz_course.sim.launch.utilities import (
 
 
 class PathJoinSubstitution(Substitution):
-    """Components joined with `/`. Each may be text, a substitution, or a list of them that is one component.
+    """Components joined with `/`; each is text, a substitution, or a list of them that forms one component.
 
     `PathJoinSubstitution([...]) / "more"` adds a component.
     """

@@ -20,8 +20,8 @@ from gz_course.sim.launch.utilities import (
 class PythonExpression(Substitution):
     """`str()` of the evaluated expression.
 
-    The modules named in `python_modules` can be used in it; the names of `math` also without `math.`. Text needs
-    quotes inside the expression: `["'", LaunchConfiguration("mode"), "' == 'fast'"]`.
+    The modules in `python_modules` are available in it, the names of `math` also without `math.`. Text needs quotes
+    inside the expression: `["'", LaunchConfiguration("mode"), "' == 'fast'"]`.
     """
 
     def __init__(

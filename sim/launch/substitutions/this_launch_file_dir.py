@@ -10,7 +10,7 @@ CURRENT_FOLDER = "current_launch_file_directory"
 
 
 class ThisLaunchFileDir(Substitution):
-    """The folder of the launch file; in an included file: that file's folder."""
+    """The folder of the launch file; inside an included file, that of the included file."""
 
     def describe(self) -> str:
         return "ThisLaunchFileDir()"

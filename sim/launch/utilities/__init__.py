@@ -1,4 +1,4 @@
-"""Conversions between what users write, substitutions and text; under the names of ROS 2's launch."""
+"""Conversions between users' arguments, substitutions and text, with the names of ROS 2's launch."""
 
 from gz_course.sim.launch.utilities.describe_substitutions_impl import describe_substitutions
 from gz_course.sim.launch.utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions

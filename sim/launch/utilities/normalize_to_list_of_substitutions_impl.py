@@ -1,4 +1,4 @@
-"""From what a user writes to substitutions."""
+"""Converts users' arguments to substitutions."""
 
 from __future__ import annotations
 

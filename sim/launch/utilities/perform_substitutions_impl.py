@@ -1,4 +1,4 @@
-"""From substitutions to text."""
+"""Converts substitutions to text."""
 
 from __future__ import annotations
 
@@ -12,5 +12,4 @@ if TYPE_CHECKING:
 
 
 def perform_substitutions(context: LaunchContext, substitutions: Iterable[Substitution]) -> str:
-    """Return the text of all of them, joined."""
     return "".join([context.perform_substitution(each) for each in substitutions])

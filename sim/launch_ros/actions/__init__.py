@@ -1,4 +1,4 @@
-"""Actions for ROS: nodes, and what holds for all nodes of a scope."""
+"""Actions for ROS: nodes, and settings for all nodes of a scope."""
 
 from gz_course.sim.launch_ros.actions.composable_node_container import ComposableNodeContainer
 from gz_course.sim.launch_ros.actions.lifecycle_node import LifecycleNode

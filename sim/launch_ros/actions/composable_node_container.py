@@ -4,4 +4,4 @@ from gz_course.sim.launch_ros.actions.not_available import NotAvailable
 
 
 class ComposableNodeContainer(NotAvailable):
-    """A process into which composable nodes are loaded."""
+    """A process for composable nodes."""

@@ -4,6 +4,6 @@ from gz_course.sim.launch_ros.actions.not_available import NotAvailable
 
 
 class LifecycleNode(NotAvailable):
-    """A node with states that are changed from outside."""
+    """A node whose states are changed from outside."""
 
     _instead = "use Node for a node that needs no state changes"

@@ -4,4 +4,4 @@ from gz_course.sim.launch_ros.actions.not_available import NotAvailable
 
 
 class LoadComposableNodes(NotAvailable):
-    """An action that loads composable nodes into a container that runs."""
+    """Loads composable nodes into a running container."""

@@ -34,10 +34,10 @@ _LOG = launch_logging.get_logger("launch_ros.actions.node")
 
 
 class Node(ExecuteProcess):
-    """An action that starts `executable` of `package`; without a package it is searched on PATH.
+    """Starts `executable` of `package`, or without a package the one on PATH.
 
-    `parameters` is a list of dicts, parameter files (paths), Parameter and ParameterFile; later ones win.
-    `remappings` are pairs of names. `exec_name` stands in its label. All else is as with ExecuteProcess.
+    `parameters` is a list of dicts, parameter files (paths), Parameter and ParameterFile; later ones take precedence.
+    `remappings` are pairs of names. `exec_name` is used in its label. Other arguments are those of ExecuteProcess.
     """
 
     def __init__(
@@ -75,7 +75,7 @@ class Node(ExecuteProcess):
 
     @property
     def node_name(self) -> str | None:
-        """Namespace and name once they are known; a part that only the node's code knows is in angle brackets."""
+        """Return namespace and name after execution; a part that only the node's code defines is in angle brackets."""
         namespace = self.expanded_node_namespace or "<node_namespace_unspecified>"
         return f"{namespace.rstrip('/')}/{self.__expanded_name or '<node_name_unspecified>'}"
 
@@ -86,7 +86,7 @@ class Node(ExecuteProcess):
         return [*super()._described_words(), "'--ros-args'"]
 
     def prepare(self, context: LaunchContext) -> None:
-        """Put the command together. Raises LaunchError for names, packages and values that cannot be."""
+        """Build the command. Raises LaunchError for invalid names, packages and values."""
         configurations = context.launch_configurations
         self._expand_names(context)
         words = []

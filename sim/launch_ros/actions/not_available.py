@@ -1,7 +1,7 @@
-"""The base of actions that can be written in a launch file, but not be executed here.
+"""The base class of actions that a launch file may contain but that cannot be executed here.
 
-Many launch files import them for a case that is switched off by default. They need programs that only a full ROS 2
-has (rclcpp components, the lifecycle manager), and say so when they are executed.
+Many launch files import them for a case that is off by default. They require programs of a full ROS 2 (rclcpp
+components, the lifecycle manager); executing them raises an error that says so.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from gz_course.sim.launch.launch_context import LaunchContext
 
 
 class NotAvailable(Action):
-    """An action that keeps its arguments as `arguments` and fails when it is executed."""
+    """Stores its arguments as `arguments`; execution raises NotAvailableError."""
 
     _instead = "start its nodes with Node(package=..., executable=...)"
 

@@ -1,4 +1,4 @@
-"""The action that puts all nodes of a scope into a namespace."""
+"""The action that sets the namespace of all nodes of a scope."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ NAMESPACE = "ros_namespace"
 
 
 class PushROSNamespace(Action):
-    """An action that puts the nodes that follow into a namespace below their own; an absolute one replaces it.
+    """Adds a namespace for the following nodes; an absolute one replaces it.
 
-    Raises LaunchError when it is executed and the namespace is not valid.
+    Execution raises LaunchError if the namespace is invalid.
     """
 
     def __init__(self, namespace: SomeSubstitutionsType, **kwargs: Any) -> None:

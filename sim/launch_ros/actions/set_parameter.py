@@ -9,12 +9,12 @@ from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
 from gz_course.sim.launch_ros.parameter_descriptions import Parameter
 
-# Name -> value pairs and paths of files, in the order they were set. A tuple: scopes must not share a list.
+# Name -> value pairs and paths of files, in the order they were set. A tuple, because scopes must not share a list.
 PARAMETERS = "global_params"
 
 
 class SetParameter(Action):
-    """An action that gives a parameter of the nodes that follow a value; a node's own `parameters` win."""
+    """Sets a parameter of the following nodes; a node's own `parameters` take precedence."""
 
     def __init__(self, name: SomeSubstitutionsType, value: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)

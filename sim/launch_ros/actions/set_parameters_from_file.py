@@ -13,7 +13,7 @@ from gz_course.sim.launch_ros.actions.set_parameter import PARAMETERS
 
 
 class SetParametersFromFile(Action):
-    """An action that gives the nodes that follow a parameter file; a node's own `parameters` win."""
+    """Passes a parameter file to the following nodes; a node's own `parameters` take precedence."""
 
     def __init__(self, filename: SomeSubstitutionsType | os.PathLike[str], **kwargs: Any) -> None:
         super().__init__(**kwargs)

@@ -13,7 +13,7 @@ REMAPS = "ros_remaps"
 
 
 class SetRemap(Action):
-    """An action that lets the name `src` of the code be called `dst` in the nodes that follow."""
+    """Remaps the name `src` to `dst` in the following nodes."""
 
     def __init__(self, src: SomeSubstitutionsType, dst: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)

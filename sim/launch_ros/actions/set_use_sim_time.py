@@ -1,4 +1,4 @@
-"""The action that sets the clock of all nodes of a scope."""
+"""The action that selects the clock of all nodes of a scope."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from gz_course.sim.launch_ros.actions.set_parameter import SetParameter
 
 
 class SetUseSimTime(SetParameter):
-    """An action that lets the nodes that follow take the time from /clock, or not: their parameter use_sim_time."""
+    """Sets the parameter use_sim_time of the following nodes: with True they use the time of /clock."""
 
     def __init__(self, value: bool | SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__("use_sim_time", value, **kwargs)

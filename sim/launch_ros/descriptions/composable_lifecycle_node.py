@@ -1,4 +1,4 @@
-"""A lifecycle node that is loaded into a container. It can be described here, but not loaded."""
+"""The description of a lifecycle node for a container; such nodes cannot be loaded here."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from gz_course.sim.launch_ros.descriptions.composable_node import ComposableNode
 
 
 class ComposableLifecycleNode(ComposableNode):
-    """The description of a lifecycle node; `autostart` asks to activate it when it was loaded."""
+    """A composable lifecycle node; `autostart` activates it after loading."""
 
     def __init__(self, *, autostart: bool = False, **kwargs: Any) -> None:
         super().__init__(**kwargs)

@@ -1,4 +1,4 @@
-"""A node that is loaded into a container. It can be described here, but not loaded: see `launch_ros.actions`."""
+"""The description of a node for a container; such nodes cannot be loaded here, see `launch_ros.actions`."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Any
 
 
 class ComposableNode:
-    """The description of a node by package, plugin and the arguments it has with Node."""
+    """A composable node: its package, plugin and the arguments of Node."""
 
     def __init__(
         self,

@@ -1,4 +1,4 @@
-"""The event handler that waits for a lifecycle node to change its state."""
+"""The event handler for state transitions of a lifecycle node."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from gz_course.sim.launch_ros.events.lifecycle import StateTransition
 
 
 class OnStateTransition(EventHandler):
-    """A handler of a lifecycle node's change of state, which does not happen here."""
+    """Handles state transitions of a lifecycle node, which do not occur here."""
 
     def __init__(self, *, entities: Any, target_lifecycle_node: Any = None, **arguments: Any) -> None:
         super().__init__(

@@ -1,4 +1,4 @@
-"""Substitutions that find ROS packages and what is in them."""
+"""Substitutions that find ROS packages and their files."""
 
 from gz_course.sim.launch.frontend import expose_substitution
 from gz_course.sim.launch_ros.substitutions.executable_in_package import ExecutableInPackage

@@ -18,7 +18,7 @@ from gz_course.sim.launch_ros.substitutions.find_package import FindPackagePrefi
 
 
 class ExecutableInPackage(FindPackagePrefix):
-    """`<prefix>/lib/<package>/<executable>`; SubstitutionFailure with the nearest name when there is none."""
+    """`<prefix>/lib/<package>/<executable>`; SubstitutionFailure with the nearest name if it does not exist."""
 
     def __init__(self, executable: SomeSubstitutionsType, package: SomeSubstitutionsType) -> None:
         super().__init__(package)

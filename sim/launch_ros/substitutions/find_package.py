@@ -19,7 +19,7 @@ from gz_course.sim.launch.utilities import (
 
 
 class FindPackage(Substitution):
-    """The base of substitutions for a folder of `package`."""
+    """Base of substitutions for a folder of `package`."""
 
     def __init__(self, package: SomeSubstitutionsType) -> None:
         self.package = normalize_to_list_of_substitutions(package)
@@ -38,24 +38,24 @@ class FindPackage(Substitution):
 
 
 class FindPackagePrefix(FindPackage):
-    """The folder a package is installed in."""
+    """The prefix that a package is installed in."""
 
 
 class FindPackageShare(FindPackage):
-    """The folder of a package's shared files: launch files, worlds, configurations."""
+    """The share folder of a package: launch files, worlds, configurations."""
 
     def find(self, package_name: str) -> str:
         return str(Path(package_prefix(package_name)) / "share" / package_name)
 
 
 def package_prefix(package_name: str) -> str:
-    """Return the folder a package is installed in. Raises SubstitutionFailure."""
+    """Return the prefix that a package is installed in. Raises SubstitutionFailure."""
     try:
         return get_package_prefix(package_name)
     except PackageNotFoundError as error:
         sentence = str(error.args[0])
         raise SubstitutionFailure(sentence + nearest_package_of(sentence)) from None
-    except ValueError as error:  # a name that no package can have
+    except ValueError as error:  # an invalid package name
         raise SubstitutionFailure(str(error)) from None
     except OSError:
         raise SubstitutionFailure(

@@ -15,7 +15,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Report that no daemon runs, which is all that scripts want to know."""
+    """Report that no daemon runs, which scripts check."""
     if arguments.verb == "start":
         raise CommandError("There is no daemon to start: every command looks at the graph itself")
     print("The daemon is not running")

@@ -48,7 +48,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> int:
-    """Return 0 at the end of the launch, whatever its processes return; 1 if the launch itself failed."""
+    """Return 0 at the end of the launch, regardless of the exit codes of its processes; 1 if the launch itself
+    failed.
+    """
     path, words = launch_file(arguments)
     pairs = _pairs(words)
     if arguments.launch_prefix_filter and not arguments.launch_prefix:
@@ -61,7 +63,7 @@ def main(arguments: argparse.Namespace) -> int:
         return _print_description(path)
     if arguments.show_all:
         os.environ["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] = "both"
-    # Python programs print into a pipe here, and would keep their output back.
+    # Python programs would buffer their output, which goes into a pipe.
     os.environ.setdefault("PYTHONUNBUFFERED", "1")
     return _run(path, pairs, arguments)
 
@@ -111,7 +113,7 @@ def _is_plain(name: str) -> bool:
 
 
 def launch_files_of(package: str) -> dict[str, Path]:
-    """Return the paths of the launch files of a package, which must exist, by file name."""
+    """Return the paths of the launch files of an existing package, by file name."""
     from ament_index_python.packages import get_package_prefix
 
     share = Path(get_package_prefix(package)) / "share" / package
@@ -123,7 +125,7 @@ def _nearest_file(path: Path) -> str:
 
 
 def _pairs(words: Sequence[str]) -> list[tuple[str, str]]:
-    """Return `name:=value` as pairs; of several for one name the last."""
+    """Parse `name:=value` words into pairs; the last one of a name takes precedence."""
     pairs: dict[str, str] = {}
     for word in words:
         name, mark, value = word.partition(":=")

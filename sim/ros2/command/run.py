@@ -23,7 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> int:
-    """Return the exit code of the executable, 256 - n for signal n."""
+    """Return the exit code of the executable, or 256 - n after signal n."""
     package, name = arguments.package_name, arguments.executable_name
     known = executables(package, unknown=f"Package '{package}' not found")
     paths = [path for path in known if path.name == name]

@@ -1,8 +1,8 @@
 """Look at message types: `gz msg --list`, `gz msg --info gz.msgs.Twist`.
 
-Called by `gz.command`; the names come from the registry of gz.msgs, the definitions from its descriptors. The exit code
-is 1 for an unknown type.
-Source: gz-msgs 10, https://github.com/gazebosim/gz-msgs/blob/gz-msgs10/core/cmd/cmdmsgs.rb.in
+Names come from the registry of gz.msgs, definitions from its descriptors. The exit code is 1 for an unknown type.
+
+Source: https://github.com/gazebosim/gz-msgs/blob/gz-msgs10/core/cmd/cmdmsgs.rb.in
 """
 
 from __future__ import annotations
@@ -18,14 +18,13 @@ if TYPE_CHECKING:
 
 
 def add_arguments(parser: Parser) -> None:
-    """Add the options of `gz msg`."""
     parser.add_argument("-l", "--list", action="store_true", help="the names of all message types")
     parser.add_argument("-i", "--info", nargs="+", metavar="TYPE", help="name, file and definition of types")
     parser.commands("--list", "--info")
 
 
 def run(values: argparse.Namespace) -> int:
-    """Run `gz msg`; return the exit code. Raises UnknownTypeError, with the nearest names."""
+    """Run `gz msg`; return the exit code. Raises UnknownTypeError with the nearest names."""
     if values.list:
         for name in type_names():
             print(name)

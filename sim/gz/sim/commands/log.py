@@ -1,6 +1,6 @@
 """Look into a recording of `gz sim --record`: `gz log -i FILE`, `gz log -e -t /topic FILE`.
 
-Called by `gz.command`. FILE is a `state.tlog` or its folder; times are simulated [s].
+FILE is a `state.tlog` or its folder; times are simulated [s].
 """
 
 from __future__ import annotations
@@ -16,7 +16,6 @@ from gz_course.sim.gz.sim.tlog import Log
 
 
 def add_arguments(parser: Parser) -> None:
-    """Add the options of `gz log`."""
     parser.add_argument("-i", "--info", metavar="FILE", help="topics, types, counts and times of a recording")
     parser.add_argument("-e", "--echo", metavar="FILE", help="print the messages of a topic")
     parser.add_argument("-t", "--topic", metavar="NAME", help="the topic to print")
@@ -26,7 +25,7 @@ def add_arguments(parser: Parser) -> None:
 
 
 def run(values: argparse.Namespace) -> int:
-    """Run `gz log`; return the exit code. Raises ValueError, with one sentence, for a file that is no log."""
+    """Run `gz log`; return the exit code. Raises ValueError with one sentence if the file is no log."""
     try:
         log = Log(Path(values.info or values.echo))
     except SimError as error:

@@ -1,7 +1,7 @@
 """List the models of a running world and look at one: `gz model --list`, `gz model -m robot -p`.
 
-Called by `gz.command`. Models come from the service `/world/W/scene/info`, poses from the topic `/world/W/pose/info`;
-both are offered by the SceneBroadcaster of the world.
+Models come from the service `/world/W/scene/info`, poses from the topic `/world/W/pose/info`, both of SceneBroadcaster.
+
 Source: https://gazebosim.org/api/sim/8/model_command.html
 """
 
@@ -21,7 +21,6 @@ _TIMEOUT_MS = 5000
 
 
 def add_arguments(parser: Parser) -> None:
-    """Add the options of `gz model`."""
     parser.add_argument("--list", action="store_true", help="the names of all models")
     parser.add_argument("-m", "--model", metavar="NAME", help="the model to look at")
     parser.add_argument("-p", "--pose", action="store_true", help="its pose only: position (m), roll pitch yaw (rad)")
@@ -33,7 +32,7 @@ def add_arguments(parser: Parser) -> None:
 
 
 def run(values: argparse.Namespace) -> int:
-    """Run `gz model`; return the exit code. Raises ValueError, with one sentence, when there is nothing to look at."""
+    """Run `gz model`; return the exit code. Raises ValueError with one sentence if there is no world or model."""
     with Node() as node:
         world = _world(node)
         scene = _scene(node, world)
@@ -79,7 +78,7 @@ def _named(parts: Any, name: str, sentence: str) -> Any:
 
 
 def _pose_now(node: Node, world: str, model: Any) -> Any:
-    """Return the present pose of a model, or that of the scene when no poses arrive."""
+    """Return the present pose of a model, or that in the scene if no poses arrive."""
     from gz_course.sim.gz.msgs.pose_v_pb2 import Pose_V
 
     heard = threading.Event()

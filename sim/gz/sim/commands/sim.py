@@ -1,9 +1,10 @@
 """Run a simulation: `gz sim FILE -r -s`.
 
-Called by `gz.command`. Loads the world, puts it on the wire (`gz.sim.server`) and runs it until SIGINT, SIGTERM or the
-last iteration. Exit codes: 0 ended well, 1 the world cannot be run, 2 nothing that can be run was named, 3 the
-simulator itself failed; wrong options have the codes of `gz.command_line`.
-Source: gz-sim 8, https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/cmd/cmdsim.rb.in
+It loads the world, serves it on gz-transport (`gz.sim.server`) and runs it until SIGINT, SIGTERM or the last iteration.
+Exit codes: 0 normal end, 1 the world cannot be run, 2 no world was named, 3 internal error of the simulator; usage
+errors have the codes of `gz.command_line`.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/cmd/cmdsim.rb.in
 """
 
 from __future__ import annotations
@@ -36,7 +37,6 @@ _ACCEPTED_FLAGS = ("--levels", "--log-compress", "--record-resources")
 
 
 def add_arguments(parser: Parser) -> None:
-    """Add the options of `gz sim`."""
     parser.add_argument("file", nargs="?", help="world: a path, a name in GZ_SIM_RESOURCE_PATH, or a built-in world")
     parser.add_argument("-r", dest="run", action="store_true", help="run at once (without it the world starts paused)")
     parser.add_argument("-s", dest="server", action="store_true", help="server only; there is no other way here")
@@ -89,10 +89,9 @@ def _set_up_logging(verbose: int) -> None:
 
 
 def run(values: argparse.Namespace) -> int:
-    """Run `gz sim`; return the exit code."""
     stop = threading.Event()
     for number in (signal.SIGINT, signal.SIGTERM):
-        # Set from a thread of its own: the handler may have interrupted a wait that holds the event's lock.
+        # Set by another thread, because the handler may have interrupted a wait that holds the event's lock.
         signal.signal(number, lambda _number, _frame: threading.Thread(target=stop.set, daemon=True).start())
     _set_up_logging(values.verbose)
     refused = ""
@@ -107,14 +106,14 @@ def run(values: argparse.Namespace) -> int:
         return 2
     try:
         return _simulate(values, stop)
-    except Exception as error:  # a fault of ours, not of the world
+    except Exception as error:  # an internal error, not one of the world
         logging.getLogger("gz.sim").debug("%s", traceback.format_exc())
         sys.stderr.write(f"gz sim: the simulator itself failed ({type(error).__name__}: {error}); -v 4 tells where\n")
         return 3
 
 
 def _recorder(values: argparse.Namespace) -> list[Plugin]:
-    """Return the LogRecord plugin that the options ask for, in a list, or an empty list."""
+    """Return the LogRecord plugin for the options, or an empty list."""
     from gz_course.sim.gz.sim.sdf.description import Plugin
     from gz_course.sim.gz.sim.sdf.element import Element
 
@@ -135,12 +134,12 @@ def _recorder(values: argparse.Namespace) -> list[Plugin]:
 
 
 def _look_for_others(node: Node) -> None:
-    """Warn when another simulator publishes `/clock` in the same partition; waits for discovery, about 1 [s]."""
+    """Warn if another simulator publishes `/clock` in the same partition; waits about 1 [s] for discovery."""
     from gz_course.sim.gz.sim.errors import LOG
 
     try:
         others = len(node.topic_info("/clock")[0]) - 1
-    except RuntimeError:  # the simulation has ended meanwhile
+    except RuntimeError:  # the simulation has ended in the meantime
         return
     if others > 0:
         LOG.warning(
@@ -151,7 +150,7 @@ def _look_for_others(node: Node) -> None:
 
 
 def _simulate(values: argparse.Namespace, stop: threading.Event) -> int:
-    # These load MuJoCo and the transport; help and usage errors do not wait for them.
+    # Imported here, because MuJoCo and the transport would delay help and usage errors.
     from gz_course.sim.gz.sim.errors import LOG, SimError
     from gz_course.sim.gz.sim.server import Server
     from gz_course.sim.gz.sim.world import World

@@ -1,7 +1,7 @@
-"""The base of JointPositionController, JointController and ApplyJointForce: joints that are commanded by one number.
+"""Base class of JointPositionController, JointController and ApplyJointForce: one number drives one or more joints.
 
-The number comes as `gz.msgs.Double`, or as one entry of `gz.msgs.Actuators`. What is not finite is dropped and reported
-by the world.
+The number arrives as a `gz.msgs.Double` or as one entry of a `gz.msgs.Actuators`. A number that is not finite is
+dropped and reported by the world.
 """
 
 from __future__ import annotations
@@ -24,8 +24,10 @@ _AXES = {"fixed": 0, "ball": 0, "gearbox": 0, "universal": 2, "revolute2": 2}
 
 
 class JointCommand(System):
-    """Base of the systems that drive joints by a number. A subclass names its `quantity` and `command_kind`, sets
-    `self.value` in `start`, and uses `self.drives` in `pre_update`.
+    """Base of the systems that drive joints by a number.
+
+    A subclass defines `quantity` and `command_kind`, sets `self.value` in `start`, and uses `self.drives` in
+    `pre_update`.
     """
 
     quantity: ClassVar[str] = ""
@@ -38,12 +40,12 @@ class JointCommand(System):
 
     @classmethod
     def servo_kind(cls, element: Element) -> str:
-        """Return the kind of servo the parameters ask for."""
+        """Return the kind of servo that the parameters request."""
         raise NotImplementedError
 
     @classmethod
     def servos(cls, model: Model, plugin: Plugin) -> list[JointServo]:
-        """Ask for a servo on each joint that is there and can be driven."""
+        """Request a servo for each named joint that exists and can be driven."""
         kind, axis = cls.servo_kind(plugin.element), _axis_index(plugin.element)
         prefix = f"{plugin.scope}::" if plugin.scope else ""
         found = (model.joint(prefix + child.text) for child in plugin.element.all("joint_name"))
@@ -54,7 +56,7 @@ class JointCommand(System):
         ]
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
-        """Read the joints and the topic; raise `SdfError` when no joint is named."""
+        """Read the joints and the topic. Raises SdfError if no joint is named."""
         element = plugin.element
         self.world = world
         self.scope = ModelScope(world, model, plugin, self.name)
@@ -70,7 +72,7 @@ class JointCommand(System):
         self.drives: list[Drive] = []
 
     def default_topic(self, joint: str) -> str:
-        """Return the topic that is used when the parameters name none."""
+        """Return the topic to use when the parameters name none."""
         return f"/model/{self.scope.name}/joint/{joint}/{self.quantity}"
 
     def bind(self) -> None:
@@ -90,7 +92,7 @@ class JointCommand(System):
             node.subscribe(Double, self.topic, self._on_double)
 
     def command(self, value: float) -> bool:
-        """Set the wanted number; return False when it was refused because it is not finite."""
+        """Set the commanded number; return False if it is not finite and therefore refused."""
         if not math.isfinite(value):
             self.world.drop_command(self.topic, f"data={value}")
             return False

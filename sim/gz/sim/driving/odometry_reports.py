@@ -1,7 +1,6 @@
-"""The wheel odometry of a drive system on its topics: `Odometry` and, for transforms, `Pose_V`.
+"""Publishes the wheel odometry of DiffDrive and AckermannSteering as `Odometry` and, for transforms, as `Pose_V`.
 
-DiffDrive and AckermannSteering compute it; here it is published at `<odom_publish_frequency>`, on `/model/M/odometry`
-and `/model/M/tf`.
+The topics are `/model/M/odometry` and `/model/M/tf`, the rate is `<odom_publish_frequency>`.
 """
 
 from __future__ import annotations
@@ -61,14 +60,14 @@ class OdometryReports:
         self._tf_publisher = node.advertise(self.tf_topic, Pose_V)
 
     def due(self, now_ns: int) -> bool:
-        """Tell whether it is time for a message, and count it as published."""
+        """Tell whether a message is due; if so, schedule the next one."""
         if now_ns - self._last_ns < self._period_ns:
             return False
         self._last_ns = now_ns
         return True
 
     def publish(self, now_ns: int, pose: tuple[float, float, float], linear: float, angular: float) -> None:
-        """Publish to those who listen: `pose` is x, y [m] and heading [rad], the speeds are in [m/s] and [rad/s]."""
+        """Publish to subscribers: `pose` is x, y [m] and heading [rad]; the speeds are in [m/s] and [rad/s]."""
         if self._publisher is not None and self._publisher.has_connections():
             message = self._odometry_type()
             fill_odometry_header(message.header, now_ns, self.frame_id, self.child_frame_id)

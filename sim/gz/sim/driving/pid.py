@@ -1,8 +1,8 @@
-"""The PID controller of the joint controllers.
+"""The PID controller used by the joint controllers.
 
-`error` is the measured value minus the wanted one, so the command has the opposite sign. The integral term (gain
-included) is kept within `i_min` and `i_max`, the command within `cmd_min` and `cmd_max`; a maximum below its minimum
-switches that limit off.
+`error` is the measured value minus the wanted one, so the command has the opposite sign. The integral term
+(including its gain) stays within `i_min` and `i_max`, the command within `cmd_min` and `cmd_max`. A maximum below its
+minimum disables that limit.
 
 Source: https://github.com/gazebosim/gz-math/blob/gz-math7/src/PID.cc
 """
@@ -19,7 +19,7 @@ PARAMETERS = ("p_gain", "i_gain", "d_gain", "i_max", "i_min", "cmd_max", "cmd_mi
 
 @dataclass
 class PID:
-    """Gains, limits and the state: `integral` and `last_error`. Units follow from the error's and the command's."""
+    """Gains, limits and state (`integral`, `last_error`); units follow from those of the error and the command."""
 
     p_gain: float = 0.0
     i_gain: float = 0.0
@@ -34,8 +34,9 @@ class PID:
 
     @classmethod
     def from_sdf(cls, element: Element, *defaults: float) -> PID:
-        """Read `p_gain` ... `cmd_offset`; `defaults` in the order of `PARAMETERS`. Raises `SdfError` for gains that are
-        not finite.
+        """Read `p_gain` ... `cmd_offset`; `defaults` are in the order of `PARAMETERS`.
+
+        Raises SdfError if a gain is not finite.
         """
         values = {tag: element.number(tag, default) for tag, default in zip(PARAMETERS, defaults, strict=True)}
         for tag in ("p_gain", "i_gain", "d_gain", "cmd_offset"):
@@ -44,11 +45,10 @@ class PID:
         return cls(**values)
 
     def reset(self) -> None:
-        """Forget the errors of the past."""
         self.integral = self.last_error = 0.0
 
     def update(self, error: float, dt: float) -> float:
-        """Return the command after a step of `dt` [s] that ended with `error`; 0 if either makes no sense."""
+        """Return the command after a step of `dt` [s] that ended with `error`; 0 if `error` or `dt` is invalid."""
         if dt == 0.0 or not math.isfinite(error):
             return 0.0
         rate = (error - self.last_error) / dt

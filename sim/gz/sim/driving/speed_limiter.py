@@ -16,7 +16,9 @@ from gz_course.sim.gz.sim.sdf.element import Element
 
 @dataclass
 class SpeedLimiter:
-    """Limits in [m] or [rad] per [s], [s^2] and [s^3]; minima are usually negative."""
+    """Limits of velocity [m/s, rad/s], acceleration [m/s^2, rad/s^2] and jerk [m/s^3, rad/s^3]; minima are usually
+    negative.
+    """
 
     min_velocity: float = -math.inf
     max_velocity: float = math.inf
@@ -27,7 +29,7 @@ class SpeedLimiter:
 
     @classmethod
     def from_sdf(cls, element: Element, axis: str) -> SpeedLimiter:
-        """Read `min_velocity` ... `max_jerk`; `min_linear_velocity` ... for `axis` win over the common ones."""
+        """Read `min_velocity` ... `max_jerk`; names with `axis`, as `min_linear_velocity`, take precedence."""
         limiter = cls()
         for bound in ("min", "max"):
             for quantity in ("velocity", "acceleration", "jerk"):
@@ -42,11 +44,13 @@ class SpeedLimiter:
 
     @property
     def unlimited(self) -> bool:
-        """True when no limit is set, so that `limit` would return its input."""
+        """True if no limit is set, so that `limit` returns its input."""
         return self == SpeedLimiter()
 
     def limit(self, target: float, previous: float, before_previous: float, dt: float) -> float:
-        """Return the speed to command now; `previous` and `before_previous` are the last two, `dt` is the step [s]."""
+        """Return the speed to command now; `previous` and `before_previous` are the last two commands, `dt` is the step
+        [s].
+        """
         last_acceleration = (previous - before_previous) / dt
         jerk = ((target - previous) / dt - last_acceleration) / dt
         limited_jerk = min(max(jerk, self.min_jerk), self.max_jerk)

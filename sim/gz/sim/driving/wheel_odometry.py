@@ -1,7 +1,7 @@
-"""Odometry of a differential drive, from the angles of its wheels alone.
+"""Odometry of a differential drive, computed from its wheel angles alone.
 
-Used by DiffDrive after every step. The integration is exact along a circle and takes the midpoint rule for nearly
-straight steps; speeds are means over the last ten steps. It slips and drifts as real wheel odometry does.
+DiffDrive updates it after every step. A step is integrated along a circular arc, or with the midpoint rule if it is
+nearly straight; speeds are means over the last ten steps. The result drifts when wheels slip, as on a real robot.
 
 Source: https://github.com/gazebosim/gz-math/blob/gz-math7/src/DiffDriveOdometry.cc
 """

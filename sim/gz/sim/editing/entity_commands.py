@@ -1,6 +1,6 @@
 """The commands of UserCommands that create, remove and move models and lights.
 
-Each takes a message and returns the work for the moment between two steps; nonsense raises `SimError` with one
+Each takes a message and returns the function to run between two steps; an invalid message raises SimError with one
 sentence. Poses are in the world frame, or in that of the model named by `relative_to`.
 """
 
@@ -30,7 +30,7 @@ _LIGHT_KINDS = ("point", "spot", "directional")
 
 
 def commands() -> dict[str, tuple[type, Command]]:
-    """Return the services of this file: name -> (type of request, command)."""
+    """Return the services of this file: name -> (request type, command)."""
     from gz_course.sim.gz.msgs.entity_factory_pb2 import EntityFactory
     from gz_course.sim.gz.msgs.entity_factory_v_pb2 import EntityFactory_V
     from gz_course.sim.gz.msgs.entity_pb2 import Entity
@@ -47,8 +47,9 @@ def commands() -> dict[str, tuple[type, Command]]:
 
 
 def pose_of(message: Any, about: str) -> Pose:
-    """Return the pose of a gz.msgs.Pose; a quaternion that was left out means no rotation. Raises `SimError` for
-    numbers that are not finite.
+    """Return the pose in a gz.msgs.Pose; a missing quaternion means no rotation.
+
+    Raises SimError for numbers that are not finite.
     """
     position = (message.position.x, message.position.y, message.position.z)
     turn = message.orientation
@@ -58,12 +59,12 @@ def pose_of(message: Any, about: str) -> Pose:
     largest = float(np.max(np.abs(quaternion)))
     if not largest > 1e-9:
         return Pose(position)
-    quaternion /= largest  # the square of a large number is no number
+    quaternion /= largest  # avoids overflow of the squares
     return Pose(position, quaternion / np.linalg.norm(quaternion))
 
 
 def create(world: WorldAccess, message: Any) -> Callable[[], None]:
-    """Read what a gz.msgs.EntityFactory brings; the work puts it into the world."""
+    """Read a gz.msgs.EntityFactory; the returned function adds the entity to the world."""
     source = message.WhichOneof("from")
     about = message.name or source or ""
     pose = pose_of(message.pose, about) if message.HasField("pose") else None
@@ -98,12 +99,12 @@ def create(world: WorldAccess, message: Any) -> Callable[[], None]:
 
 
 def create_multiple(world: WorldAccess, message: Any) -> Callable[[], None]:
-    """Create everything in a gz.msgs.EntityFactory_V; one that fails does not keep the others out."""
+    """Create every entity in a gz.msgs.EntityFactory_V; a failure of one does not stop the others."""
     return _together([create(world, each) for each in message.data])
 
 
 def remove(world: WorldAccess, message: Any) -> Callable[[], None]:
-    """Remove the model or light that a gz.msgs.Entity means, by number or by name."""
+    """Remove the model or light of a gz.msgs.Entity, found by number or name."""
     kinds = {message.MODEL: "model", message.LIGHT: "light", message.NONE: ""}
     if not message.id and not message.name:
         raise SimError("the request names no entity: set name and type (MODEL or LIGHT), or id")
@@ -117,7 +118,7 @@ def remove(world: WorldAccess, message: Any) -> Callable[[], None]:
 
 
 def set_pose(world: WorldAccess, message: Any) -> Callable[[], None]:
-    """Move the model, light or floating link that a gz.msgs.Pose means, by number or by name."""
+    """Move the model, light or floating link of a gz.msgs.Pose, found by number or name."""
     if not message.id and not message.name:
         raise SimError("the request names no entity: set name, or id")
     pose = pose_of(message, message.name or f"entity {message.id}")
@@ -125,13 +126,14 @@ def set_pose(world: WorldAccess, message: Any) -> Callable[[], None]:
 
 
 def set_pose_vector(world: WorldAccess, message: Any) -> Callable[[], None]:
-    """Move everything in a gz.msgs.Pose_V."""
+    """Move every entity in a gz.msgs.Pose_V."""
     return _together([set_pose(world, each) for each in message.pose])
 
 
 def name_of(world: WorldAccess, number: int, name: str, kind: str = "") -> str:
-    """Return the name (`model`, `model::link` or of a light) of an entity given by number or name; raise `SimError`
-    when there is none, or it is of another kind.
+    """Return the name (`model`, `model::link` or of a light) of an entity given by number or name.
+
+    Raises SimError if there is none or it is of another kind.
     """
     if not number:
         if kind and not world.entities.number(kind, name):
@@ -193,8 +195,9 @@ def _light(message: Any, name: str) -> Light:
 
 
 def light_changes(message: Any) -> dict[str, Any]:
-    """Return what a gz.msgs.Light says about a light, as attributes of `description.Light`: what is not set in the
-    message stays as it is, except the switches, which proto3 cannot leave out.
+    """Return the changes in a gz.msgs.Light as attributes of `description.Light`.
+
+    Unset fields change nothing, except the switches, because proto3 cannot tell unset from false.
     """
     changes: dict[str, Any] = {"on": not message.is_light_off, "cast_shadows": message.cast_shadows}
     for attribute, field in (
@@ -220,8 +223,9 @@ def light_changes(message: Any) -> dict[str, Any]:
 
 
 def place_on_planet(world: WorldAccess, where: Any, pose: Pose | None) -> Pose:
-    """Return the pose in the world of a gz.msgs.SphericalCoordinates, with the orientation of `pose` on top of its
-    heading; raise `SimError` when the world lies on no planet.
+    """Return the world pose of a gz.msgs.SphericalCoordinates, with the orientation of `pose` added to its heading.
+
+    Raises SimError if the world has no spherical coordinates.
     """
     coordinates = world.description.spherical_coordinates
     if coordinates is None:

@@ -1,6 +1,6 @@
-"""The commands of UserCommands that change properties: lights, colours, collisions, physics, place on the planet.
+"""The commands of UserCommands that change lights, colours, collisions, physics and spherical coordinates.
 
-Each takes a message and returns the work for the moment between two steps; nonsense raises `SimError` with one
+Each takes a message and returns the function to run between two steps; an invalid message raises SimError with one
 sentence.
 """
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def commands() -> dict[str, tuple[type, Command]]:
-    """Return the services of this file: name -> (type of request, command)."""
+    """Return the services of this file: name -> (request type, command)."""
     from gz_course.sim.gz.msgs.entity_pb2 import Entity
     from gz_course.sim.gz.msgs.light_pb2 import Light
     from gz_course.sim.gz.msgs.physics_pb2 import Physics
@@ -41,7 +41,7 @@ def commands() -> dict[str, tuple[type, Command]]:
 
 
 def light_config(world: WorldAccess, message: Any) -> Callable[[], None]:
-    """Change a light of the world as a gz.msgs.Light says."""
+    """Change a light of the world to match a gz.msgs.Light."""
     if not message.id and not message.name:
         raise SimError("the request names no light: set name, or id")
     changes = light_changes(message)
@@ -57,14 +57,14 @@ def light_config(world: WorldAccess, message: Any) -> Callable[[], None]:
 
 
 def visual_config(world: WorldAccess, message: Any) -> Callable[[], None]:
-    """Paint a visual as the material of a gz.msgs.Visual says."""
+    """Set the colour of a visual from the material of a gz.msgs.Visual."""
     if not message.HasField("material"):
         raise SimError("visual_config changes the material only, and the request has none")
     return _paint(world, message.id, message.parent_name, message.name, message.material, message.transparency)
 
 
 def material_color(world: WorldAccess, message: Any) -> Callable[[], None]:
-    """Paint visuals as a gz.msgs.MaterialColor says."""
+    """Set the colours of the visuals selected by a gz.msgs.MaterialColor."""
     if not message.entity.name and not message.entity.id:
         raise SimError("the message names no visual: set entity: {name: ...}")
     every = message.entity_match == message.ALL
@@ -114,7 +114,7 @@ def _visuals(world: WorldAccess, number: int, parent: str, name: str) -> list[Vi
 
 
 def _collide(world: WorldAccess, message: Any, enabled: bool) -> Callable[[], None]:
-    """Switch the collision, or all collisions of the link or model, that a gz.msgs.Entity means."""
+    """Enable or disable the collision of a gz.msgs.Entity, or all collisions of its link or model."""
     if not message.id and not message.name:
         raise SimError("the request names no entity: set id, or name (model, model::link or model::link::collision)")
 
@@ -140,15 +140,15 @@ def _collisions(world: WorldAccess) -> list[tuple[str, Collision]]:
 
 
 def set_physics(world: WorldAccess, message: Any) -> Callable[[], None]:
-    """Set step size and real-time factor from a gz.msgs.Physics; as in Gazebo nothing else of it counts, and zero
-    leaves a value as it is.
+    """Set step size and real-time factor from a gz.msgs.Physics; zero changes nothing, and as in Gazebo other fields
+    are ignored.
     """
     step, factor = message.max_step_size or None, message.real_time_factor or None
     return lambda: world.editor.set_physics(step_size=step, real_time_factor=factor)
 
 
 def set_spherical_coordinates(world: WorldAccess, message: Any) -> Callable[[], None]:
-    """Set where on a planet the world lies, or, when the message names an entity, move that entity there."""
+    """Set the spherical coordinates of the world, or move the entity that the message names there."""
     numbers = (message.latitude_deg, message.longitude_deg, message.elevation, message.heading_deg)
     if not all(map(math.isfinite, numbers)):
         raise SimError("latitude, longitude, elevation and heading must be finite")
@@ -173,5 +173,5 @@ def set_spherical_coordinates(world: WorldAccess, message: Any) -> Callable[[], 
 
 
 def wheel_slip(world: WorldAccess, message: Any) -> Callable[[], None]:
-    """Refuse: MuJoCo's contacts have no slip compliance."""
+    """Raise SimError: MuJoCo's contacts have no slip compliance."""
     raise SimError("wheel slip is not simulated here, so it cannot be set")

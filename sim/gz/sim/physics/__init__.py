@@ -1,3 +1,1 @@
-"""Where the description of a world becomes a MuJoCo model: `recipe` holds the numbers, `builder` the
-mapping.
-"""
+"""Converts the description of a world to a MuJoCo model, and accesses its joints, contacts and state."""

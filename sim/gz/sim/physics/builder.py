@@ -1,9 +1,11 @@
-"""A `WorldDescription` becomes a MuJoCo model: links to bodies, hung on each other by their joints.
+"""Builds the MuJoCo spec of a `WorldDescription`: one body for each moving link, nested along its joints.
 
-Reader -> (here) -> `World`; shapes are added by `geoms`, joints by `joints`, lights by `lights`. Names: body and joint
-`model::link`, collision geom `model::link::name`, visual geom `model::link::name#visual`, sensor site
-`model::link::sensor`, free joint `model::link#free`. Collisions are in geom group 3, visuals in group 1. Static models
-have no bodies of their own: their shapes belong to MuJoCo's world body, which is cheaper to cast rays at.
+`geoms` adds shapes, `joints` joints, `lights` lights. Names: body and joint `model::link`, collision geom
+`model::link::name`, visual geom `model::link::name#visual`, sensor site `model::link::sensor`, free joint
+`model::link#free`. Collisions are in geom group 3, visuals in group 1. Shapes of static models belong to MuJoCo's
+world body, which makes ray casting cheaper.
+
+Source: https://mujoco.readthedocs.io/en/stable/programming/modeledit.html (model editing)
 """
 
 from __future__ import annotations
@@ -47,7 +49,7 @@ for 3000 boxes, which use 40 MB.
 
 
 def build_spec(world: WorldDescription, servos: dict[str, list[JointServo]], diagnostics: Diagnostics) -> mujoco.MjSpec:
-    """Return the MuJoCo spec of a world; `servos` lists, per model name, the joints that systems drive."""
+    """Return the MuJoCo spec of a world; `servos` lists, by model name, the joints that systems drive."""
     return _Builder(world, servos, diagnostics).build()
 
 
@@ -58,7 +60,7 @@ def scoped(model: Model, name: str) -> str:
 
 @dataclass(eq=False)
 class _Edge:
-    """A joint of the world or of a model, with the names it has in MuJoCo; what never moves is `world`."""
+    """A joint of the world or of a model and the MuJoCo names of its two links; `world` stands for static links."""
 
     name: str
     joint: Joint
@@ -69,8 +71,8 @@ class _Edge:
 
 @dataclass(eq=False)
 class _Tree:
-    """Which joint carries each link, which joints are left over, which gearboxes couple which hinges, which joints have
-    become MuJoCo's.
+    """The kinematic tree: the joint that carries each link, joints left over, gearboxes with the hinges they couple,
+    and the joints that became MuJoCo joints.
     """
 
     carried: dict[str, _Edge] = field(default_factory=dict)
@@ -133,8 +135,9 @@ class _Builder:
         return [edge for edge in found if not (self._is_fixed(edge.child) and self._is_fixed(edge.parent))]
 
     def _choose_tree(self) -> None:
-        """The first joint onto a link carries it; others close loops. A gearbox that cannot turn carries what nothing
-        else does, like a fixed joint.
+        """Choose the first joint onto a link to carry it; further ones close loops.
+
+        A gearbox whose hinges are missing carries its link like a fixed joint if no other joint does.
         """
         carried = self._tree.carried
         for edge in sorted(self._edges(), key=lambda each: each.joint.kind == "gearbox"):
@@ -150,7 +153,7 @@ class _Builder:
                 carried[edge.child] = edge
 
     def _gear(self, edge: _Edge) -> bool:
-        """Tell whether a gearbox has its two hinges (they are coupled when all joints are built)."""
+        """Tell whether both hinges of a gearbox are in the tree; they are coupled after all joints have been built."""
         hinges = [other.joint for other in self._tree.carried.values() if other.model is edge.model]
         found = None if edge.model is None else gears(edge.model, edge.joint, hinges)
         if found is None:
@@ -172,7 +175,7 @@ class _Builder:
         return False
 
     def _add_bodies(self) -> None:
-        """Make all bodies, each after the one it hangs on; links nobody carries float freely."""
+        """Add all bodies, each after its parent; a link without a carrying joint gets a free joint."""
         hanging: dict[str, list[str]] = {}
         roots: list[str] = []
         for name in self._links:
@@ -202,7 +205,7 @@ class _Builder:
         if edge is not None and edge.parent in self._bodies:
             holder = self._bodies[edge.parent]
             above, parent = self._links[edge.parent]
-            # Within one model the world does not come in: its links are exact however far out it stands.
+            # Poses within one model do not involve the world pose, so they stay exact far from the origin.
             pose = parent.pose.inverse() * (link.pose if above is model else above.pose.inverse() * pose)
         if edge is not None:
             pose = pose * displacement(edge.joint)
@@ -228,7 +231,7 @@ class _Builder:
         moments, axes = np.linalg.eigh(np.array(((ixx, ixy, ixz), (ixy, iyy, iyz), (ixz, iyz, izz))))
         if np.linalg.det(axes) < 0.0:
             axes[:, 0] *= -1.0
-        # A flat body has A + B = C exactly; rounding must not make it an impossible one.
+        # For a flat body A + B = C; rounding must not violate MuJoCo's triangle inequality.
         moments[0] += max(0.0, moments[2] - moments[0] - moments[1]) + 1e-7 * moments[2]
         turn = np.zeros(4)
         mujoco.mju_mat2Quat(turn, axes.flatten())
@@ -249,7 +252,7 @@ class _Builder:
         return ("world", model.pose * found.pose) if model.static else (link, Pose())
 
     def _finish(self, model: Model) -> None:
-        """Add what needs the whole model: couplings, servos, and the pairs of links that do not touch."""
+        """Add what requires the complete model: couplings, servos and contact exclusions."""
         own = {scoped(model, joint.name) for joint in model.joints}
         built = {name: joint for name, joint in self._tree.built.items() if name in own}
         add_mimics(self._spec, model, built, self._step)
@@ -267,7 +270,9 @@ class _Builder:
                 self._spec.add_exclude(bodyname1=scoped(model, one.name), bodyname2=scoped(model, other.name))
 
     def _skeleton(self, link: str) -> str:
-        """Return the (nested) model a link moves with: models inside one model that no joint connects can touch."""
+        """Return the (nested) model that a link moves with; links of one model that no joint connects can touch each
+        other.
+        """
         while link in self._tree.carried and self._tree.carried[link].parent != "world":
             link = self._tree.carried[link].parent
         return link.rpartition("::")[0]

@@ -1,7 +1,7 @@
-"""A spec becomes a MuJoCo model; what MuJoCo has to say against it becomes a sentence about the file that was loaded.
+"""Compiles a spec to a MuJoCo model and reports MuJoCo's errors in terms of the SDF file.
 
-Called by `World`. MuJoCo names its own element (`Element name 'robot::wheel'`); the builder's names lead back to the
-link, joint, collision or visual, and to its line.
+MuJoCo names its own element (`Element name 'robot::wheel'`), from which the link, joint, collision or visual and its
+line in the file are found.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _TAIL = re.compile(r"\s*Element (name|id).*", re.DOTALL)
 def compile_world(
     spec: mujoco.MjSpec, world: WorldDescription, diagnostics: Diagnostics
 ) -> tuple[mujoco.MjModel, mujoco.MjData]:
-    """Return the model and its data at time zero; raises `SdfError` naming the part that MuJoCo refuses."""
+    """Return the model and its data at time zero. Raises SdfError naming the part that MuJoCo rejects."""
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")
         try:
@@ -37,7 +37,7 @@ def compile_world(
 
 
 def _refusal(world: WorldDescription, error: Exception) -> SdfError:
-    """Return the error that says which part of the world MuJoCo refuses, and why."""
+    """Return the error that names the part of the world MuJoCo rejects, and the reason."""
     text = str(error)
     named = _NAMED.search(text)
     reason = " ".join(_TAIL.sub("", text).removeprefix("Error: ").split()) or type(error).__name__

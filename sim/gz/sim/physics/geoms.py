@@ -1,8 +1,7 @@
-"""Shapes of links become MuJoCo geoms: collisions in group 3, visuals in group 1.
+"""Adds the shapes of links as MuJoCo geoms: collisions in group 3, visuals in group 1.
 
-`builder` calls it for every link. Names: collision `model::link::name`, visual `model::link::name#visual`. A collision
-that is not convex is several geoms: the first has the name, the others `name#1`, `name#2`... Meshes that are the same
-in the description are one mesh in MuJoCo.
+Names: collision `model::link::name`, visual `model::link::name#visual`. A collision that is not convex becomes several
+geoms: the first has the name, the others are `name#1`, `name#2`, ... Equal meshes share one MuJoCo mesh.
 """
 
 from __future__ import annotations
@@ -35,7 +34,7 @@ _TYPES = {
 
 
 def geom_names(name: str, part: Collision | Visual) -> list[str]:
-    """Return the names of the geoms of a part; `name` is `model::link::part`."""
+    """Return the names of all geoms of a part; `name` is `model::link::part`."""
     if isinstance(part, Visual):
         return [name + VISUAL_SUFFIX]
     mesh = part.geometry.mesh
@@ -44,7 +43,7 @@ def geom_names(name: str, part: Collision | Visual) -> list[str]:
 
 
 class Geoms:
-    """Adds the geoms of one spec; knows the friction ranks of the world and the meshes it already has."""
+    """Adds geoms to one spec; holds the friction ranks of the world and the meshes already added."""
 
     def __init__(self, spec: mujoco.MjSpec, world: WorldDescription, diagnostics: Diagnostics) -> None:
         self._spec = spec
@@ -58,13 +57,15 @@ class Geoms:
     def add_collision(
         self, body: mujoco.MjsBody, name: str, base: Pose, part: Collision, *, wheel: bool, moving: bool
     ) -> None:
-        """Add a collision whose link stands at `base` in the body; the cylinder of a driven `wheel` becomes an
-        ellipsoid.
+        """Add a collision; `base` is the pose of its link in the body.
+
+        The cylinder of a driven `wheel` becomes an ellipsoid.
         """
         geometry = part.geometry
         pose = base * part.pose
         if wheel and geometry.kind == "cylinder":
-            # One contact point in the wheel's middle plane: the wheel separation is then exact.
+            # An ellipsoid has one contact point, in the middle plane of the wheel, so that the wheel separation is
+            # exact.
             geometry = Geometry("ellipsoid", geometry.size)
         if geometry.kind == "plane" and moving:
             text = f"a plane cannot move; collision '{part.name}' becomes a thin box"
@@ -83,7 +84,7 @@ class Geoms:
             geom.friction = (max(part.mu, 1e-6), 0.005, 0.0001)
 
     def add_visual(self, body: mujoco.MjsBody, name: str, base: Pose, part: Visual, *, moving: bool) -> None:
-        """Add a visual whose link stands at `base` in the body; it touches nothing and weighs nothing."""
+        """Add a visual, without contacts or mass; `base` is the pose of its link in the body."""
         geom = self._add(body, name + VISUAL_SUFFIX, base * part.pose, part.geometry, moving, piece=-1)
         geom.group = VISUAL_GROUP
         geom.contype = geom.conaffinity = 0
@@ -92,7 +93,7 @@ class Geoms:
     def _add(
         self, body: mujoco.MjsBody, name: str, pose: Pose, geometry: Geometry, moving: bool, *, piece: int
     ) -> mujoco.MjsGeom:
-        """Add the bare shape: of a mesh the convex `piece`, or (-1) its whole surface."""
+        """Add the shape alone: of a mesh the convex `piece`, or with -1 the whole surface."""
         if geometry.heights is not None and geometry.mesh is not None:
             field = self._fields.get(geometry.mesh) or self._add_field(geometry.mesh, geometry)
             lift = Pose((0.0, 0.0, float(geometry.heights.min())))
@@ -111,14 +112,14 @@ class Geoms:
         else:
             geom = _placed(body, name, pose, _TYPES[geometry.kind])
             geom.size = _half_sizes(geometry)
-        geom.mass = 0.0  # masses are the links'
+        geom.mass = 0.0  # the mass is that of the link
         return geom
 
     def _add_mesh(self, key: tuple[TriangleMesh, int]) -> str:
         surface, piece = key
         name = self._meshes[key] = f"mesh{len(self._meshes)}"
         mesh = self._spec.add_mesh(name=name)
-        # Surfaces may be open; as a shell none of them is refused.
+        # A mesh may be open; MuJoCo accepts any mesh with shell inertia.
         mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
         if piece >= 0:
             mesh.uservert = surface.pieces[piece].ravel()
@@ -137,7 +138,7 @@ class Geoms:
         low, high = float(heights.min()), float(heights.max())
         size = (geometry.size[0] / 2.0, geometry.size[1] / 2.0, max(high - low, 1e-6), _UNDERGROUND)
         field = self._spec.add_hfield(name=name, size=size, nrow=heights.shape[0], ncol=heights.shape[1])
-        # MuJoCo wants them from 0 to 1.
+        # MuJoCo requires values from 0 to 1.
         field.userdata = ((heights - low) / max(high - low, 1e-6)).ravel()
         return name
 

@@ -1,7 +1,9 @@
-"""Says which body broke the physics, and why, when a step came out not finite.
+"""Finds the body that made the physics unstable.
 
-MuJoCo notices (bad positions, velocities, accelerations or controls), puts all bodies back to the start and counts a
-warning; `World.step` asks `why_unstable` for the sentence.
+MuJoCo detects positions, velocities, accelerations or controls that are not finite or too large, resets the state and
+counts a warning. `World.step` then calls `why_unstable`.
+
+Source: https://mujoco.readthedocs.io/en/stable/APIreference/APItypes.html (mjtWarning)
 """
 
 from __future__ import annotations
@@ -22,7 +24,7 @@ UNSTABLE = np.array([int(kind) for kind in _WHAT])
 
 
 def why_unstable(world: WorldDescription, model: mujoco.MjModel, data: mujoco.MjData, now_ns: int) -> str:
-    """Return the sentence, and clear MuJoCo's warnings so that the world can go on from its start."""
+    """Return a sentence for the error, and clear MuJoCo's warnings so that the world can continue from its start."""
     what, where = "state", ""
     for kind, word in _WHAT.items():
         warning = data.warning[int(kind)]

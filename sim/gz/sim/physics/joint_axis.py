@@ -1,7 +1,9 @@
-"""The axes of a joint in MuJoCo's arrays: where they stand, how fast they move, what pushes them.
+"""Joint axes in MuJoCo's arrays: position, velocity and force.
 
 The builder makes one MuJoCo joint for each axis of a revolute, prismatic, universal, ... joint, and one with three
-degrees of freedom for a ball. Systems that report or drive joints look an axis up with `find_axes` when they are bound.
+degrees of freedom for a ball joint. Systems that report or drive joints call `find_axes` in `bind`.
+
+Source: https://mujoco.readthedocs.io/en/stable/XMLreference.html (body/joint)
 """
 
 from __future__ import annotations
@@ -25,9 +27,10 @@ def axis_name(joint: str, axis: int) -> str:
 
 @dataclass(frozen=True, slots=True)
 class JointAxis:
-    """One axis: `position` is its index in qpos, `velocity` that in qvel; for a ball the first of its four and three,
-    and `part` (0, 1, 2) says which component of the rotation vector is meant. `lower` and `upper` (rad or m) are its
-    limits.
+    """One axis of a joint.
+
+    `position` is its index in qpos and `velocity` its index in qvel. For a ball joint they are the first of four and of
+    three, and `part` (0, 1, 2) selects the component of the rotation vector. `lower` and `upper` [rad or m] are limits.
     """
 
     position: int
@@ -37,7 +40,7 @@ class JointAxis:
     upper: float = math.inf
 
     def read_position(self, data: mujoco.MjData) -> float:
-        """Return where the axis stands (rad or m)."""
+        """Return the position of the axis [rad or m]."""
         if self.part < 0:
             return data.qpos.item(self.position)
         turn = np.zeros(3)
@@ -45,17 +48,17 @@ class JointAxis:
         return turn.item(self.part)
 
     def read_velocity(self, data: mujoco.MjData) -> float:
-        """Return how fast the axis moves (rad/s or m/s)."""
+        """Return the velocity of the axis [rad/s or m/s]."""
         return data.qvel.item(self.velocity + max(self.part, 0))
 
     def read_force(self, data: mujoco.MjData) -> float:
-        """Return what actuators and applied forces pushed with along the axis in the last step (N m or N)."""
+        """Return the force of actuators and applied forces along the axis in the last step [N m or N]."""
         dof = self.velocity + max(self.part, 0)
         return data.qfrc_actuator.item(dof) + data.qfrc_applied.item(dof)
 
 
 def find_axes(model: mujoco.MjModel, name: str) -> list[JointAxis]:
-    """Return the axes of the MuJoCo joint `name`; none for what does not move (fixed, static, closing a loop)."""
+    """Return the axes of the MuJoCo joint `name`; empty for a joint that is fixed, static or closes a loop."""
     found: list[JointAxis] = []
     for axis in (0, 1):
         number = int(mujoco.mj_name2id(model, _JOINT, axis_name(name, axis)))

@@ -1,9 +1,12 @@
-"""Joints become MuJoCo joints between a body and its parent, or constraints where the tree has no place for them.
+"""Adds joints as MuJoCo joints between a body and its parent, or as equality constraints if they close a loop.
 
-`builder` calls it. Names: a joint is `model::joint`; the second axis of a universal or revolute2 joint is a hinge
-`model::joint#2`, the slide of a screw `model::joint#slide`, which an equality of the same name couples to the turn.
-The first (or only) degree of freedom always has the plain name. An axis with `initial_position` starts there: the link
-is moved to where that position puts it, and MuJoCo counts the position from the pose in the file.
+Names: the first or only axis is `model::joint`, the second axis of a universal or revolute2 joint the hinge
+`model::joint#2`, the slide of a screw `model::joint#slide`, coupled to its hinge by an equality of the same name.
+An axis with `initial_position` starts there: the link is moved accordingly, and MuJoCo counts the position from the
+pose in the file.
+
+Source: https://mujoco.readthedocs.io/en/stable/computation/index.html (constraint model: equality)
+Source: http://sdformat.org/spec?elem=joint
 """
 
 from __future__ import annotations
@@ -43,7 +46,7 @@ def displacement(joint: Joint) -> Pose:
 
 
 def _axes(joint: Joint) -> list[tuple[Axis, bool]]:
-    """Return the axes a joint of the tree moves about, and whether each slides."""
+    """Return the axes of a tree joint, each with whether it is prismatic."""
     found = [(joint.axis, joint.kind == "prismatic")] if joint.axis is not None else []
     if joint.kind in ("universal", "revolute2") and joint.axis2 is not None:
         found.append((joint.axis2, False))
@@ -51,7 +54,7 @@ def _axes(joint: Joint) -> list[tuple[Axis, bool]]:
 
 
 def add_joint(spec: mujoco.MjSpec, body: mujoco.MjsBody, name: str, joint: Joint, armature: float, step: float) -> None:
-    """Add a joint of the tree to the body of its child; `armature` (kg m^2) is the rotor inertia of its servo."""
+    """Add a joint of the tree to the body of its child; `armature` [kg m^2] is the rotor inertia of its servo."""
     if joint.kind == "ball":
         body.add_joint(name=name, type=mujoco.mjtJoint.mjJNT_BALL, pos=joint.pose.position)
         return
@@ -83,7 +86,7 @@ def _range(axis: Axis) -> tuple[float, float]:
 
 
 def _couple(spec: mujoco.MjSpec, name: str, follower: str, leader: str, line: tuple[float, float], step: float) -> None:
-    """Hold follower = line[0] + line[1] * leader; both counted from where they start."""
+    """Constrain follower = line[0] + line[1] * leader; both are counted from their start."""
     equality = spec.add_equality(name=name, type=mujoco.mjtEq.mjEQ_JOINT, objtype=mujoco.mjtObj.mjOBJ_JOINT)
     equality.name1, equality.name2 = follower, leader
     equality.data[:5] = (*line, 0.0, 0.0, 0.0)
@@ -92,7 +95,7 @@ def _couple(spec: mujoco.MjSpec, name: str, follower: str, leader: str, line: tu
 
 
 def add_mimics(spec: mujoco.MjSpec, model: Model, built: Mapping[str, Joint], step: float) -> None:
-    """Couple the axes that follow others; `built` holds the joints of the tree by MuJoCo name."""
+    """Couple the mimic axes; `built` holds the joints of the tree by MuJoCo name."""
     for joint in model.joints:
         for axis, suffix in ((joint.axis, ""), (joint.axis2, AXIS2_SUFFIX)):
             if axis is None or axis.mimic is None or f"{model.name}::{joint.name}" not in built:
@@ -109,9 +112,10 @@ def add_mimics(spec: mujoco.MjSpec, model: Model, built: Mapping[str, Joint], st
 
 
 def gears(model: Model, joint: Joint, hinges: Iterable[Joint]) -> tuple[str, str, float] | None:
-    """Return the follower and the leader of a gearbox among the `hinges` of the tree (names) and the ratio of their
-    angles: child angle = -gearbox ratio * parent angle, both seen from the reference body. None when its links do not
-    turn on that body.
+    """Return the names of the follower and the leader of a gearbox among the `hinges` of the tree, and their ratio.
+
+    Child angle = -gearbox ratio * parent angle, both relative to the reference body. None if the links do not turn on
+    that body.
     """
     candidates = list(hinges)
     ends: list[tuple[str, float]] = []
@@ -127,7 +131,7 @@ def gears(model: Model, joint: Joint, hinges: Iterable[Joint]) -> tuple[str, str
 
 
 def add_gearbox(spec: mujoco.MjSpec, model: Model, joint: Joint, found: tuple[str, str, float], step: float) -> None:
-    """Couple the two hinges that `gears` found."""
+    """Couple the two hinges returned by `gears`."""
     follower, leader, ratio = found
     name = f"{model.name}::{joint.name}"
     _couple(spec, name, f"{model.name}::{follower}", f"{model.name}::{leader}", (0.0, ratio), step)
@@ -147,9 +151,10 @@ def add_loop(
     parent: tuple[str, Pose],
     diagnostics: Diagnostics,
 ) -> None:
-    """A joint onto a link that already hangs on another becomes a constraint between two bodies: fixed ones are
-    welded, others connected at the joint's place. `child` and `parent` are body names (`world` for what never moves)
-    and the poses of the links in these bodies.
+    """Constrain two bodies for a joint onto a link that another joint already carries.
+
+    A fixed joint becomes a weld, any other a connect constraint at the position of the joint. `child` and `parent` are
+    body names (`world` for static links) with the poses of the links in these bodies.
     """
     if joint.kind in ("prismatic", "screw"):
         text = (

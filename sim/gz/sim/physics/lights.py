@@ -1,6 +1,6 @@
-"""Lights of the world and of links become MuJoCo lights; cameras that cast rays read them there.
+"""Adds the lights of the world and of links as MuJoCo lights, which ray-casting cameras use.
 
-`builder` calls it. A light of a link is called `model::link::light`, one of the world by its name.
+A light of a link is called `model::link::light`, one of the world has its plain name.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ _TYPES = {
 
 
 def add_light(body: mujoco.MjsBody, name: str, base: Pose, light: Light) -> None:
-    """Add a light to a body in which its holder stands at `base`."""
+    """Add a light to a body; `base` is the pose of its link in that body."""
     pose = base * light.pose
     made = body.add_light(name=name, pos=pose.position)
     made.type = _TYPES[light.kind]

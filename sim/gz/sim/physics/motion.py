@@ -1,7 +1,7 @@
-"""How a point fixed to a body stands and moves right after a physics step: MuJoCo's answers for one site.
+"""Pose, velocity and acceleration of a MuJoCo site right after a physics step, for sensors such as IMU and altimeter.
 
-Used by the sensors that stand at one place (IMU, altimeter, ...). A step leaves MuJoCo's velocities one step behind;
-`SiteMotion` brings them up to the present, which costs a few microseconds and changes nothing in the simulation.
+After a step MuJoCo's derived velocities are one step old; `SiteMotion` recomputes them without changing the
+simulation.
 
 Source: https://mujoco.readthedocs.io/en/stable/APIreference/APIfunctions.html
 """
@@ -26,10 +26,9 @@ _SITE = mujoco.mjtObj.mjOBJ_SITE
 
 @contextmanager
 def start_of_step(world: WorldAccess) -> Iterator[None]:
-    """Look at MuJoCo's places, velocities and forces as they were when the last step began: the moment whose contacts,
-    forces and accelerations belong together. Everything is as before afterwards.
+    """Restore MuJoCo's poses, velocities and forces at the start of the last step for the duration of the context.
 
-    The step went v' = v + h a, then q' = q + h v'; it is gone back the same way.
+    Contacts, forces and accelerations belong to that moment. The step v' = v + h a, q' = q + h v' is inverted.
     """
     world.truth.refresh()
     model, data = world.model, world.data
@@ -48,9 +47,9 @@ def start_of_step(world: WorldAccess) -> Iterator[None]:
 
 
 class SiteMotion:
-    """The motion of the site called `name`; raises KeyError when MuJoCo's model has no such site.
+    """The motion of the site `name`. Raises KeyError if MuJoCo's model has no such site.
 
-    Bound to one MuJoCo model: make a new one after every rebuild.
+    Valid for one MuJoCo model: create a new one after every rebuild.
     """
 
     def __init__(self, world: WorldAccess, name: str) -> None:
@@ -62,24 +61,24 @@ class SiteMotion:
         self._six = np.zeros(6)
 
     def position(self) -> Vector:
-        """Return the position (3,) in the world (m)."""
+        """Return the position (3,) in the world [m]."""
         self._world.truth.refresh()
         found: Vector = self._world.data.site_xpos[self._site].copy()
         return found
 
     def rotation(self) -> NDArray[np.float64]:
-        """Return the matrix (3, 3) that turns the site's coordinates into the world's."""
+        """Return the rotation matrix (3, 3) from the site to the world."""
         self._world.truth.refresh()
         found: NDArray[np.float64] = self._world.data.site_xmat[self._site].reshape(3, 3).copy()
         return found
 
     def quaternion(self) -> Vector:
-        """Return the orientation (wxyz) in the world; its sign does not jump as the body turns."""
+        """Return the orientation (wxyz) in the world; its sign is continuous as the body turns."""
         self._world.truth.refresh()
         return multiply(self._world.data.xquat[self._body], self._turn)
 
     def velocity(self, *, local: bool) -> tuple[Vector, Vector]:
-        """Return linear (m/s) and angular velocity (rad/s), along the site's own axes or the world's."""
+        """Return linear [m/s] and angular [rad/s] velocity, along the axes of the site or of the world."""
         model, data = self._world.model, self._world.data
         self._world.truth.refresh()
         mujoco.mj_comPos(model, data)
@@ -88,11 +87,11 @@ class SiteMotion:
         return self._six[3:].copy(), self._six[:3].copy()
 
     def specific_force(self) -> Vector:
-        """Return acceleration minus gravity (3,) along the site's own axes (m/s^2): what an accelerometer shows.
+        """Return acceleration minus gravity (3,) [m/s^2] along the axes of the site, as an accelerometer measures it.
 
-        Uses the velocities `velocity` brought up to date, so ask for them first. The acceleration is that of the
-        step just done: J qacc + dJ/dt qvel at the present state. With the discrete integrator qacc is exactly
-        the change of velocity over the step.
+        Call `velocity` first: it updates the velocities used here. The acceleration is that of the last step,
+        J qacc + dJ/dt qvel at the present state. With the discrete integrator qacc is exactly the change of velocity
+        over the step.
         """
         model, data = self._world.model, self._world.data
         mujoco.mj_rnePostConstraint(model, data)

@@ -1,7 +1,9 @@
-"""The numbers that make MuJoCo drive wheeled robots as Gazebo does: solver, contacts, wheel servos.
+"""Solver, contact and wheel servo parameters that make MuJoCo drive wheeled robots as Gazebo does.
 
-Used by `builder`. Measured with four robots from 1 to 140 kg: steady speed and yaw rate within 0.25 % at steps of
-1 to 4 ms (`tests/bench/bench_physics.py`). Soft, naive settings make light robots hop or turn up to 30 % too slowly.
+Measured with four robots from 1 to 140 kg: steady speed and yaw rate are within 0.25 % at steps of 1 to 4 ms
+(`tests/bench/bench_physics.py`). With softer contacts light robots hop or turn up to 30 % too slowly.
+
+Source: https://mujoco.readthedocs.io/en/stable/modeling.html (solver parameters)
 """
 
 from __future__ import annotations
@@ -35,7 +37,7 @@ same numbers.
 
 
 def apply_options(spec: mujoco.MjSpec, step: float, gravity: tuple[float, float, float]) -> None:
-    """Set time step (s), gravity (m/s^2), integrator and friction cone on a spec."""
+    """Set time step [s], gravity [m/s^2], integrator and friction cone of a spec."""
     option = spec.option
     option.timestep = step
     option.gravity = gravity
@@ -47,44 +49,43 @@ def apply_options(spec: mujoco.MjSpec, step: float, gravity: tuple[float, float,
 
 
 def contact_solref(step: float) -> tuple[float, float]:
-    """Return time constant (s) and damping ratio of a contact: stiff, and damped enough not to throw bodies
-    out. Less damping throws out what starts inside the ground, more lets light robots rock at steps of 4 ms.
+    """Return time constant [s] and damping ratio of a contact.
+
+    Less damping ejects bodies that start inside the ground; more damping lets light robots rock at steps of 4 ms.
     """
     return max(0.004, 2.0 * step), 2.0
 
 
 def friction_ranks(coefficients: Iterable[float]) -> dict[float, int]:
-    """Return the geom priority of each friction coefficient: the lowest coefficient gets the highest
-    priority.
+    """Return the geom priority of each friction coefficient: the lowest coefficient has the highest priority.
 
-    Gazebo's contact takes the smaller coefficient of the two surfaces, MuJoCo the one of the geom with higher
-    priority.
+    Gazebo uses the smaller coefficient of the two surfaces, MuJoCo the one of the geom with higher priority.
     """
     ordered = sorted(set(coefficients), reverse=True)
     return {coefficient: rank for rank, coefficient in enumerate(ordered)}
 
 
 def wheel_gain(mass: float, sharing: int, radius: float) -> float:
-    """Return the servo gain kv (N m s/rad) of one of `sharing` driven wheels under a model of `mass` kg."""
+    """Return the servo gain kv [N m s/rad] of one of `sharing` driven wheels under a model of `mass` [kg]."""
     return mass * GRAVITY / sharing * radius * radius / SLIP_SPEED
 
 
 def servo_gain(inverse_inertia: float, step: float) -> float:
-    """Return the gain kv of a servo that holds a joint's velocity against loads.
+    """Return the gain kv of a servo that holds the velocity of a joint against loads.
 
-    `inverse_inertia` is that which the joint sees (MuJoCo's `dof_invweight0`, 1/(kg m^2) or 1/kg). A load leaves a
-    speed error of SERVO_GIVE of what it would change the speed by in one `step` (s) of free motion.
+    `inverse_inertia` is MuJoCo's `dof_invweight0` of the joint [1/(kg m^2) or 1/kg]. A load causes a speed error of
+    SERVO_GIVE times the speed change it would cause in one free `step` [s].
     """
     return 1.0 / (max(inverse_inertia, 1e-12) * step * SERVO_GIVE)
 
 
 def strongest_push(inverse_inertia: float) -> float:
-    """Return the largest force (N m or N) a motor is ever asked for: it would give a free joint 1e6 rad/s^2 or m/s^2,
-    more than any machine and less than upsets the solver.
+    """Return the largest force [N m or N] of a motor: it accelerates a free joint by 1e6 rad/s^2 or m/s^2, more than
+    any machine, and keeps the solver stable.
     """
     return 1e6 / max(inverse_inertia, 1e-12)
 
 
 def wheel_armature(mass: float, sharing: int, radius: float) -> float:
-    """Return the rotor inertia (kg m^2) a wheel joint needs; none with the discrete integrator."""
+    """Return the rotor inertia [kg m^2] of a wheel joint; zero with the discrete integrator."""
     return 0.0 if DISCRETE else mass / sharing * radius * radius

@@ -1,8 +1,7 @@
-"""Joints that systems drive: each becomes a MuJoCo actuator whose control a system writes before every step.
+"""MuJoCo actuators for the joints that systems drive; a system writes their controls before every step.
 
-A system says in `System.servos` which joints it wants; the builder adds the actuators with `add_servo`; the system
-finds its `Drive` with `find_drive` each time it is bound. There are two families: servos hold a velocity
-(`WHEEL`, `VELOCITY`), motors push with a force (`FORCE`, `APPLIED`).
+`System.servos` returns the joints a system drives, the builder adds actuators with `add_servo`, and `System.bind` looks
+them up with `find_drive`. Servos hold a velocity (`WHEEL`, `VELOCITY`), motors apply a force (`FORCE`, `APPLIED`).
 
 Source: https://mujoco.readthedocs.io/en/stable/computation/index.html (actuation model)
 """
@@ -40,8 +39,10 @@ _SUFFIX = {WHEEL: "", VELOCITY: "", FORCE: "#force", APPLIED: "#applied"}
 
 @dataclass(frozen=True)
 class JointServo:
-    """A system's wish to drive a joint: `joint` (scoped name), `kind`, wheel `radius` (m), `sharing` wheels,
-    `effort` (N m or N) as the most it may push, `axis` 1 for the second axis of a joint that has two.
+    """A system's request to drive a joint.
+
+    `joint` is the scoped name, `radius` [m] that of a wheel, `sharing` the number of driven wheels, `effort` [N m or N]
+    the maximum force, `axis` 1 the second axis of a joint that has two.
     """
 
     joint: str
@@ -53,7 +54,7 @@ class JointServo:
 
     @property
     def actuator(self) -> str:
-        """Return the scoped name of its actuator; wishes of the same name share one."""
+        """Return the scoped name of the actuator; requests with the same name share one."""
         return axis_name(self.joint, self.axis) + _SUFFIX[self.kind]
 
 
@@ -63,13 +64,13 @@ def add_servo(spec: mujoco.MjSpec, model: Model, servo: JointServo, name: str) -
     assert joint is not None
     target = axis_name(name, servo.axis)
     if spec.joint(target) is None:
-        return  # It closes a loop or holds a link that never moves: MuJoCo has no joint there.
+        return  # Loop joints and joints of static links have no MuJoCo joint.
     actuator = spec.add_actuator(name=target + _SUFFIX[servo.kind], target=target)
     actuator.trntype = mujoco.mjtTrn.mjTRN_JOINT
     if servo.kind == WHEEL:
         actuator.set_to_velocity(kv=recipe.wheel_gain(model.mass(), servo.sharing, servo.radius))
     elif servo.kind == VELOCITY:
-        actuator.set_to_velocity(kv=0.0)  # `find_drive` sets the gain when the inertia it works on is known.
+        actuator.set_to_velocity(kv=0.0)  # `find_drive` sets the gain once the inertia is known.
     else:
         actuator.set_to_motor()
     axis = joint.axis2 if servo.axis else joint.axis
@@ -81,8 +82,8 @@ def add_servo(spec: mujoco.MjSpec, model: Model, servo: JointServo, name: str) -
 
 @dataclass(frozen=True, slots=True)
 class Drive:
-    """A servo or motor that was found: its place `control` in `data.ctrl`, the `axis` it moves, the most it may be
-    asked for (`limit`: rad/s or m/s of a servo, N m or N of a motor).
+    """A servo or motor of the compiled model: its index `control` in `data.ctrl`, the `axis` it moves, and its largest
+    command `limit` [rad/s or m/s for a servo, N m or N for a motor].
     """
 
     control: int
@@ -90,12 +91,13 @@ class Drive:
     limit: float
 
     def push(self, data: mujoco.MjData, force: float) -> None:
-        """Let a motor push with `force` (N m or N) in the next step."""
+        """Apply `force` [N m or N] with a motor in the next step."""
         data.ctrl[self.control] = min(max(force, -self.limit), self.limit)
 
     def hold(self, data: mujoco.MjData, speed: float, dt: float) -> None:
-        """Let a servo move with `speed` (rad/s or m/s) in the next step of `dt` seconds, at most up to the limit of the
-        joint: a servo is stronger than the stop it would run into.
+        """Move a servo with `speed` [rad/s or m/s] in the next step of `dt` [s].
+
+        The speed is reduced at the limits of the joint, because a servo is stronger than MuJoCo's limit constraint.
         """
         axis = self.axis
         speed = min(max(speed, -self.limit), self.limit)
@@ -109,8 +111,8 @@ class Drive:
 
 
 def find_drive(mj_model: mujoco.MjModel, model: Model, servo: JointServo) -> Drive | None:
-    """Find a servo of a model in MuJoCo's model and make it as stiff as the inertia it moves asks for; None for a
-    joint that does not move.
+    """Find a servo in MuJoCo's model and set its gain from the inertia it moves; None for a joint that does not
+    move.
     """
     name = f"{model.name}::{servo.joint}"
     axes = find_axes(mj_model, name)

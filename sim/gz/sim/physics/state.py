@@ -1,8 +1,7 @@
-"""Carries the state of a world over into a model of MuJoCo that was built anew because something came or went.
+"""Copies the simulation state into a rebuilt MuJoCo model after entities were added or removed.
 
-`World` calls `copy_state` after every rebuild. What has the same name in both models goes on exactly as it was:
-positions, velocities, activations, controls, applied forces, the solver's warm start, and time. What is new
-starts where its model says.
+Elements with the same name in both models keep their positions, velocities, activations, controls, applied forces,
+solver warm start and time. New elements start where their model says.
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ _VELOCITIES = {int(mujoco.mjtJoint.mjJNT_FREE): 6, int(mujoco.mjtJoint.mjJNT_BAL
 
 
 def copy_state(old_model: mujoco.MjModel, old: mujoco.MjData, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-    """Copy the state of everything that is in both models by name, then compute what follows from it."""
+    """Copy the state of all elements that both models name, then compute the derived quantities."""
     for kind, before, now in _joints(old_model, model):
         p, q = int(old_model.jnt_qposadr[before]), int(model.jnt_qposadr[now])
         size = _POSITIONS.get(kind, 1)
@@ -35,7 +34,7 @@ def copy_state(old_model: mujoco.MjModel, old: mujoco.MjData, model: mujoco.MjMo
         data.eq_active[now] = old.eq_active[before]
     data.time = old.time
     mujoco.mj_forward(model, data)
-    # What is measured next is the acceleration of the last step, which computing has overwritten.
+    # Sensors measure the acceleration of the last step, which `mj_forward` has overwritten.
     _copy_velocities("qacc", old_model, old, model, data)
 
 
@@ -50,7 +49,7 @@ def _copy_velocities(
 
 
 def _joints(old_model: mujoco.MjModel, model: mujoco.MjModel) -> Iterator[tuple[int, int, int]]:
-    """Yield (type, old number, new number) of the joints that are in both models."""
+    """Yield (type, old id, new id) of the joints that both models have."""
     for before, now in _pairs(old_model, model, mujoco.mjtObj.mjOBJ_JOINT, old_model.njnt, model.njnt):
         kind = int(model.jnt_type[now])
         if kind == int(old_model.jnt_type[before]):
@@ -60,7 +59,7 @@ def _joints(old_model: mujoco.MjModel, model: mujoco.MjModel) -> Iterator[tuple[
 def _pairs(
     old_model: mujoco.MjModel, model: mujoco.MjModel, kind: mujoco.mjtObj, old_count: int, count: int
 ) -> Iterator[tuple[int, int]]:
-    """Yield (old number, new number) of all objects of a kind that have the same name in both models."""
+    """Yield (old id, new id) of all objects of a kind that have the same name in both models."""
     numbers = {mujoco.mj_id2name(old_model, kind, number): number for number in range(old_count)}
     for number in range(count):
         name = mujoco.mj_id2name(model, kind, number)

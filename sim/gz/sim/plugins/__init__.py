@@ -1,1 +1,1 @@
-"""What systems and sensors are built on: their base classes, how a plugin is found, what it may use of its world."""
+"""Base classes of systems and sensors, the lookup of plugins, and the interface of the world that they use."""

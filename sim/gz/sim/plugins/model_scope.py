@@ -1,7 +1,7 @@
-"""The model a `<plugin>` stands in, top or nested: its name, its joints and links, its pose.
+"""The model that contains a `<plugin>`, top-level or nested: its name, joints, links and pose.
 
-Nested models are flattened into their top model, whose parts carry the scope in their names (`arm::hand`). Systems of
-models ask a `ModelScope` for what Gazebo would find in the model that holds the plugin.
+Nested models are flattened into their top model, whose parts carry the scope in their names (`arm::hand`). A
+`ModelScope` gives a system the parts that Gazebo would find in the model that contains the plugin.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ if TYPE_CHECKING:
 
 
 class ModelScope:
-    """One model that holds a plugin. `name` is its own name, `full_name` the scoped one, `topic` its path below the
-    world: `/model/outer/model/inner`.
+    """The model that contains a plugin: `name` is its own name, `full_name` the scoped one, `topic` its path below the
+    world, as in `/model/outer/model/inner`.
     """
 
     def __init__(self, world: WorldAccess, model: Model | None, plugin: Plugin, system: str) -> None:
-        """Raise `SdfError` when the plugin stands in no model."""
+        """Find the model of the plugin. Raises SdfError if there is none."""
         if model is None:
             raise plugin.element.error(f"{system} belongs inside a <model>, not directly in the <world>")
         self.world = world
@@ -45,15 +45,15 @@ class ModelScope:
         self.path = (model.name,) if nested is None else (model.name, plugin.scope)
 
     def scoped(self, name: str) -> str:
-        """Return the name of a part as the top model's lists have it."""
+        """Return the name of a part in the lists of the top model."""
         return self._prefix + name
 
     def own_name(self, name: str) -> str:
-        """Return the name of a part as this model has it."""
+        """Return the name of a part relative to this model."""
         return name.removeprefix(self._prefix)
 
     def joints(self) -> list[Joint]:
-        """Return the joints of this model itself, without those of models nested in it, in file order."""
+        """Return the joints of this model in file order, without those of nested models."""
         return [
             joint
             for joint in self.model.joints
@@ -61,9 +61,9 @@ class ModelScope:
         ]
 
     def find_joints(self, element: Element, tag: str = "joint_name") -> list[Joint]:
-        """Return the joints that the children `tag` name, also those of nested models (`arm::elbow`), each once.
+        """Return the joints named by the children `tag`, also those of nested models (`arm::elbow`), each once.
 
-        A name without a joint is warned about.
+        Warns about a name that no joint has.
         """
         found: list[Joint] = []
         for child in element.all(tag):
@@ -75,7 +75,7 @@ class ModelScope:
         return found
 
     def find_links(self, element: Element, tag: str = "link_name") -> list[Link]:
-        """Return the links that the children `tag` name; a name without a link is warned about."""
+        """Return the links named by the children `tag`; warns about a name that no link has."""
         found: list[Link] = []
         for child in element.all(tag):
             link = self.model.link(self.scoped(child.text))
@@ -92,12 +92,12 @@ class ModelScope:
         self.world.diagnostics.warn(child.where, f"{text}does not have, it is left out{hint}")
 
     def body(self, link: str) -> int:
-        """Return MuJoCo's body of a link (scoped name), -1 when the world holds it."""
+        """Return MuJoCo's body id of a link (scoped name), -1 if the link is static."""
         name = scoped(self.model, link)
         return int(mujoco.mj_name2id(self.world.model, mujoco.mjtObj.mjOBJ_BODY, name))
 
     def link_to_frame(self) -> Pose:
-        """Return the frame of this model seen from its canonical link, which carries it."""
+        """Return the pose of this model's frame in its canonical link."""
         link = self.model.link(self.canonical_link)
         return link.pose.inverse() * self._place if link is not None else self._place
 
@@ -108,7 +108,7 @@ class ModelScope:
         return self.world.truth.link_pose(self.model.name, self.canonical_link) * self.link_to_frame()
 
     def pose(self) -> Pose:
-        """Return the pose of this model in the world, or in the model that it is nested in."""
+        """Return the pose of this model in its parent: the world or the enclosing model."""
         if not self._prefix:
             return self.world.truth.pose(self.model.name)
         outer = self.world.truth.pose(self.model.name)
@@ -123,5 +123,5 @@ class ModelScope:
         return outer.inverse() * self.world_pose()
 
     def entity(self, kind: str, name: str) -> int:
-        """Return the number of a part of this model (scoped name), 0 when it has none."""
+        """Return the entity id of a part of this model (scoped name), 0 if there is none."""
         return self.world.entities.number(kind, self.model.name, name)

@@ -1,8 +1,7 @@
-"""Gaussian sensor noise as SDF describes it: mean, standard deviation, a bias drawn once a run, a bias that
-wanders, precision.
+"""Gaussian sensor noise of SDF: mean, standard deviation, a bias drawn once per run, a drifting bias, and precision.
 
-A sensor reads its `<noise>` with `Noise.from_sdf`. Sensors of a few numbers (an IMU has six) keep them in
-`Channels`, one noise each; scans and images apply one `Noise` to all their values.
+A sensor reads its `<noise>` with `Noise.from_sdf`. Sensors of a few numbers (an IMU has six) use `Channels`, with one
+noise each; scans and images apply one `Noise` to all values.
 
 Source: https://github.com/gazebosim/gz-sensors/blob/gz-sensors8/src/GaussianNoiseModel.cc
 """
@@ -30,8 +29,9 @@ COARSEST_IGNORED = 1e-6
 
 @dataclass(frozen=True)
 class Noise:
-    """`mean` and the deviations are in the unit of the measured quantity; `precision` > 0 rounds to its
-    multiples. `dynamic_bias_stddev` is a density (unit/sqrt(s)), `dynamic_bias_correlation_time` in s.
+    """Noise parameters: `mean` and deviations in the unit of the measured quantity, `precision` > 0 as rounding step.
+
+    `dynamic_bias_stddev` is a density [unit/sqrt(s)], `dynamic_bias_correlation_time` is in [s].
     """
 
     mean: float = 0.0
@@ -44,8 +44,9 @@ class Noise:
 
     @classmethod
     def from_sdf(cls, element: Element | None) -> Noise:
-        """Read a `<noise>` element (None, or type none: no noise); raise `SdfError` for an unknown type and for
-        deviations, a precision or a time that are negative or not finite.
+        """Read a `<noise>` element; without one, or with type none, there is no noise.
+
+        Raises SdfError for an unknown type, and for a deviation, precision or time that is negative or not finite.
         """
         if element is None:
             return cls()
@@ -63,26 +64,27 @@ class Noise:
 
     @property
     def silent(self) -> bool:
-        """True when applying it changes nothing."""
+        """True if `apply` changes nothing."""
         return self == Noise()
 
     @property
     def wanders(self) -> bool:
-        """True when its bias changes with time."""
+        """True if the bias drifts with time."""
         return self.dynamic_bias_stddev > 0.0 and self.dynamic_bias_correlation_time > 0.0
 
     def draw_bias(self, random: np.random.Generator) -> float:
-        """Return the bias at the start of a run; its sign is random."""
+        """Return the bias at the start of a run, with random sign."""
         if self.bias_mean == 0.0 and self.bias_stddev == 0.0:
             return 0.0
         bias = float(random.normal(self.bias_mean, self.bias_stddev))
         return -bias if random.random() < 0.5 else bias
 
     def wandered(self, bias: float, dt: float, normal: float) -> float:
-        """Return the bias `dt` seconds later; `normal` is a draw from the standard normal distribution.
+        """Return the bias `dt` [s] later; `normal` is a sample of the standard normal distribution.
 
         A Gauss-Markov process of first order, sampled exactly: b' = exp(-dt/tau) b + sigma_d n with
-        sigma_d^2 = sigma^2 tau/2 (1 - exp(-2 dt/tau)); see the IMU noise model of Kalibr.
+        sigma_d^2 = sigma^2 tau/2 (1 - exp(-2 dt/tau)).
+        Source: IMU noise model of Kalibr, https://github.com/ethz-asl/kalibr/wiki/IMU-Noise-Model
         """
         if not self.wanders or dt <= 0.0:
             return bias
@@ -98,20 +100,19 @@ class Noise:
         return np.copysign(np.floor(np.abs(steps) + 0.5), steps) * self.precision
 
     def apply(self, values: NDArray[np.float64], bias: float, random: np.random.Generator) -> NDArray[np.float64]:
-        """Return `values` with noise; always draws one number per value."""
+        """Return `values` with noise; always draws one number per value, so that the random sequence stays the same."""
         return self.quantized(values + (bias + self.mean + self.stddev * random.standard_normal(values.shape)))
 
 
 class Channels:
     """The noises of a sensor that measures a few numbers, and their present biases.
 
-    What one channel draws does not depend on the noise of the others, nor on who listened before: white noise is
-    drawn anew for each update from the number of that update, and `advance` moves the wandering biases at every
-    update that was due, heard or not.
+    A channel's draws depend neither on the other channels nor on the subscribers: white noise is seeded with the
+    number of the update, and `advance` moves the drifting biases at every due update, even without a subscriber.
     """
 
     def __init__(self, sensor: SensorBase, noises: Sequence[tuple[str, Noise]]) -> None:
-        """`noises` in the order of the numbers that `apply` will be given; channels of one name have one bias."""
+        """Take `noises` in the order of the numbers given to `apply`; channels of the same name share one bias."""
         self._sensor = sensor
         self._names = [name for name, _ in noises]
         self._each = [noise for _, noise in noises]
@@ -124,12 +125,11 @@ class Channels:
         """The present bias of each channel."""
 
     def start(self) -> None:
-        """Draw the biases of a run."""
         for index, (name, noise) in enumerate(zip(self._names, self._each, strict=True)):
             self.bias[index] = noise.draw_bias(self._sensor.constant_random(f"bias of {name}"))
 
     def advance(self, dt: float) -> None:
-        """Let the biases wander for `dt` seconds."""
+        """Advance the drifting biases by `dt` [s]."""
         if not self._wanders or dt <= 0.0:
             return
         draws = self._sensor.random("dynamic bias").standard_normal(len(self._each)).tolist()
@@ -139,7 +139,7 @@ class Channels:
         ]
 
     def apply(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the numbers with the noise of the current update."""
+        """Return `values` with the noise of the current update."""
         if self.silent:
             return values
         noisy = values + self.bias + self._mean

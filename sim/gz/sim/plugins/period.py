@@ -7,5 +7,7 @@ LONGEST_NS = 10**18
 
 
 def period_ns(hertz: float) -> int:
-    """Return the period [ns] of a frequency [Hz]: 0, which means each step, for zero or less and beyond 1 GHz."""
+    """Return the period [ns] of a frequency [Hz]; 0, meaning every step, for frequencies not above zero or above 1
+    GHz.
+    """
     return int(min(1e9 / hertz, LONGEST_NS)) if hertz > 0.0 else 0

@@ -1,7 +1,7 @@
-"""The base of all sensors (topic, frame, rate), and how a `<sensor type=...>` finds its class.
+"""The base class of all sensors (topic, frame, rate) and the registry of `<sensor type=...>`.
 
 A sensor type is a file in `gz/sim/sensors` with a class under `@sensor_type`. The system named by `runs_in` creates
-the sensors and calls `run` when they are due; `update` is called if somebody listens, too.
+the sensors and calls `run` when they are due, which calls `update` if there is a subscriber.
 
 Source: http://sdformat.org/spec?elem=sensor
 """
@@ -99,10 +99,10 @@ class SensorBase:
         self._generators: dict[str, np.random.Generator] = {}
 
     def bind(self) -> None:
-        """Look up ids in MuJoCo's model: it was just built, or built anew because a model came or went."""
+        """Look up ids in MuJoCo's model, which was just built or rebuilt."""
 
     def start(self) -> None:
-        """Take the state of time zero; called after the first `bind` and after every reset."""
+        """Initialize the state at time zero; called after the first `bind` and after every reset."""
         self.next_update_ns = 0
         self.updates = 0
         self._last_ns = None
@@ -116,20 +116,20 @@ class SensorBase:
         raise NotImplementedError
 
     def has_connections(self) -> bool:
-        """Tell whether anybody listens, so that the sensor is worth computing."""
+        """Tell whether there is a subscriber, so that the sensor must be computed."""
         raise NotImplementedError
 
     def advance(self, dt: float) -> None:
-        """Let what wanders by itself go on for `dt` seconds, the time since the last update; called at every
-        update that is due, heard or not.
+        """Advance internal state such as drifting biases by `dt` [s], the time since the last due update; called at
+        every due update, even without a subscriber.
         """
 
     def update(self, now_ns: int) -> None:
-        """Measure and publish, stamped `now_ns` (simulated nanoseconds)."""
+        """Measure and publish; the stamp is `now_ns` [ns] of simulated time."""
         raise NotImplementedError
 
     def run(self, now_ns: int) -> None:
-        """Do the update that is due at `now_ns` and find the time of the next one."""
+        """Perform the update that is due at `now_ns` [ns] and schedule the next one."""
         self.advance((now_ns - self._last_ns) * 1e-9 if self._last_ns is not None else 0.0)
         self._last_ns = now_ns
         if self.has_connections():
@@ -141,7 +141,7 @@ class SensorBase:
             self.next_update_ns += ((now_ns - self.next_update_ns) // period + 1) * period
 
     def offer_set_rate(self, node: Node) -> None:
-        """Offer the one-way service `<topic>/set_rate` (gz.msgs.Double, Hz) on `node`."""
+        """Offer the one-way service `<topic>/set_rate` (gz.msgs.Double, [Hz]) on `node`."""
         from gz_course.sim.gz.msgs.double_pb2 import Double
         from gz_course.sim.gz.msgs.empty_pb2 import Empty
 
@@ -154,8 +154,10 @@ class SensorBase:
         node.advertise_service(service, Double, Empty, serve)
 
     def set_rate(self, rate: float) -> None:
-        """Make the updates rarer: `rate` in Hz, at most `<update_rate>`; any rate, also 0 for every step, when
-        that is 0. Another request is refused with a warning.
+        """Lower the update rate to `rate` [Hz], at most `<update_rate>`; if that is 0, accept any rate, also 0 for
+        every step.
+
+        Refuses other requests with a warning.
         """
         if math.isnan(rate):
             self.world.drop_command(f"{self.topic}/set_rate", "rate")
@@ -172,18 +174,20 @@ class SensorBase:
         self.rescheduled()
 
     def rescheduled(self) -> None:
-        """Tell the system that runs the sensor, which replaces this, that an update may be due earlier than planned."""
+        """Notify the system that runs the sensor that the next update may be earlier than planned; the system replaces
+        this.
+        """
 
     def random(self, purpose: str = "noise") -> np.random.Generator:
-        """Return the generator of this sensor's current update.
+        """Return the random generator of this sensor's current update.
 
-        It depends only on the world's seed, the sensor's name, `purpose` and the number of the update, so a
-        listener that comes later, or not at all, changes no other number. Good until the next call for this purpose.
+        It depends only on the seed of the world, the name of the sensor, `purpose` and the number of the update, so
+        that subscribers do not change the numbers. Valid until the next call for the same purpose.
         """
         return self._generator(purpose, self.updates)
 
     def constant_random(self, purpose: str) -> np.random.Generator:
-        """Return the generator for what is drawn once per run, such as a bias."""
+        """Return the random generator for values drawn once per run, such as a bias."""
         return self._generator(purpose, -1)
 
     def _generator(self, purpose: str, update: int) -> np.random.Generator:
@@ -192,7 +196,7 @@ class SensorBase:
         generator = self._generators.get(purpose)
         if generator is None:
             generator = self._generators[purpose] = np.random.Generator(np.random.Philox(key=0))
-        # To set a key is much quicker than to make a generator, and draws the same numbers.
+        # Setting the key is much faster than making a generator, and draws the same numbers.
         generator.bit_generator.state = {**_FRESH, "state": {"counter": _ZEROS, "key": key}}
         return generator
 
@@ -226,6 +230,6 @@ def sensor_type(*names: str) -> Callable[[S], S]:
 
 
 def sensor_types() -> dict[str, type[SensorBase]]:
-    """Return the class of every sensor type this simulator has."""
+    """Return the class of every sensor type, by the value of `<sensor type=...>`."""
     scan("sensors")
     return dict(_TYPES)

@@ -1,7 +1,7 @@
-"""The base of all systems that run sensors: which sensors are theirs, when each is due.
+"""The base class of systems that run sensors: it creates, schedules and updates them.
 
-`Sensors`, `Imu` and their like are plugins of the world. After each physics step they update the sensors that are due
-and have a listener. A sensor type with a plugin of its own declares it in its file, with `sensor_system`.
+`Sensors`, `Imu` and similar plugins of the world update, after each physics step, the sensors that are due and have a
+subscriber. The file of a sensor type declares the plugin that runs it with `sensor_system`.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _NEVER = 1 << 62
 
 
 class SensorSystem(System):
-    """Creates and schedules every sensor of the world whose class says `runs_in` = this system's name."""
+    """Creates and schedules every sensor of the world whose class has `runs_in` = this system's name."""
 
     once = True
 
@@ -34,9 +34,9 @@ class SensorSystem(System):
         self._next_ns = 0
 
     def bind(self) -> None:
-        """Make the sensors of models that came, drop those of models that went, and let all find their places.
+        """Create the sensors of new models, drop those of removed models, and bind all of them to MuJoCo's model.
 
-        A sensor that cannot be made is warned about and left out.
+        A sensor that cannot be created is left out with a warning.
         """
         types = sensor_types()
         made = {id(sensor.description): sensor for sensor in self.sensors}
@@ -68,7 +68,7 @@ class SensorSystem(System):
         self._next_ns = 0
 
     def _make(self, found: type[SensorBase], description: Sensor) -> SensorBase | None:
-        """Return a sensor, or None after saying why there is none: as in Gazebo the rest of the world runs."""
+        """Return a sensor, or None after a warning; as in Gazebo the rest of the world runs on."""
         try:
             return found(self._world, description)
         except SdfError as error:
@@ -88,11 +88,10 @@ class SensorSystem(System):
             self._open(sensor)
 
     def connected(self) -> Iterator[tuple[SensorBase, Node]]:
-        """Yield the sensors that are on the wire, each with its own node."""
+        """Yield the connected sensors, each with its own node."""
         return ((sensor, self._nodes[id(sensor)]) for sensor in self.sensors if id(sensor) in self._nodes)
 
     def close(self) -> None:
-        """End what the sensors advertised."""
         for node in self._nodes.values():
             node.close()
         self._nodes.clear()
@@ -107,7 +106,6 @@ class SensorSystem(System):
         self._next_ns = 0
 
     def post_update(self, info: UpdateInfo) -> None:
-        """Update the sensors that are due."""
         now = info.sim_time_ns
         if now < self._next_ns:
             return

@@ -1,6 +1,6 @@
-"""What sensors share that measure a few numbers at one place: one site, one topic, one message, noise by channel.
+"""The base class of sensors that measure a few numbers at one point: one site, topic and message, and noise by channel.
 
-`imu.py`, `altimeter.py`, `magnetometer.py` and their like say which noises they have and fill in the message.
+A subclass such as `imu.py`, `altimeter.py` or `magnetometer.py` returns its noises and fills in the message.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class SiteSensor(SensorBase):
-    """Base of the sensors that stand at one place. `motion` is that of the sensor, `noise` its channels."""
+    """Base of the sensors that measure at one point; `motion` is that of the sensor, `noise` holds its channels."""
 
     suffix: ClassVar[str]
     """Last part of the default topic."""
@@ -35,18 +35,17 @@ class SiteSensor(SensorBase):
         self._publisher: Any = None
 
     def read_noises(self, element: Element) -> Sequence[tuple[str, Noise]]:
-        """Return the noise of each number, by name of channel; `element` is the `<sensor>`."""
+        """Return the noise of each number with the name of its channel; `element` is the `<sensor>`."""
         raise NotImplementedError
 
     def fill(self, message: Any) -> None:
-        """Measure and write what is special about this sensor; the header is written already."""
+        """Measure, and write everything but the header into `message`."""
         raise NotImplementedError
 
     def bind(self) -> None:
         self.motion = SiteMotion(self.world, self.scoped_name)
 
     def start(self) -> None:
-        """Begin the schedule and draw the biases of the run."""
         super().start()
         self.noise.start()
 
@@ -73,5 +72,5 @@ class SiteSensor(SensorBase):
 
 
 def noise_at(element: Element, path: str) -> Noise:
-    """Return the noise written at `path/noise` below an element; none when nothing is written there."""
+    """Return the noise at `path/noise` below an element; none if it is missing."""
     return Noise.from_sdf(element.find(f"{path}/noise"))

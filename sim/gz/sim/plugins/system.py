@@ -1,10 +1,10 @@
-"""The base of all systems, and how a `<plugin>` of an SDF file finds its class.
+"""The base class of all systems, and the lookup of the class of an SDF `<plugin>`.
 
 A system is a file in `gz/sim/systems` with a class under the `@system` decorator; nothing else has to be edited.
-`RunningSystems` calls `find_system` for every plugin and the hooks of the class: `servos` before the model is built,
-`configure` once, `bind` each time the physics model was built, `start` at time zero (again after a reset), `connect`
-when a transport node is attached, then `pre_update` and `post_update` around every physics step, and `paused_update`
-while a server is paused.
+`RunningSystems` calls `find_system` for every plugin and then the hooks of the class: `servos` before the physics model
+is built, `configure` once, `bind` after each build, `start` at time zero and after a reset, `connect` when a transport
+node is attached, `pre_update` and `post_update` around every physics step, and `paused_update` while a server is
+paused.
 
 Source: https://gazebosim.org/api/sim/8/createsystemplugins.html
 """
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 
 class UpdateInfo:
-    """The time of a step: `sim_time_ns` (its end), `dt` [s] and `iterations` (this one included)."""
+    """The time of a step: `sim_time_ns` [ns] at its end, `dt` [s] and `iterations` (including this one)."""
 
     __slots__ = ("dt", "iterations", "sim_time_ns")
 
@@ -52,32 +52,32 @@ class System:
 
     @classmethod
     def servos(cls, model: Model, plugin: Plugin) -> list[JointServo]:
-        """Return the joints of `model` this system will drive. Raises `SdfError` for a joint that is not there."""
+        """Return the joints of `model` that this system drives. Raises SdfError for a joint that does not exist."""
         return []
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
-        """Read the parameters, once; `model` is None for a plugin of the world itself."""
+        """Read the parameters; `model` is None for a plugin of the world."""
 
     def bind(self) -> None:
         """Look up ids and addresses in MuJoCo's model, which was just built or rebuilt."""
 
     def start(self) -> None:
-        """Take the state of time zero; called after the first `bind` and after every reset."""
+        """Initialize the state at time zero; called after the first `bind` and after every reset."""
 
     def connect(self, node: Node) -> None:
-        """Advertise and subscribe on `node`, which is this system's own; the world closes it."""
+        """Advertise and subscribe on `node`, which belongs to this system alone; the world closes it."""
 
     def close(self) -> None:
-        """End what this system opened beside its node; called when its model or the world goes."""
+        """Close everything but the node; called when the model is removed or the world closes."""
 
     def pre_update(self, info: UpdateInfo) -> None:
         """Act before the physics step, for example set controls."""
 
     def post_update(self, info: UpdateInfo) -> None:
-        """Look at the result of the physics step, for example publish."""
+        """Read the result of the physics step, for example publish it."""
 
     def paused_update(self, info: UpdateInfo) -> None:
-        """Publish what is due while a running server is paused; called ten times a second of wall time, and after
+        """Publish what is due while a running server is paused; called ten times per second of wall time and after
         every change.
         """
 
@@ -98,7 +98,7 @@ def system(name: str, filename: str) -> Callable[[S], S]:
 
 
 def systems() -> dict[str, type[System]]:
-    """Return every system by name; those that run a single sensor type are declared beside the sensor."""
+    """Return every system by name, including those declared beside their sensor type."""
     scan("systems")
     scan("sensors")
     return dict(_SYSTEMS)
@@ -106,7 +106,7 @@ def systems() -> dict[str, type[System]]:
 
 @cache
 def scan(room: str) -> None:
-    """Import every file of a folder of this simulator, so that the classes in it register themselves."""
+    """Import every file of a folder of this package, so that the classes in it register themselves."""
     for module in pkgutil.iter_modules([str(Path(__file__).parents[1] / room)]):
         importlib.import_module(f"gz_course.sim.gz.sim.{room}.{module.name}")
 
@@ -196,7 +196,7 @@ _CLASSIC = {
 
 
 def system_name(plugin: Plugin) -> str:
-    """Return the Gazebo name of the system a plugin asks for, in any spelling of its attributes."""
+    """Return the Gazebo name of the system of a plugin, for any spelling of its attributes."""
     if plugin.name:
         last = plugin.name.rsplit("::", 1)[-1]
         if last in BUILT_IN | OTHER_GAZEBO_SYSTEMS or last in systems():
@@ -213,7 +213,7 @@ def system_name(plugin: Plugin) -> str:
 
 
 def find_system(plugin: Plugin, diagnostics: Diagnostics) -> type[System] | None:
-    """Return the class for a plugin, or None after saying why there is none."""
+    """Return the class of a plugin, or None after a warning."""
     name = system_name(plugin)
     found = systems().get(name)
     if found is not None:

@@ -1,6 +1,4 @@
-"""Topic names from the `<topic>` texts of SDF.
-
-Gazebo puts a slash in front of names without one and replaces what a topic may not contain.
+"""Topic names from the `<topic>` texts of SDF, made valid as Gazebo does it.
 
 Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/Util.cc (validTopic)
 """

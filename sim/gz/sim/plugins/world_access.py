@@ -1,8 +1,7 @@
-"""What systems and sensors may use of their world.
+"""The interface of the world for systems and sensors; Gazebo's plugins use an `EntityComponentManager` for it.
 
-Gazebo hands its plugins an `EntityComponentManager` to the same end. Here it is a protocol that `World` fulfils: time,
-the description, MuJoCo's model and state, the truth, the editor, and where messages and commands go. Stepping,
-rewinding and closing a world are not in it.
+`World` implements the protocol: time, description, MuJoCo's model and state, ground truth, editor, transport and
+reports. It does not include stepping, rewinding and closing.
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ if TYPE_CHECKING:
 
 
 class WorldAccess(Protocol):
-    """A world as a plugin sees it; `gz.sim.world.World` says what each part is."""
+    """A world as seen by plugins; `gz.sim.world.World` documents each member."""
 
     description: WorldDescription
     diagnostics: Diagnostics

@@ -1,1 +1,1 @@
-"""What cameras and lidars are built on: rays, lenses, shading, point clouds."""
+"""Ray casting, camera models, shading and point clouds for cameras and lidars."""

@@ -1,8 +1,10 @@
-"""What all cameras share: the lens, the rays of the pixels, the camera_info topic, the trigger, image messages.
+"""The base class of all cameras: lens, pixel rays, camera_info, trigger and image messages.
 
-`camera.py`, `depth_camera.py`, `rgbd_camera.py` and `segmentation_camera.py` say which images they make of what the
-rays met. Topic and frame rules are Gazebo's: camera_info stands beside the image (`<parent of topic>/camera_info`),
-headers carry `<optical_frame_id>` when it is given, else the sensor's frame.
+`camera.py`, `depth_camera.py`, `rgbd_camera.py` and `segmentation_camera.py` make their images from the ray hits.
+As in Gazebo camera_info is published beside the image (`<parent of topic>/camera_info`), and headers carry
+`<optical_frame_id>` if it is given, else the sensor's frame.
+
+Source: https://github.com/gazebosim/gz-sensors/blob/gz-sensors8/src/CameraSensor.cc
 """
 
 from __future__ import annotations
@@ -28,7 +30,7 @@ if TYPE_CHECKING:
 
 
 class CameraSensor(SensorBase):
-    """Base of the cameras; `pinhole` is the lens, `caster` the rays of its pixels."""
+    """Base of the cameras; `pinhole` is the lens, `caster` casts the rays of its pixels."""
 
     info_beside = True
     """Whether camera_info stands beside the topic; otherwise below it."""
@@ -40,7 +42,7 @@ class CameraSensor(SensorBase):
     def __init__(self, world: WorldAccess, description: Sensor) -> None:
         super().__init__(world, description)
         element = description.element
-        # SDF has a value for everything in it: 320 x 240 pixels, 60 degrees, 0.1 to 100 m.
+        # Defaults of SDF: 320 x 240 pixels, 60 degrees, 0.1 to 100 m.
         camera = element.find("camera") or Element("camera", file=element.file, line=element.line)
         save = camera.find("save")
         if save is not None and save.attributes.get("enabled", "false") in ("true", "1"):
@@ -55,7 +57,7 @@ class CameraSensor(SensorBase):
         self._triggered = camera.flag("triggered", False)
         self.trigger_topic = valid_topic(camera.text_of("trigger_topic"), f"{self.topic}/trigger")
         self.directions = self.pinhole.directions()
-        # A renderer leaves out what is nearer than the near plane, and what is behind the far plane.
+        # A renderer omits surfaces nearer than the near plane and beyond the far plane.
         along = self.directions[:, 0]
         near = self.pinhole.near / along if self.near_hides else np.zeros(len(along))
         self._far = self.pinhole.far / along
@@ -67,16 +69,13 @@ class CameraSensor(SensorBase):
         self._info: Any = None
 
     def bind(self) -> None:
-        """Find the site and what this camera does not see."""
         self.caster.bind()
 
     def start(self) -> None:
-        """Begin the schedule, with no trigger waiting."""
         super().start()
         self._pending = False
 
     def connect(self, node: Node) -> None:
-        """Advertise camera_info and the images; listen to the trigger."""
         from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
         from gz_course.sim.gz.msgs.camera_info_pb2 import CameraInfo
         from gz_course.sim.gz.msgs.image_pb2 import Image
@@ -99,13 +98,12 @@ class CameraSensor(SensorBase):
         return suffix in self.publishers and self.publishers[suffix].has_connections()
 
     def has_connections(self) -> bool:
-        """Tell whether there is anything to do: a listener, and for a triggered camera a trigger."""
+        """Tell whether the camera must be computed: it has a subscriber and, if triggered, a pending trigger."""
         if self._info is None or (self._triggered and not self._pending):
             return False
         return self._info.has_connections() or any(each.has_connections() for each in self.publishers.values())
 
     def update(self, now_ns: int) -> None:
-        """Publish camera_info, then the images somebody listens to."""
         self._pending = False
         if self._info.has_connections():
             message = self._info_type()
@@ -123,7 +121,7 @@ class CameraSensor(SensorBase):
         header.data[0].value[0] = self.optical_frame_id
 
     def cast(self, *, normals: bool = False) -> Hits:
-        """Cast the rays of all pixels; what is behind the far plane is not met."""
+        """Cast the rays of all pixels; surfaces beyond the far plane are not hit."""
         hits = self.caster.cast(normals=normals)
         beyond = hits.distance > self._far
         hits.distance[beyond] = -1.0
@@ -131,13 +129,13 @@ class CameraSensor(SensorBase):
         return hits
 
     def depth(self, hits: Hits) -> Floats:
-        """Return the distance along the optical axis (n,) in metres: +inf where nothing was met."""
+        """Return the distance along the optical axis (n,) [m]; +inf where nothing was hit."""
         depth = hits.distance * self._along
         depth[hits.geom < 0] = np.inf
         return depth
 
     def publish_image(self, suffix: str, pixels: NDArray[Any], pixel_format: str, now_ns: int) -> None:
-        """Publish rows x columns (x channels) of numbers; they are sent little-endian, without padding."""
+        """Publish pixels (height, width) or (height, width, channels), little-endian and without padding."""
         message = self._types["Image"]()
         self.fill_header(message.header, now_ns)
         message.width, message.height = self.pinhole.width, self.pinhole.height
@@ -148,7 +146,6 @@ class CameraSensor(SensorBase):
         self.publishers[suffix].publish(message)
 
     def publish_cloud(self, suffix: str, points: NDArray[Any], now_ns: int) -> None:
-        """Publish points, one a pixel."""
         message = self._types["PointCloudPacked"]()
         self.fill_header(message.header, now_ns)
         fill_cloud(message, points, self.pinhole.height, self.pinhole.width)

@@ -1,7 +1,7 @@
-"""Which `<visual>` or `<collision>` each MuJoCo geom was made of, for sensors that need more than its shape.
+"""Finds the `<visual>` or `<collision>` of each MuJoCo geom, for sensors that need more than its shape.
 
-MuJoCo's model knows shapes and colours; retro-reflection, visibility flags, labels and the entity a geom belongs to
-stand in the world's description. Looked up once, when a sensor binds.
+MuJoCo's model holds shapes and colours; retro-reflection, visibility flags, labels and entities are only in the
+description of the world. Sensors look them up in `bind`.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class GeomPart(NamedTuple):
-    """MuJoCo's geom id, and the model, link and part it was made of."""
+    """MuJoCo's geom id with the model, link and part it was made of."""
 
     geom: int
     model: Model

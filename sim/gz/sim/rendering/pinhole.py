@@ -1,8 +1,7 @@
-"""What `<camera>` says: image size, field of view, lens, clip planes; and the ray of every pixel.
+"""Reads `<camera>` (image size, field of view, lens, clip planes) and computes the ray of every pixel.
 
-Used by all camera sensors: `directions` go to the ray caster, `fill_info` makes the CameraInfo. A camera looks along
-+x of its frame, y to the left, z up; pixels run right (-y) and down (-z). Lens distortion is Brown's model with
-k1 k2 p1 p2 k3 as OpenCV writes it.
+A camera looks along +x of its frame, with y to the left and z up; pixels run right (-y) and down (-z). Lens distortion
+is Brown's model with k1 k2 p1 p2 k3 in OpenCV's notation.
 
 Source: https://docs.opencv.org/4.x/d9/d0c/group__calib3d.html (camera model, distortion)
 """
@@ -24,12 +23,12 @@ _UNDISTORT_ROUNDS = 20
 
 
 class Pinhole:
-    """The geometry of one camera: `width` x `height` pixels, focal lengths `fx fy` and principal point `cx cy` in
-    pixels, clip planes `near` and `far` (m along x).
+    """The geometry of one camera: `width` x `height` pixels, focal lengths `fx fy` and principal point `cx cy` [px],
+    clip planes `near` and `far` [m] along x.
     """
 
     def __init__(self, camera: Element) -> None:
-        """Read a `<camera>` element; raise `SdfError` for what no camera can be."""
+        """Read a `<camera>` element. Raises SdfError for impossible values."""
         image = camera.find("image") or Element("image", file=camera.file, line=camera.line)
         self.width, self.height = image.integer("width", 320), image.integer("height", 240)
         if self.width < 1 or self.height < 1 or self.width * self.height > MOST_PIXELS:
@@ -66,7 +65,7 @@ class Pinhole:
             self.fx, self.fy = intrinsics.number("fx", focal), intrinsics.number("fy", focal)
             self.cx, self.cy = intrinsics.number("cx", self.cx), intrinsics.number("cy", self.cy)
             self.skew = intrinsics.number("s", 0.0)
-        # The projection is what camera_info says; only when it is stated does it also change what is seen.
+        # `<projection>` always sets camera_info; it changes the image only if it is stated.
         projection = camera.find("lens/projection")
         self.projection = (self.fx, self.fy, self.cx, self.cy, 0.0, 0.0)
         if projection is not None:
@@ -88,11 +87,10 @@ class Pinhole:
 
     @property
     def distorted(self) -> bool:
-        """Tell whether the lens bends anything."""
         return any(self.distortion)
 
     def slopes(self) -> tuple[Floats, Floats]:
-        """Return, for every pixel's middle in row-major order, how far left (y/x) and up (z/x) it looks."""
+        """Return the slopes to the left (y/x) and up (z/x) of every pixel centre, (n,) each, in row-major order."""
         fx, fy, cx, cy = self.projection[:4]
         columns, rows = np.meshgrid(np.arange(self.width) + 0.5, np.arange(self.height) + 0.5)
         down = (rows.ravel() - cy) / fy
@@ -102,7 +100,7 @@ class Pinhole:
         return -right, -down
 
     def _undistort(self, right: Floats, down: Floats) -> tuple[Floats, Floats]:
-        """Return where a lens without distortion would see what this one sees at these places; by fixed point."""
+        """Return the undistorted image coordinates of distorted ones, by fixed-point iteration."""
         k1, k2, p1, p2, k3 = self.distortion
         x, y = right.copy(), down.copy()
         for _ in range(_UNDISTORT_ROUNDS):

@@ -1,7 +1,7 @@
-"""Point clouds as Gazebo packs them (gz.msgs.PointCloudPacked), for lidars and depth cameras.
+"""Packs point clouds into gz.msgs.PointCloudPacked, for lidars and depth cameras.
 
-The layout is that of Gazebo Harmonic: x, y, z as float32 at bytes 0, 4, 8, the fourth quantity at 16, a point every
-32 bytes (24 with a colour), so that each part starts at a multiple of 16.
+The layout is that of Gazebo Harmonic: x, y, z as float32 at bytes 0, 4, 8, the fourth field at byte 16, and 32 bytes
+per point (24 with a colour), so that each field starts at a multiple of 16.
 
 Source: https://github.com/gazebosim/gz-sensors/blob/gz-sensors8/src/PointCloudUtil.cc
 """
@@ -42,7 +42,7 @@ def pack_rgb(colours: NDArray[np.uint8]) -> NDArray[np.uint32]:
 
 
 def fill_cloud(message: Any, points: NDArray[Any], height: int, width: int) -> None:
-    """Write `points` (height * width, of LIDAR or COLOURED) into a PointCloudPacked; the header is left alone."""
+    """Write `points` (height * width, of dtype LIDAR or COLOURED) into a PointCloudPacked, without the header."""
     kinds = message.Field
     types = {"float32": kinds.FLOAT32, "uint16": kinds.UINT16, "uint32": kinds.FLOAT32}
     fields = points.dtype.fields

@@ -1,9 +1,8 @@
-"""Casts a bundle of rays from a sensor into the world: what lidars and cameras see, computed on the CPU.
+"""Casts the rays of a lidar or camera into the world, on the CPU.
 
-A sensor gives directions in its own frame and how near and far it sees; `cast` answers with the first surface each
-ray meets now. As in Gazebo's renderer a surface nearer than the near limit is invisible (what lies behind it is
-seen), so are surfaces seen from inside: parts of the own model that enclose the sensor (a housing), and parts whose
-`visibility_flags` share no bit with the sensor's `visibility_mask`.
+A sensor gives directions in its own frame and its near and far limits; `cast` returns the first surface that each ray
+hits. As in Gazebo's renderer, rays pass through surfaces nearer than the near limit, surfaces seen from inside (the
+housing of the sensor), and parts whose `visibility_flags` share no bit with the sensor's `visibility_mask`.
 """
 
 from __future__ import annotations
@@ -28,9 +27,8 @@ ALL_BITS = 0xFFFFFFFF
 
 @dataclass(eq=False, slots=True)
 class Hits:
-    """What `n` rays met: `distance` (n,) in metres along the ray, -1 where it met nothing; `geom` (n,) MuJoCo's geom
-    id, -1 for none; `normal` (n, 3) of the surface, or None when it was not asked for; `origin` (3,) and `rays` (n, 3)
-    in the world frame.
+    """The hits of `n` rays: `distance` (n,) [m] along the ray, -1 for none; `geom` (n,) MuJoCo's geom id, -1 for none;
+    `normal` (n, 3) of the surface, or None if not requested; `origin` (3,) and `rays` (n, 3) in the world frame.
     """
 
     distance: Floats
@@ -41,10 +39,10 @@ class Hits:
 
 
 class RayCaster:
-    """Rays of one sensor, always the same in the sensor's frame: unit vectors `directions` (n, 3).
+    """The rays of one sensor: unit vectors `directions` (n, 3), constant in the sensor's frame.
 
-    `near` (n,) is how far surfaces are invisible along each ray (m), `far` where rays end (m), `group` the geom group
-    that is seen.
+    Surfaces nearer than `near` (n,) [m] along the ray are invisible; rays end at `far` [m]; `group` is the geom group
+    that is visible.
     """
 
     def __init__(
@@ -72,7 +70,7 @@ class RayCaster:
         self._normal = np.zeros(3 * count)
 
     def bind(self) -> None:
-        """Find the site and the geoms this sensor does not see; MuJoCo's model was just built."""
+        """Find the site and the geoms invisible to this sensor in MuJoCo's new model."""
         sensor = self._sensor
         self._site = self._world.model.site(f"{sensor.model}::{sensor.link}::{sensor.name}").id
         self._hidden = sorted({*self._find_enclosing(), *self._find_masked()})
@@ -97,7 +95,7 @@ class RayCaster:
         return found
 
     def _mesh_surrounds(self, geom: int, origin: Floats) -> bool:
-        """Tell whether a mesh is met in all six directions along the axes of the world."""
+        """Tell whether rays in all six directions along the world axes hit a mesh."""
         model, data = self._world.model, self._world.data
         axes = np.concatenate((np.eye(3), -np.eye(3)))
         return all(mujoco.mj_rayMesh(model, data, geom, origin, axis, None) >= 0.0 for axis in axes)
@@ -113,7 +111,7 @@ class RayCaster:
         ]
 
     def cast(self, *, normals: bool = False) -> Hits:
-        """Cast all rays from where the sensor is now. The arrays of the answer are valid until the next cast."""
+        """Cast all rays from the present pose of the sensor. The returned arrays are valid until the next cast."""
         world = self._world
         world.truth.refresh()
         model, data = world.model, world.data
@@ -150,7 +148,7 @@ class RayCaster:
         self._distance[ray] = skip + beyond if beyond >= 0.0 else -1.0
 
     def pose(self) -> tuple[Floats, Floats]:
-        """Return where the sensor is now in the world: position (3,) in m and quaternion (4,) wxyz."""
+        """Return the present pose in the world: position (3,) [m] and quaternion (4,) (wxyz)."""
         self._world.truth.refresh()
         quaternion = np.zeros(4)
         mujoco.mju_mat2Quat(quaternion, self._world.data.site_xmat[self._site])
@@ -158,7 +156,9 @@ class RayCaster:
 
 
 def directions(horizontal: Floats, vertical: Floats) -> Floats:
-    """Return unit vectors (n, 3) for angles [rad]: x ahead, y left, z up; one row of `horizontal` after the other."""
+    """Return unit vectors (n, 3) for angles [rad]: x forward, y left, z up; all of `horizontal` for each of
+    `vertical`.
+    """
     azimuth = np.tile(horizontal, len(vertical))
     elevation = np.repeat(vertical, len(horizontal))
     across = np.cos(elevation)

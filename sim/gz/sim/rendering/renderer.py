@@ -1,8 +1,10 @@
-"""How a camera's colours are made: by casting rays (always there, same bytes everywhere) or by MuJoCo's OpenGL.
+"""The colour renderers of cameras: ray casting (always available, reproducible byte by byte) and MuJoCo's OpenGL.
 
 `gz sim --render-engine NAME` chooses: `raycast` is the default, `mujoco` draws with OpenGL on a GPU or in software
-(EGL, else OSMesa) where the machine has it, Gazebo's own names (`ogre`, `ogre2`, `optix`) mean the default. Whether
-OpenGL works is tried in a process of its own, because a broken driver ends the process that asks it.
+(EGL, else OSMesa) if available; Gazebo's own names (`ogre`, `ogre2`, `optix`) mean the default. OpenGL is tested in a
+separate process, because a broken driver can crash the process that calls it.
+
+Source: https://mujoco.readthedocs.io/en/stable/python.html (rendering)
 """
 
 from __future__ import annotations
@@ -45,30 +47,28 @@ class Renderer(Protocol):
     """Makes the colour images of one camera."""
 
     def bind(self) -> None:
-        """Take over MuJoCo's model, which was just built."""
+        """Prepare for MuJoCo's model, which was just built."""
 
     def image(self) -> Colours:
-        """Return what the camera sees now: (height * width, 3), each 0..1, without noise."""
+        """Return the present image (height * width, 3), values 0..1, without noise."""
 
 
 class RayRenderer:
-    """Colours by casting the camera's rays."""
+    """Renders colours by casting the camera's rays."""
 
     def __init__(self, camera: CameraSensor) -> None:
         self._camera = camera
         self._shader = Shader(camera.world)
 
     def bind(self) -> None:
-        """Take the colours and lights of the model."""
         self._shader.bind()
 
     def image(self) -> Colours:
-        """Cast and shade."""
         return self._shader.colours(self._camera.cast(normals=True), self._camera.pinhole.width)
 
 
 class GlRenderer:
-    """Colours by MuJoCo's OpenGL renderer; the picture has no lens distortion."""
+    """Renders colours with MuJoCo's OpenGL renderer, without lens distortion."""
 
     def __init__(self, camera: CameraSensor, backend: str) -> None:
         self._camera = camera
@@ -84,9 +84,8 @@ class GlRenderer:
         self._shader = Shader(camera.world)
 
     def bind(self) -> None:
-        """Hand shapes and colours to OpenGL."""
         model, pinhole = self._camera.world.model, self._camera.pinhole
-        # Only the lights of the world shine; the head light carries the scene's ambient light.
+        # Only the lights of the world are on; the head light carries the ambient light of the scene.
         model.vis.headlight.diffuse = model.vis.headlight.specular = (0.0, 0.0, 0.0)
         visual = model.vis.global_
         visual.offwidth = max(visual.offwidth, pinhole.width)
@@ -97,7 +96,6 @@ class GlRenderer:
         mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, self._drawing)
 
     def image(self) -> Colours:
-        """Draw the scene from the camera's place."""
         world, pinhole = self._camera.world, self._camera.pinhole
         self._context.make_current()
         everything = mujoco.mjtCatBit.mjCAT_ALL.value
@@ -130,7 +128,9 @@ class GlRenderer:
 
 @functools.cache
 def gl_backend() -> str | None:
-    """Return `egl` or `osmesa` when MuJoCo can draw with it on this machine, else None. Takes a second, once."""
+    """Return `egl` or `osmesa` if MuJoCo can draw with it on this machine, else None. The first call takes about a
+    second.
+    """
     for name in ("egl", "osmesa"):
         try:
             done = subprocess.run(
@@ -144,7 +144,9 @@ def gl_backend() -> str | None:
 
 
 def check_engine(name: str) -> str:
-    """Return `raycast` or `mujoco` for a `--render-engine`; raise `SimError` for names nobody knows, or no OpenGL."""
+    """Return `raycast` or `mujoco` for a `--render-engine`. Raises SimError for an unknown name and for missing
+    OpenGL.
+    """
     if name in ("", RAYCAST):
         return RAYCAST
     if name in OF_GAZEBO:
@@ -162,7 +164,7 @@ def check_engine(name: str) -> str:
 
 
 def renderer_for(camera: CameraSensor) -> Renderer:
-    """Return the renderer the world was started with."""
+    """Return a renderer of the engine that the world was started with."""
     world: Any = camera.world
     if getattr(world, "render_engine", RAYCAST) == MUJOCO:
         backend = gl_backend()

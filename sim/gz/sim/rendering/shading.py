@@ -1,8 +1,7 @@
-"""Colours for what camera rays met: ambient light, Lambert's law for every light of the world, shadows, sky.
+"""Shades the ray hits of cameras: ambient light, Lambert's cosine law for every light, shadows and sky.
 
-Plain arithmetic on MuJoCo's ray hits, so that images need no GPU and no OpenGL and are the same bytes on every run.
-A surface shows its `rgba`, brightened by emission; a ray that met nothing shows the scene's background, or a sky
-when `<scene>` has one.
+It needs neither GPU nor OpenGL and gives the same bytes on every run. A surface shows its `rgba`, brightened by
+emission; a ray without a hit shows the background of the scene, or a sky if `<scene>` has one.
 """
 
 from __future__ import annotations
@@ -36,7 +35,7 @@ _SPOT = int(mujoco.mjtLightType.mjLIGHT_SPOT)
 
 
 class Shader:
-    """Knows the lights and surfaces of one world."""
+    """Computes colours from the lights and surfaces of one world."""
 
     def __init__(self, world: WorldAccess) -> None:
         self._world = world
@@ -47,9 +46,9 @@ class Shader:
         self._groups[VISUAL_GROUP] = 1
 
     def bind(self) -> None:
-        """Take the colours of all geoms; MuJoCo's model was just built."""
+        """Read the colours of all geoms from MuJoCo's model, which was just built."""
         model = self._world.model
-        # One more row, for rays that met nothing (geom -1).
+        # The additional last row is for rays without a hit (geom -1).
         self._colour = np.zeros((model.ngeom + 1, 3), dtype=np.float32)
         self._colour[:-1] = model.geom_rgba[:, :3]
         self._emission = np.zeros((model.ngeom + 1, 3), dtype=np.float32)
@@ -63,9 +62,9 @@ class Shader:
         self._emits = bool(self._emission.any())
 
     def colours(self, hits: Hits, width: int) -> Colours:
-        """Return the colour (n, 3), each 0..1, that each ray sees.
+        """Return the colour (n, 3), values 0..1, of each ray.
 
-        `hits` must hold normals; its rays come in rows of `width`.
+        `hits` must have normals; its rays are in rows of `width`.
         """
         assert hits.normal is not None
         met = hits.geom >= 0
@@ -91,14 +90,16 @@ class Shader:
         return result
 
     def background(self, rays: Floats) -> Colours:
-        """Return what is behind everything along rays (n, 3): one colour, or a sky, pale at the horizon, blue above."""
+        """Return the background colours (n, 3) of rays (n, 3): one colour, or a sky from pale at the horizon to blue
+        above.
+        """
         if not self._sky:
             return np.tile(self._background, (len(rays), 1))
         height = np.sqrt(np.clip(rays[:, 2], 0.0, 1.0))[:, None]
         return (_HORIZON + height * (_ZENITH - _HORIZON)).astype(np.float32)
 
     def _from_light(self, number: int, view: _View) -> Floats:
-        """Return how strongly one light shines on each point (n,); 0 where nothing was met."""
+        """Return the intensity of one light at each point (n,); 0 where nothing was hit."""
         model, data = self._world.model, self._world.data
         direction, kind = data.light_xdir[number], int(model.light_type[number])
         points, normals = view.points, view.normals
@@ -124,10 +125,10 @@ class Shader:
         return strength
 
     def _shadows(self, source: Floats, view: _View, lit: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """Tell for each `lit` point (n,) whether it lies in the shadow of the light at `source`.
+        """Tell for each `lit` point (n,) whether it is in the shadow of the light at `source`.
 
-        Every second pixel of every second row is looked at first. Each other pixel has four of them around it: it
-        follows those that lie on its own geom if they agree; the rest is looked at one by one.
+        Every second pixel of every second row is traced first. A pixel between them takes the result of those
+        neighbours that lie on its own geom if they agree; the remaining ones are traced one by one.
         """
         width, height = view.width, len(view.geom) // view.width
         sparse = lit.reshape(height, width)[::2, ::2]
@@ -141,7 +142,7 @@ class Shader:
         return shadowed
 
     def _shadowed(self, source: Floats, points: Floats) -> NDArray[np.bool_]:
-        """Tell for each point (n, 3) whether something stands between it and `source` (3,)."""
+        """Tell for each point (n, 3) whether a surface blocks the line to `source` (3,)."""
         count = len(points)
         if not count:
             return np.zeros(0, dtype=np.bool_)
@@ -163,8 +164,8 @@ class Shader:
 
 
 class _View(NamedTuple):
-    """What is to be lit: which rays `met` something, the `points` and `normals` there, and the `geom` met, in rows of
-    `width`.
+    """The points to shade, in rows of `width`: which rays `met` a surface, and the `points`, `normals` and `geom`
+    there.
     """
 
     met: NDArray[np.bool_]
@@ -175,8 +176,8 @@ class _View(NamedTuple):
 
 
 def _spread(state: NDArray[np.int8], geom: NDArray[np.int32]) -> NDArray[np.int8]:
-    """Return for each pixel of `geom` (h, w) what its neighbours in `state` (every second pixel of every second row)
-    agree on, as far as they lie on the pixel's own geom; _UNKNOWN where there is none, or two disagree.
+    """Return for each pixel of `geom` (h, w) the value on which its neighbours in `state` (every second pixel of every
+    second row) agree, counting those on the same geom; _UNKNOWN if there is none or two disagree.
     """
     decided = np.full(geom.shape, _UNKNOWN, dtype=np.int8)
     for down, right in ((0, 0), (0, 1), (1, 0), (1, 1)):

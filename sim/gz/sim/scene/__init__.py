@@ -1,1 +1,1 @@
-"""What there is in a world, for those who look at it from outside: the scene graph, gz.msgs.Scene, serialized state."""
+"""The contents of a world as messages: scene graph, gz.msgs.Scene and serialized state."""

@@ -1,8 +1,8 @@
 """The scene graph: every entity of a world as a vertex below its parent, with its pose relative to that parent.
 
-Made from the world's description and its entities' numbers; made anew after models came or went. SceneBroadcaster
-and PosePublisher publish its poses, `gz.sim.scene.message` turns it into gz.msgs.Scene, `gz.sim.scene.state` into
-gz.msgs.SerializedStateMap. Links of nested models hang below their nested model, as in Gazebo.
+It is built from the description of the world and the entity ids, again after models were added or removed.
+SceneBroadcaster and PosePublisher publish its poses, `gz.sim.scene.message` converts it to gz.msgs.Scene,
+`gz.sim.scene.state` to gz.msgs.SerializedStateMap. Links of nested models are below their nested model, as in Gazebo.
 """
 
 from __future__ import annotations
@@ -29,10 +29,8 @@ KINDS = ("model", "link", "visual", "light")
 
 @dataclass(eq=False, slots=True)
 class Vertex:
-    """One entity: its number, its `kind` (as in `gz.sim.entities`), its own name without scope, the part of the
-    world's description that it stands for, and the pose of its frame in its parent's.
-
-    The pose is that of the moment `SceneGraph.look` was last called; `moves` tells whether it ever changes.
+    """One entity: its id, `kind` (as in `gz.sim.entities`), unscoped name, description, and the pose of its frame in
+    its parent's, as of the last call of `SceneGraph.look`. `moves` tells whether the pose can change.
     """
 
     number: int
@@ -46,13 +44,13 @@ class Vertex:
     children: list[Vertex] = field(default_factory=list)
 
     def below(self) -> Iterator[Vertex]:
-        """Yield this vertex and all below it, parents first, in file order."""
+        """Yield this vertex and all descendants, parents first, in file order."""
         yield self
         for child in self.children:
             yield from child.below()
 
     def scoped_name(self) -> str:
-        """Return the name with those of all parents but the world before it: `robot::arm::hand`."""
+        """Return the name preceded by those of its parents below the world: `robot::arm::hand`."""
         if self.parent is None or self.parent.kind == "world":
             return self.name
         return f"{self.parent.scoped_name()}::{self.name}"
@@ -61,11 +59,11 @@ class Vertex:
 class SceneGraph:
     """The vertices of a world, or of some of its models.
 
-    `movers` are the models and links whose pose in their parent changes, parents first; `poses` tells where they are.
+    `movers` are the models and links whose pose in their parent can change, parents first; `poses` returns their poses.
     """
 
     def __init__(self, world: WorldAccess, models: Iterable[Model] | None = None) -> None:
-        """Build the graph of the whole world, or of `models` (with the world above them)."""
+        """Build the graph of the whole world, or of `models` below the world."""
         self._world = world
         description, entities = world.description, world.entities
         self.root = Vertex(entities.number("world", description.name), "world", description.name, description, IDENTITY)
@@ -91,26 +89,31 @@ class SceneGraph:
             yield from child.below()
 
     def poses(self) -> tuple[Array, Array]:
-        """Return where the movers are now in their parents' frames: positions (n, 3), unit quaternions wxyz (n, 4)."""
+        """Return the present poses of the movers in their parents: positions (n, 3) [m], unit quaternions (n, 4)
+        (wxyz).
+        """
         world = self._world
         world.truth.refresh()
         data = world.data
         positions, quaternions = _chain(
             data.xpos[self._body_ids], data.xquat[self._body_ids], self._positions, self._quaternions
         )
-        # One more row stands for the world, which is the parent number -1.
+        # The additional last row is the world, parent number -1.
         above_positions = np.vstack((positions, np.zeros((1, 3))))[self._parents]
         above_quaternions = np.vstack((quaternions, [[1.0, 0.0, 0.0, 0.0]]))[self._parents]
         back = above_quaternions * (1.0, -1.0, -1.0, -1.0)
         return _chain(-_rotate(back, above_positions), back, positions, quaternions)
 
     def look(self) -> None:
-        """Write where the movers are now into their vertices."""
+        """Write the present poses of the movers into their vertices."""
         for vertex, position, quaternion in zip(self.movers, *self.poses(), strict=True):
             vertex.pose = Pose(position, quaternion)
 
     def dot(self) -> str:
-        """Return the graph in Graphviz' language, in the layout of Gazebo's `/world/W/scene/graph`."""
+        """Return the graph in Graphviz's DOT language, in the layout of Gazebo's `/world/W/scene/graph`.
+
+        Source: https://graphviz.org/doc/info/lang.html
+        """
         vertices = sorted((self.root, *self), key=lambda vertex: vertex.number)
         lines = [f'  {vertex.number} [label="{vertex.name} ({vertex.number})"];' for vertex in vertices]
         lines += [
@@ -162,12 +165,12 @@ class SceneGraph:
         return vertex
 
     def _let_move(self, vertex: Vertex, model: Model, link_name: str, described: Any) -> None:
-        """Note which body carries a frame of a model, and where the frame stands on it."""
+        """Record the body that carries a frame of a model, and the pose of the frame in that body."""
         link = model.link(link_name)
         if model.static or link is None:
             return
         body = mujoco.mj_name2id(self._world.model, mujoco.mjtObj.mjOBJ_BODY, scoped(model, link.name))
-        if body < 0:  # part of the world itself
+        if body < 0:  # the frame is fixed to the world
             return
         place = IDENTITY if described is model else described.pose
         vertex.moves = True
@@ -181,7 +184,7 @@ def _own(name: str) -> str:
 
 
 def _owner(owners: dict[str, tuple[Vertex, Pose]], name: str) -> tuple[Vertex, Pose]:
-    """Return the nested model a scoped name belongs to, and its pose in the top model; else the top model."""
+    """Return the nested model that a scoped name belongs to, or the top model, with its pose in the top model."""
     return owners.get(name.rpartition("::")[0], owners[""])
 
 
@@ -209,7 +212,7 @@ def _multiply(a: Array, b: Array) -> Array:
 
 
 def _rotate(quaternions: Array, vectors: Array) -> Array:
-    """Return n vectors, each turned by its quaternion: v + 2 w (q x v) + 2 q x (q x v)."""
+    """Return n vectors (n, 3) rotated by quaternions (n, 4): v + 2 w (q x v) + 2 q x (q x v)."""
     turned = 2.0 * np.cross(quaternions[:, 1:], vectors)
     rotated: Array = vectors + quaternions[:, :1] * turned + np.cross(quaternions[:, 1:], turned)
     return rotated

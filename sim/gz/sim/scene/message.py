@@ -1,8 +1,7 @@
-"""A world as gz.msgs.Scene: models with links, visuals, collisions, sensors, joints and lights.
+"""Converts a world to gz.msgs.Scene: models with links, visuals, collisions, sensors, joints and lights.
 
-`scene_message(world)` needs no transport; SceneBroadcaster answers `/world/W/scene/info` with it and publishes the
-part of what is new. Poses are those of the moment in the parent's frame; that of a joint is in its child link's.
-Made by walking the scene graph.
+SceneBroadcaster answers `/world/W/scene/info` with `scene_message(world)` and publishes the part for new entities.
+Poses are the present ones in the parent's frame; the pose of a joint is in its child link.
 """
 
 from __future__ import annotations
@@ -28,10 +27,10 @@ if TYPE_CHECKING:
 
 
 def scene_message(world: WorldAccess, graph: SceneGraph | None = None, only: Iterable[int] | None = None) -> Scene:
-    """Return the scene of a world as it is now.
+    """Return the present scene of a world.
 
-    `graph` is the world's scene graph, when there is one already; `only` are the numbers of the models and lights of
-    the world that are wanted (default: all).
+    `graph` is an existing scene graph of the world, if there is one; `only` restricts the message to the models and
+    lights with these ids.
     """
     graph = graph or SceneGraph(world)
     graph.look()
@@ -39,7 +38,7 @@ def scene_message(world: WorldAccess, graph: SceneGraph | None = None, only: Ite
 
 
 class _SceneWriter:
-    """Writes the vertices of one graph; `_writers` holds the method of each kind."""
+    """Writes the vertices of one graph; `_writers` maps each kind to its method."""
 
     def __init__(self, world: WorldAccess, graph: SceneGraph) -> None:
         self._world = world
@@ -56,7 +55,6 @@ class _SceneWriter:
         }
 
     def write(self, only: frozenset[int] | None) -> Scene:
-        """Return the message."""
         description = self._world.description
         scene = Scene(name=description.name)
         set_colour(scene.ambient, description.ambient)
@@ -80,7 +78,7 @@ class _SceneWriter:
         return scene
 
     def _add(self, parent: Any, vertex: Vertex) -> None:
-        """Add a vertex to the field of the same name in its parent's message, with what all kinds have."""
+        """Add a vertex to the field of the same name in its parent's message, with the fields that all kinds have."""
         message = getattr(parent, vertex.kind).add()
         message.id, message.name = vertex.number, vertex.name
         set_pose(message.pose, vertex.pose)
@@ -176,7 +174,7 @@ def _light(message: Any, vertex: Vertex) -> None:
 
 
 def fill_light(message: Any, light: Light) -> None:
-    """Write a light into a gz.msgs.Light, all but number, name and pose."""
+    """Write a light into a gz.msgs.Light, without id, name and pose."""
     message.type = LightMessage.LightType.Value(light.kind.upper())
     set_colour(message.diffuse, light.diffuse)
     set_colour(message.specular, light.specular)
@@ -201,7 +199,7 @@ def _fill_inertial(message: Any, inertial: Inertial) -> None:
 
 
 def _fill_axis(message: Any, axis: Axis, frame: Pose) -> None:
-    """Write an axis; its direction is kept in the child link's frame and sent in that of the joint, as Gazebo does."""
+    """Write an axis; its direction is stored in the child link's frame and sent in the joint's frame, as in Gazebo."""
     set_vector(message.xyz, rotate(frame.inverse().quaternion, np.asarray(axis.direction)))
     message.limit_lower, message.limit_upper = axis.lower, axis.upper
     message.limit_effort, message.limit_velocity = axis.effort, axis.velocity
@@ -209,5 +207,5 @@ def _fill_axis(message: Any, axis: Axis, frame: Pose) -> None:
 
 
 def _sensor_topics(world: WorldAccess) -> dict[int, str]:
-    """Return the topics of the sensors that run, by the identity of their descriptions."""
+    """Return the topics of the running sensors, by the `id()` of their descriptions."""
     return {id(sensor.description): sensor.topic for sensor in world.systems.sensors()}

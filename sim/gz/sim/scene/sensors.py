@@ -1,6 +1,6 @@
-"""A sensor as gz.msgs.Sensor: name, type, rate, topic, and the part that is special to its type.
+"""Converts a sensor to gz.msgs.Sensor: name, type, rate, topic, and the fields of its type.
 
-`gz.sim.scene.message` asks for each sensor of a link or joint. A type is added as one function under `@describes`.
+A sensor type is added as one function under `@describes`.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ _DESCRIBERS: dict[str, Callable[[Any, Element], None]] = {}
 
 
 def describes(*kinds: str) -> Callable[[Callable[[Any, Element], None]], Callable[[Any, Element], None]]:
-    """Register a function that writes what is special to sensors of these types."""
+    """Register a function that writes the fields of these sensor types."""
 
     def register(function: Callable[[Any, Element], None]) -> Callable[[Any, Element], None]:
         for kind in kinds:
@@ -35,7 +35,7 @@ def describes(*kinds: str) -> Callable[[Callable[[Any, Element], None]], Callabl
 
 
 def fill_sensor(message: Any, sensor: Sensor, topic: str = "") -> None:
-    """Write a sensor into a gz.msgs.Sensor, all but numbers and pose; `topic` is the one it publishes on."""
+    """Write a sensor into a gz.msgs.Sensor, without ids and pose; `topic` is the one it publishes on."""
     element = sensor.element
     message.type = sensor.kind
     message.always_on = element.flag("always_on", False)

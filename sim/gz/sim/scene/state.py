@@ -1,10 +1,11 @@
-"""The state of a world as Gazebo's entities and components: gz.msgs.SerializedStateMap.
+"""Converts a world to Gazebo's entities and components, gz.msgs.SerializedStateMap, for `/world/W/state`.
 
-SceneBroadcaster answers `/world/W/state` with it. A component's type is the 64-bit FNV-1a hash of the name Gazebo
-registers it under (`gz_sim_components.Pose`), its bytes are what Gazebo's serializers write: text for names, numbers
-and poses (x y z roll pitch yaw), a serialized message for shapes, lights and inertia, nothing for the marks that say
-what an entity is. Written are the components that tell what there is and where; velocities and the private ones of
-Gazebo's own systems are not.
+A component's type is the 64-bit FNV-1a hash of its registered name (`gz_sim_components.Pose`). Its bytes are those of
+Gazebo's serializers: text for names, numbers and poses (x y z roll pitch yaw), a serialized message for shapes, lights
+and inertia, nothing for tags. Velocities and the private components of Gazebo's systems are not included.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/include/gz/sim/components/Factory.hh
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/include/gz/sim/components/Serialization.hh
 """
 
 from __future__ import annotations
@@ -41,7 +42,10 @@ Components = Iterator[tuple[str, bytes]]
 
 
 def fnv_1a(text: str) -> int:
-    """Return the 64-bit FNV-1a hash of a text (Fowler, Noll, Vo: http://www.isthe.com/chongo/tech/comp/fnv)."""
+    """Return the 64-bit FNV-1a hash of a text.
+
+    Source: http://www.isthe.com/chongo/tech/comp/fnv (Fowler, Noll, Vo)
+    """
     number = 0xCBF29CE484222325
     for byte in text.encode():
         number = ((number ^ byte) * 0x100000001B3) & 0xFFFFFFFFFFFFFFFF
@@ -50,12 +54,12 @@ def fnv_1a(text: str) -> int:
 
 @functools.cache
 def component_type(name: str) -> int:
-    """Return the type number of Gazebo's component `name`, for example `Pose`."""
+    """Return the type id of Gazebo's component `name`, for example `Pose`."""
     return fnv_1a(f"gz_sim_components.{name}")
 
 
 def full_state(world: WorldAccess, graph: SceneGraph) -> SerializedStateMap:
-    """Return every entity of the world with its components, as they are now."""
+    """Return every entity of the world with its present components."""
     message = SerializedStateMap(has_one_time_component_changes=True)
     set_stamp(message.header, world.sim_time_ns)
     parts = _parts_by_number(scene_message(world, graph))
@@ -66,7 +70,7 @@ def full_state(world: WorldAccess, graph: SceneGraph) -> SerializedStateMap:
 
 
 def pose_state(world: WorldAccess, graph: SceneGraph) -> SerializedStateMap:
-    """Return the poses of what can move, as they are now."""
+    """Return the present poses of the entities that can move."""
     message = SerializedStateMap()
     set_stamp(message.header, world.sim_time_ns)
     graph.look()
@@ -79,13 +83,13 @@ def _put(message: SerializedStateMap, entity: int, name: str, data: bytes) -> No
     kind = component_type(name)
     holder = message.entities[entity]
     holder.id = entity
-    # The key of the map is signed, the type itself is not.
+    # The key of the map is signed, the type is not.
     component = holder.components[kind - (1 << 64) if kind >> 63 else kind]
     component.type, component.component = kind, data
 
 
 def _parts_by_number(scene: Any) -> dict[int, Any]:
-    """Return all messages inside a gz.msgs.Scene by the number of their entity."""
+    """Return all messages inside a gz.msgs.Scene by entity id."""
     found: dict[int, Any] = {}
     waiting = [*scene.model, *scene.light, *scene.joint]
     while waiting:
@@ -98,7 +102,7 @@ def _parts_by_number(scene: Any) -> dict[int, Any]:
 
 
 def _components(vertex: Vertex, part: Any, world: WorldAccess) -> Components:
-    """Yield the components of one entity; `part` is its message of the scene."""
+    """Yield the components of one entity; `part` is its message in the scene."""
     yield vertex.kind.capitalize(), b"" if vertex.kind != "light" else part.SerializeToString()
     yield "Name", vertex.name.encode()
     if vertex.parent is None:

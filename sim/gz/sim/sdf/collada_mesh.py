@@ -1,7 +1,8 @@
-"""Triangles of COLLADA files (.dae): the geometries of the visual scene, each moved by the nodes above it.
+"""Reads the triangles of COLLADA files (.dae): the geometries of the visual scene, transformed by their nodes.
 
-Called by `gz.sim.sdf.meshes` only, which turns a missing `pycollada` (extra `collada`) into a sentence. As in Gazebo
-the unit of the file (`<unit meter=...>`) is applied and its `<up_axis>` is not: z in the file is z in the world.
+`gz.sim.sdf.meshes` reports a missing `pycollada` (extra `collada`). As in Gazebo the unit of the file
+(`<unit meter=...>`) is applied but not its `<up_axis>`: z in the file is z in the world.
+
 Source: COLLADA 1.4.1 specification, https://www.khronos.org/files/collada_spec_1_4.pdf
 """
 
@@ -26,8 +27,8 @@ _MOST_INSTANCES = 100_000
 
 
 def triangles_of(path: Path, data: bytes) -> list[Part]:
-    """Return the parts of a COLLADA file: their names (innermost named node, geometry) and the corners of their
-    triangles, (3 m, 3) float64 [m], three rows per triangle. Raises `ResourceError` if it cannot be read.
+    """Return the parts of a COLLADA file: names (innermost named node, geometry) and corners (3 m, 3) float64 [m],
+    three rows per triangle. Raises ResourceError if it cannot be read.
     """
     parts: list[Part]
     try:
@@ -49,7 +50,7 @@ def triangles_of(path: Path, data: bytes) -> list[Part]:
 
 
 def _walk(path: Path, node: object, matrix: Corners, name: str, depth: int, left: list[int]) -> Iterator[Part]:
-    """Yield the geometries below a node; a node without a name has the name of the one above it."""
+    """Yield the geometries below a node; a node without a name inherits that of its parent."""
     left[0] -= 1
     if depth > _DEEPEST or left[0] < 0:
         raise ResourceError(
@@ -66,7 +67,7 @@ def _walk(path: Path, node: object, matrix: Corners, name: str, depth: int, left
         geometry = node.geometry if isinstance(node, collada.scene.GeometryNode) else node.controller.geometry
         corners = _corners(geometry)
         moved = corners @ matrix[:3, :3].T + matrix[:3, 3]
-        if np.linalg.det(matrix[:3, :3]) < 0.0:  # a mirror turns triangles inside out
+        if np.linalg.det(matrix[:3, :3]) < 0.0:  # a reflection reverses the winding order
             moved = moved.reshape(-1, 3, 3)[:, ::-1].reshape(-1, 3)
         yield (name, geometry.name or geometry.id), moved
 

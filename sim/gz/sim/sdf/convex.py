@@ -23,16 +23,17 @@ WEDGE = 0.01
 """Thickness [m] of the wedge behind a triangle of a hollow surface."""
 SHEET = 0.001
 """Thickness [m] given to a part that is flat."""
-_CONCAVE = 0.02  # a bump of this part of the size makes a part concave
-_HOLE = 1e-3  # a hole larger than this part of the surface leaves it open
-_SAMPLES = 1000  # so many triangles, and points, are looked at for bumps
+_CONCAVE = 0.02  # relative to its size, a bump this high makes a part concave
+_HOLE = 1e-3  # relative to the surface, a hole of this area makes it open
+_SAMPLES = 1000  # the most triangles, and points, that are checked for bumps
 
 
 def convex_pieces(vertices: Points, triangles: Triangles, *, moving: bool) -> tuple[tuple[Points, ...], float]:
-    """Return the points (k, 3) [m] of each convex piece, and by which part of the volume of the surface its hulls are
-    larger: 0 when no part became its hull, inf when the surface is open, so that it has no volume.
+    """Return the points (k, 3) [m] of each convex piece, and the relative excess of the hulls over the surface's
+    volume.
 
-    `vertices` (n, 3) [m], `triangles` (m, 3). A surface without any extent has no pieces.
+    The excess is 0 if no part became its hull and inf if the surface is open and has no volume. `vertices` is (n, 3)
+    [m], `triangles` (m, 3). A surface without extent has no pieces.
     """
     vertices, triangles = _welded(vertices, triangles)
     if not len(triangles):
@@ -52,7 +53,7 @@ def convex_pieces(vertices: Points, triangles: Triangles, *, moving: bool) -> tu
 
 
 def _welded(vertices: Points, triangles: Triangles) -> tuple[Points, Triangles]:
-    """Merge vertices at the same place; drop triangles without area."""
+    """Merge vertices at the same position; drop triangles without area."""
     extent = float(np.max(np.ptp(vertices, axis=0))) if len(vertices) else 0.0
     if extent <= 0.0:
         return vertices, triangles[:0]
@@ -85,7 +86,7 @@ def _components(count: int, triangles: Triangles) -> list[Triangles]:
 def _is_concave(vertices: Points, triangles: Triangles, *, moving: bool) -> bool:
     """Return whether points of the part lie clearly above the plane of one of its triangles.
 
-    A surface that moves is a body whichever way its normals point; a static one with normals inwards is a room.
+    A moving surface is a solid whichever way its normals point; a static one with inward normals is a room.
     """
     corners = np.unique(triangles)
     points = vertices[corners[:: 1 + len(corners) // _SAMPLES]]
@@ -100,7 +101,7 @@ def _is_concave(vertices: Points, triangles: Triangles, *, moving: bool) -> bool
 
 
 def _excess(vertices: Points, filled: list[Triangles]) -> float:
-    """Return by which part of their volume the hulls of these surfaces are larger; inf when a surface is open."""
+    """Return the relative excess of the hulls over the volume of these surfaces; inf if a surface is open."""
     own = hull = 0.0
     for triangles in filled:
         a, b, c = (vertices[triangles[:, k]] for k in range(3))
@@ -150,7 +151,7 @@ def _wedges(vertices: Points, triangles: Triangles) -> list[Points]:
 
 
 def _solids(pieces: list[Points]) -> tuple[Points, ...]:
-    """Return the pieces: flat ones with a thickness, those without an area left out."""
+    """Return the pieces, with a thickness for flat ones and without those that have no area."""
     made: list[Points] = []
     for points in pieces:
         centred = points - points.mean(axis=0)

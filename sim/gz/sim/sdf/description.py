@@ -1,8 +1,7 @@
 """Plain data of an SDF file: a world of models with links, joints, shapes, sensors and plugins.
 
-The reader fills these; the MuJoCo builder, the systems, the sensors and the viewer read them. Nested models are
-flattened into their top model: names of links and joints carry the scope (`arm::hand`), poses are in the frame of the
-top model.
+The reader creates them; builder, systems, sensors and viewer read them. Nested models are flattened into their top
+model: names of links and joints carry the scope (`arm::hand`), poses are in the frame of the top model.
 """
 
 from __future__ import annotations
@@ -52,7 +51,7 @@ class Geometry:
 
 @dataclass(eq=False)
 class Collision:
-    """A shape that touches. `mu` is the friction coefficient, `bitmask` decides which pairs can touch, `density` is in
+    """A collision shape: `mu` is the friction coefficient, `bitmask` decides which pairs can touch, `density` is in
     [kg/m^3].
     """
 
@@ -67,7 +66,7 @@ class Collision:
 
 @dataclass(eq=False)
 class Visual:
-    """A shape that is seen; each value of `rgba` is 0..1."""
+    """A visible shape; each value of `rgba` is 0..1."""
 
     name: str
     pose: Pose
@@ -87,7 +86,7 @@ class Inertial:
 
 @dataclass(eq=False)
 class Sensor:
-    """A sensor of a link, or of a joint; `element` keeps the parameters that only its own type understands.
+    """A sensor of a link or of a joint; `element` holds the parameters of its type.
 
     `pose` is in the frame of the link. For a sensor of a joint, `joint` is that joint's scoped name, `pose` is in the
     joint's frame, and `link` is the child link.
@@ -232,8 +231,8 @@ class Plugin:
 
 @dataclass(eq=False)
 class NestedModel:
-    """A model inside a model whose parts were moved into the top model: scoped name (`arm`, `arm::hand`), pose in the
-    frame of the top model, scoped name of its canonical link.
+    """A nested model whose parts were moved into the top model: scoped name (`arm`, `arm::hand`), pose in the frame of
+    the top model, scoped name of its canonical link.
     """
 
     name: str
@@ -260,11 +259,11 @@ class Model:
     """SDF version of its file, whose rules its frames follow."""
 
     def link(self, name: str) -> Link | None:
-        """Return the link of that scoped name."""
+        """Return the link of that scoped name, or None."""
         return next((link for link in self.links if link.name == name), None)
 
     def joint(self, name: str) -> Joint | None:
-        """Return the joint of that scoped name."""
+        """Return the joint of that scoped name, or None."""
         return next((joint for joint in self.joints if joint.name == name), None)
 
     def sensors(self) -> list[Sensor]:
@@ -273,14 +272,14 @@ class Model:
         return [sensor for holder in holders for sensor in holder.sensors]
 
     def mass(self) -> float:
-        """Return the sum of the masses of the links [kg]."""
+        """Return the total mass of the links [kg]."""
         return sum(link.inertial.mass for link in self.links)
 
 
 @dataclass(eq=False)
 class WorldDescription:
-    """A whole world. `step_size_ns` in nanoseconds, `gravity` in m/s^2, `real_time_factor` 0 = as fast as
-    possible; `joints` are those between its models; `magnetic_field` in tesla along the world's axes.
+    """A whole world: step size [ns], `gravity` [m/s^2], `real_time_factor` (0: as fast as possible), `joints` between
+    its models, `magnetic_field` [T] along the world's axes.
     """
 
     name: str

@@ -1,9 +1,8 @@
-"""XML of an SDF file as a tree of elements that remember their file and line.
+"""XML of an SDF file as a tree of elements with their file and line.
 
-First step of a world file: text -> `Element` tree -> `gz.sim.sdf.reader`. Gazebo's parser (tinyxml2) accepts texts
-that strict XML parsers refuse ("--" inside comments, undeclared prefixes such as `gz:policies`, an `<?xml?>` line after
-white space), so comments and declarations are blanked first, keeping the line numbers, and expat runs without
-namespaces.
+Gazebo's parser (tinyxml2) accepts texts that strict XML parsers reject ("--" inside comments, undeclared prefixes such
+as `gz:policies`, an `<?xml?>` line after white space). Therefore comments and declarations are blanked first, keeping
+the line numbers, and expat runs without namespaces.
 """
 
 from __future__ import annotations
@@ -46,7 +45,7 @@ class Element:
 
     @property
     def where(self) -> str:
-        """Return `file:line`, with which every message about this element begins."""
+        """Return `file:line`, the beginning of every message about this element."""
         return f"{self.file}:{self.line}"
 
     @property
@@ -60,11 +59,11 @@ class Element:
         return None if self.file.startswith("<") else Path(self.file).parent
 
     def error(self, sentence: str) -> SdfError:
-        """Return, without raising it, the error that says `sentence` about this element."""
+        """Return the error with `sentence` about this element, without raising it."""
         return SdfError(f"{self.where}: {one_line(sentence)}")
 
     def find(self, tag: str) -> Element | None:
-        """Return the first child called `tag`; `a/b` goes down two levels."""
+        """Return the first child called `tag`; `a/b` means child `b` of child `a`."""
         node = self
         for part in tag.split("/"):
             below = next((child for child in node.children if child.tag == part), None)
@@ -83,7 +82,7 @@ class Element:
         return child.text if child is not None and child.text else default
 
     def number(self, tag: str, default: float) -> float:
-        """Return child `tag` as a float, which may be infinite. Raises `SdfError` when it is no number or NaN."""
+        """Return child `tag` as a float, which may be infinite. Raises SdfError if it is no number or NaN."""
         child = self.find(tag)
         if child is None or not child.text:
             return default
@@ -114,7 +113,7 @@ class Element:
         return tuple(child.floats(len(default)))
 
     def floats(self, count: int) -> list[float]:
-        """Return the text of this element as `count` floats. Raises `SdfError`, with the text, for anything else."""
+        """Return the text of this element as `count` floats. Raises SdfError with the text for anything else."""
         words = self.text.split()
         wanted = "a number" if count == 1 else f"{count} numbers"
         if len(words) != count:
@@ -170,7 +169,7 @@ def _advice(element: Element, count: int) -> str:
 
 
 def parse(text: str, file: str = "<string>") -> Element:
-    """Parse XML text into its root `Element`; `file` is only used in messages. Raises `SdfError` with the line."""
+    """Parse XML text into its root `Element`; `file` is only used in messages. Raises SdfError with the line."""
     parser = xml.parsers.expat.ParserCreate("utf-8")
     parser.buffer_text = True
     stack: list[Element] = []
@@ -200,7 +199,7 @@ def parse(text: str, file: str = "<string>") -> Element:
             texts[-1].append(data)
 
     def entity(name: str, *_rest: object) -> None:
-        # Nested entities can expand a small text beyond any memory.
+        # Nested entities can expand a small text beyond any memory limit.
         raise SdfError(f"{file}:{parser.CurrentLineNumber}: the entity '{name}' is declared; write its text instead")
 
     parser.StartElementHandler = start
@@ -213,7 +212,7 @@ def parse(text: str, file: str = "<string>") -> Element:
         what = f"it begins with '{first[:20]}'" if first else "it is empty"
         raise SdfError(f"{file}:1: this is no XML: {one_line(what)}, but an SDF or URDF begins with '<'")
     blanked = _blanked(text, file)
-    # Leading white space is removed, because expat expects the root first; its lines still count.
+    # expat expects the root element first; the lines of the removed white space still count.
     body = blanked.lstrip()
     skipped = blanked[: len(blanked) - len(body)].count("\n")
     try:
@@ -232,7 +231,7 @@ def parse(text: str, file: str = "<string>") -> Element:
 
 
 def _blanked(text: str, file: str) -> str:
-    """Replace comments and XML declarations by their line breaks. Raises `SdfError` for a comment without an end."""
+    """Replace comments and XML declarations by their line breaks. Raises SdfError for an unterminated comment."""
     kept: list[str] = []
     done = 0
     for opening in _OPENING.finditer(text):
@@ -244,7 +243,7 @@ def _blanked(text: str, file: str) -> str:
             line = text.count("\n", 0, opening.start()) + 1
             raise SdfError(f"{file}:{line}: the comment that begins here with <!-- has no end; close it with -->")
         if end < 0:
-            break  # whatever follows stays as it is: the parser will complain at the right line
+            break  # the rest is unchanged: the parser reports the error with the right line
         end += len(closing)
         if opening.group().startswith("<!["):
             kept.append(text[done:end])

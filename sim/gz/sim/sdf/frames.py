@@ -1,8 +1,9 @@
-"""Frames of SDF (`relative_to`, `attached_to`, `<frame>`, names `a::b`) and the poses they mean.
+"""Named frames of SDF (`relative_to`, `attached_to`, `<frame>`, `a::b`) and their poses.
 
-The reader makes one `Scope` per model and one for the world, adds every named frame, and asks for poses in the frame of
-the scope. Rules are those of SDF 1.7 and later: a pose without `relative_to` is relative to the model for links, nested
+The reader makes one `Scope` per model and one for the world, adds every named frame, and gets poses in the frame of the
+scope. Rules are those of SDF 1.7 and later: a pose without `relative_to` is relative to the model for links, nested
 models and frames without `attached_to`; to the child link for joints; to `attached_to` for other frames.
+
 Source: Pose Frame Semantics, http://sdformat.org/tutorials?tut=pose_frame_semantics
 """
 
@@ -26,7 +27,7 @@ class _Frame:
 
 @dataclass(eq=False)
 class Scope:
-    """Named frames of one model or of the world; `own` names the frame of the scope, `__model__` or `world`."""
+    """Named frames of one model or of the world; `own` is the name of the scope's own frame, `__model__` or `world`."""
 
     own: str
     element: Element
@@ -45,7 +46,7 @@ class Scope:
         is_link: bool = False,
         nested: Scope | None = None,
     ) -> None:
-        """Add a named frame. Raises `SdfError` when the name is taken or reserved."""
+        """Add a named frame. Raises SdfError if the name is taken or reserved."""
         if not name:
             raise element.error(f"<{element.tag}> needs a name attribute")
         if name == "world" or (name.startswith("__") and name.endswith("__")):
@@ -65,7 +66,7 @@ class Scope:
     def pose_of(self, name: str, asker: Element) -> Pose:
         """Return the pose of frame `name` in the frame of the scope.
 
-        Raises `SdfError` at the line of `asker` when there is no such frame.
+        Raises SdfError with the line of `asker` if there is no such frame.
         """
         chain: dict[str, tuple[Pose, Element]] = {}
         while True:
@@ -123,8 +124,8 @@ class Scope:
             name = frame.attached_to or self.own
 
     def canonical_link(self, asker: Element) -> str:
-        """Return the link to which the model's own frame is fixed: `canonical_link`, else the first link, which may be
-        that of a nested model.
+        """Return the link to which the model's own frame is fixed: `canonical_link`, else the first link, also of a
+        nested model.
         """
         chosen = self.element.attributes.get("canonical_link", "")
         if chosen:

@@ -25,12 +25,12 @@ _HEAVIEST = 1e12  # [kg]
 
 
 def is_automatic(element: Element) -> bool:
-    """Return whether an `<inertial>` asks for the inertia of the collisions."""
+    """Return whether an `<inertial>` requests the inertia of the collisions."""
     return element.attributes.get("auto", "false").lower() in ("true", "1")
 
 
 def read_inertial(element: Element, pose: Pose, static: bool) -> Inertial:
-    """Return what an `<inertial>` states. Raises `SdfError` for a body that cannot exist, unless it is static."""
+    """Return the values of an `<inertial>`. Raises SdfError for a physically impossible body, unless it is static."""
     mass = element.number("mass", 1.0)
     if not static and not 0.0 < mass < _HEAVIEST:
         raise _impossible_mass(element.find("mass") or element, mass)
@@ -79,8 +79,8 @@ def point_inertia(position: Matrix) -> Matrix:
 
 
 def automatic_inertial(element: Element, collisions: Sequence[Collision], diagnostics: Diagnostics) -> Inertial:
-    """Return the inertia of the collisions. The density [kg/m^3] of each is its own, else that of the link's
-    `<inertial>`, else that of water. A `<mass>` beside `auto` scales the whole.
+    """Return the inertia of the collisions, each with its own density [kg/m^3], else that of the link's `<inertial>`,
+    else that of water. A `<mass>` beside `auto` scales the result.
     """
     link_density = element.number("density", WATER)
     mass, moment = 0.0, np.zeros(3)
@@ -180,5 +180,5 @@ def _mesh_solid(mesh: TriangleMesh) -> tuple[float, NDArray[np.float64], Matrix]
     second += np.einsum("i,inj,ink->jk", signed, corners, corners)
     second = second / 20.0 - volume * np.outer(centre, centre)
     inertia = np.trace(second) * np.eye(3) - second
-    # A surface that is inside out has the same body with the sign turned.
+    # An inverted surface gives the same body with the opposite sign.
     return abs(volume), middle + centre, inertia * math.copysign(1.0, volume)

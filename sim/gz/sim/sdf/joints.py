@@ -1,7 +1,7 @@
-"""`<joint>`: which links it connects, where it stands, about which axes it moves.
+"""Reads `<joint>`: the connected links, pose, axes and limits.
 
-Part of the reader, called after the links of the model (nested ones included) are known; joints of a `<world>` are read
-after all its models.
+Joints of a model are read after all its links (including nested ones), joints of a `<world>` after all its models.
+
 Source: SDFormat, element `<joint>`, http://sdformat.org/spec
 """
 
@@ -28,14 +28,14 @@ _TWO_AXES = frozenset(("universal", "revolute2", "gearbox"))
 def read_joint(
     element: Element, scope: Scope, model: Model, version: tuple[int, int], diagnostics: Diagnostics
 ) -> Joint:
-    """Return a joint of a model with scoped link names; its pose and axes are in the child link's frame."""
+    """Return a joint of a model with scoped link names; pose and axes are in the child link's frame."""
     joint = _joint(element, scope, {link.name: link.pose for link in model.links}, version)
     joint.sensors = read_joint_sensors(joint, scope, model, diagnostics)
     return joint
 
 
 def read_world_joint(element: Element, scope: Scope, models: list[Model], version: tuple[int, int]) -> Joint:
-    """Return a joint of a world; its links are called `model::link`."""
+    """Return a joint of a world; its link names are `model::link`."""
     places = {f"{model.name}::{link.name}": model.pose * link.pose for model in models for link in model.links}
     joint = _joint(element, scope, places, version)
     for axis in (joint.axis, joint.axis2):
@@ -94,7 +94,7 @@ def _link(element: Element, role: str, scope: Scope, places: Mapping[str, Pose])
 def _thread_pitch(element: Element) -> float:
     """Return the advance of a screw [m per turn], positive for a right-handed thread.
 
-    `<screw_thread_pitch>` states it; the older `<thread_pitch>` is in [rad/m] and turns the other way.
+    The older `<thread_pitch>` is in [rad/m] with the opposite sign of `<screw_thread_pitch>`.
     """
     if element.find("screw_thread_pitch") is not None:
         pitch = element.number("screw_thread_pitch", 1.0)
@@ -184,7 +184,7 @@ def _finite_or(element: Element, tag: str, default: float) -> float:
 
 
 def check_mimics(model: Model) -> None:
-    """Raise `SdfError` for an axis that follows a joint that does not exist, has no such axis, or follows it."""
+    """Check mimic axes. Raises SdfError if the followed joint or axis does not exist, or follows in turn."""
     joints = {joint.name: joint for joint in model.joints}
     leaders: dict[str, str] = {}
     for joint in model.joints:

@@ -1,6 +1,7 @@
-"""`<light>`: directional, point and spot lights, of the world or of a link.
+"""Reads `<light>`: directional, point and spot lights of the world or of a link.
 
-Part of the reader; cameras that cast rays, the scene message and MuJoCo's own renderer use them.
+Ray-casting cameras, the scene message and MuJoCo's renderer use them.
+
 Source: SDFormat, element `<light>`, http://sdformat.org/spec
 """
 
@@ -18,7 +19,7 @@ KINDS = ("directional", "point", "spot")
 
 
 def read_light(element: Element, pose: Pose, diagnostics: Diagnostics) -> Light:
-    """Return a light that stands at `pose`; an unknown type becomes a point light, with a warning."""
+    """Return a light at `pose`; an unknown type becomes a point light, with a warning."""
     if not element.name:
         raise element.error("<light> needs a name attribute")
     kind = element.attributes.get("type", "point")
@@ -64,7 +65,7 @@ def _bounded(element: Element, tag: str, default: float) -> float:
 
 
 def read_rgb(element: Element, tag: str, default: tuple[float, float, float]) -> tuple[float, float, float]:
-    """Return the colour in child `tag` without its alpha, each 0..1."""
+    """Return the colour in child `tag`, without alpha, values 0..1."""
     child = element.find(tag)
     if child is None or not child.text:
         return default

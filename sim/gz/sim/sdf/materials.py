@@ -1,9 +1,9 @@
-"""`<material>` and `<surface>`: the colour of a `<visual>`, the friction of a `<collision>` and what it touches.
+"""Reads `<material>` and `<surface>`: the colour of a `<visual>`, friction and bitmask of a `<collision>`.
 
-Part of the reader, called by `gz.sim.sdf.links`. What is not simulated (textures, direction-dependent friction,
-bouncing) is reported.
-Source: SDFormat, elements `<material>` and `<surface>`, http://sdformat.org/spec; names of scripts: gazebo-classic,
-media/materials/scripts/gazebo.material
+Warns about textures, direction-dependent friction and bouncing, which are not simulated.
+
+Source: SDFormat, elements `<material>` and `<surface>`, http://sdformat.org/spec
+Source: gazebo-classic, media/materials/scripts/gazebo.material (names of scripts)
 """
 
 from __future__ import annotations
@@ -104,7 +104,7 @@ def _unit(value: float) -> float:
 
 
 def _is_known(script: Element | None) -> bool:
-    """Return whether a script is one of Gazebo's own, whose colours win over those beside it."""
+    """Return whether a script is one of Gazebo's own, whose colours take precedence over those beside it."""
     name = script.text_of("name", script.text) if script is not None else ""
     return name.startswith("Gazebo/") and name.rsplit("/", 1)[-1].lower() in _SCRIPT_COLOURS
 
@@ -160,7 +160,7 @@ def _warn_of_directions(surface: Element, mu: float, name: str, diagnostics: Dia
 
 
 def read_bitmask(collision: Element) -> int:
-    """Return the bitmask of a `<collision>`: two collisions can touch when they have a bit in common."""
+    """Return the bitmask of a `<collision>`: two collisions can touch if they have a bit in common."""
     text = collision.text_of("surface/contact/collide_bitmask", "0xFF")
     try:
         return int(text, 0) & 0x7FFFFFFF

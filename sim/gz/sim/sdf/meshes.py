@@ -1,8 +1,9 @@
-"""Mesh files as vertices and triangles: STL (binary and ASCII), OBJ and, with the extra `collada`, COLLADA.
+"""Reads mesh files as vertices and triangles: STL (binary and ASCII), OBJ and, with the extra `collada`, COLLADA.
 
-Called for the `<mesh>` of a geometry, with the path that `gz.sim.sdf.resources` found; the vertices go to the MuJoCo
-builder and to viewers. `<scale>` is not applied here, so that one file is read once for all its sizes.
-Source: STL, https://www.fabbers.com/tech/STL_Format; Wavefront OBJ, https://paulbourke.net/dataformats/obj/
+`<scale>` is not applied here, so that a file is read once for all its sizes.
+
+Source: https://www.fabbers.com/tech/STL_Format
+Source: https://paulbourke.net/dataformats/obj/
 """
 
 from __future__ import annotations
@@ -25,15 +26,15 @@ Triangles = NDArray[np.int32]
 READABLE = (".stl", ".obj", ".dae")
 _UNREAD = (".glb", ".gltf", ".ply", ".fbx", ".3ds", ".blend", ".msh", ".off", ".x3d", ".wrl")
 _MOST_BYTES = 256 * 1024 * 1024
-_LARGEST = 1e9  # a coordinate beyond this is damage, and its square would not fit a float32
+_LARGEST = 1e9  # larger coordinates come from damaged files, and their squares overflow a float32
 _STL_HEADER = 84
 _STL_FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Mesh:
-    """A surface of triangles: `vertices` (n, 3) float64 [m] as in the file, unscaled; `triangles` (m, 3) int32, the
-    indices of the vertices, counter-clockwise seen from outside. Both are read-only.
+    """A triangle surface: `vertices` (n, 3) float64 [m] as in the file, unscaled; `triangles` (m, 3) int32 vertex
+    indices, counter-clockwise seen from outside. Both are read-only.
     """
 
     vertices: Vertices
@@ -42,7 +43,7 @@ class Mesh:
 
 @dataclass(eq=False)
 class _Part:
-    """Triangles with the names of their part: an OBJ group or object, a solid, a COLLADA node."""
+    """Triangles and the names of their part: an OBJ group or object, a solid, a COLLADA node."""
 
     names: tuple[str, ...]
     triangles: list[tuple[int, int, int]]
@@ -105,14 +106,14 @@ def _listed(folder: Path) -> list[Path]:
 def _finished(
     path: Path, vertices: Vertices, runs: Sequence[Sequence[tuple[int, int, int]] | Triangles], center: bool
 ) -> Mesh:
-    """Return the mesh of some runs of triangles: equal vertices are merged; unused ones and flat triangles dropped."""
+    """Return the mesh of lists of triangles: merge equal vertices, drop unused ones and triangles without area."""
     arrays = [np.asarray(run, dtype=np.int32).reshape(-1, 3) for run in runs]
     triangles = np.concatenate(arrays) if arrays else np.zeros((0, 3), np.int32)
     used, flat = np.unique(triangles, return_inverse=True)
     corners = vertices[used]
     if not np.all(np.isfinite(corners)) or np.any(np.abs(corners) > _LARGEST):
         raise ResourceError(f"{path}: the mesh has a vertex that is not finite or is farther than {_LARGEST:g} away")
-    corners, merged = np.unique(corners + 0.0, axis=0, return_inverse=True)  # + 0.0: minus zero is zero
+    corners, merged = np.unique(corners + 0.0, axis=0, return_inverse=True)  # + 0.0 turns -0.0 into 0.0
     triangles = merged.reshape(-1)[flat.reshape(-1)].reshape(-1, 3).astype(np.int32)
     a, b, c = triangles.T
     triangles = triangles[(a != b) & (b != c) & (c != a)]
@@ -125,12 +126,12 @@ def _finished(
 
 
 def _stl(path: Path, data: bytes) -> tuple[Vertices, list[_Part]]:
-    """Read binary or ASCII STL. A binary file may begin with the word "solid" too, so its size decides first."""
+    """Read binary or ASCII STL; the size decides first, because a binary file may also begin with "solid"."""
     count = int.from_bytes(data[80:_STL_HEADER], "little") if len(data) >= _STL_HEADER else -1
     expected = _STL_HEADER + count * _STL_FACET.itemsize
     if count >= 0 and expected <= len(data) and (expected == len(data) or not _looks_ascii(data)):
         facets = np.frombuffer(data, _STL_FACET, count, _STL_HEADER)
-        with np.errstate(invalid="ignore"):  # a damaged number may be a signalling NaN; it is refused below
+        with np.errstate(invalid="ignore"):  # a damaged number may be a signalling NaN; it is rejected below
             corners = facets["corners"].astype(np.float64).reshape(-1, 3)
         indices = np.arange(3 * count, dtype=np.int32).reshape(-1, 3)
         return corners, [_Part((), indices)]  # type: ignore[arg-type]

@@ -1,7 +1,5 @@
-"""`<model>`: links, joints, frames, plugins and the models inside it, flattened into one `Model`.
+"""Reads `<model>`: links, joints, frames, plugins and nested models, flattened into one `Model`.
 
-Part of the reader: `gz.sim.sdf.reader` calls it for every model of a world. Frames are resolved by
-`gz.sim.sdf.frames`, includes opened by `gz.sim.sdf.includes`.
 Source: SDFormat, element `<model>`, http://sdformat.org/spec
 """
 
@@ -26,7 +24,7 @@ _UNHEARD = {
 
 
 def pose_and_base(element: Element) -> tuple[Pose, str]:
-    """Return an element's own `<pose>` and the frame it is given in (empty: the default one)."""
+    """Return an element's own `<pose>` and the frame it is relative to (empty: the default one)."""
     pose = element.find("pose")
     if pose is None:
         return Pose(), ""
@@ -34,7 +32,7 @@ def pose_and_base(element: Element) -> tuple[Pose, str]:
 
 
 def read_plugin(element: Element) -> Plugin:
-    """Return a `<plugin>`. Raises `SdfError` when it names nothing."""
+    """Return a `<plugin>`. Raises SdfError if it has neither name nor filename."""
     name, filename = element.name, element.attributes.get("filename", "")
     if not name and not filename:
         raise element.error("<plugin> needs filename and name, for example name='gz::sim::systems::DiffDrive'")
@@ -42,14 +40,14 @@ def read_plugin(element: Element) -> Plugin:
 
 
 class ModelReader:
-    """Reads the models of one world; holds what every level needs: the includes and where warnings go."""
+    """Reads the models of one world; holds the includes and the diagnostics for all levels."""
 
     def __init__(self, includes: Includes, diagnostics: Diagnostics) -> None:
         self._includes = includes
         self._diagnostics = diagnostics
 
     def read(self, opened: Opened, static: bool = False) -> Placed:
-        """Return a model flattened, with its scope and where its file puts it; `static` holds it with its parent."""
+        """Return a flattened model with its scope and its pose in the file; `static` is inherited from its parent."""
         element = opened.element
         if not element.name:
             raise element.error("<model> needs a name attribute")
@@ -95,7 +93,7 @@ class ModelReader:
         return model, scope, pose, base
 
     def _parts(self, opened: Opened, static: bool) -> list[Opened]:
-        """Return the children of a model with their includes opened, those of merged includes among them."""
+        """Return the children of a model with opened includes and the children of merged includes."""
         found: list[Opened] = []
         for child in opened.element.children:
             part = self._includes.open(child, opened.version, opened.chain)
@@ -110,11 +108,13 @@ class ModelReader:
         return found
 
     def merged(self, part: Opened, static: bool = False, *, world: bool = False) -> list[Opened]:
-        """Return the children of a merged include, which stand beside it in a model or, with `world`, in the world."""
+        """Return the children of a merged include, which become children of the model or, with `world`, of the
+        world.
+        """
         if part.element.tag == "world":
             children = lifted(part, Pose(), "", "", world=True)
         else:
-            # Read once for where its frame stands; the children are read again in their new place.
+            # The model is read once for the pose of its frame; its children are read again in their new scope.
             model, _, pose, base = self.read(part, static)
             children = lifted(part, pose, base, model.canonical_link, world=world)
         made: list[Opened] = []
@@ -126,7 +126,7 @@ class ModelReader:
 
 
 def joint_to_skipped(joint: Element, scope: Scope, includes: Includes, diagnostics: Diagnostics) -> bool:
-    """Return whether a joint leads to a model whose include was skipped; warn if so."""
+    """Return whether a joint refers to a model whose include was skipped; warn if so."""
     for role in ("parent", "child"):
         first = joint.text_of(role).split("::")[0]
         if first in includes.skipped and first not in scope.frames:

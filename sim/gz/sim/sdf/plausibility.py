@@ -1,8 +1,7 @@
-"""Warnings about what SDF allows but is hardly meant: degrees for radians, a size at the wrong place, a wheel without
-inertia, a robot that touches nothing.
+"""Warnings about valid SDF that is probably a mistake: degrees for radians, a misplaced size, a wheel without inertia,
+a robot without collisions.
 
-Part of the reader: `gz.sim.sdf.includes` checks the elements of every file, `gz.sim.sdf.reader` every model that was
-read. Nothing is changed; the world runs as it is written.
+Nothing is changed; the world runs as it is written.
 """
 
 from __future__ import annotations
@@ -42,7 +41,7 @@ def check(root: Element, diagnostics: Diagnostics) -> None:
     while waiting:
         element = waiting.pop()
         for where, sentence in _stray_text(element):
-            diagnostics.warn(where, sentence)  # the text is lost
+            diagnostics.warn(where, sentence)  # the text is ignored by SDF
         for where, sentence in _RULES.get(element.tag, _nothing)(element):
             diagnostics.doubt(where, sentence)
         waiting.extend(child for child in reversed(element.children) if child.tag not in ("plugin", "gui"))
@@ -155,7 +154,7 @@ def _numbers(text: str) -> list[float]:
 
 
 def check_model(model: Model, held: bool, diagnostics: Diagnostics) -> None:
-    """Warn about a model that moves but lacks what moving needs; `held`: a joint of the world holds it."""
+    """Warn about a moving model that lacks mass, inertia or collisions; `held`: a joint of the world carries it."""
     if model.static:
         return
     links = {link.name: link for link in model.links}

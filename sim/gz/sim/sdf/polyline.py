@@ -1,8 +1,9 @@
-"""`<polyline>` of a `<geometry>`: outlines in the x-y plane, extruded along z from 0 to `<height>`.
+"""Reads `<polyline>`: outlines in the x-y plane, extruded along z from 0 to `<height>`.
 
-Part of the reader: `gz.sim.sdf.geometry` calls it. Several polylines in one geometry make one shape; an outline inside
-another is a hole in it (even-odd rule, as in Gazebo). The area is cut into triangles, which are joined to convex
-polygons; their prisms are the pieces that collide, because MuJoCo collides convex meshes only.
+Several polylines in one geometry make one shape; an outline inside another is a hole (even-odd rule, as in Gazebo). The
+area is cut into triangles, which are joined to convex polygons; their prisms collide, because MuJoCo's collision meshes
+are convex.
+
 Source: SDFormat, element `<polyline>`, http://sdformat.org/spec
 """
 
@@ -22,9 +23,9 @@ _LARGEST = 1e6  # [m]
 
 
 def read_polyline(shapes: Sequence[Element]) -> Geometry | None:
-    """Return the prism of the `<polyline>` elements of one geometry, or None when they cross themselves.
+    """Return the prism of the `<polyline>` elements of one geometry, or None if they intersect themselves.
 
-    Raises `SdfError` for outlines without area.
+    Raises SdfError for outlines without area.
     """
     outlines: list[list[Point]] = []
     height = shapes[0].number("height", 1.0)
@@ -76,7 +77,7 @@ def _inside(point: Point, outline: Sequence[Point]) -> bool:
 
 
 def _nested(outlines: list[list[Point]]) -> list[tuple[list[Point], list[list[Point]]]]:
-    """Return each outline that encloses area (turned left) with its holes (turned right)."""
+    """Return each outline that encloses area (counter-clockwise) with its holes (clockwise)."""
     depth = [sum(_inside(one[0], other) for other in outlines if other is not one) for one in outlines]
     found = []
     for outline, level in zip(outlines, depth, strict=True):
@@ -92,12 +93,12 @@ def _nested(outlines: list[list[Point]]) -> list[tuple[list[Point], list[list[Po
 
 
 def _side(a: Point, b: Point, c: Point) -> float:
-    """Return twice the signed area of a triangle: positive when it turns left."""
+    """Return twice the signed area of a triangle, positive if it is counter-clockwise."""
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
 def _convex_parts(rings: Sequence[Sequence[Point]]) -> list[list[Point]]:
-    """Cut an outline with holes (the other rings) into convex polygons, all turned left.
+    """Cut an outline with holes (the other rings) into convex polygons, all counter-clockwise.
 
     Source: ear clipping of mapbox-earcut, https://github.com/mapbox/earcut
     """
@@ -120,7 +121,7 @@ def _joined(parts: list[list[int]], polygon: list[Point]) -> list[list[int]]:
             continue
         a, b = alive[one], alive[other]
         i, j = a.index(edge[1]), b.index(edge[0])
-        # Around a from the end of the edge to its start, then on through b.
+        # Go around polygon a from the end of the edge to its start, then around b.
         whole = a[i:] + a[:i] + (b[j:] + b[:j])[1:-1]
         if len(set(whole)) < len(whole):
             continue
@@ -133,7 +134,7 @@ def _joined(parts: list[list[int]], polygon: list[Point]) -> list[list[int]]:
 
 
 def _extruded(rings: list[list[Point]], polygons: list[list[Point]], height: float) -> TriangleMesh:
-    """Return the walls of all rings (holes turned right), and floor and lid of the polygons, normals outwards."""
+    """Return the walls of all rings (holes clockwise), floor and lid of the polygons, with outward normals."""
     vertices: list[tuple[float, float, float]] = []
     triangles: list[tuple[int, int, int]] = []
 

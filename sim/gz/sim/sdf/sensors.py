@@ -1,7 +1,5 @@
-"""`<sensor>` of a link or, for force-torque sensors, of a joint.
+"""Reads `<sensor>` of a link or, for force-torque sensors, of a joint; the sensor itself reads its own parameters.
 
-Part of the reader, called by `gz.sim.sdf.links` and `gz.sim.sdf.joints`. The parameters of a type of sensor are read by
-the sensor itself.
 Source: SDFormat, element `<sensor>`, http://sdformat.org/spec
 """
 
@@ -15,7 +13,7 @@ from gz_course.sim.gz.sim.sdf.frames import Scope
 
 
 def part_pose(element: Element, holder: str, scope: Scope) -> Pose:
-    """Return the pose of an element in the frame of `holder`, the link or joint that has it."""
+    """Return the pose of an element in the frame of `holder`, the link or joint it belongs to."""
     child = element.find("pose")
     if child is None:
         return Pose()
@@ -28,7 +26,7 @@ def part_pose(element: Element, holder: str, scope: Scope) -> Pose:
 def read_sensor(
     element: Element, link: str, model: Model, scope: Scope, diagnostics: Diagnostics, joint: str = ""
 ) -> Sensor:
-    """Return a sensor of `link`, or of `joint`, whose child is `link`. Raises `SdfError` for one without a type."""
+    """Return a sensor of `link`, or of `joint`, whose child is `link`. Raises SdfError if it has no type."""
     kind = element.attributes.get("type", "")
     if not kind:
         example = "force_torque" if joint else "gpu_lidar"
@@ -36,7 +34,7 @@ def read_sensor(
     child = element.find("pose")
     base = child.attributes.get("relative_to", "") if child is not None else ""
     if child is not None and base and base.split("::")[0] not in (*scope.frames, scope.own):
-        # As in gz-sensors: the pose counts without its frame, so that the world still runs.
+        # As in gz-sensors an unknown frame is ignored, so that the world still runs.
         frame = "joint's" if joint else "link's"
         diagnostics.warn(child.where, f"sensor pose relative_to='{base}' names no frame; the {frame} frame is used")
         pose = child.pose()
@@ -46,7 +44,7 @@ def read_sensor(
 
 
 def read_joint_sensors(joint: Joint, scope: Scope, model: Model, diagnostics: Diagnostics) -> list[Sensor]:
-    """Return the sensors of a joint. Raises `SdfError` for one without name or type and for two of the same name."""
+    """Return the sensors of a joint. Raises SdfError for a missing name or type and for a duplicate name."""
     found: list[Sensor] = []
     for element in joint.element.all("sensor"):
         if not element.name:

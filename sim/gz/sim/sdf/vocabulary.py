@@ -1,9 +1,8 @@
-"""Words of SDF 1.4 to 1.12: the children and the attributes of every element, so that a typo is answered with the
-nearest word.
+"""Words of SDF 1.4 to 1.12: the children and attributes of every element, to report a typo with the nearest word.
 
-Used by the reader right after parsing. An unknown word never stops a world; as in Gazebo it is ignored with a warning.
-Words with a prefix (`gz:...`) and everything inside `<plugin>` and `<gui>` are not checked. An element with several
-meanings (`<image>`, `<contact>`) has the words of all of them.
+As in Gazebo an unknown word is ignored with a warning. Words with a prefix (`gz:...`) and the contents of `<plugin>`
+and `<gui>` are not checked. An element with several meanings (`<image>`, `<contact>`) has the words of all of them.
+
 Source: SDFormat specification, http://sdformat.org/spec
 """
 
@@ -275,7 +274,7 @@ _ANY_ATTRIBUTE = frozenset(("gui",))
 
 
 def check(root: Element, diagnostics: Diagnostics) -> None:
-    """Warn about each element and attribute that SDF does not know at its place, with the nearest word."""
+    """Warn about each unknown element and attribute, with the nearest word."""
     for count, (where, sentence, word, known, listing) in enumerate(_unknown(root)):
         if count >= _MOST_REPORTED:
             diagnostics.warn(root.where, f"more than {_MOST_REPORTED} words are unknown to SDF, the rest is not named")
@@ -284,7 +283,7 @@ def check(root: Element, diagnostics: Diagnostics) -> None:
 
 
 def _hint(word: str, known: frozenset[str], listing: str) -> str:
-    """Return the elements to which a word belongs, else the nearest word that is known at its place."""
+    """Return the elements to which a word belongs, else the nearest known word."""
     homes = sorted(parent for parent, children in CHILDREN.items() if word in children and parent not in _RARE_HOMES)
     if listing == _CHILDREN_LISTING and 0 < len(homes) <= _MOST_HOMES:
         return f"; it belongs into {' or '.join(f'<{home}>' for home in homes)}"
@@ -292,7 +291,7 @@ def _hint(word: str, known: frozenset[str], listing: str) -> str:
 
 
 def _unknown(root: Element) -> Iterator[tuple[str, str, str, frozenset[str], str]]:
-    """Yield place, sentence, unknown word, the words known there, and the phrase that lists them."""
+    """Yield place, sentence, unknown word, words known there, and the phrase that lists them."""
     waiting = [root]
     while waiting:
         element = waiting.pop()

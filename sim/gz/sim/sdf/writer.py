@@ -1,7 +1,4 @@
-"""XML text of elements, the inverse of `gz.sim.sdf.element.parse`.
-
-Used by the world generator (`gz.sim.sdf_generator`) for the answer of `generate_world_sdf` and for recordings.
-"""
+"""Writes elements as XML text, the inverse of `gz.sim.sdf.element.parse`."""
 
 from __future__ import annotations
 
@@ -28,9 +25,7 @@ def to_xml(element: Element, indent: str = "") -> str:
 
 
 def pose_element(pose: Pose, version: tuple[int, int]) -> Element:
-    """Return a `<pose>` that reads back as `pose`: exactly as a quaternion from SDF 1.9 on, by roll, pitch and yaw
-    before.
-    """
+    """Return a `<pose>` that reads back as `pose`: an exact quaternion from SDF 1.9 on, roll, pitch and yaw before."""
     position = " ".join(_number(value) for value in pose.position)
     if version >= (1, 9):
         w, x, y, z = (_number(value) for value in pose.quaternion)

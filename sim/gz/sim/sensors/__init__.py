@@ -1,1 +1,3 @@
-"""The sensors: one file per sensor type, found by a scan of this folder, with the plugin that runs it if it has one."""
+"""The sensor types: one file for each, found by a scan of this folder, with the plugin that runs it if it has its
+own.
+"""

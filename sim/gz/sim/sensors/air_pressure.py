@@ -52,24 +52,24 @@ def standard_pressure(height: float) -> float:
 
 @sensor_type("air_pressure")
 class AirPressure(SiteSensor):
-    """A barometer."""
+    """A barometer, run by the AirPressure system."""
 
     runs_in = sensor_system("AirPressure", "gz-sim-air-pressure-system")
     suffix = "air_pressure"
     message_type = "gz.msgs.FluidPressure"
 
     def __init__(self, world: WorldAccess, description: Sensor) -> None:
-        """Read `<air_pressure>`; its `<reference_altitude>` has no effect, as in Gazebo, and is warned about."""
+        """Read `<air_pressure>`; warns that its `<reference_altitude>` has no effect, as in Gazebo."""
         super().__init__(world, description)
         altitude = description.element.find("air_pressure/reference_altitude")
         if altitude is not None and description.element.number("air_pressure/reference_altitude", 0.0) != 0.0:
             text = "<reference_altitude> has no effect, as in Gazebo; put the model at that height instead"
             world.diagnostics.warn(altitude.where, text)
-        # Gazebo's variance is the root of the deviation, not its square.
+        # Gazebo sends the square root of the standard deviation as the variance.
         self._variance = math.sqrt(noise_at(description.element, "air_pressure/pressure").stddev)
 
     def read_noises(self, element: Element) -> Sequence[tuple[str, Noise]]:
-        """Return the noise of the pressure [Pa]."""
+        """Return the noise of the pressure, in [Pa]."""
         return [("pressure", noise_at(element, "air_pressure/pressure"))]
 
     def fill(self, message: Any) -> None:

@@ -1,6 +1,6 @@
-"""Air speed (a pitot tube): the dynamic pressure of the air that comes from ahead, as `gz.msgs.AirSpeed`.
+"""Air speed sensor (pitot tube): the dynamic pressure of the air from ahead, as `gz.msgs.AirSpeed`.
 
-The AirSpeed system runs it. The air stands still: wind is not simulated.
+The AirSpeed system runs it. Wind is not simulated.
 
 Source: https://github.com/gazebosim/gz-sensors/blob/gz-sensors8/src/AirSpeedSensor.cc
 """
@@ -35,11 +35,11 @@ class AirSpeed(SiteSensor):
     message_type = "gz.msgs.AirSpeed"
 
     def read_noises(self, element: Element) -> Sequence[tuple[str, Noise]]:
-        """Return the noise of the pressure, in hPa as in Gazebo."""
+        """Return the noise of the pressure, in [hPa] as in Gazebo."""
         return [("pressure", noise_at(element, "air_speed/pressure"))]
 
     def fill(self, message: Any) -> None:
-        """Measure: rho v |v| / 2, in Pa, and the temperature of the air in K."""
+        """Measure the dynamic pressure rho v |v| / 2 [Pa] and the temperature of the air [K]."""
         height = min(float(self.motion.position()[2]), HIGHEST)
         temperature = SEA_LEVEL_TEMPERATURE - LAPSE_RATE * height
         density = SEA_LEVEL_DENSITY * math.pow(temperature / SEA_LEVEL_TEMPERATURE, DENSITY_EXPONENT)

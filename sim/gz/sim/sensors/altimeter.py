@@ -1,4 +1,4 @@
-"""Altimeter: height above where the sensor stood at the start, and vertical speed, as `gz.msgs.Altimeter`.
+"""Altimeter: height above the initial position and vertical speed, as `gz.msgs.Altimeter`.
 
 The Altimeter system runs it.
 
@@ -34,7 +34,7 @@ class Altimeter(SiteSensor):
         return [(tag, noise_at(element, f"altimeter/{tag}")) for tag in ("vertical_position", "vertical_velocity")]
 
     def start(self) -> None:
-        """Begin the schedule and take the height as it is now for zero."""
+        """Begin the schedule with the present height as zero."""
         super().start()
         self.reference = float(self.motion.position()[2])
 

@@ -1,7 +1,7 @@
-"""Camera: a colour image of what is visible, and its CameraInfo.
+"""Camera: a colour image and its CameraInfo.
 
-Base and topics: `camera_sensor`; colours: `renderer`. Formats R8G8B8, L8, L16 and the Bayer patterns; any other is
-named in a warning, and the image is R8G8B8, as in Gazebo.
+`camera_sensor` has the base class and the topics, `renderer` makes the colours. Formats are R8G8B8, L8, L16 and the
+Bayer patterns; any other causes a warning and an R8G8B8 image, as in Gazebo.
 """
 
 from __future__ import annotations
@@ -38,12 +38,12 @@ _BAYER = {"BAYER_RGGB8": "RGGB", "BAYER_BGGR8": "BGGR", "BAYER_GBRG8": "GBRG", "
 
 
 def to_bytes(colours: NDArray[np.floating[Any]]) -> NDArray[np.uint8]:
-    """Return colours 0..1 as 0..255, rounded."""
+    """Return colours 0..1 as rounded bytes 0..255."""
     return (np.clip(colours, 0.0, 1.0) * 255.0 + 0.5).astype(np.uint8)
 
 
 def encode(colours: NDArray[np.floating[Any]], height: int, width: int, pixel_format: str) -> NDArray[Any]:
-    """Return colours (height * width, 3), each 0..1, as the numbers of an image of that format."""
+    """Return colours (height * width, 3), values 0..1, as the pixels of an image of the given format."""
     if pixel_format == "L_INT8":
         return to_bytes(colours @ _LUMINANCE).reshape(height, width)
     if pixel_format == "L_INT16":
@@ -60,7 +60,7 @@ def encode(colours: NDArray[np.floating[Any]], height: int, width: int, pixel_fo
 
 @sensor_type("camera")
 class Camera(CameraSensor):
-    """A colour camera."""
+    """A colour camera, run by the Sensors system."""
 
     wanted: ClassVar = {"": "Image"}
 
@@ -86,7 +86,7 @@ class Camera(CameraSensor):
         self._renderer.bind()
 
     def image(self) -> NDArray[Any]:
-        """Return the image of now, with the noise of the current update, as numbers of the camera's format."""
+        """Return the present image in the camera's format, with the noise of the current update."""
         colours: NDArray[np.floating[Any]] = self._renderer.image()
         if not self.noise.silent:
             colours = self.noise.apply(colours.astype(np.float64), 0.0, self.random())

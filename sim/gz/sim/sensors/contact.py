@@ -1,7 +1,9 @@
-"""Contact sensor: what touches the named collisions of its link, as `gz.msgs.Contacts`.
+"""Contact sensor: the contacts of the named collisions of its link, as `gz.msgs.Contacts`.
 
-The Contact system runs it. As in Gazebo it publishes at every step at which something touches, whatever
-`<update_rate>` says, and nothing otherwise; its topic stands in `<contact>`.
+The Contact system runs it. As in Gazebo it publishes at every step with a contact, regardless of `<update_rate>`, and
+otherwise nothing; its topic is given in `<contact>`.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/contact/Contact.cc
 """
 
 from __future__ import annotations
@@ -24,13 +26,13 @@ NO_TOPIC = "__default_topic__"
 
 @sensor_type("contact")
 class Contact(SensorBase):
-    """Publishes one `Contact` for each pair of collisions that touch, with all their points."""
+    """Publishes one `Contact` with all points for each pair of collisions that touch."""
 
     runs_in = sensor_system("Contact", "gz-sim-contact-system")
 
     def __init__(self, world: WorldAccess, description: Sensor) -> None:
-        """Read `<contact>`; raise `SdfError` without one. A collision that is not there, and a topic at the wrong
-        place, are warned about.
+        """Read `<contact>`. Raises SdfError if it is missing; warns about an unknown collision and a misplaced
+        topic.
         """
         super().__init__(world, description)
         element = description.element
@@ -63,7 +65,6 @@ class Contact(SensorBase):
         self._publisher: Any = None
 
     def bind(self) -> None:
-        """Find the geoms of the collisions."""
         self._geoms = CollisionGeoms(self.world)
         self._feeling = {geom for path in self.collisions for geom in self._geoms.of(path)}
 
@@ -83,7 +84,6 @@ class Contact(SensorBase):
         return self._publisher is not None and self._publisher.has_connections()
 
     def update(self, now_ns: int) -> None:
-        """Publish what touches, when something does."""
         pairs: dict[tuple[CollisionPath, CollisionPath], list[ContactPoint]] = {}
         for point in contact_points(self.world, self._feeling):
             other = self._geoms.paths.get(point.other)

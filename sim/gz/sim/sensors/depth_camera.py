@@ -1,7 +1,9 @@
-"""Depth camera: the distance of every pixel along the optical axis, and the coloured points.
+"""Depth camera: the distance of every pixel along the optical axis, and a cloud of coloured points.
 
-Depths are float32 metres: -inf nearer than the near clip plane, +inf beyond the far one and where there is nothing.
-The near plane does not hide: what is too near is reported as too near, not looked through.
+Depths are float32 [m]: -inf nearer than the near clip plane, +inf beyond the far one and without a hit. A surface
+before the near plane is reported as too near; it is not transparent.
+
+Source: https://github.com/gazebosim/gz-sensors/blob/gz-sensors8/src/DepthCameraSensor.cc
 """
 
 from __future__ import annotations
@@ -24,7 +26,7 @@ if TYPE_CHECKING:
 
 
 class DepthSensing(CameraSensor):
-    """What depth cameras and RGBD cameras share."""
+    """Base of depth cameras and RGBD cameras."""
 
     near_hides = False
 
@@ -39,7 +41,7 @@ class DepthSensing(CameraSensor):
         self.shader.bind()
 
     def depths(self, hits: Hits) -> NDArray[np.float32]:
-        """Return the depth image (height, width) of now, with the noise of the current update."""
+        """Return the present depth image (height, width) [m], with the noise of the current update."""
         depth = self.depth(hits)
         if not self.noise.silent:
             finite = np.isfinite(depth)
@@ -49,9 +51,9 @@ class DepthSensing(CameraSensor):
         return depth.astype("<f4").reshape(self.pinhole.height, self.pinhole.width)
 
     def points(self, depth: NDArray[np.float32], colours: NDArray[np.floating[Any]]) -> NDArray[Any]:
-        """Return a coloured point for every pixel, in the sensor's frame (x ahead, y left, z up)."""
+        """Return a coloured point for every pixel, in the sensor's frame (x forward, y left, z up)."""
         points = np.zeros(depth.size, dtype=COLOURED)
-        with np.errstate(invalid="ignore"):  # infinitely far along an axis that is not looked along
+        with np.errstate(invalid="ignore"):  # inf * 0 along an axis with zero slope
             points["x"], points["y"], points["z"] = self._slopes * depth.ravel()
         points["rgb"] = pack_rgb(to_bytes(colours))
         return points

@@ -1,7 +1,7 @@
-"""Force-torque sensor of a joint: the wrench one link puts on the other through it, as `gz.msgs.Wrench`.
+"""Force-torque sensor of a joint: the wrench between its two links, as `gz.msgs.Wrench`.
 
-The ForceTorque system runs it. `<frame>` says along whose axes (parent, child or sensor), `<measure_direction>` who
-pushes whom; the torque is about the sensor's own position.
+The ForceTorque system runs it. `<frame>` selects the axes (parent, child or sensor), `<measure_direction>` the link
+that the wrench acts on; the torque is about the sensor's position.
 
 Source: https://github.com/gazebosim/gz-sensors/blob/gz-sensors8/src/ForceTorqueSensor.cc
 """
@@ -36,15 +36,15 @@ DIRECTIONS = ("child_to_parent", "parent_to_child")
 
 @sensor_type("force_torque")
 class ForceTorque(SiteSensor):
-    """Measures what a joint of any type, also a fixed one, transmits."""
+    """Measures the wrench that a joint of any type transmits, including a fixed joint."""
 
     runs_in = sensor_system("ForceTorque", "gz-sim-forcetorque-system")
     suffix = "forcetorque"
     message_type = "gz.msgs.Wrench"
 
     def __init__(self, world: WorldAccess, description: Sensor) -> None:
-        """Read `<force_torque>`; raise `SdfError` for a frame or direction that is not known. A sensor that does
-        not stand in a joint is warned about and stays silent.
+        """Read `<force_torque>`. Raises SdfError for an unknown frame or direction; warns if the sensor is not in a
+        joint.
         """
         super().__init__(world, description)
         element = description.element
@@ -55,7 +55,7 @@ class ForceTorque(SiteSensor):
             world.diagnostics.warn(element.where, text + f"stands in link '{description.link}'")
 
     def read_noises(self, element: Element) -> Sequence[tuple[str, Noise]]:
-        """Return the noises of the force [N], then of the torque [N m], x y z each."""
+        """Return the noises of the force [N] and the torque [N m], x y z each."""
         names = [f"{kind}/{axis}" for kind in ("force", "torque") for axis in "xyz"]
         return [(name, noise_at(element, f"force_torque/{name}")) for name in names]
 
@@ -64,7 +64,7 @@ class ForceTorque(SiteSensor):
             super().connect(node)
 
     def bind(self) -> None:
-        """Find the bodies of the joint's links; -1 for one that cannot move, because nothing is measured there."""
+        """Find the bodies of the joint's links; -1 for a static link, which is not measured."""
         super().bind()
         self._child, self._parent, self._weightless = -1, 0, np.zeros(0, dtype=np.int64)
         model, joint = self._joint()
@@ -86,14 +86,14 @@ class ForceTorque(SiteSensor):
         return model, model.joint(self.description.joint)
 
     def _carries(self, body: int) -> bool:
-        """Tell whether a body hangs on the joint's child."""
+        """Tell whether a body is the joint's child or one of its descendants."""
         while body > 0 and body != self._child:
             body = int(self.world.model.body_parentid[body])
         return body == self._child
 
     def wrench(self) -> tuple[Vector, Vector]:
-        """Return the force [N] and the torque (N m, about the sensor) of the parent on the child during the last
-        step, along the axes that are asked for.
+        """Return the force [N] and the torque [N m] about the sensor that the parent applied to the child during the
+        last step, along the requested axes.
         """
         if self._child <= 0:
             return np.zeros(3), np.zeros(3)
@@ -104,12 +104,15 @@ class ForceTorque(SiteSensor):
             return force @ turn, torque @ turn
 
     def _in_world(self) -> tuple[Vector, Vector]:
-        """Return MuJoCo's `cfrc_int` of the child: its inertial forces, less what pushes it from outside."""
+        """Return MuJoCo's `cfrc_int` of the child: its inertial forces minus the external forces.
+
+        Source: https://mujoco.readthedocs.io/en/stable/APIreference/APIfunctions.html (mj_rnePostConstraint)
+        """
         model, data, child = self.world.model, self.world.data, self._child
         here = self.motion.position()
         moment, force = data.cfrc_int[child][:3].copy(), data.cfrc_int[child][3:].copy()
         moment += np.cross(data.subtree_com[model.body_rootid[child]] - here, force)
-        # Links without gravity are held up by a force that MuJoCo leaves out of the outer ones.
+        # The gravity compensation of links without gravity is missing in MuJoCo's external forces.
         for body in self._weightless:
             lift = -model.body_mass[body] * model.body_gravcomp[body] * model.opt.gravity
             force -= lift

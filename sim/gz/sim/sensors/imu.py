@@ -1,8 +1,7 @@
 """IMU: orientation, angular velocity and linear acceleration of a link, as `gz.msgs.IMU`.
 
-The Imu system runs it. The acceleration is the specific force: 9.8 m/s^2 upwards when standing still, zero in free
-fall. The orientation is seen from where the sensor stood at the start, unless `<orientation_reference_frame>` names
-another frame.
+The Imu system runs it. The acceleration is the specific force: 9.8 m/s^2 upwards at rest, zero in free fall. The
+orientation is relative to the initial one, unless `<orientation_reference_frame>` names another frame.
 
 Source: https://github.com/gazebosim/gz-sensors/blob/gz-sensors8/src/ImuSensor.cc
 """
@@ -41,14 +40,14 @@ _AXES = [f"{group}/{axis}" for group in ("angular_velocity", "linear_acceleratio
 
 @sensor_type("imu")
 class Imu(SiteSensor):
-    """An inertial measurement unit."""
+    """An inertial measurement unit, run by the Imu system."""
 
     runs_in = sensor_system("Imu", "gz-sim-imu-system")
     suffix = "imu"
     message_type = "gz.msgs.IMU"
 
     def __init__(self, world: WorldAccess, description: Sensor) -> None:
-        """Read `<imu>`; an unknown localization is warned about, and the initial orientation is used instead."""
+        """Read `<imu>`; warns about an unknown localization and uses the initial orientation instead."""
         super().__init__(world, description)
         element = description.element
         self.enable_orientation = (element.find("imu") or element).flag("enable_orientation", True)
@@ -63,11 +62,10 @@ class Imu(SiteSensor):
         """The frame the orientation is seen from: its quaternion (wxyz) in the world."""
 
     def read_noises(self, element: Element) -> Sequence[tuple[str, Noise]]:
-        """Return the noises of the angular velocity [rad/s], then of the acceleration [m/s^2], x y z each."""
+        """Return the noises of the angular velocity [rad/s] and the acceleration [m/s^2], x y z each."""
         return [(axis, noise_at(element, f"imu/{axis}")) for axis in _AXES]
 
     def start(self) -> None:
-        """Begin the schedule and take the reference frame as it stands now."""
         super().start()
         found = self._reference_frame()
         self.reference = self.motion.quaternion() if found is None else found
@@ -87,20 +85,20 @@ class Imu(SiteSensor):
         message.linear_acceleration_covariance.data.extend(self._covariances[1])
 
     def orientation(self) -> Vector:
-        """Return the sensor's orientation (wxyz) seen from the reference frame."""
+        """Return the sensor's orientation (wxyz) in the reference frame."""
         return multiply(self.reference * (1.0, -1.0, -1.0, -1.0), self.motion.quaternion())
 
     def _reference_frame(self) -> Vector | None:
-        """Return the quaternion (wxyz) of the frame that is asked for, None for the initial orientation."""
+        """Return the quaternion (wxyz) of the reference frame, None for the initial orientation."""
         if self._frame is None:
             return None
         if self.localization in _FROM_ENU:
             where = self.world.description.spherical_coordinates
-            # Gazebo turns by +heading here, although the world is turned by +heading against ENU.
+            # As in Gazebo, which turns by +heading here although the world itself is turned by +heading from ENU.
             heading = math.radians(where.heading_deg) if where is not None else 0.0
             return multiply(quaternion_from_rpy(0.0, 0.0, heading), quaternion_from_rpy(*_FROM_ENU[self.localization]))
         if self.localization == "CUSTOM":
-            # Without a parent frame Gazebo takes the world's, not the sensor's own as SDF says.
+            # Without a parent frame Gazebo uses the world's; SDF specifies the sensor's own.
             parent = self._parent_frame("custom_rpy", quaternion_from_rpy(0.0, 0.0, 0.0))
             roll, pitch, yaw = self._frame.vector("custom_rpy", (0.0, 0.0, 0.0))
             return None if parent is None else multiply(parent, quaternion_from_rpy(roll, pitch, yaw))
@@ -109,7 +107,7 @@ class Imu(SiteSensor):
         return None
 
     def _gravity_frame(self, sign: float) -> Vector | None:
-        """Return the frame whose z axis is against gravity (or along it, `sign` -1), x nearest to grav_dir_x."""
+        """Return the frame with z against gravity (along it for `sign` -1) and x nearest to grav_dir_x."""
         assert self._frame is not None
         parent = self._parent_frame("grav_dir_x", self.motion.quaternion())
         if parent is None:
@@ -129,7 +127,7 @@ class Imu(SiteSensor):
         return found
 
     def _parent_frame(self, tag: str, unnamed: Vector) -> Vector | None:
-        """Return the orientation (wxyz) of the `parent_frame` of a tag: the world, or a link as it stands now."""
+        """Return the orientation (wxyz) of the tag's `parent_frame`: the world or the present one of a link."""
         assert self._frame is not None
         element = self._frame.find(tag)
         name = element.attributes.get("parent_frame", "") if element is not None else ""

@@ -1,11 +1,12 @@
-"""Lidar, 2-D and 3-D: casts rays into the world and publishes a `LaserScan` and a cloud of points.
+"""Lidar, 2-D and 3-D: casts rays into the world and publishes a `LaserScan` and a point cloud.
 
-`gpu_lidar` sees what is visible (visuals), as in Gazebo; `lidar` and `ray` see the collision shapes. After a
-physics step, when due and listened to: rays -> ranges -> out of range as -inf / +inf (REP 117) -> noise on
-finite ranges -> messages. The robot's own parts are seen too, except those that enclose the sensor and what
-lies in the near clip cube. Intensities are the `<laser_retro>` of what was met.
+As in Gazebo `gpu_lidar` sees visuals; `lidar` and `ray` see collision shapes. After a physics step, if due and
+subscribed: rays -> ranges -> -inf / +inf out of range (REP 117) -> noise on finite ranges -> messages. The robot's own
+parts are visible, except those that enclose the sensor or lie in the near clip cube. Intensities are the
+`<laser_retro>` of the surfaces.
 
 Source: https://github.com/gazebosim/gz-sensors/blob/gz-sensors8/src/GpuLidarSensor.cc
+Source: https://www.ros.org/reps/rep-0117.html
 """
 
 from __future__ import annotations
@@ -30,11 +31,11 @@ if TYPE_CHECKING:
 
 MOST_RAYS = 2_000_000
 """More beams than this would take minutes a scan."""
-_MORE_THAN_ROUND = 6.5  # [rad]; a full turn may be stated carelessly
+_MORE_THAN_ROUND = 6.5  # [rad]; more than 2 pi, because a full turn may be rounded
 
 
 class _Sweep:
-    """One direction of scanning: `count` angles from `minimum` to `maximum` [rad], `step` apart."""
+    """One scan direction: `count` angles from `minimum` to `maximum` [rad], `step` [rad] apart."""
 
     def __init__(self, element: Element | None, default_count: int) -> None:
         self.count, self.minimum, self.maximum = default_count, 0.0, 0.0
@@ -58,9 +59,7 @@ class _Sweep:
 
 @sensor_type("gpu_lidar", "gpu_ray", "lidar", "ray")
 class Lidar(SensorBase):
-    """A scanning range sensor. Ranges are row major, lowest vertical angle first; angles in the sensor's
-    frame.
-    """
+    """A scanning range sensor; ranges are row-major from the lowest vertical angle, angles in the sensor's frame."""
 
     def __init__(self, world: WorldAccess, description: Sensor) -> None:
         super().__init__(world, description)
@@ -92,7 +91,7 @@ class Lidar(SensorBase):
         self._bias = self.noise.draw_bias(self.constant_random("bias"))
         self._directions = directions(self.horizontal.angles, self.vertical.angles)
         self._group = VISUAL_GROUP if description.kind.startswith("gpu") else COLLISION_GROUP
-        # Gazebo's rendering leaves out what lies in this cube round the sensor.
+        # Gazebo's renderer omits what is inside this cube around the sensor.
         near = self.range_min / math.sqrt(3.0) / np.max(np.abs(self._directions), axis=1)
         mask = holder.integer("visibility_mask", ALL_BITS)
         self.caster = RayCaster(world, description, self._directions, self._group, near, self.range_max, mask)
@@ -100,9 +99,9 @@ class Lidar(SensorBase):
         self._points: Any = None
 
     def bind(self) -> None:
-        """Find the site, what is invisible to this sensor, and how strongly each surface reflects."""
+        """Find the site, the geoms invisible to this sensor, and the reflectivity of each surface."""
         self.caster.bind()
-        # One more entry, for rays that met nothing (geom -1).
+        # The additional last entry is for rays without a hit (geom -1).
         self._retro = np.zeros(self.world.model.ngeom + 1)
         for geom, _, _, part in geom_parts(self.world, self._group):
             self._retro[geom] = part.element.number("laser_retro", 0.0)
@@ -111,7 +110,7 @@ class Lidar(SensorBase):
         return "scan"
 
     def connect(self, node: Node) -> None:
-        """Advertise the scan and, below it, the points."""
+        """Advertise the scan and, as `<topic>/points`, the cloud."""
         from gz_course.sim.gz.msgs.laserscan_pb2 import LaserScan
         from gz_course.sim.gz.msgs.pointcloud_packed_pb2 import PointCloudPacked
 
@@ -123,9 +122,7 @@ class Lidar(SensorBase):
         return self._scan is not None and (self._scan.has_connections() or self._points.has_connections())
 
     def ranges(self) -> Floats:
-        """Return the exact distances [m] along all rays now: +inf beyond `range_max`, -inf below `range_min`,
-        no noise.
-        """
+        """Return the exact distances [m] along all rays: +inf beyond `range_max`, -inf below `range_min`."""
         hits = self.caster.cast()
         distances = hits.distance.copy()
         missed = distances < 0.0
@@ -144,7 +141,7 @@ class Lidar(SensorBase):
         return distances
 
     def update(self, now_ns: int) -> None:
-        """Publish one scan and its points, each if somebody listens."""
+        """Publish a scan and its points, each if it has a subscriber."""
         distances = self.measure()
         if self._scan.has_connections():
             self._publish_scan(distances, now_ns)
@@ -172,7 +169,7 @@ class Lidar(SensorBase):
         message = self._points_type()
         self.fill_header(message.header, now_ns)
         points = np.zeros(len(distances), dtype=LIDAR)
-        with np.errstate(invalid="ignore"):  # infinitely far along an axis that is not looked along
+        with np.errstate(invalid="ignore"):  # inf * 0 along an axis with zero slope
             points["x"], points["y"], points["z"] = (self._directions * distances[:, None]).T
         points["intensity"] = self._intensities
         points["ring"] = np.repeat(np.arange(self.vertical.count), self.horizontal.count)

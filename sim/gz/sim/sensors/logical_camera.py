@@ -1,7 +1,7 @@
-"""Logical camera: which models are in view, by name and pose, as `gz.msgs.LogicalCameraImage`.
+"""Logical camera: names and poses of the models in view, as `gz.msgs.LogicalCameraImage`.
 
-The LogicalCamera system runs it. A model is in view when its origin is inside the frustum that opens along the
-sensor's x axis; nothing hides anything. The frustum itself is told on `<topic>/frustum`.
+The LogicalCamera system runs it. A model is in view if its origin is inside the frustum along the sensor's x axis;
+occlusion is ignored. The frustum itself is published on `<topic>/frustum`.
 
 Source: https://github.com/gazebosim/gz-sensors/blob/gz-sensors8/src/LogicalCameraSensor.cc
 """
@@ -27,14 +27,14 @@ if TYPE_CHECKING:
 
 @sensor_type("logical_camera")
 class LogicalCamera(SiteSensor):
-    """Sees models, also nested ones and the one it is mounted on, in the order of their names."""
+    """Sees all models, including nested ones and its own, in the order of their names."""
 
     runs_in = sensor_system("LogicalCamera", "gz-sim-logical-camera-system")
     suffix = "logical_camera"
     message_type = "gz.msgs.LogicalCameraImage"
 
     def __init__(self, world: WorldAccess, description: Sensor) -> None:
-        """Read `<logical_camera>`, or take SDF's default values; raise `SdfError` for an impossible frustum."""
+        """Read `<logical_camera>` with SDF's defaults. Raises SdfError for an impossible frustum."""
         super().__init__(world, description)
         element = description.element
         camera = element.find("logical_camera") or Element("logical_camera", file=element.file, line=element.line)
@@ -53,11 +53,9 @@ class LogicalCamera(SiteSensor):
         self._frustum: Any = None
 
     def read_noises(self, element: Element) -> Sequence[tuple[str, Noise]]:
-        """Return nothing: what it sees is exact."""
         return []
 
     def connect(self, node: Node) -> None:
-        """Advertise what is seen, and the frustum."""
         from gz_course.sim.gz.msgs.logical_camera_sensor_pb2 import LogicalCameraSensor
 
         super().connect(node)
@@ -68,7 +66,6 @@ class LogicalCamera(SiteSensor):
         return super().has_connections() or (self._frustum is not None and self._frustum.has_connections())
 
     def update(self, now_ns: int) -> None:
-        """Publish what is seen, and the frustum."""
         super().update(now_ns)
         if self._frustum.has_connections():
             message = self._frustum_type(near_clip=self.near, far_clip=self.far)

@@ -1,8 +1,8 @@
 """Magnetometer: the magnetic field along the sensor's own axes, as `gz.msgs.Magnetometer`.
 
-The Magnetometer system runs it. In a world without `<spherical_coordinates>` the field is its `<magnetic_field>`, the
-same everywhere, in tesla. In a world that lies on the earth it is the earth's at that place; Gazebo then writes gauss
-into `field_tesla`, and takes north, east, down for the world's x, y, z, unless the system is told otherwise.
+The Magnetometer system runs it. Without `<spherical_coordinates>` the field is the `<magnetic_field>` of the world [T].
+Otherwise it is the earth's field at that place; like Gazebo, the system then writes gauss into `field_tesla` and takes
+north, east, down as the world's x, y, z, unless its parameters say otherwise.
 
 Source: https://github.com/gazebosim/gz-sensors/blob/gz-sensors8/src/MagnetometerSensor.cc
 """
@@ -33,7 +33,7 @@ GAUSS = 1e4
 
 @sensor_type("magnetometer")
 class Magnetometer(SiteSensor):
-    """A compass of three axes."""
+    """A three-axis magnetometer, run by the Magnetometer system."""
 
     runs_in = "Magnetometer"
     suffix = "magnetometer"
@@ -48,7 +48,7 @@ class Magnetometer(SiteSensor):
         return [(axis, noise_at(element, f"magnetometer/{axis}")) for axis in "xyz"]
 
     def world_field(self) -> Vector:
-        """Return the field (3,) along the world's axes."""
+        """Return the field (3,) along the world's axes, in the unit that is published."""
         coordinates = self.world.description.spherical_coordinates
         if coordinates is None or coordinates.surface_model != "EARTH_WGS84":
             return np.array(self.world.description.magnetic_field)
@@ -64,8 +64,8 @@ class Magnetometer(SiteSensor):
 
 @system("Magnetometer", "gz-sim-magnetometer-system")
 class MagnetometerSystem(SensorSystem):
-    """Runs every magnetometer. `<use_units_gauss>` and `<use_earth_frame_ned>` (both true by default) tell how the
-    earth's field is expressed.
+    """Runs every magnetometer; `<use_units_gauss>` and `<use_earth_frame_ned>` (both true by default) set the unit and
+    the axes of the earth's field.
     """
 
     parameters = frozenset(("use_units_gauss", "use_earth_frame_ned"))

@@ -1,6 +1,6 @@
 """NavSat (GPS): latitude, longitude, altitude and velocity, as `gz.msgs.NavSat`.
 
-The NavSat system runs it. Where the world lies is said by its `<spherical_coordinates>`.
+The NavSat system runs it. The world's `<spherical_coordinates>` define its place on the earth.
 
 Source: https://github.com/gazebosim/gz-sensors/blob/gz-sensors8/src/NavSatSensor.cc
 """
@@ -28,8 +28,8 @@ SUSPICIOUS_DEGREES = 0.01
 
 @sensor_type("navsat", "gps")
 class NavSat(SiteSensor):
-    """A satellite navigation receiver. Velocities are along the world's x, y and z, as in Gazebo, also when the
-    world has a heading.
+    """A satellite navigation receiver; velocities are along the world's x, y and z even if the world has a heading, as
+    in Gazebo.
     """
 
     runs_in = sensor_system("NavSat", "gz-sim-navsat-system")
@@ -37,7 +37,9 @@ class NavSat(SiteSensor):
     message_type = "gz.msgs.NavSat"
 
     def __init__(self, world: WorldAccess, description: Sensor) -> None:
-        """Read `<navsat>` or `<gps>`; warn when the world lies nowhere, and of noise that seems to be in metres."""
+        """Read `<navsat>` or `<gps>`; warns if the world has no place on the earth, and about noise that seems to be in
+        metres.
+        """
         super().__init__(world, description)
         where, name = description.element.where, description.name
         if world.description.spherical_coordinates is None:
@@ -49,16 +51,16 @@ class NavSat(SiteSensor):
             world.diagnostics.warn(where, f"{text} are {stddev * 111.0:.3g} km (sensor '{name}')")
 
     def read_noises(self, element: Element) -> Sequence[tuple[str, Noise]]:
-        """Return the noises of latitude and longitude [degrees], altitude [m], velocity east, north, up [m/s]."""
+        """Return the noises of latitude and longitude [deg], altitude [m], and velocity east, north, up [m/s]."""
         holder = "navsat" if element.find("navsat") is not None else "gps"
         across, up = (noise_at(element, f"{holder}/position_sensing/{side}") for side in ("horizontal", "vertical"))
         fast, rising = (noise_at(element, f"{holder}/velocity_sensing/{side}") for side in ("horizontal", "vertical"))
-        # Latitude and longitude have one bias, east and north as well.
+        # Latitude and longitude share one bias, east and north another.
         position = [("horizontal position", across)] * 2 + [("vertical position", up)]
         return [*position, *[("horizontal velocity", fast)] * 2, ("vertical velocity", rising)]
 
     def fill_header(self, header: Any, now_ns: int) -> None:
-        """Write stamp and sequence number; the frame stands in the message itself."""
+        """Write stamp and sequence number; the frame is a field of the message itself."""
         super().fill_header(header, now_ns)
         del header.data[0]
 
@@ -77,5 +79,5 @@ class NavSat(SiteSensor):
 
 
 def _wrapped(degrees: float) -> float:
-    """Return an angle between -180 and 180 degrees."""
+    """Return an angle wrapped to -180..180 [deg]."""
     return degrees if abs(degrees) <= 180.0 else (degrees + 180.0) % 360.0 - 180.0

@@ -13,13 +13,12 @@ from gz_course.sim.gz.sim.sensors.depth_camera import DepthSensing
 
 @sensor_type("rgbd_camera", "rgbd")
 class RgbdCamera(DepthSensing):
-    """A camera for colour and depth; all its topics stand below `<topic>`."""
+    """A camera for colour and depth; its topics are below `<topic>`."""
 
     info_beside = False
     wanted: ClassVar = {"/image": "Image", "/depth_image": "Image", "/points": "PointCloudPacked"}
 
     def topic_suffix(self) -> str:
-        """Return an empty suffix: the default topic ends with the sensor's name."""
         return ""
 
     def look(self, now_ns: int) -> None:

@@ -1,9 +1,11 @@
-"""Segmentation camera: which labelled thing each pixel shows, as numbers and as colours.
+"""Segmentation camera: the label of each pixel, as an image of numbers and one of colours.
 
-Labels come from the Label plugin of visuals and models. A semantic map repeats the label in all three channels. A
-panoptic (instance) map holds the low and the high byte of the instance's count among its label in channels 0 and 1
-and the label in channel 2; all links of one model are one instance, counted in file order from 1. What has no label,
-and where nothing is, is 0 and black. The colour of a label is always the same.
+Labels come from the Label plugin of visuals and models. A semantic map repeats the label in all three channels. In a
+panoptic (instance) map channels 0 and 1 hold the low and high byte of the instance number and channel 2 the label; all
+links of one model are one instance, numbered from 1 per label in file order. Pixels without a label are 0 and black.
+The colour of a label is always the same.
+
+Source: https://github.com/gazebosim/gz-sensors/blob/gz-sensors8/src/SegmentationCameraSensor.cc
 """
 
 from __future__ import annotations
@@ -29,7 +31,7 @@ _PANOPTIC = {"semantic": False, "instance": True, "panoptic": True}
 
 
 def label_colour(number: int) -> tuple[int, int, int]:
-    """Return the colour that stands for a label or instance; 0 is black."""
+    """Return the colour of a label or instance; 0 is black."""
     if number == 0:
         return 0, 0, 0
     digest = hashlib.sha256(f"label {number}".encode()).digest()
@@ -38,7 +40,7 @@ def label_colour(number: int) -> tuple[int, int, int]:
 
 @sensor_type("segmentation_camera", "segmentation")
 class SegmentationCamera(CameraSensor):
-    """A camera that sees labels instead of colours."""
+    """A camera that sees labels instead of colours, run by the Sensors system."""
 
     info_beside = False
     wanted: ClassVar = {"/colored_map": "Image", "/labels_map": "Image"}
@@ -57,7 +59,7 @@ class SegmentationCamera(CameraSensor):
     def bind(self) -> None:
         """Look up the label, instance and colour of every visible geom."""
         super().bind()
-        count = self.world.model.ngeom + 1  # one more for rays that met nothing (geom -1)
+        count = self.world.model.ngeom + 1  # the additional one is for rays without a hit (geom -1)
         self._labels = np.zeros((count, 3), dtype=np.uint8)
         self._colours = np.zeros((count, 3), dtype=np.uint8)
         instances: dict[int, dict[str, int]] = {}
@@ -81,7 +83,7 @@ class SegmentationCamera(CameraSensor):
         return self._labels[geoms].reshape(shape), self._colours[geoms].reshape(shape)
 
     def look(self, now_ns: int) -> None:
-        """Publish both maps, each if somebody listens."""
+        """Publish both maps, each if it has a subscriber."""
         labels, colours = self.maps()
         for suffix, image in (("/labels_map", labels), ("/colored_map", colours)):
             if self.listened(suffix):

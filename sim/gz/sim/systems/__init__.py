@@ -1,1 +1,1 @@
-"""The systems: what acts on a world besides physics. One file per system, found by a scan of this folder."""
+"""The systems: plugins that act on a world besides physics; one file for each, found by a scan of this folder."""

@@ -1,9 +1,9 @@
-"""AckermannSteering: drives a car with steered front wheels from velocity commands, and reckons its odometry.
+"""AckermannSteering: drives a car with steered front wheels from velocity commands, and computes its odometry.
 
 `Twist` on `/model/M/cmd_vel` -> limits -> turning radius -> speed of each driven wheel and angle of each steered one
--> servos; after each step wheel angles -> odometry on `/model/M/odometry` and `/model/M/tf`. With `<steering_only>` a
-steering angle (`Double` on `/model/M/steer_angle`, or an entry of `Actuators`) is all it takes. As in Gazebo steering
-joints turn with a speed of `<steer_p_gain>` times the missing angle.
+-> servos; after each step wheel angles -> odometry on `/model/M/odometry` and `/model/M/tf`. With `<steering_only>`
+the only input is a steering angle (`Double` on `/model/M/steer_angle`, or an entry of `Actuators`). As in Gazebo the
+steering joints turn with `<steer_p_gain>` times the angle error.
 
 Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/ackermann_steering/AckermannSteering.cc
 """
@@ -43,7 +43,7 @@ _SIZES = {
 
 @system("AckermannSteering", "gz-sim-ackermann-steering-system")
 class AckermannSteering(System):
-    """Drives one car. Parameters and defaults are Gazebo's: lengths in m, `<steering_limit>` in rad."""
+    """Drives one car. Parameters and defaults are Gazebo's: lengths in [m], `<steering_limit>` in [rad]."""
 
     parameters = frozenset(
         (
@@ -63,8 +63,8 @@ class AckermannSteering(System):
 
     @classmethod
     def servos(cls, model: Model, plugin: Plugin) -> list[JointServo]:
-        """Ask for wheel servos on the driven joints and for servos on the steered ones; raise `SdfError` for joints
-        that the model does not have or that do not turn.
+        """Request servos for the driven and the steered joints. Raises SdfError for a joint that does not exist or
+        turn.
         """
         element = plugin.element
         steered = [joint for tag in _STEERING for joint in _joints(model, plugin, tag)]
@@ -76,7 +76,7 @@ class AckermannSteering(System):
         return found + [JointServo(joint, WHEEL, radius, len(driven)) for joint in driven]
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
-        """Read the parameters; raise `SdfError` for sizes that are not positive."""
+        """Read the parameters. Raises SdfError for sizes that are not positive."""
         element = plugin.element
         self.world = world
         self.scope = scope = ModelScope(world, model, plugin, self.name)
@@ -85,7 +85,7 @@ class AckermannSteering(System):
         self._base, self._radius = sizes["wheel_base"], sizes["wheel_radius"]
         self._steering_limit = min(sizes["steering_limit"], math.pi / 2)
         self._steering_only = element.flag("steering_only", False)
-        # Gazebo takes the gain for steering alone; for driving it is 1 unless stated here too.
+        # Gazebo's default gain applies to steering only; for driving it is 1 unless it is stated.
         self._gain = _positive(element, "steer_p_gain", 1.0)
         self._limit_linear = SpeedLimiter.from_sdf(element, "linear")
         self._limit_angular = SpeedLimiter.from_sdf(element, "angular")
@@ -119,7 +119,6 @@ class AckermannSteering(System):
         self._complete = all(self._steering) and all(self._wheels)
 
     def start(self) -> None:
-        """Stand still at the origin of the odometry, steering as it is."""
         self._target = (0.0, 0.0)
         self._angle = 0.0
         self._last = self._before_last = (0.0, 0.0)
@@ -145,7 +144,7 @@ class AckermannSteering(System):
             self.reports.connect(node)
 
     def command(self, linear: float, angular: float) -> bool:
-        """Set the wanted forward speed [m/s] and turning rate [rad/s]; return False when it was refused."""
+        """Set the commanded forward speed [m/s] and yaw rate [rad/s]; return False if they are refused."""
         if not (math.isfinite(linear) and math.isfinite(angular)):
             self.world.drop_command(self.command_topic, f"linear.x={linear}, angular.z={angular}")
             return False
@@ -153,7 +152,7 @@ class AckermannSteering(System):
         return True
 
     def steer(self, angle: float) -> bool:
-        """Set the wanted steering angle [rad] of `<steering_only>`; return False when it was refused."""
+        """Set the commanded steering angle [rad] of `<steering_only>`; return False if it is refused."""
         if not math.isfinite(angle):
             self.world.drop_command(self.command_topic, f"data={angle}")
             return False
@@ -175,7 +174,7 @@ class AckermannSteering(System):
         self.world.diagnostics.warn("", text)
 
     def pre_update(self, info: UpdateInfo) -> None:
-        """Hand the speeds computed after the last step to the servos."""
+        """Write the speeds computed after the last step to the servos."""
         if not self._complete:
             return
         data, dt = self.world.data, info.dt
@@ -187,7 +186,7 @@ class AckermannSteering(System):
                 drive.hold(data, speed, dt)
 
     def post_update(self, info: UpdateInfo) -> None:
-        """Compute the next speeds; advance the odometry and publish it when due."""
+        """Compute the next speeds; update the odometry and publish it when due."""
         if not self._complete:
             return
         if self._steering_only:
@@ -197,7 +196,7 @@ class AckermannSteering(System):
         self._reckon(info)
 
     def _driving_angles(self, dt: float) -> tuple[float, float]:
-        """Set the speeds of the wheels for the limited command; return the angles to steer to, left and right."""
+        """Set the wheel speeds for the limited command; return the left and right steering angle [rad]."""
         last, before = self._last, self._before_last
         linear = self._limit_linear.limit(self._target[0], last[0], before[0], dt)
         angular = self._limit_angular.limit(self._target[1], last[1], before[1], dt)
@@ -205,7 +204,7 @@ class AckermannSteering(System):
         if abs(angular) < STRAIGHT:
             curvature = 0.0
         else:
-            # Slower than it can turn, the car turns as sharply as it can, to the side that was asked for.
+            # Below its minimum turning radius the car turns as sharply as possible, to the commanded side.
             radius = linear / angular
             smallest = self._base / math.sin(self._steering_limit)
             side = radius if radius != 0.0 else angular
@@ -220,7 +219,7 @@ class AckermannSteering(System):
         return math.atan2(lean, 1.0 - half), math.atan2(lean, 1.0 + half)
 
     def _single_angles(self) -> tuple[float, float]:
-        """Return the angles of the two wheels for the one steering angle that was commanded."""
+        """Return the left and right steering angle [rad] for one commanded angle."""
         angle = min(max(self._angle, -self._steering_limit), self._steering_limit)
         ahead, aside = 2.0 * self._base * math.cos(angle), self._separation * math.sin(angle)
         across = 2.0 * self._base * math.sin(angle)
@@ -235,7 +234,7 @@ class AckermannSteering(System):
         self._steering_speeds = (left, right)
 
     def _reckon(self, info: UpdateInfo) -> None:
-        """Advance the odometry: a bicycle that steers with the mean of both angles."""
+        """Update the odometry with the bicycle model, steered by the mean of both angles."""
         data = self.world.data
         left, right = (side[0].axis.read_position(data) for side in self._wheels)
         steering = 0.5 * sum(side[0].axis.read_position(data) for side in self._steering)

@@ -1,6 +1,8 @@
-"""ApplyJointForce: pushes a joint with a commanded force, on top of what else drives it.
+"""ApplyJointForce: applies a commanded force to a joint, in addition to other actuators.
 
-`gz.msgs.Double` on `/model/M/joint/J/cmd_force` (N m or N); the last one holds until another comes.
+`gz.msgs.Double` on `/model/M/joint/J/cmd_force` [N m or N] holds until the next one.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/apply_joint_force/ApplyJointForce.cc
 """
 
 from __future__ import annotations
@@ -13,7 +15,7 @@ from gz_course.sim.gz.sim.sdf.element import Element
 
 @system("ApplyJointForce", "gz-sim-apply-joint-force-system")
 class ApplyJointForce(JointCommand):
-    """Pushes one joint; at most with the effort its limits allow."""
+    """Applies a force to one joint, limited to the effort of the joint."""
 
     quantity = "cmd_force"
     parameters = frozenset(("joint_name",))

@@ -1,8 +1,8 @@
-"""ApplyLinkWrench: pushes and twists links from outside, for one step or until it is told to stop.
+"""ApplyLinkWrench: applies external forces and torques to links, for one step or until they are cleared.
 
-`gz.msgs.EntityWrench` (world axes, N and N m, on the origin of a link or `force_offset` from it in the link's axes) on
-`/world/W/wrench` acts in the next step, on `/world/W/wrench/persistent` in every step until a `gz.msgs.Entity` comes on
-`/world/W/wrench/clear`. For a model its canonical link is meant.
+A `gz.msgs.EntityWrench` ([N], [N m], world axes; at the link's origin or at `force_offset` in the link's axes) on
+`/world/W/wrench` acts in the next step, on `/world/W/wrench/persistent` in every step until a `gz.msgs.Entity` arrives
+on `/world/W/wrench/clear`. For a model it acts on the canonical link.
 
 Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/apply_link_wrench/ApplyLinkWrench.cc
 """
@@ -35,7 +35,7 @@ _MOST = 10_000
 
 @dataclass(frozen=True, slots=True)
 class _Wrench:
-    """Whom to push (number, name and kind as the message has them) and how."""
+    """A wrench and the entity it acts on (id, name and kind as in the message)."""
 
     number: int
     name: str
@@ -47,12 +47,11 @@ class _Wrench:
 
 @system("ApplyLinkWrench", "gz-sim-apply-link-wrench-system")
 class ApplyLinkWrench(System):
-    """One for the whole world."""
+    """The system of the whole world."""
 
     parameters = frozenset(("topic", "topic_persistent", "topic_clear", "persistent", "verbose"))
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
-        """Read topics and the wrenches that act from the beginning."""
         element = plugin.element
         if model is not None:
             raise element.error("ApplyLinkWrench belongs directly in the <world>, not inside a <model>")
@@ -75,12 +74,11 @@ class ApplyLinkWrench(System):
         return _Wrench(0, name, kind, force, torque, np.zeros(3))
 
     def bind(self) -> None:
-        """Take back what was pushed with in the last step: the numbers of the bodies may have changed."""
+        """Clear the forces of the last step, because body ids may have changed."""
         self.world.data.xfrc_applied[:] = 0.0
         self._pushed: list[int] = []
 
     def start(self) -> None:
-        """Push with the wrenches of the file only."""
         self._once: deque[_Wrench] = deque(maxlen=_MOST)
         self._persistent = list(self._initial)
         self._clear: deque[tuple[int, str, str]] = deque(maxlen=_MOST)
@@ -132,7 +130,7 @@ class ApplyLinkWrench(System):
         while self._once:
             self._push(self._once.popleft(), warn=True)
         for wrench in self._persistent:
-            # Without a warning: its entity may come later.
+            # No warning, because the entity may be created later.
             self._push(wrench, warn=False)
 
     def _push(self, wrench: _Wrench, *, warn: bool) -> None:
@@ -157,7 +155,7 @@ class ApplyLinkWrench(System):
         self._pushed.append(body)
 
     def _find(self, number: int, name: str, kind: str) -> str:
-        """Return the MuJoCo name of the link that is meant, empty when there is none."""
+        """Return the MuJoCo name of the link a wrench acts on, empty if there is none."""
         if number:
             entity = self.world.entities.find(number)
             if entity is None or entity.kind not in ("link", "model"):
@@ -178,6 +176,6 @@ class ApplyLinkWrench(System):
 
 
 def _entity(message: Any) -> tuple[int, str, str]:
-    """Return number, name and kind (empty when not stated) of a `gz.msgs.Entity`."""
+    """Return id, name and kind (empty if not stated) of a `gz.msgs.Entity`."""
     kind = message.Type.Name(message.type).lower()
     return int(message.id), str(message.name), "" if kind == "none" else kind

@@ -1,8 +1,8 @@
-"""DiffDrive: turns velocity commands into wheel speeds and wheel angles into odometry.
+"""DiffDrive: converts velocity commands to wheel speeds, and wheel angles to odometry.
 
-`Twist` on `/model/M/cmd_vel` -> target -> limits -> wheel speeds -> MuJoCo servos; after each step wheel
-angles -> odometry on `/model/M/odometry` and `/model/M/tf`. As in Gazebo a command takes effect one step
-after it is taken, holds for ever (there is no watchdog), and only `linear.x` and `angular.z` count.
+`Twist` on `/model/M/cmd_vel` -> target -> limits -> wheel speeds -> MuJoCo servos; after each step wheel angles ->
+odometry on `/model/M/odometry` and `/model/M/tf`. As in Gazebo a command takes effect one step after it is received,
+holds without a timeout, and only `linear.x` and `angular.z` are used.
 
 Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/diff_drive/DiffDrive.cc
 """
@@ -40,7 +40,7 @@ _LIMITS = [
 
 @system("DiffDrive", "gz-sim-diff-drive-system")
 class DiffDrive(System):
-    """Drives one model with a left and a right side of wheels. Parameters and defaults are Gazebo's."""
+    """Drives one model with wheels on its left and right side. Parameters and defaults are Gazebo's."""
 
     parameters = frozenset(
         [
@@ -56,16 +56,13 @@ class DiffDrive(System):
 
     @classmethod
     def servos(cls, model: Model, plugin: Plugin) -> list[JointServo]:
-        """Ask for a velocity servo on every wheel joint; raise `SdfError` for joints the model does not
-        have.
-        """
+        """Request a velocity servo for every wheel joint. Raises SdfError for a joint that does not exist."""
         left, right = (_joints(model, plugin, side) for side in ("left_joint", "right_joint"))
         radius = _positive(plugin.element, "wheel_radius", 0.2)
         wheels = left + right
         return [JointServo(joint, WHEEL, radius, len(wheels)) for joint in wheels]
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
-        """Read the parameters; `model` must not be None."""
         scope = ModelScope(world, model, plugin, self.name)
         model = scope.model
         element = plugin.element
@@ -110,7 +107,6 @@ class DiffDrive(System):
         )
 
     def start(self) -> None:
-        """Stand still, enabled, at the origin of the odometry."""
         self._started = False
         self._reports.start()
         self._target = (0.0, 0.0)
@@ -130,15 +126,15 @@ class DiffDrive(System):
         self._reports.connect(node)
 
     def command(self, linear: float, angular: float) -> bool:
-        """Set the wanted forward speed [m/s] and turning speed [rad/s]; return False when it was refused.
+        """Set the commanded forward speed [m/s] and yaw rate [rad/s]; return False if they are refused.
 
-        Values that are not finite never reach the physics: they are dropped, counted and reported once.
+        Values that are not finite are dropped, counted and reported once.
         """
         if not (math.isfinite(linear) and math.isfinite(angular)):
             self._world.drop_command(self.command_topic, f"linear.x={linear}, angular.z={angular}")
             return False
         if self._enabled:
-            # Within these bounds no sum of the two overflows; the wheel speed is limited further on.
+            # Within these bounds no sum of the two overflows; the wheel speed is limited later.
             self._target = (min(max(linear, -1e9), 1e9), min(max(angular, -1e9), 1e9))
         return self._enabled
 
@@ -151,7 +147,7 @@ class DiffDrive(System):
             self._target = (0.0, 0.0)
 
     def pre_update(self, info: UpdateInfo) -> None:
-        """Hand the wheel speeds computed after the last step to the servos."""
+        """Write the wheel speeds computed after the last step to the servos."""
         speeds = (self._left_speed, self._right_speed)
         if speeds != self._written:
             control = self._world.data.ctrl
@@ -162,9 +158,9 @@ class DiffDrive(System):
             self._written = speeds
 
     def post_update(self, info: UpdateInfo) -> None:
-        """Compute the next wheel speeds, advance the odometry, publish it when due."""
+        """Compute the next wheel speeds; update the odometry and publish it when due."""
         target = self._target
-        if self._limited or target is not self._heeded:  # most steps bring nothing new
+        if self._limited or target is not self._heeded:  # most steps have no new command
             self._heeded = target
             self._find_speeds(info.dt)
         positions = self._world.data.qpos
@@ -183,7 +179,7 @@ class DiffDrive(System):
             self._reports.publish(info.sim_time_ns, pose, odometry.linear, odometry.angular)
 
     def _find_speeds(self, dt: float) -> None:
-        """Bring the target within its limits and turn it into wheel speeds."""
+        """Limit the target and convert it to wheel speeds."""
         linear, angular = self._target
         if self._limited:
             last, before = self._last, self._before_last
@@ -231,7 +227,7 @@ def _joints(model: Model, plugin: Plugin, side: str) -> list[str]:
 
 
 def _skids(model: Model, side: list[str], radius: float) -> bool:
-    """Tell whether wheels of one side stand one behind the other, not on one axle."""
+    """Tell whether the wheels of one side are behind each other instead of on one axle."""
     places: list[Vector] = []
     axles: list[Vector] = []
     for name in side:

@@ -1,7 +1,7 @@
 """JointController: keeps joints at a commanded velocity.
 
-`gz.msgs.Double` on `/model/M/joint/J/cmd_vel` (rad/s or m/s) -> servos that hold the velocity against any load up to
-the effort of the joint; with `<use_force_commands>` a PID controller turns the error of the first joint into a force.
+`gz.msgs.Double` on `/model/M/joint/J/cmd_vel` [rad/s or m/s] -> servos that hold the velocity against loads up to the
+effort of the joint; with `<use_force_commands>` a PID controller computes a force from the error of the first joint.
 
 Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/joint_controller/JointController.cc
 """
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 @system("JointController", "gz-sim-joint-controller-system")
 class JointController(JointCommand):
-    """As in Gazebo the joints are held at `<initial_velocity>` (0) from the beginning."""
+    """Controls the velocity of joints; as in Gazebo it holds `<initial_velocity>` (default 0) from the start."""
 
     quantity = "cmd_vel"
     actuators_field = "velocity"
@@ -31,11 +31,10 @@ class JointController(JointCommand):
 
     @classmethod
     def servo_kind(cls, element: Element) -> str:
-        """Return a servo, or a motor with `<use_force_commands>`."""
+        """Return the kind of a servo, or of a motor with `<use_force_commands>`."""
         return FORCE if element.flag("use_force_commands", False) else VELOCITY
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
-        """Read joints, topic, gains and the velocity to begin with."""
         super().configure(world, model, plugin)
         element = plugin.element
         self.pid = pid.PID.from_sdf(element, 1.0, 0.0, 0.0, 1.0, -1.0, 1000.0, -1000.0, 0.0)
@@ -43,12 +42,11 @@ class JointController(JointCommand):
         self._initial = element.number("initial_velocity", 0.0)
 
     def start(self) -> None:
-        """Begin with the initial velocity."""
         self.value = self._initial
         self.pid.reset()
 
     def pre_update(self, info: UpdateInfo) -> None:
-        """Hand the velocity to the servos, or the force to the motors."""
+        """Write the velocity to the servos or the force to the motors."""
         data, drives = self.world.data, self.drives
         if not self._by_force:
             for drive in drives:

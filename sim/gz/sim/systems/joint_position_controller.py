@@ -1,9 +1,9 @@
 """JointPositionController: drives joints to a commanded position with a PID controller.
 
-`gz.msgs.Double` on `/model/M/joint/J/0/cmd_pos` (rad or m) -> error of the first joint -> PID -> force on every joint.
-With `<use_velocity_commands>` there is no PID: the joints go to the position at once, or with the speed `<cmd_max>`.
+`gz.msgs.Double` on `/model/M/joint/J/0/cmd_pos` [rad or m] -> error of the first joint -> PID -> force on every joint.
+With `<use_velocity_commands>` there is no PID: the joints move at once, or with the speed `<cmd_max>`.
 
-Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/joint_position_controller/JointPositionController.cc
+Source: https://github.com/gazebosim/gz-sim, branch gz-sim8, src/systems/joint_position_controller
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 @system("JointPositionController", "gz-sim-joint-position-controller-system")
 class JointPositionController(JointCommand):
-    """Several `<joint_name>` are for joints that do the same: the first one is measured, all are driven."""
+    """Controls the position of joints; with several `<joint_name>` the first joint is measured and all are driven."""
 
     quantity = "cmd_pos"
     actuators_field = "position"
@@ -36,11 +36,10 @@ class JointPositionController(JointCommand):
 
     @classmethod
     def servo_kind(cls, element: Element) -> str:
-        """Return a motor, or a servo with `<use_velocity_commands>`."""
+        """Return the kind of a motor, or of a servo with `<use_velocity_commands>`."""
         return VELOCITY if element.flag("use_velocity_commands", False) else FORCE
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
-        """Read joints, topic, gains and the position to go to at first."""
         super().configure(world, model, plugin)
         element = plugin.element
         self.pid = pid.PID.from_sdf(element, 1.0, 0.1, 0.01, 1.0, -1.0, 1000.0, -1000.0, 0.0)
@@ -49,7 +48,7 @@ class JointPositionController(JointCommand):
         self._initial = element.number("initial_position", 0.0)
 
     def default_topic(self, joint: str) -> str:
-        """Return Gazebo's name, with the number of the axis."""
+        """Return Gazebo's name, which contains the axis number."""
         return f"/model/{self.scope.name}/joint/{joint}/{self.index}/{self.quantity}"
 
     def start(self) -> None:
@@ -68,5 +67,5 @@ class JointPositionController(JointCommand):
                 drive.hold(data, speed, info.dt)
             return
         for drive in drives:
-            # As in Gazebo one controller serves all joints in turn, so the second one gets no derivative.
+            # As in Gazebo one controller updates all joints in turn, so the second joint gets no derivative term.
             drive.push(data, self.pid.update(error, info.dt))

@@ -1,8 +1,8 @@
-"""JointStatePublisher: says after every step how the joints of a model stand, move and are pushed.
+"""JointStatePublisher: publishes position, velocity and force of the joints of a model after every step.
 
-MuJoCo's state -> `gz.msgs.Model` on `/world/W/model/M/joint_state`, one `joint` each with `axis1` (and `axis2`) holding
-position (rad or m), velocity and force (N m or N: what actuators and applied forces pushed with in the last step).
-`parameter_bridge` makes a `sensor_msgs/JointState` of it.
+MuJoCo's state -> `gz.msgs.Model` on `/world/W/model/M/joint_state`, with one `joint` each whose `axis1` (and `axis2`)
+holds position [rad or m], velocity, and the force [N m or N] of actuators and applied forces in the last step.
+`parameter_bridge` converts it to `sensor_msgs/JointState`.
 
 Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/joint_state_publisher/JointStatePublisher.cc
 """
@@ -26,12 +26,11 @@ if TYPE_CHECKING:
 
 @system("JointStatePublisher", "gz-sim-joint-state-publisher-system")
 class JointStatePublisher(System):
-    """Reports the joints of one model, without those of models nested in it, or the ones `<joint_name>` lists."""
+    """Publishes the joints of one model, without nested models, or those that `<joint_name>` lists."""
 
     parameters = frozenset(("joint_name", "topic", "update_rate"))
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
-        """Choose joints and topic."""
         element = plugin.element
         self.world = world
         self.scope = ModelScope(world, model, plugin, self.name)
@@ -45,7 +44,7 @@ class JointStatePublisher(System):
         prefix = f"{self.scope.model.name}::"
         self._axes: list[tuple[int, str, JointAxis]] = []
         for index, joint in enumerate(self.joints):
-            # A ball has three components, a message two places.
+            # A ball joint has three axes, the message has fields for two.
             for place, axis in zip(("axis1", "axis2"), find_axes(self.world.model, prefix + joint.name), strict=False):
                 self._axes.append((index, place, axis))
         if self._publisher is not None:
@@ -69,12 +68,12 @@ class JointStatePublisher(System):
             self._publish(info.sim_time_ns)
 
     def paused_update(self, info: UpdateInfo) -> None:
-        """Publish the same poses again, as Gazebo does."""
+        """Publish the last state again, as Gazebo does."""
         if self._publisher is not None and self._publisher.has_connections():
             self._publish(info.sim_time_ns)
 
     def _publish(self, now_ns: int) -> None:
-        message = self._message  # Publishing puts it into bytes at once, so that one message serves for all.
+        message = self._message  # Publishing serializes it at once, so that one message object can be reused.
         message.header.stamp.sec, message.header.stamp.nsec = divmod(now_ns, 1_000_000_000)
         _fill_pose(message.pose, self.scope.pose())
         data = self.world.data
@@ -87,7 +86,7 @@ class JointStatePublisher(System):
         self._publisher.publish(message)
 
     def _prepare(self) -> None:
-        """Prepare what is the same in every message."""
+        """Create the parts that are the same in every message."""
         scope = self.scope
         message = self._type(name=scope.name, id=self.world.entities.number("model", *scope.path))
         moving = {(index, place) for index, place, _ in self._axes}

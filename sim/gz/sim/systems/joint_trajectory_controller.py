@@ -1,11 +1,11 @@
 """JointTrajectoryController: drives joints along the points of a trajectory with PID controllers.
 
-`gz.msgs.JointTrajectory` on `/model/M/joint_trajectory` -> the point whose time has come is the target of each joint
--> PID of the position, PID of the velocity and the point's effort are added up to a force. As in Gazebo there is no
-interpolation between points, and accelerations do not count. After each new point the share of points reached goes out
-on `<topic>_progress` (`Float`).
+`gz.msgs.JointTrajectory` on `/model/M/joint_trajectory` -> the current point is the target of each joint -> the outputs
+of the position PID and the velocity PID and the effort of the point are added to a force. As in Gazebo points are not
+interpolated and accelerations are ignored. Each new point publishes the fraction of points reached on
+`<topic>_progress` (`Float`).
 
-Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/joint_trajectory_controller/JointTrajectoryController.cc
+Source: https://github.com/gazebosim/gz-sim, branch gz-sim8, src/systems/joint_trajectory_controller
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ _PID_TAGS = tuple(f"{which}_{tag}" for which in ("position", "velocity") for tag
 
 @dataclass
 class _Actuated:
-    """One joint: its controllers and what it should reach now."""
+    """One joint with its controllers and current targets."""
 
     joint: Joint
     initial: float
@@ -52,7 +52,7 @@ class _Actuated:
 
 @dataclass
 class _Trajectory:
-    """What was commanded; `start_ns` is None until the first step that follows it."""
+    """A commanded trajectory; `start_ns` is None until the next step."""
 
     joints: list[str] = field(default_factory=list)
     points: list[Any] = field(default_factory=list)
@@ -62,19 +62,18 @@ class _Trajectory:
 
 @system("JointTrajectoryController", "gz-sim-joint-trajectory-controller-system")
 class JointTrajectoryController(System):
-    """Drives all joints of a model that have one axis, or the ones `<joint_name>` lists. The n-th `<position_p_gain>`
-    (and so on) is that of the n-th joint.
+    """Drives all joints of a model that have one axis, or those that `<joint_name>` lists.
+
+    The n-th `<position_p_gain>` (and so on) belongs to the n-th joint.
     """
 
     parameters = frozenset(("joint_name", "initial_position", "topic", "use_header_start_time", *_PID_TAGS))
 
     @classmethod
     def servos(cls, model: Model, plugin: Plugin) -> list[JointServo]:
-        """Ask for a motor on each joint."""
         return [JointServo(joint.name, FORCE) for joint in _enabled(model, plugin)]
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
-        """Read joints, gains and topic."""
         element = plugin.element
         self.world = world
         self.scope = ModelScope(world, model, plugin, self.name)
@@ -93,20 +92,18 @@ class JointTrajectoryController(System):
             raise element.error(
                 f"JointTrajectoryController finds no joint with one axis in model '{self.scope.full_name}'"
             )
-        # Gazebo looks for an attribute of that name; an element is what people write.
+        # Gazebo reads an attribute of this name; files usually have an element.
         stated = element.attributes.get("use_header_start_time", "false").lower() in ("true", "1")
         self._by_header = element.flag("use_header_start_time", stated)
         self.topic = valid_topic(element.text_of("topic"), f"/model/{self.scope.name}/joint_trajectory")
         self._publisher: Any = None
 
     def bind(self) -> None:
-        """Find the motors."""
         for actuated in self.joints.values():
             wish = JointServo(actuated.joint.name, FORCE)
             actuated.drive = find_drive(self.world.model, self.scope.model, wish)
 
     def start(self) -> None:
-        """Hold the initial positions, without a trajectory."""
         self._trajectory: _Trajectory | None = None
         for actuated in self.joints.values():
             actuated.start()
@@ -120,7 +117,7 @@ class JointTrajectoryController(System):
         self._publisher = node.advertise(f"{self.topic}_progress", Float)
 
     def command(self, message: Any) -> bool:
-        """Follow a `JointTrajectory` from the next step on; return False when it was refused."""
+        """Follow a `JointTrajectory` from the next step on; return False if it is refused."""
         warn = self.world.diagnostics.warn
         names = list(message.joint_names)
         if not names:
@@ -143,7 +140,7 @@ class JointTrajectoryController(System):
         return True
 
     def pre_update(self, info: UpdateInfo) -> None:
-        """Choose the point whose time has come; push the joints towards their targets."""
+        """Select the current point and apply forces towards its targets."""
         if self._trajectory is not None:
             self._follow(self._trajectory, info.sim_time_ns)
         data = self.world.data
@@ -182,7 +179,7 @@ class JointTrajectoryController(System):
 
 
 def _enabled(model: Model, plugin: Plugin) -> list[Joint]:
-    """Return the joints that are driven, in the order of `<joint_name>`, else of the file."""
+    """Return the driven joints in the order of `<joint_name>`, else of the file."""
     prefix = f"{plugin.scope}::" if plugin.scope else ""
     names = [prefix + child.text for child in plugin.element.all("joint_name")]
     if not names:

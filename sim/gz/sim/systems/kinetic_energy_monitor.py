@@ -1,7 +1,7 @@
-"""KineticEnergyMonitor: tells when a link loses much of its energy of motion in one step, as in a crash.
+"""KineticEnergyMonitor: reports a large loss of kinetic energy of a link in one step, as in a crash.
 
-MuJoCo's state -> `gz.msgs.Double` with the loss [J] on `/model/M/kinetic_energy`, when it is above
-`<kinetic_energy_threshold>` (7).
+MuJoCo's state -> `gz.msgs.Double` with the loss [J] on `/model/M/kinetic_energy` if it exceeds
+`<kinetic_energy_threshold>` (default 7 [J]).
 
 Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/kinetic_energy_monitor/KineticEnergyMonitor.cc
 """
@@ -25,12 +25,12 @@ if TYPE_CHECKING:
 
 @system("KineticEnergyMonitor", "gz-sim-kinetic-energy-monitor-system")
 class KineticEnergyMonitor(System):
-    """Watches one link, given by `<link_name>`."""
+    """Monitors the link `<link_name>`."""
 
     parameters = frozenset(("link_name", "kinetic_energy_threshold", "topic"))
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
-        """Read link, threshold and topic; raise `SdfError` when no link is named."""
+        """Read link, threshold and topic. Raises SdfError if no link is named."""
         element = plugin.element
         self.world = world
         self.scope = ModelScope(world, model, plugin, self.name)
@@ -68,7 +68,7 @@ class KineticEnergyMonitor(System):
         return float(turning + moving) / 2.0
 
     def post_update(self, info: UpdateInfo) -> None:
-        """Compare with the step before, while somebody listens."""
+        """Compare with the previous step, if there is a subscriber."""
         if self._publisher is None or not self._publisher.has_connections():
             self._before = None
             return

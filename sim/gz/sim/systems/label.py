@@ -1,7 +1,9 @@
-"""Label: names the class of a model or a visual, 0 to 255, for segmentation cameras.
+"""Label: gives a model or a visual a class from 0 to 255 for segmentation cameras.
 
 `<plugin filename="gz-sim-label-system" name="gz::sim::systems::Label"><label>10</label></plugin>` inside a `<visual>`
-or a `<model>`; a visual's own label wins over its model's, an inner model's over the outer one's.
+or a `<model>`; the label of a visual takes precedence over its model's, that of an inner model over the outer one's.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/label/Label.cc
 """
 
 from __future__ import annotations
@@ -18,19 +20,19 @@ if TYPE_CHECKING:
 
 @system("Label", "gz-sim-label-system")
 class Label(System):
-    """Does nothing while the world runs: whoever wants labels asks `label_of`."""
+    """Checks the label; segmentation cameras read it with `label_of`."""
 
     parameters = frozenset(("label",))
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
-        """Read the label, so that a wrong one is told when the world is loaded."""
+        """Read the label. Raises SdfError if it is invalid."""
         if model is None:
             raise plugin.element.error("Label belongs inside a <visual> or a <model>, not directly in the <world>")
         _read(plugin.element)
 
 
 def label_of(model: Model, link: Link, part: Visual | Collision) -> int:
-    """Return the label of a visual, 0 when it has none."""
+    """Return the label of a visual, 0 if it has none."""
     for element in part.element.all("plugin"):
         if system_name(Plugin(element.name, element.attributes.get("filename", ""), element)) == "Label":
             return _read(element)

@@ -1,8 +1,8 @@
 """LogRecord: records topics of the world into Gazebo's log file `state.tlog`; a plugin of the world.
 
-`gz sim --record` adds it. Recorded are the poses (`/world/W/pose/info`, `/world/W/dynamic_pose/info`), the world as SDF
-at the beginning (`/W/log/sdf`), and every topic that one of the `<record_topic>` patterns matches as a whole. A sensor
-that is recorded is computed. The file is read with `gz log` (`gz.sim.tlog`).
+`gz sim --record` adds it. It records the poses (`/world/W/pose/info`, `/world/W/dynamic_pose/info`), the initial world
+as SDF (`/W/log/sdf`), and every topic whose whole name matches one of the `<record_topic>` patterns. A recorded sensor
+counts as subscribed. `gz log` (`gz.sim.tlog`) reads the file.
 """
 
 from __future__ import annotations
@@ -30,12 +30,14 @@ _LOOK_NS = 100_000_000
 
 @system("LogRecord", "gz-sim-log-record-system")
 class LogRecord(System):
-    """Writes one folder a run. Parameters: record_path (or path), record_topic (several), overwrite, record_period."""
+    """Writes one folder per run. Parameters: record_path (or path), record_topic (several), overwrite,
+    record_period.
+    """
 
     parameters = frozenset(["record_path", "path", "record_topic", "overwrite", "record_period", "compress"])
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
-        """Read the parameters; raise `SdfError` for a pattern that is none."""
+        """Read the parameters. Raises SdfError for an invalid pattern."""
         element = plugin.element
         if model is not None:
             raise element.error("LogRecord belongs directly in the <world>, not inside a <model>")
@@ -58,7 +60,7 @@ class LogRecord(System):
         self._last: dict[str, int] = {}
 
     def connect(self, node: Node) -> None:
-        """Open the log and listen to what there is."""
+        """Open the log and subscribe to the existing topics."""
         from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
 
         self._node, self._known, self._next_look_ns = node, set[str](), 0
@@ -71,7 +73,7 @@ class LogRecord(System):
         self._write(f"/{self._world.name}/log/sdf", StringMsg.DESCRIPTOR.full_name, text)
 
     def start(self) -> None:
-        """Look for topics at the next step, also after the clock was set back."""
+        """Search for topics at the next step, also after the clock was reset."""
         self._next_look_ns = 0
         self._last.clear()
 
@@ -119,7 +121,7 @@ def _pattern(element: Element) -> re.Pattern[str]:
 
 
 def _own_topics(node: Node) -> list[str]:
-    """Return the topics of this process, which are known at once."""
+    """Return the topics of this process, which need no discovery."""
     from gz_course.sim.gz.transport import Scope
 
     options = node.options
@@ -133,7 +135,7 @@ def _default_folder() -> Path:
 
 
 def _free_folder(folder: Path, overwrite: bool) -> Path:
-    """Return the folder to write into: an old one is emptied of its log with `overwrite`, else `folder(1)`, ..."""
+    """Return the folder to write to: with `overwrite` an existing one without its old log, else `folder(1)`, ..."""
     if overwrite and folder.is_dir():
         for old in folder.glob(FILE_NAME + "*"):
             shutil.rmtree(old) if old.is_dir() else old.unlink()

@@ -1,9 +1,9 @@
-"""OdometryPublisher: says where a model really is, in the form of odometry.
+"""OdometryPublisher: publishes the true pose of a model as odometry.
 
 MuJoCo's state -> `Odometry` on `/model/M/odometry`, the same with covariances on `/model/M/odometry_with_covariance`,
-`Pose_V` on `/model/M/pose`. The pose is that of the world (not of the place where the model started), the twist that of
-the model in its own axes, linear parts as means over the last ten steps. Nothing drifts; `<gaussian_noise>` is added to
-the twist only, as in Gazebo.
+`Pose_V` on `/model/M/pose`. The pose is in the world frame (not relative to the start), the twist in the model's axes
+with linear parts as means over the last ten steps. Nothing drifts; as in Gazebo `<gaussian_noise>` is added to the
+twist only.
 
 Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/odometry_publisher/OdometryPublisher.cc
 """
@@ -36,7 +36,7 @@ _INVERSE = np.array((1.0, -1.0, -1.0, -1.0))
 
 @system("OdometryPublisher", "gz-sim-odometry-publisher-system")
 class OdometryPublisher(System):
-    """Publishes the truth about one model. Parameters and defaults are Gazebo's."""
+    """Publishes the true odometry of one model. Parameters and defaults are Gazebo's."""
 
     parameters = frozenset(
         (
@@ -54,7 +54,9 @@ class OdometryPublisher(System):
     )
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
-        """Read the parameters; raise `SdfError` for dimensions other than 2 and 3, and numbers that are not finite."""
+        """Read the parameters. Raises SdfError for dimensions other than 2 and 3, and for numbers that are not
+        finite.
+        """
         element = plugin.element
         self.world = world
         self.scope = scope = ModelScope(world, model, plugin, self.name)
@@ -80,7 +82,7 @@ class OdometryPublisher(System):
         self._publishers: tuple[Any, ...] = ()
 
     def bind(self) -> None:
-        """Find out whether the state holds the pose of the model directly: when its canonical link floats freely."""
+        """Check whether the canonical link has a free joint, so that qpos holds the pose of the model."""
         scope, model = self.scope, self.world.model
         self._link_to_base = scope.link_to_frame() * self._offset
         self._address = -1
@@ -109,13 +111,13 @@ class OdometryPublisher(System):
         self._publishers = tuple(node.advertise(topic, kind) for topic, kind in zip(topics, self._types, strict=True))
 
     def post_update(self, info: UpdateInfo) -> None:
-        """Remember where the model is; publish when due and somebody listens."""
+        """Store the present pose; publish if due and subscribed."""
         if self._address >= 0:
             self._seen.append(self.world.data.qpos[self._address : self._address + 7].copy())
         elif any(publisher.has_connections() for publisher in self._publishers):
             self._seen.append(self.scope.world_pose() * self._offset)
         self._steps += 1
-        # Gazebo uses the first step to start and says nothing about it.
+        # Gazebo initializes with the first step and does not publish it.
         if self._steps == 1 or info.sim_time_ns - self._published_ns < self._period_ns:
             return
         self._published_ns = info.sim_time_ns
@@ -163,9 +165,9 @@ class OdometryPublisher(System):
             self._publishers[2].publish(frames)
 
     def _catch_up(self, dt: float) -> Pose | None:
-        """Turn the poses seen since the last message into velocities; return the present pose of the base."""
+        """Compute velocities from the poses since the last message; return the present pose of the base."""
         if self._steps - self._caught_up != len(self._seen):
-            # Steps in between were not kept: begin anew with what is there.
+            # Poses of skipped steps are missing: start again from the present one.
             self._last = None
             self._velocities.clear()
         self._caught_up = self._steps
@@ -180,7 +182,7 @@ class OdometryPublisher(System):
         return self._last
 
     def _velocity(self, before: Pose, now: Pose, dt: float) -> Vector:
-        """Return the linear velocity [m/s] of the base along its own axes; in 2-D only its heading counts."""
+        """Return the linear velocity [m/s] of the base in its own axes; in 2-D only its heading is used."""
         moved = (now.position - before.position) / dt
         if self.dimensions == 3:
             return rotate(now.quaternion * _INVERSE, moved)
@@ -195,7 +197,7 @@ class OdometryPublisher(System):
         return mean
 
     def _random(self) -> np.random.Generator:
-        """Return the generator of this message: it depends on seed, model and number of the message only."""
+        """Return the random generator of this message, which depends only on seed, model and message number."""
         text = f"{self.world.seed}/{self.scope.full_name}/OdometryPublisher/{self._published}"
         key = int.from_bytes(hashlib.sha256(text.encode()).digest()[:16], "little")
         return np.random.Generator(np.random.Philox(key=key))

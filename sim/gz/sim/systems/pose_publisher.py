@@ -1,9 +1,9 @@
-"""PosePublisher: the poses of a model's links, and of more of its parts when asked for, as transforms for tf.
+"""PosePublisher: publishes the poses of a model's links, and optionally of its other parts, as transforms for tf.
 
-After each step, or `<update_frequency>` times a second of simulated time, on `/model/M/pose`: one Pose an entity, or
-one Pose_V of all. Each pose is in the frame of its parent: the header's `frame_id` is the parent's name with that of
-its models before it (`robot`, `robot::arm`), `child_frame_id` the entity's (`robot::arm::hand`), which is also the
-name of the pose. With `<static_publisher>` what no joint moves goes to `/model/M/pose_static`.
+It publishes after each step, or at `<update_frequency>` [Hz] of simulated time, on `/model/M/pose`: one Pose per
+entity, or one Pose_V of all. Each pose is in the frame of its parent: the header's `frame_id` is the scoped name of the
+parent (`robot`, `robot::arm`), `child_frame_id` and the name of the pose that of the entity (`robot::arm::hand`). With
+`<static_publisher>` fixed poses go to `/model/M/pose_static`.
 
 Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/pose_publisher/PosePublisher.cc
 """
@@ -27,10 +27,10 @@ if TYPE_CHECKING:
 
 
 class Stream:
-    """What goes to one topic: the poses of the same entities each time, and when it is due next."""
+    """One topic: the entities whose poses it publishes, and when the next message is due."""
 
     def __init__(self, topic: str, period_ns: int, together: bool) -> None:
-        """`together`: one Pose_V of all instead of one Pose each."""
+        """Set up the topic; with `together` it carries one Pose_V instead of one Pose per entity."""
         self.topic = topic
         self.together = together
         self.publisher: Any = None
@@ -39,11 +39,10 @@ class Stream:
         self._vertices: list[Vertex] = []
 
     def begin(self) -> None:
-        """Count the time from zero again."""
         self._last_ns = 0
 
     def fill(self, vertices: list[Vertex], movers: list[Vertex], pose_v: Any) -> None:
-        """Take over the entities; `pose_v` is the Pose_V message that will hold them."""
+        """Set the entities; `pose_v` is the Pose_V message that will hold their poses."""
         self.message = pose_v
         places = {id(vertex): place for place, vertex in enumerate(movers)}
         self._moving: list[tuple[int, Any]] = []
@@ -57,14 +56,14 @@ class Stream:
                 self._moving.append((places[id(vertex)], pose))
 
     def due(self, now_ns: int) -> bool:
-        """Tell whether the topic is to be published on, and take it as done."""
+        """Tell whether a message is due; if so, schedule the next one."""
         if now_ns - self._last_ns < self._period_ns:
             return False
         self._last_ns = now_ns
         return bool(self.publisher.has_connections())
 
     def publish(self, now_ns: int, positions: list[list[float]], quaternions: list[list[float]]) -> None:
-        """Publish the poses, of which those of the movers are given."""
+        """Publish the poses; the arguments are those of the movers."""
         for place, pose in self._moving:
             fill_pose(pose, positions[place], quaternions[place])
         for pose in self.message.pose:
@@ -95,7 +94,6 @@ class PosePublisher(System):
     )
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
-        """Read the parameters; `model` must not be None."""
         element = plugin.element
         if model is None:
             raise element.error("PosePublisher belongs inside a <model>, not directly in the <world>")
@@ -103,7 +101,7 @@ class PosePublisher(System):
         kinds = (("link", True), ("visual", False), ("collision", False), ("sensor", False))
         self._kinds = {kind for kind, default in kinds if element.flag(f"publish_{kind}_pose", default)}
         self._nested = element.flag("publish_nested_model_pose", False)
-        # As in Gazebo: the model itself comes along with its nested ones, and may then be left out, not the reverse.
+        # As in Gazebo nested models require the model itself, which may then be left out, but not the reverse.
         self._own = self._nested and element.flag("publish_model_pose", self._nested)
         together = element.flag("use_pose_vector_msg", False)
         frequency = _frequency(element, "update_frequency", -1.0)
@@ -119,11 +117,10 @@ class PosePublisher(System):
         self._connected = False
 
     def bind(self) -> None:
-        """Drop the graph, since the bodies have other numbers now."""
+        """Discard the scene graph, because body ids have changed."""
         self._graph = None
 
     def start(self) -> None:
-        """Count time from zero."""
         for stream in self._streams:
             stream.begin()
 
@@ -150,7 +147,7 @@ class PosePublisher(System):
             stream.publish(now_ns, positions, quaternions)
 
     def _made_graph(self) -> SceneGraph:
-        """Return the model's graph after giving each stream its part of it."""
+        """Return the model's scene graph after assigning its vertices to the streams."""
         graph = SceneGraph(self._world, [self._model])
         graph.look()
         top = graph.root.children[0]
@@ -172,10 +169,10 @@ class PosePublisher(System):
 
 
 def _moved_by_joints(own: Vertex) -> frozenset[int]:
-    """Return the identities of the links and nested models below `own` that a joint moves against their parent.
+    """Return the `id()` of the links and nested models below `own` that a joint moves relative to their parent.
 
-    A model stands where its canonical link stands: that link never moves against it, so what a joint does to the link
-    is seen in the pose of the model, seen from its own parent.
+    The frame of a model is fixed to its canonical link: the link never moves relative to the model, so its joint
+    moves the model relative to its own parent.
     """
     links = {each.described.name: each for each in own.below() if each.kind == "link"}
     moved: set[int] = set()

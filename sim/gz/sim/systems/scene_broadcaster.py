@@ -1,10 +1,10 @@
-"""SceneBroadcaster: tells the outside what there is in the world and where it is.
+"""SceneBroadcaster: publishes the entities of the world and their poses.
 
 Topics below `/world/W`: `pose/info` (Pose_V: every model, link, visual and light) at 60 Hz, `dynamic_pose/info`
-(Pose_V: models and links that can move), `scene/info` (Scene: what came), `scene/deletion` (UInt32_V: the numbers of
-what went), `state` (SerializedStepMap). Services: `scene/info`, `scene/graph` (Graphviz), `state` and `state_async`.
-Poses are in the parent's frame, names without scope, as in Gazebo. Rates are of simulated time; while a server is
-paused it asks for everything ten times a second. What is sent is made by `gz.sim.scene`, and only if somebody listens.
+(Pose_V: models and links that can move), `scene/info` (Scene: new entities), `scene/deletion` (UInt32_V: ids of removed
+entities), `state` (SerializedStepMap). Services: `scene/info`, `scene/graph` (Graphviz), `state` and `state_async`.
+As in Gazebo poses are in the parent's frame and names are unscoped. Rates are in simulated time; a paused server
+publishes everything ten times per second. Messages are built by `gz.sim.scene`, only for topics with subscribers.
 
 Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/scene_broadcaster/SceneBroadcaster.cc
 """
@@ -32,14 +32,14 @@ T = TypeVar("T")
 
 
 class Schedule:
-    """A topic of a fixed rate: when its next message is due (ns of simulated time)."""
+    """The schedule of a topic of a fixed rate: the time [ns] of its next message."""
 
     def __init__(self, hertz: float) -> None:
         self.period_ns = max(1, round(min(1e9 / hertz, LONGEST_NS)))
         self.next_ns = 0
 
     def due(self, now_ns: int) -> bool:
-        """Tell whether a message is due, and plan the next one."""
+        """Tell whether a message is due; if so, schedule the next one."""
         if now_ns < self.next_ns:
             return False
         self.next_ns = (now_ns // self.period_ns + 1) * self.period_ns
@@ -47,7 +47,7 @@ class Schedule:
 
 
 class PoseVector:
-    """A Pose_V of the same entities each time, of which only what moved is written anew."""
+    """A Pose_V of fixed entities, of which only the moved ones are rewritten."""
 
     def __init__(self, message: Any, vertices: list[Vertex], movers: list[Vertex]) -> None:
         self.message = message
@@ -68,13 +68,13 @@ class PoseVector:
 
 @system("SceneBroadcaster", "gz-sim-scene-broadcaster-system")
 class SceneBroadcaster(System):
-    """The scene of one world on the wire. Parameters and defaults are Gazebo's."""
+    """Publishes the scene of one world. Parameters and defaults are Gazebo's."""
 
     once = True
     parameters = frozenset(["dynamic_pose_hertz", "state_hertz"])
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
-        """Read the rates; a SceneBroadcaster stands directly in the world."""
+        """Read the rates; the plugin belongs directly to the world."""
         if model is not None:
             raise plugin.element.error("SceneBroadcaster belongs directly in the <world>, not inside a <model>")
         self._world = world
@@ -90,11 +90,11 @@ class SceneBroadcaster(System):
         self._node: Node | None = None
 
     def bind(self) -> None:
-        """Something may have come or gone: what was known of the world is out of date."""
+        """Discard the scene graph, because entities may have been added or removed."""
         self._graph, self._stale = None, True
 
     def start(self) -> None:
-        """Begin the schedules anew; delete what is gone, then announce everything that is there."""
+        """Restart the schedules; publish deletions, then all existing entities."""
         self._all, self._dynamic = Schedule(POSE_HERTZ), Schedule(self._dynamic_hertz)
         self._state = Schedule(self._state_hertz)
         self._next_ns = 0
@@ -106,7 +106,6 @@ class SceneBroadcaster(System):
         self._graph, self._stale = None, True
 
     def connect(self, node: Node) -> None:
-        """Advertise the topics and offer the services."""
         from gz_course.sim.gz.msgs.empty_pb2 import Empty
         from gz_course.sim.gz.msgs.pose_v_pb2 import Pose_V
         from gz_course.sim.gz.msgs.scene_pb2 import Scene
@@ -137,7 +136,7 @@ class SceneBroadcaster(System):
         now_ns = info.sim_time_ns
         if now_ns < self._next_ns:
             return
-        # All three schedules move on, whether somebody listens or not.
+        # All three schedules advance, with or without subscribers.
         due = self._all.due(now_ns), self._dynamic.due(now_ns), self._state.due(now_ns)
         self._next_ns = min(self._all.next_ns, self._dynamic.next_ns, self._state.next_ns)
         self._publish(now_ns, *due)
@@ -175,7 +174,7 @@ class SceneBroadcaster(System):
         return made
 
     def _publish_state(self) -> None:
-        """Publish the whole state to those who begin to listen and after every change, else what moves."""
+        """Publish the whole state to new subscribers and after every change, otherwise the moving entities."""
         if not self._state_publisher.has_connections():
             self._state_known = False
             return
@@ -186,7 +185,7 @@ class SceneBroadcaster(System):
         else:
             message = self._full_step()
             self._state_known = True
-        # A map has no order of its own: without the sorting equal states could be different bytes.
+        # A map has no order: without sorting, equal states could serialize to different bytes.
         data = message.SerializeToString(deterministic=True)
         self._state_publisher.publish_raw(data, message.DESCRIPTOR.full_name)
 
@@ -196,7 +195,7 @@ class SceneBroadcaster(System):
         return self._graph
 
     def _renew(self) -> None:
-        """Make the graph of what there is now, and say what came and what went."""
+        """Rebuild the scene graph, and publish added and removed entities."""
         self._pose_vectors = None
         self._state_known = False
         outline = self._outline(self._current_graph())
@@ -237,7 +236,7 @@ class SceneBroadcaster(System):
         return self._step(full_state(self._world, self._current_graph()))
 
     def _step(self, state: Any) -> Any:
-        """Return a SerializedStepMap of now; it says nothing of wall time, so that equal runs give equal bytes."""
+        """Return the present SerializedStepMap; it contains no wall time, so that equal runs give equal bytes."""
         world = self._world
         message = self._step_map(state=state)
         stats = message.stats
@@ -247,7 +246,7 @@ class SceneBroadcaster(System):
         return message
 
     def _answer(self, work: Callable[[], T], response_type: Callable[[], T]) -> Callable[[Any], tuple[bool, T]]:
-        """Wrap what a service returns: it is made between two steps, by the thread that steps the world."""
+        """Wrap a service handler so that the stepping thread calls it between two steps."""
 
         def answer(_request: Any) -> tuple[bool, T]:
             try:
@@ -259,7 +258,7 @@ class SceneBroadcaster(System):
         return answer
 
     def _send_state(self, request: Any) -> Any:
-        """Call the service that `request` names with the whole state; that call is one-way."""
+        """Call the one-way service that `request` names with the whole state."""
         made, message = self._answer(self._full_step, self._step_map)(request)
         if made and self._node is not None:
             try:

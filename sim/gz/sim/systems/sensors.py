@@ -1,7 +1,4 @@
-"""Sensors: runs the sensors that look at the world (lidars, cameras); a plugin of the world.
-
-What is common to all systems that run sensors is in `gz.sim.plugins.sensor_system`.
-"""
+"""Sensors: runs the rendering sensors (lidars, cameras); a plugin of the world."""
 
 from __future__ import annotations
 

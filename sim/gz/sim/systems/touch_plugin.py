@@ -1,7 +1,7 @@
-"""TouchPlugin: says once when a model has touched a target for some time without a break; a plugin of a model.
+"""TouchPlugin: reports once that a model has touched a target for some time without a break; a plugin of a model.
 
-It looks at the collisions that the model's contact sensors name, after every step. A message on `/NAMESPACE/touched`
-says that it happened; then the plugin is off until the service `/NAMESPACE/enable` switches it on again.
+After every step it checks the collisions of the model's contact sensors. After a message on `/NAMESPACE/touched` the
+plugin is disabled until a call of the service `/NAMESPACE/enable`.
 
 Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/touch_plugin/TouchPlugin.cc
 """
@@ -23,15 +23,16 @@ if TYPE_CHECKING:
 
 @system("TouchPlugin", "gz-sim-touchplugin-system")
 class TouchPlugin(System):
-    """`<target>`: part of the scoped name of the collisions to touch; `<time>` [s]: how long, at least;
-    `<namespace>`: of the topic and the service; `<enabled>`: whether it is on from the start.
+    """Parameters: `<target>` is part of the scoped names of the collisions to touch, `<time>` [s] the shortest
+    duration, `<namespace>` that of the topic and the service, `<enabled>` the initial state.
     """
 
     parameters = frozenset(("target", "time", "namespace", "enabled"))
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
-        """Read the parameters; raise `SdfError` when one is missing or the plugin stands in no model. Nothing is
-        ever touched when the model has no contact sensor or no Contact system runs them, and that is warned about.
+        """Read the parameters. Raises SdfError if one is missing or the plugin is not in a model.
+
+        Warns if the model has no contact sensor or no Contact system runs it, because no touch is then detected.
         """
         element = plugin.element
         if model is None:
@@ -49,7 +50,7 @@ class TouchPlugin(System):
         self._enabled_at_start = self._enabled = element.flag("enabled", False)
         self._since_ns = -1
         self._publisher: Any = None
-        # Gazebo looks at the model's own links only, not at those of models inside it.
+        # Gazebo uses the model's own links only, not those of nested models.
         scope = f"{plugin.scope}::" if plugin.scope else ""
         self._feeling: list[CollisionPath] = []
         for link in model.links:
@@ -72,18 +73,16 @@ class TouchPlugin(System):
             self._feeling = []
 
     def bind(self) -> None:
-        """Find the geoms that feel, and those of the target, also of models that came."""
+        """Find the geoms of the sensors and of the target, including those of new models."""
         geoms = CollisionGeoms(self._world)
         self._geoms = {geom for path in self._feeling for geom in geoms.of(path)}
         world = self._world.name
         self._targets = {geom for geom, path in geoms.paths.items() if self._target in _gazebo_name(world, path)}
 
     def start(self) -> None:
-        """Be on or off as the file says."""
         self.enable(self._enabled_at_start)
 
     def connect(self, node: Node) -> None:
-        """Advertise the touch and offer the service that switches the plugin on and off."""
         from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
         from gz_course.sim.gz.msgs.empty_pb2 import Empty
 
@@ -98,12 +97,11 @@ class TouchPlugin(System):
         node.advertise_service(service, Boolean, Empty, serve)
 
     def enable(self, on: bool) -> None:
-        """Switch the plugin on or off; the time of touching starts anew."""
+        """Enable or disable the plugin; the duration of the touch starts at zero."""
         self._since_ns = -1
         self._enabled = on
 
     def post_update(self, info: UpdateInfo) -> None:
-        """Look whether the model touches its target."""
         if not self._enabled:
             return
         if not any(other in self._targets for _, _, other in touching(self._world, self._geoms)):
@@ -118,7 +116,7 @@ class TouchPlugin(System):
 
 
 def _gazebo_name(world: str, path: CollisionPath) -> str:
-    """Return a collision's scoped name with the kinds before the names, which `<target>` is looked for in."""
+    """Return a collision's scoped name with entity kinds, in which Gazebo searches for `<target>`."""
     model, link, collision = path
     *nested, own = link.split("::")
     models = "".join(f"/model/{name}" for name in (model, *nested))

@@ -1,8 +1,8 @@
-"""TriggeredPublisher: answers a message with other messages, so that a world reacts without a program.
+"""TriggeredPublisher: publishes messages in response to a message.
 
-A message of `<input type= topic=>` that fulfils every `<match>` -> after `<delay_ms>` of simulated time every
-`<output type= topic=>` is published. A match is the text of a whole message, or with `field="a.b"` of one of its
-fields; `logic_type="negative"` turns it round, `tol` is how far numbers may be off.
+If a message of `<input type= topic=>` fulfils every `<match>`, every `<output type= topic=>` is published after
+`<delay_ms>` [ms] of simulated time. A match is the text of a whole message, or of one field with `field="a.b"`;
+`logic_type="negative"` inverts it, `tol` is the tolerance of numbers.
 
 Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/triggered_publisher/TriggeredPublisher.cc
 """
@@ -34,7 +34,7 @@ _MOST = 10_000
 
 @dataclass(frozen=True)
 class _Match:
-    """What a message is compared with: `wanted`, as a whole or in the field that `path` leads to."""
+    """A value that a message, or its field at `path`, is compared with."""
 
     wanted: Message
     path: tuple[str, ...]
@@ -42,7 +42,7 @@ class _Match:
     positive: bool
 
     def accepts(self, message: Message) -> bool:
-        """Tell whether a message of the right type fulfils it."""
+        """Tell whether a message of the right type matches."""
         return self._same(message) == self.positive
 
     def _same(self, message: Message) -> bool:
@@ -55,7 +55,7 @@ class _Match:
         field = wanted.DESCRIPTOR.fields_by_name[self.path[-1]]
         ours, theirs = getattr(wanted, field.name), getattr(given, field.name)
         if field.is_repeated:
-            # As in Gazebo: what is wanted must be there, in any order, beside anything else.
+            # As in Gazebo the wanted elements must be present in any order; others are allowed.
             return all(any(_equal(each, other, self.tolerance) for other in theirs) for each in ours)
         if field.message_type is not None and wanted.HasField(field.name) != given.HasField(field.name):
             return False
@@ -63,7 +63,7 @@ class _Match:
 
 
 def _equal(one: Any, other: Any, tolerance: float) -> bool:
-    """Compare two values of the same field; fields that are not set are not those that are."""
+    """Compare two values of the same field; an unset field differs from a set one."""
     if isinstance(one, float):
         return one == other or abs(one - other) <= tolerance or (one != one and other != other)
     if not isinstance(one, Message):
@@ -87,13 +87,13 @@ def _equal(one: Any, other: Any, tolerance: float) -> bool:
 
 @system("TriggeredPublisher", "gz-sim-triggered-publisher-system")
 class TriggeredPublisher(System):
-    """One input, any number of outputs; in a world or in a model."""
+    """A system of a world or a model with one input and any number of outputs."""
 
     parameters = frozenset(("input", "output", "delay_ms", "service"))
     joins_topics = True
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
-        """Read input, matches and outputs; raise `SdfError` for types and texts that do not fit."""
+        """Read input, matches and outputs. Raises SdfError for unknown types and invalid texts."""
         element = plugin.element
         self.world = world
         given = element.find("input")
@@ -136,7 +136,7 @@ class TriggeredPublisher(System):
             publish()
 
     def pre_update(self, info: UpdateInfo) -> None:
-        """Answer those whose time has come."""
+        """Publish the outputs whose delay has passed."""
         while self._due and self._due[0] <= info.sim_time_ns:
             self._due.popleft()
             self._answer()
@@ -187,7 +187,7 @@ def _match(element: Element, kind: type[Message]) -> _Match:
                 f"{descriptor.full_name} has {what} '{name}', which <match field='{'.'.join(path)}'> names"
             )
         if last:
-            # Written as protobuf's text: a message in braces, a number or a word as it is.
+            # Protobuf's text format: a message in braces, a number or a word as it is.
             bare = text.strip()
             text = f"{name} {{{bare.strip('{}')}}}" if field.message_type is not None else f"{name}: {bare}"
         else:

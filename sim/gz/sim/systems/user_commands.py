@@ -1,10 +1,10 @@
-"""UserCommands: creates, removes, moves and changes what is in a running world; a plugin of the world.
+"""UserCommands: creates, removes, moves and changes entities of a running world; a plugin of the world.
 
 Services `/world/W/create`, `create_multiple`, `remove`, `set_pose`, `set_pose_vector`, `light_config`, `visual_config`,
 `set_physics`, `set_spherical_coordinates`, `enable_collision`, `disable_collision` and `wheel_slip`. As in Gazebo each
-answers true as soon as the command is queued, and each has a twin `/blocking` that answers when it was done. What goes
-wrong is logged in one sentence. The commands themselves are in `entity_commands` and `property_commands`; a text is
-read in the transport's thread, so that the world goes on meanwhile, and the world is changed between two steps.
+answers true as soon as the command is queued, and has a variant `/blocking` that answers when it is done. Failures are
+logged in one sentence. The commands are in `entity_commands` and `property_commands`. SDF is parsed in the transport
+thread, and the world is changed between two steps.
 
 Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/user_commands/UserCommands.cc
 """
@@ -27,18 +27,17 @@ if TYPE_CHECKING:
 
 @system("UserCommands", "gz-sim-user-commands-system")
 class UserCommands(System):
-    """Offers the services; has no parameters."""
+    """Offers the services; it has no parameters."""
 
     once = True
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
-        """Refuse a `model`: the plugin belongs to the world."""
+        """Raise SdfError for a plugin in a model, because this one belongs to the world."""
         if model is not None:
             raise plugin.element.error("UserCommands belongs directly in the <world>, not inside a <model>")
         self._world = world
 
     def connect(self, node: Node) -> None:
-        """Offer every command with its blocking twin, and subscribe to colours."""
         from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
         from gz_course.sim.gz.msgs.material_color_pb2 import MaterialColor
         from gz_course.sim.gz.sim.editing import entity_commands, property_commands

@@ -1,8 +1,8 @@
-"""VelocityControl: moves a model as a whole with a commanded velocity, without wheels or propellers.
+"""VelocityControl: moves a model with a commanded velocity, without wheels or propellers.
 
 `Twist` on `/model/M/cmd_vel` (in the model's axes), and on `/model/M/link/L/cmd_vel` for the links that `<link_name>`
-lists (in the link's axes) -> velocity of the floating base in MuJoCo, set anew before every step. Obstacles and gravity
-act within a step only; without a command the model is held still.
+lists (in the link's axes) -> velocity of the free joint in MuJoCo, set before every step. Obstacles and gravity act
+within a step only; without a command the model is held in place.
 
 Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/velocity_control/VelocityControl.cc
 """
@@ -41,7 +41,9 @@ class _Twist:
 
 @system("VelocityControl", "gz-sim-velocity-control-system")
 class VelocityControl(System):
-    """Moves one model; as in Gazebo a command takes effect one step after it was taken and holds for ever."""
+    """Moves one model; as in Gazebo a command takes effect one step after it is received and holds without a
+    timeout.
+    """
 
     parameters = frozenset(("topic", "link_name", "initial_linear", "initial_angular"))
 
@@ -64,7 +66,6 @@ class VelocityControl(System):
         self.start()
 
     def bind(self) -> None:
-        """Find the floating bases."""
         scope = self.scope
         roots = {self._free_root(link.name): None for link in scope.model.links}
         self._roots = [root for root in roots if root >= 0]
@@ -76,7 +77,6 @@ class VelocityControl(System):
             self.world.diagnostics.warn(self._where, text)
 
     def start(self) -> None:
-        """Move as the initial velocities say; no link was commanded yet."""
         self._target = self._present = _twist(*self._initial)
         self._link_targets: dict[str, _Twist] = {}
         self._link_present: dict[str, _Twist] = {}
@@ -89,14 +89,14 @@ class VelocityControl(System):
             node.subscribe(Twist, topic, self._listener(link, topic))
 
     def command(self, linear: tuple[float, float, float], angular: tuple[float, float, float]) -> bool:
-        """Set the wanted velocity of the model (m/s, rad/s, its own axes); return False when it was refused."""
+        """Set the commanded velocity of the model ([m/s], [rad/s], its own axes); return False if it is refused."""
         if self._refuses(self.topic, *linear, *angular):
             return False
         self._target = _twist(*linear, *angular)
         return True
 
     def command_link(self, link: str, linear: tuple[float, float, float], angular: tuple[float, float, float]) -> bool:
-        """Set the wanted velocity of a link (scoped name; m/s, rad/s, its own axes)."""
+        """Set the commanded velocity of a link (scoped name; [m/s], [rad/s], its own axes)."""
         topic = next(topic for each, topic in zip(self.links, self.link_topics, strict=True) if each.name == link)
         if self._refuses(topic, *linear, *angular):
             return False
@@ -119,7 +119,6 @@ class VelocityControl(System):
         return listen
 
     def pre_update(self, info: UpdateInfo) -> None:
-        """Set the velocities of the floating bases."""
         model, data = self.world.model, self.world.data
         if self._reference >= 0:
             turn = self.scope.world_pose().quaternion
@@ -135,14 +134,13 @@ class VelocityControl(System):
                 self._set(root, rotate(turn, twist.linear), rotate(turn, twist.angular), pose.position)
 
     def post_update(self, info: UpdateInfo) -> None:
-        """Use the latest commands from the next step on."""
         self._present = self._target
         if self._link_targets:
             self._link_present.update(self._link_targets)
             self._link_targets = {}
 
     def _set(self, root: int, linear: Vector, angular: Vector, origin: Vector) -> None:
-        """Let a floating base move with `linear` at `origin` and `angular` (world axes)."""
+        """Set the velocity of a free joint to `linear` at the point `origin` and `angular` (world axes)."""
         model, data = self.world.model, self.world.data
         position, velocity = int(model.jnt_qposadr[root]), int(model.jnt_dofadr[root])
         data.qvel[velocity : velocity + 3] = linear + np.cross(angular, data.qpos[position : position + 3] - origin)
@@ -150,7 +148,7 @@ class VelocityControl(System):
         data.qvel[velocity + 3 : velocity + 6] = rotate(turn, angular)
 
     def _free_root(self, link: str) -> int:
-        """Return the free joint that carries a link (scoped name), -1 when the world holds it."""
+        """Return the free joint that carries a link (scoped name), -1 if the link is static."""
         model = self.world.model
         body = self.scope.body(link)
         if body <= 0:

@@ -1,8 +1,9 @@
 """Look at services and call them: `gz service -l`, `gz service -s /world/default/control ...`.
 
-Called by `gz.command`. The output is that of the tool of Gazebo Harmonic; a call that fails, for whatever reason, ends
-with the code 1, and one that nobody answered names the nearest service or the right types.
-Source: gz-transport 13, https://github.com/gazebosim/gz-transport/blob/gz-transport13/src/cmd/service_main.cc
+The output is that of the tool of Gazebo Harmonic. Every failed call ends with exit code 1; if no provider answered, the
+nearest service or the right types are named.
+
+Source: https://github.com/gazebosim/gz-transport/blob/gz-transport13/src/cmd/service_main.cc
 """
 
 from __future__ import annotations
@@ -21,7 +22,6 @@ _FORTRESS = "ignition.msgs."
 
 
 def add_arguments(parser: Parser) -> None:
-    """Add the options of `gz service`."""
     parser.add_argument("-s", "--service", metavar="NAME", help="name of a service")
     parser.add_argument("--reqtype", metavar="TYPE", help="type of the request; without it there are no arguments")
     parser.add_argument("--reptype", metavar="TYPE", help="type of the response; without it none is waited for")
@@ -39,7 +39,7 @@ def add_arguments(parser: Parser) -> None:
 
 
 def run(values: argparse.Namespace) -> int:
-    """Run `gz service`; return the exit code. Raises ValueError for names, types and texts that are not valid."""
+    """Run `gz service`; return the exit code. Raises ValueError for invalid names, types and texts."""
     with Node() as node:
         if values.list:
             for service in node.service_list():

@@ -1,8 +1,9 @@
 """Look at topics and publish on them: `gz topic -l`, `gz topic -e -t /odom`.
 
-Called by `gz.command`. The output is that of the tool of Gazebo Harmonic. It ends differently: an unknown topic or type
-gives one line on stderr and the code 1, and `-p` ends only when the message has been sent.
-Source: gz-transport 13, https://github.com/gazebosim/gz-transport/blob/gz-transport13/src/cmd/topic_main.cc
+The output is that of the tool of Gazebo Harmonic, with two differences: an unknown topic or type prints one line on
+stderr and returns 1, and `-p` ends only after the message has been sent.
+
+Source: https://github.com/gazebosim/gz-transport/blob/gz-transport13/src/cmd/topic_main.cc
 """
 
 from __future__ import annotations
@@ -31,7 +32,6 @@ _FORTRESS = "ignition.msgs."
 
 
 def add_arguments(parser: Parser) -> None:
-    """Add the options of `gz topic`."""
     parser.add_argument("-t", "--topic", metavar="NAME", help="name of a topic")
     parser.add_argument("-m", "--msgtype", metavar="TYPE", help="type of the message to publish, e.g. gz.msgs.Twist")
     parser.add_argument("-d", "--duration", type=positive_number, metavar="S", help="echo for S seconds, then end")
@@ -51,7 +51,7 @@ def add_arguments(parser: Parser) -> None:
 
 
 def run(values: argparse.Namespace) -> int:
-    """Run `gz topic`; return the exit code. Raises ValueError for names, types and texts that are not valid."""
+    """Run `gz topic`; return the exit code. Raises ValueError for invalid names, types and texts."""
     with Node() as node:
         if values.list:
             for topic in node.topic_list():
@@ -86,7 +86,7 @@ def _echo(node: Node, values: argparse.Namespace) -> int:
     printed = 0
     try:
         with EchoQueue(node, values.topic) as arrivals:
-            from gz_course.sim.gz.msgs.text import to_json_line, to_text  # loaded while the publisher hears of us
+            from gz_course.sim.gz.msgs.text import to_json_line, to_text  # imported during discovery
 
             look_at = time.monotonic() + _LOOK_FOR_TOPIC_AFTER_S
             while not values.num or printed < values.num:
@@ -124,7 +124,7 @@ def _frequency(node: Node, topic: str) -> int:
                 arrival = arrivals.next(look_at)
                 if arrival is not None and len(times) <= _WINDOW:
                     times.append(arrival.time_ns)
-                elif arrival is not None:  # one more than needed: it makes Gazebo's tool print
+                elif arrival is not None:  # one more than needed, as in Gazebo's tool, which prints on arrival
                     _print_frequency(times)
                     times.clear()
                 elif arrivals.reader_gone():

@@ -1,4 +1,4 @@
-"""The event that a process has ended."""
+"""The event for the end of a process."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from gz_course.sim.launch.events.process.running_process_event import RunningPro
 
 
 class ProcessExited(RunningProcessEvent):
-    """The event that a process has ended, with its exit code `returncode`; -n when signal n ended it."""
+    """The end of a process with its exit code `returncode`, or -n for signal n."""
 
     name = "launch.events.process.ProcessExited"
 

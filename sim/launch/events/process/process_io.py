@@ -1,4 +1,4 @@
-"""The base of events about the input and output of a process."""
+"""The base class of events for input and output of a process."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from gz_course.sim.launch.events.process.running_process_event import RunningPro
 
 
 class ProcessIO(RunningProcessEvent):
-    """The bytes `text` that a process has printed, or is to read; `fd` is 0 stdin, 1 stdout, 2 stderr."""
+    """Bytes `text` that a process has written or will read; `fd` is 0 stdin, 1 stdout, 2 stderr."""
 
     name = "launch.events.process.ProcessIO"
 

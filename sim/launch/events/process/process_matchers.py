@@ -9,12 +9,12 @@ ProcessMatcher = Callable[[Any], bool]
 
 
 def matches_pid(pid: int) -> ProcessMatcher:
-    """Return a matcher for the process of this number."""
+    """Return a matcher for the process with this id."""
     return lambda action: _detail(action, "pid") == pid
 
 
 def matches_name(name: str) -> ProcessMatcher:
-    """Return a matcher for processes of this name, with or without the number behind it."""
+    """Return a matcher for processes of this name, with or without its number suffix."""
 
     def matches(action: Any) -> bool:
         label = _detail(action, "name")
@@ -24,7 +24,7 @@ def matches_name(name: str) -> ProcessMatcher:
 
 
 def matches_executable(executable: str) -> ProcessMatcher:
-    """Return a matcher for processes whose command starts with this word."""
+    """Return a matcher for processes whose command begins with this word."""
     return lambda action: (_detail(action, "cmd") or [None])[0] == executable
 
 

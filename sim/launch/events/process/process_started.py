@@ -1,4 +1,4 @@
-"""The event that a process was started."""
+"""The event for the start of a process."""
 
 from __future__ import annotations
 
@@ -6,6 +6,6 @@ from gz_course.sim.launch.events.process.running_process_event import RunningPro
 
 
 class ProcessStarted(RunningProcessEvent):
-    """The event that a process was started."""
+    """Emitted after a process was started, with its process id."""
 
     name = "launch.events.process.ProcessStarted"

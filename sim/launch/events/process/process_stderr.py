@@ -1,4 +1,4 @@
-"""The event that a process has printed to stderr."""
+"""The event for output of a process on stderr."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from gz_course.sim.launch.events.process.process_io import ProcessIO
 
 
 class ProcessStderr(ProcessIO):
-    """The event that a process has printed `text` to stderr."""
+    """Bytes `text` that a process has written to stderr."""
 
     name = "launch.events.process.ProcessStderr"
 

@@ -8,7 +8,7 @@ from gz_course.sim.launch.events.process.process_io import ProcessIO
 
 
 class ProcessStdin(ProcessIO):
-    """The event that asks to write `text` to the stdin of the process that `action` started."""
+    """Writes `text` to the stdin of the process that `action` started."""
 
     name = "launch.events.process.ProcessStdin"
 

@@ -1,4 +1,4 @@
-"""The event that a process has printed to stdout."""
+"""The event for output of a process on stdout."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from gz_course.sim.launch.events.process.process_io import ProcessIO
 
 
 class ProcessStdout(ProcessIO):
-    """The event that a process has printed `text` to stdout."""
+    """Bytes `text` that a process has written to stdout."""
 
     name = "launch.events.process.ProcessStdout"
 

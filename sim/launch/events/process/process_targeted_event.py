@@ -1,4 +1,4 @@
-"""The base of events that ask something of a process."""
+"""The base class of events that act on processes."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from gz_course.sim.launch.event import Event
 
 
 class ProcessTargetedEvent(Event):
-    """An event for those processes whose action `process_matcher(action)` accepts."""
+    """Acts on the processes whose action `process_matcher(action)` accepts."""
 
     name = "launch.events.process.ProcessTargetedEvent"
 

@@ -1,4 +1,4 @@
-"""The base of events of a process."""
+"""The base class of events from processes."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ if TYPE_CHECKING:
 
 
 class RunningProcessEvent(Event):
-    """An event of a process: its action, label (`<name>-<number>`), command, folder, environment and process id.
+    """Data of a process: its action, label (`<name>-<number>`), command, working directory, environment and process id.
 
-    `cwd` None is the folder of the launch.
+    `cwd` None is the working directory of the launch.
     """
 
     name = "launch.events.process.RunningProcessEvent"

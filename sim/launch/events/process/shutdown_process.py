@@ -6,6 +6,6 @@ from gz_course.sim.launch.events.process.process_targeted_event import ProcessTa
 
 
 class ShutdownProcess(ProcessTargetedEvent):
-    """The event that ends a process: SIGINT, later SIGTERM, later SIGKILL."""
+    """Ends a process: SIGINT, then SIGTERM, then SIGKILL."""
 
     name = "launch.events.process.ShutdownProcess"

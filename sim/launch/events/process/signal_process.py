@@ -10,7 +10,7 @@ from gz_course.sim.launch.events.process.process_targeted_event import ProcessTa
 
 
 class SignalProcess(ProcessTargetedEvent):
-    """The event that sends a signal, given by number or name, to a process and all processes it has started."""
+    """Sends a signal, given by number or name, to a process and its whole process group."""
 
     name = "launch.events.process.SignalProcess"
 

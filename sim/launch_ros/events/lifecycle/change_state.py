@@ -1,4 +1,4 @@
-"""The event that asks a lifecycle node for a transition."""
+"""The event that requests a transition of a lifecycle node."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from gz_course.sim.launch.event import Event
 
 
 class ChangeState(Event):
-    """The event that asks the lifecycle nodes that `lifecycle_node_matcher(action)` accepts for a transition."""
+    """Requests a transition of the lifecycle nodes that `lifecycle_node_matcher(action)` accepts."""
 
     name = "launch_ros.events.lifecycle.ChangeState"
 

@@ -1,4 +1,4 @@
-"""The event that a lifecycle node has changed its state."""
+"""The event for a state transition of a lifecycle node."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from gz_course.sim.launch.event import Event
 
 
 class StateTransition(Event):
-    """The event that the lifecycle node of `action` has changed its state, as `msg` says."""
+    """The state transition `msg` of the lifecycle node of `action`."""
 
     name = "launch_ros.events.lifecycle.StateTransition"
 

@@ -14,6 +14,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Print the YAML of a message with default values, to be edited and sent with `ros2 topic pub`."""
+    """Print the YAML of a message with default values, to be edited and passed to `ros2 topic pub`."""
     text = to_yaml(prototype(arguments.type), TextFormat(limit=None))
     print(text if arguments.no_quotes else f'"{text}"\n', end="")

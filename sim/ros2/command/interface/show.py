@@ -24,7 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Print the text of the definition, with that of each field's type indented below the field."""
+    """Print the definition, with that of each field's type indented below the field."""
     name = sys.stdin.readline().strip() if arguments.type == "-" else arguments.type
     for line in _lines(name, not arguments.no_comments, arguments.all_comments):
         print(line)
@@ -44,7 +44,7 @@ def _lines(name: str, comments: bool, nested_comments: bool) -> Iterator[str]:
 
 
 def _without_comment(line: str) -> str:
-    """Return the line up to its #, unless that stands in the quotes of a default text."""
+    """Return the line up to its #, unless that is inside the quotes of a default text."""
     code = re.match(r"""(?:[^#"']|"(?:[^"\\]|\\.)*"|'(?:[^'\\]|\\.)*'|["'])*""", line)
     return code.group().rstrip() if code else line.rstrip()
 

@@ -26,7 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> int:
-    """Set what the file holds for this node, one by one; report refusals on stderr."""
+    """Set the parameters of the file for this node, one by one; report refusals on stderr."""
     content = _read(Path(arguments.parameter_file))
     with node_parameters(arguments) as parameters:
         found = _for_node(content, parameters.node, arguments)
@@ -59,7 +59,7 @@ def _read(path: Path) -> dict[str, Any]:
 
 
 def _for_node(content: dict[str, Any], node: str, arguments: argparse.Namespace) -> dict[str, Any]:
-    """Return the parameters for a node by flat name; the node's own entry beats that for every node."""
+    """Return the parameters for a node by flat name; the node's own entry takes precedence over that for every node."""
     found: dict[str, Any] = {}
     applies = [node, node.lstrip("/"), arguments.node_name]
     keys = ([] if arguments.no_use_wildcard else [_EVERY_NODE]) + list(dict.fromkeys(applies))

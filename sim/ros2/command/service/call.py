@@ -14,8 +14,8 @@ from gz_course.sim.ros2.message_value import fill
 from gz_course.sim.ros2.option_values import rate, seconds
 from gz_course.sim.ros2.service import call, nearest_service, service_name
 
-_AVAILABLE = 10.0  # [s] to wait for a service that is not there
-_ANSWER = 60.0  # [s] to wait for its answer
+_AVAILABLE = 10.0  # [s] to wait for the service
+_ANSWER = 60.0  # [s] to wait for the response
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

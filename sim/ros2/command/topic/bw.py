@@ -32,27 +32,27 @@ def main(arguments: argparse.Namespace) -> None:
 
 
 class Bandwidth:
-    """The sizes and times of the last `window` messages, by a clock in nanoseconds."""
+    """The sizes and arrival times of the last `window` messages; the clock returns [ns]."""
 
     def __init__(self, clock: Callable[[], int], window: int) -> None:
         self._clock = clock
         self._messages: deque[tuple[int, int]] = deque(maxlen=window)
 
     def arrived(self, message: bytes) -> None:
-        """Take note of a message of so many bytes."""
+        """Record the size of a serialized message."""
         self._messages.append((self._clock(), len(message)))
 
     def report(self) -> str:
-        """Return the rate over the window, and the sizes; empty with fewer than two messages."""
+        """Return the rate over the window and the sizes; empty with fewer than two messages."""
         if len(self._messages) < 2:
             return ""
         passed = (self._clock() - self._messages[0][0]) * _NANOSECONDS
-        if passed <= 0.0:  # simulated time has been reset
+        if passed <= 0.0:  # simulated time was reset
             self._messages.clear()
             return ""
         sizes = [size for _, size in self._messages]
         rate = sum(sizes) / passed
-        # All four in the unit of the rate, so that they can be compared.
+        # All four use the unit of the rate, so that they can be compared.
         scale, form = next((scale, form) for limit, scale, form in _UNITS if rate < limit)
         rate_text, mean, least, most = (
             form.format(value / scale) for value in (rate, sum(sizes) / len(sizes), min(sizes), max(sizes))

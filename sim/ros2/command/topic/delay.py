@@ -24,7 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Report once a second, until interrupted. Stamps in simulated time need --use-sim-time."""
+    """Report every second until interrupted. Stamps in simulated time need --use-sim-time."""
     with Graph(arguments) as graph:
         name, kind = awaited_topic(graph, arguments.topic_name)
         if "header" not in kind.get_fields_and_field_types():
@@ -34,7 +34,7 @@ def main(arguments: argparse.Namespace) -> None:
 
 
 class Delay:
-    """How old the last `window` messages were when they arrived, by a clock in nanoseconds."""
+    """The ages of the last `window` messages at their arrival; the clock returns [ns]."""
 
     def __init__(self, clock: Callable[[], int], window: int) -> None:
         self._clock = clock
@@ -43,7 +43,7 @@ class Delay:
         self._last = 0
 
     def arrived(self, message: Any) -> None:
-        """Take note of a message with a header. A clock that jumps back begins a new measurement, one at 0 none."""
+        """Record a message with a header; restart if the clock jumps back, and ignore messages while it is 0."""
         now = self._clock()
         if now < self._last:
             self._delays.clear()
@@ -53,7 +53,7 @@ class Delay:
             self._news = True
 
     def report(self) -> str:
-        """Return mean, smallest, largest and spread of the delays; empty before the first message."""
+        """Return mean, minimum, maximum and standard deviation of the delays; empty before the first message."""
         if not self._delays:
             return ""
         if not self._news:

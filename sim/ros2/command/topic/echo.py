@@ -26,7 +26,7 @@ from gz_course.sim.ros2.topic import (
     warn,
 )
 
-_FIRST_PUBLISHER = 1.0  # [s] to wait for a publisher whose QoS is followed, when the type is given
+_FIRST_PUBLISHER = 1.0  # [s] to wait for a publisher whose QoS is adopted, if the type is given
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -51,7 +51,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> int:
-    """Print until interrupted; with --once until the first message, with --timeout at most so long."""
+    """Print messages until interrupted, with --once until the first one, with --timeout until it has passed."""
     given = None if arguments.message_type is None else message_class(arguments.message_type)
     passes = message_filter(arguments.filter)
     with Graph(arguments) as graph:
@@ -84,7 +84,7 @@ def _message_class(graph: Graph, name: str, given: Any) -> Any:
 
 
 class _Printer:
-    """A printer of messages, as the options say; it has printed `count` so far."""
+    """Prints messages as the options say; `count` is the number printed so far."""
 
     def __init__(self, arguments: argparse.Namespace, kind: Any, passes: Callable[[Any], bool] | None) -> None:
         self.count = 0

@@ -39,7 +39,7 @@ def main(arguments: argparse.Namespace) -> None:
 
 
 class Rate:
-    """The intervals between the last `window` messages, by a clock in nanoseconds."""
+    """The intervals between the last `window` messages; the clock returns [ns]."""
 
     def __init__(self, clock: Callable[[], int], window: int) -> None:
         self._clock = clock
@@ -48,7 +48,7 @@ class Rate:
         self._news = False
 
     def tick(self) -> None:
-        """Take note of a message. A clock that stands still or jumps back begins a new measurement."""
+        """Record a message; restart if the clock stands still or jumps back."""
         now = self._clock()
         if self._last is not None and now == self._last:
             return
@@ -60,7 +60,7 @@ class Rate:
         self._last = now
 
     def report(self) -> str:
-        """Return the rate, smallest, largest and spread of the intervals; empty if nothing new has arrived."""
+        """Return rate, minimum, maximum and standard deviation of the intervals; empty without new messages."""
         if not self._news:
             return ""
         self._news = False

@@ -21,8 +21,8 @@ from gz_course.sim.ros2.option_values import positive_number, rate, seconds, who
 from gz_course.sim.ros2.qos import add_qos_options, chosen_qos
 from gz_course.sim.ros2.topic import full_name, warn
 
-_SAY_AGAIN = 1.0  # [s] between two lines while nobody listens
-_HINT_AFTER = 2  # such lines until the nearest topic is named
+_SAY_AGAIN = 1.0  # [s] between two lines while there is no subscription
+_HINT_AFTER = 2  # number of such lines before the nearest topic is named
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -74,7 +74,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Publish until interrupted or as often as asked; the message and the subscriptions are checked first."""
+    """Publish until interrupted or the requested number of times; message and subscriptions are checked first."""
     kind = message_class(arguments.message_type)
     message = kind()
     stamps = fill(message, sys.stdin.read() if arguments.stdin else arguments.values)
@@ -86,7 +86,7 @@ def main(arguments: argparse.Namespace) -> None:
     with Graph(arguments, arguments.node_name) as graph:
         name = full_name(graph, arguments.topic_name)
         publisher = graph.node.create_publisher(kind, name, chosen_qos(arguments, _reaches_everybody()))
-        graph.settle()  # existing subscriptions receive the first message, too
+        graph.settle()  # so that existing subscriptions receive the first message, too
         _wait_for_subscriptions(graph, publisher, wanted, arguments.max_wait_time_secs)
         print("publisher: beginning loop")
         for count in _ticks(graph, 1.0 / arguments.rate, times):
@@ -112,7 +112,7 @@ def _reaches_everybody() -> QoSProfile:
 
 
 def _ticks(graph: Graph, period: float, times: int | None) -> Iterator[int]:
-    """Yield 1, 2, 3 ... one a `period` [s], the first at once; `times` of them, or for ever."""
+    """Yield 1, 2, 3, ... every `period` [s], the first at once; `times` numbers, or without end."""
     start = time.monotonic()
     count = 0
     while times is None or count < times:
@@ -122,7 +122,7 @@ def _ticks(graph: Graph, period: float, times: int | None) -> Iterator[int]:
 
 
 def _wait_for_subscriptions(graph: Graph, publisher: Any, wanted: int, timeout: float | None) -> None:
-    """Wait for `wanted` matching subscriptions; report once a second that they are missing, and why."""
+    """Wait for `wanted` matching subscriptions; report once per second that they are missing, and why."""
     started = time.monotonic()
     lines = 0
     while not graph.spin_until(lambda: publisher.get_subscription_count() >= wanted, _until_next(started, timeout)):

@@ -1,8 +1,9 @@
-"""Conversion of a URDF `<robot>` to the SDF `<model>` that Gazebo makes of it.
+"""Converts a URDF `<robot>` to the SDF `<model>` that Gazebo makes of it.
 
-Called by the SDF reader for every text whose root is `<robot>`. The result is an `Element` tree for the reader, every
-element with the file and line of its URDF. Names are those of Gazebo: an unnamed collision of link `wheel` is
-`wheel_collision`, lumped into `base` it is `base_fixed_joint_lump__wheel_collision_1`.
+The result is an `Element` tree for the SDF reader; every element has the file and line of its URDF. Names are those of
+Gazebo: an unnamed collision of link `wheel` is `wheel_collision`, lumped into `base` it is
+`base_fixed_joint_lump__wheel_collision_1`.
+
 Source: sdformat 14, https://github.com/gazebosim/sdformat/blob/sdf14/src/parser_urdf.cc
 """
 
@@ -30,7 +31,7 @@ _BALL = 0.01  # [m]
 
 
 def sdf_of_robot(element: Element, diagnostics: Diagnostics) -> Element:
-    """Return `<sdf><model>` for a `<robot>`. Raises `SdfError` with file and line when it is no valid URDF."""
+    """Return `<sdf><model>` for a `<robot>`. Raises SdfError with file and line if it is no valid URDF."""
     robot = read_robot(element, diagnostics)
     tags = read_gazebo_tags(robot, diagnostics)
     bodies = lump(robot, tags.preserved())
@@ -53,7 +54,7 @@ def sdf_of_robot(element: Element, diagnostics: Diagnostics) -> Element:
 
 
 def _with_mass(robot: Robot, bodies: list[Body], diagnostics: Diagnostics) -> list[Body]:
-    """Return the bodies that Gazebo keeps; it drops a body without mass, with everything the body carries."""
+    """Return the bodies that Gazebo keeps; it drops a body without mass together with its descendants."""
     gone: dict[str, str] = {}
     kept: list[Body] = []
     for body in bodies:
@@ -163,7 +164,7 @@ def _shape(shape: UrdfShape, name: str, pose: Pose) -> Element:
 def _colour(visual: Element, shape: UrdfShape) -> None:
     """Give a visual the colour of its URDF material, unless a `<gazebo>` tag gave it one.
 
-    As in Gazebo it is brightened: the value 0.8 of a URDF is full light.
+    As in Gazebo the colour is brightened: the value 0.8 of a URDF is full intensity.
     """
     if shape.colour is None:
         return
@@ -258,7 +259,7 @@ def _axis(joint: UrdfJoint, robot: Robot, diagnostics: Diagnostics) -> Element:
 
 
 def _add_frames(model: Element, body: Body, robot: Robot, tags: GazeboTags, diagnostics: Diagnostics) -> None:
-    """Keep the names of lumped links and their joints as frames; warn when a tag about such a joint is lost."""
+    """Keep the names of lumped links and their joints as frames; warn if a tag about such a joint is lost."""
     for link, pose in body.members[1:]:
         joint = link.joint
         assert joint is not None

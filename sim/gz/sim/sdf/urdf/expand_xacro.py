@@ -1,8 +1,9 @@
 """Program that expands one xacro file to standard output, each element marked with its file and line.
 
+Started by `xacro_file.expand` with the arguments `FILE [NAME:=VALUE ...]`. Exit code 0 and the XML on standard output,
+or exit code 1 and a JSON line `{"error": sentence}` as the last line of standard error.
+
 Source: https://wiki.ros.org/xacro
-Started by `xacro_file.expand` as `python -m ... FILE [NAME:=VALUE ...]`. Exit code 0 and the XML
-on standard output, or 1 and a line of JSON, `{"error": sentence}`, as the last of standard error.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ _MOST_ELEMENTS = 100_000
 
 
 class _Places:
-    """The files that were opened, and the element at which xacro looked last."""
+    """The opened files and the element that xacro processed last."""
 
     def __init__(self) -> None:
         self.files: list[str] = []
@@ -35,7 +36,7 @@ class _Places:
         self.count = 0
 
     def handle(self, _operation: int, key: str, data: Any, _source: Any, copy: Any) -> None:
-        """Give a copied element the place of the original (called by the DOM)."""
+        """Copy the place of the original to a copied element (called by the DOM)."""
         if copy is not None:
             self.count += 1
             if self.count > _MOST_ELEMENTS:
@@ -43,7 +44,7 @@ class _Places:
             copy.setUserData(key, data, self)
 
     def seen(self, node: Any) -> None:
-        """Remember an element as the place of the next error."""
+        """Record an element as the place of the next error."""
         place = node.getUserData(PLACE)
         if place is not None:
             self.last = place
@@ -55,7 +56,7 @@ class _Places:
 
 def _builder(places: _Places, number: int) -> Any:
     class Builder(xml.dom.expatbuilder.ExpatBuilderNS):
-        """Builder of a DOM whose elements know their line."""
+        """Builder of a DOM whose elements have their line number."""
 
         def start_element_handler(self, name: str, attributes: list[str]) -> None:
             super().start_element_handler(name, attributes)
@@ -65,7 +66,7 @@ def _builder(places: _Places, number: int) -> Any:
 
 
 def expand(file: str, arguments: dict[str, str]) -> str:
-    """Return the expanded XML text. Raises what xacro raises, with a note that names file and line."""
+    """Return the expanded XML text. Raises xacro's own errors with a note of file and line."""
     import xacro
 
     places = _Places()
@@ -94,7 +95,7 @@ def expand(file: str, arguments: dict[str, str]) -> str:
 
         return wrapper
 
-    # xacro names the file of an error, not the line; these functions are called for every element in turn.
+    # xacro reports the file of an error but not the line; these functions are called for every element in turn.
     xacro.parse = parse
     for name in ("eval_all", "handle_macro_call", "check_attrs", "reqd_attrs"):
         setattr(xacro, name, watched(getattr(xacro, name)))
@@ -142,7 +143,7 @@ def _sentence(error: BaseException, file: str) -> str:
 
 
 def main(argv: list[str]) -> int:
-    """Expand the file named first; return the exit code."""
+    """Expand the file given first; return the exit code."""
     file, *pairs = argv
     resource.setrlimit(resource.RLIMIT_CPU, (_CPU_SECONDS, _CPU_SECONDS + 1))
     resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
@@ -150,7 +151,7 @@ def main(argv: list[str]) -> int:
     try:
         with contextlib.redirect_stdout(sys.stderr):
             text = expand(file, arguments)
-    except BaseException as error:  # every way xacro can fail ends in one sentence
+    except BaseException as error:  # every failure of xacro is reported in one sentence
         sys.stderr.write("\n" + json.dumps({"error": _sentence(error, file)}) + "\n")
         return 1
     sys.stdout.write(text)

@@ -1,9 +1,10 @@
 """`<gazebo>` tags of a URDF, which add to the SDF of the robot, of a link or of a joint.
 
-Part of the conversion. Words that are older than SDF (`mu1`, `turnGravityOff`, `springStiffness`) are translated; every
-other element is SDF already and is copied unchanged (sensors, plugins, `<gravity>`, ...).
-Source: https://classic.gazebosim.org/tutorials?tut=ros_urdf; sdformat 14, `InsertSDFExtension*`,
-https://github.com/gazebosim/sdformat/blob/sdf14/src/parser_urdf.cc
+Words older than SDF (`mu1`, `turnGravityOff`, `springStiffness`) are translated; every other element is already SDF and
+is copied unchanged (sensors, plugins, `<gravity>`, ...).
+
+Source: https://classic.gazebosim.org/tutorials?tut=ros_urdf
+Source: sdformat 14, `InsertSDFExtension*`, https://github.com/gazebosim/sdformat/blob/sdf14/src/parser_urdf.cc
 """
 
 from __future__ import annotations
@@ -62,7 +63,7 @@ class GazeboTag:
 
     @property
     def foreign(self) -> list[Element]:
-        """Return the children that are SDF already."""
+        """Return the children that are already SDF."""
         return [child for child in self.element.children if child.tag not in _TRANSLATED]
 
 
@@ -87,12 +88,12 @@ class GazeboTags:
         }
 
     def preserved(self) -> set[str]:
-        """Return the names of the fixed joints that stay."""
+        """Return the names of the fixed joints to preserve."""
         return self.joints_that(*_PRESERVING)
 
 
 def read_gazebo_tags(robot: Robot, diagnostics: Diagnostics) -> GazeboTags:
-    """Return the tags of a robot; warn about references to nothing, which Gazebo drops silently."""
+    """Return the tags of a robot; warn about unknown references, which Gazebo ignores silently."""
     tags = GazeboTags()
     for element in robot.element.all("gazebo"):
         reference = element.attributes.get("reference", "")
@@ -229,7 +230,7 @@ def _warn_of_name(shape: Element, reference: str, word: Element, diagnostics: Di
 
 
 def tell_joint(joint: Element, tags: GazeboTags, reference: str) -> None:
-    """Add the tags of a joint to the SDF `<joint>`: springs, stops, sensors and everything that is SDF already."""
+    """Add the tags of a joint to the SDF `<joint>`: springs, stops, sensors and other SDF elements."""
     for tag in tags.of(reference):
         for child in tag.element.children:
             if child.tag in _JOINT:
@@ -240,5 +241,4 @@ def tell_joint(joint: Element, tags: GazeboTags, reference: str) -> None:
 
 
 def _copy(element: Element) -> Element:
-    """Return a deep copy of an element."""
     return make(element, element.tag, element.text, element.attributes, [_copy(child) for child in element.children])

@@ -1,7 +1,8 @@
-"""Lumping of fixed joints: a link of a URDF on a fixed joint becomes part of the link that carries it.
+"""Lumping of fixed joints: a URDF link on a fixed joint becomes part of its parent link.
 
-Part of the conversion. As in Gazebo a fixed joint stays when a `<gazebo reference="JOINT">` says `preserveFixedJoint`
-or `disableFixedJointLumping`, or when the parent is the link `world`.
+As in Gazebo a fixed joint is preserved if a `<gazebo reference="JOINT">` has `preserveFixedJoint` or
+`disableFixedJointLumping`, or if its parent is the link `world`.
+
 Source: sdformat 14, `ReduceFixedJoints`, https://github.com/gazebosim/sdformat/blob/sdf14/src/parser_urdf.cc
 """
 
@@ -20,8 +21,8 @@ from gz_course.sim.gz.sim.sdf.urdf.robot import WORLD, Robot, UrdfInertial, Urdf
 
 @dataclass(eq=False)
 class Body:
-    """One link of the SDF model: the URDF link `head` and, in `members`, head itself and all links lumped into it, each
-    with its pose in head's frame, in Gazebo's order (a link, then what hangs on it, by the names of the joints).
+    """One link of the SDF model: the URDF link `head` and, in `members`, head and all links lumped into it, each with
+    its pose in head's frame, in Gazebo's order (a link, then its descendants by the names of the joints).
     """
 
     head: UrdfLink
@@ -39,7 +40,7 @@ class Body:
 
 
 def lump(robot: Robot, preserved: Collection[str]) -> list[Body]:
-    """Return the bodies of a robot, parents first; `preserved` names the fixed joints that stay.
+    """Return the bodies of a robot, parents first; `preserved` names the fixed joints to preserve.
 
     A root called `world` stands for the world and is no body.
     """
@@ -67,9 +68,9 @@ def lump(robot: Robot, preserved: Collection[str]) -> list[Body]:
 
 
 def _lumped_inertial(body: Body) -> UrdfInertial | None:
-    """Return the inertia of all members about their centre of mass, along the axes of the head's own inertia:
-    the sum of R_i I_i R_i' + m_i (|c_i|^2 1 - c_i c_i'), moved to the common centre of mass.
+    """Return the inertia of all members about their centre of mass, along the axes of the head's inertia.
 
+    It is the sum of R_i I_i R_i' + m_i (|c_i|^2 1 - c_i c_i'), moved to the common centre of mass.
     Source: parallel axis theorem, https://en.wikipedia.org/wiki/Parallel_axis_theorem#Tensor_generalization
     """
     parts = [(link.inertial, pose) for link, pose in body.members if link.inertial is not None]

@@ -1,4 +1,4 @@
-"""SDF elements with the file and line of their URDF, so that every message about them names the right place."""
+"""Makes SDF elements with the file and line of their URDF, which messages refer to."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ def make(
 
 
 def write(values: Sequence[float]) -> str:
-    """Return the text of floats, which reads back as the same floats."""
+    """Return the shortest text of floats that reads back as the same floats."""
     return " ".join(repr(float(value)) for value in values)
 
 
 def place(source: Element, pose: Pose, relative_to: str = "") -> Element:
-    """Make a `<pose>` with a quaternion, which is exact where roll, pitch and yaw are not."""
+    """Make a `<pose>` with a quaternion, because roll, pitch and yaw would be rounded."""
     w, x, y, z = pose.quaternion
     attributes = {"relative_to": relative_to} if relative_to else {}
     attributes["rotation_format"] = "quat_xyzw"

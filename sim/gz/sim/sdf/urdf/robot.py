@@ -1,7 +1,7 @@
-"""Plain data of a URDF `<robot>`: links and joints as a tree, every number read and checked.
+"""Plain data of a URDF `<robot>`: links and joints as a tree, with every number read and checked.
 
-First step of a URDF, called by `gz.sim.sdf.urdf.convert`. What the parser of ROS refuses (a joint without limits, two
-roots, a circle) is refused here, in a sentence with file and line.
+Whatever the parser of ROS rejects (a joint without limits, two roots, a cycle) raises an error with file and line.
+
 Source: http://wiki.ros.org/urdf/XML
 """
 
@@ -18,7 +18,7 @@ from gz_course.sim.gz.sim.sdf.element import Element
 
 JOINT_KINDS = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
 WORLD = "world"
-_LARGEST = 1e20  # squares and products of such numbers are still numbers
+_LARGEST = 1e20  # squares and products of larger numbers could overflow
 
 _WORDS: dict[str, frozenset[str]] = {
     parent: frozenset(words.split())
@@ -73,7 +73,9 @@ class UrdfJoint:
 
 @dataclass(eq=False)
 class UrdfLink:
-    """A link; `joint` leads to its parent (None for the root), `children` are joints in the order of their names."""
+    """A link; `joint` connects it to its parent (None for the root), `children` are joints in the order of their
+    names.
+    """
 
     name: str
     element: Element
@@ -104,7 +106,7 @@ class Robot:
 
 
 def read_robot(element: Element, diagnostics: Diagnostics) -> Robot:
-    """Read `<robot>`. Raises `SdfError` with the line of the fault."""
+    """Read `<robot>`. Raises SdfError with the line of the fault."""
     if not element.name:
         raise element.error("<robot> needs a name attribute")
     leftover = next((child for child in element.children if child.tag.startswith("xacro:")), None)
@@ -134,7 +136,7 @@ def read_robot(element: Element, diagnostics: Diagnostics) -> Robot:
 
 
 def numbers(element: Element, attribute: str, count: int, default: tuple[float, ...] | None = None) -> list[float]:
-    """Return an attribute as `count` finite floats. Raises `SdfError` if it is missing and has no `default`."""
+    """Return an attribute as `count` finite floats. Raises SdfError if it is missing and has no `default`."""
     text = element.attributes.get(attribute)
     if text is None:
         if default is not None:
@@ -181,7 +183,7 @@ Colour = tuple[float, float, float, float]
 
 
 def _colours(element: Element, diagnostics: Diagnostics) -> dict[str, Colour | None]:
-    """Return the materials of the robot by name; those with only a texture have no colour."""
+    """Return the materials of the robot by name; None for those with only a texture."""
     colours: dict[str, Colour | None] = {}
     for material in element.all("material"):
         if not material.name:
@@ -239,7 +241,7 @@ def _shape(element: Element, diagnostics: Diagnostics) -> UrdfShape | None:
 
 
 def _visual_colour(visual: Element, colours: dict[str, Colour | None], diagnostics: Diagnostics) -> Colour | None:
-    """Return the colour of a visual; as in ROS the first definition of a name is valid for all who use it."""
+    """Return the colour of a visual; as in ROS the first definition of a material name applies everywhere."""
     material = visual.find("material")
     if material is None:
         return None
@@ -281,7 +283,7 @@ def _end(joint: Element, role: str, robot: Robot) -> str:
 
 
 def _make_tree(robot: Robot) -> None:
-    """Give every link its parent joint and its child joints. Raises `SdfError` when they form no tree."""
+    """Give every link its parent joint and its child joints. Raises SdfError if they form no tree."""
     # The parser of ROS sorts joints by name; lumped parts are numbered in this order.
     for joint in sorted(robot.joints.values(), key=lambda each: each.name.encode()):
         child = robot.links[joint.child]

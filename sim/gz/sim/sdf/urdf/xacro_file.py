@@ -1,8 +1,8 @@
-"""Expansion of a `.xacro` file, keeping the file and line of every element.
+"""Expands a `.xacro` file, keeping the file and line of every element.
 
-Called by `gz.sim.sdf.resources.read_text`. xacro can loop without end, so it runs in a process of its own
-(`expand_xacro`) with limits of time and memory. The result is plain XML in which every element has an attribute
-`PLACE`; `restore_places` removes them after parsing.
+xacro can loop without end, so it runs in a separate process (`expand_xacro`) with limits of time and memory. The result
+is plain XML in which every element has an attribute `PLACE`; `restore_places` removes it after parsing.
+
 Source: https://wiki.ros.org/xacro
 """
 
@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 from gz_course.sim.gz.sim.errors import LOG, SdfError
 
-if TYPE_CHECKING:  # the child process imports this module too, and needs no numpy
+if TYPE_CHECKING:  # the child process imports this module too, without numpy
     from gz_course.sim.gz.sim.sdf.element import Element
 
 PLACE = "_place_"
@@ -32,7 +32,7 @@ _COLOURS = re.compile("\x1b\\[[0-9;]*m")
 
 
 def expand(path: Path, arguments: dict[str, str] | None = None) -> str:
-    """Return the expanded text of a file for `arguments` (xacro's `name:=value`). Raises `SdfError` in one sentence."""
+    """Return the expanded text of a file for `arguments` (xacro's `name:=value`). Raises SdfError in one sentence."""
     pairs = [f"{name}:={value}" for name, value in (arguments or {}).items()]
     command = [sys.executable, "-m", "gz_course.sim.gz.sim.sdf.urdf.expand_xacro", str(path), *pairs]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path)), "PYTHONIOENCODING": "utf-8"}
@@ -68,7 +68,7 @@ def restore_places(root: Element) -> None:
         return
     try:
         files = [str(file) for file in json.loads(root.attributes.pop(FILES))]
-    except (ValueError, TypeError, RecursionError):  # written by hand and not ours
+    except (ValueError, TypeError, RecursionError):  # an attribute of that name in the file itself
         files = []
     waiting = [(root, root.file, root.line)]
     while waiting:
