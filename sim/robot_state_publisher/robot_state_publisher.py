@@ -53,7 +53,7 @@ def installed(prefixes: str) -> Path | None:
 
 def _is_ours(program: Path) -> bool:
     with program.open("rb") as file:
-        return f"-m {NAME}.{NAME}".encode() in file.read(1024)
+        return f"-m gz_course.sim.{NAME}.{NAME}".encode() in file.read(1024)
 
 
 def _publish(node: Node, arguments: list[str]) -> int:
