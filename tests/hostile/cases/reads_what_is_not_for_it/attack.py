@@ -19,7 +19,7 @@ for name in ("/etc/shadow", "/etc/ssh", "/root/.ssh", "/root/.bash_history", "/h
 for found in Path("/tmp").iterdir():
     if not course.is_relative_to(found):  # Python itself may be installed below /tmp
         print("ESCAPED", found, flush=True)
-for found in {p.name for p in course.iterdir()} - {".venv", "sim", "grader"} if course.is_dir() else ():
+for found in {p.name for p in course.iterdir()} - {".venv", "sim", "public", "grader"} if course.is_dir() else ():
     print("ESCAPED", found, flush=True)
 for found in {str(p.relative_to(course)) for p in (course / "grader").rglob("*.py")}:
     if not found.startswith(("grader/run/sandbox/init", "grader/run/agent")):
