@@ -5,7 +5,6 @@ import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import psutil
 import pytest
@@ -13,6 +12,7 @@ import pytest
 from gz_course.grader.errors import InfrastructureError, UsageError
 from gz_course.grader.run import supervision
 from gz_course.grader.run.supervision import Supervised
+from gz_course.tests.descriptors import left_open, own_descriptors
 from gz_course.tests.grader.run.supervised_jobs import (
     asks_for_all_memory,
     complains,
@@ -29,6 +29,7 @@ HOST = """
 import signal
 from gz_course.grader.process.interruption import end_on
 from gz_course.grader.run.supervision import Supervised
+from gz_course.tests.descriptors import left_open, own_descriptors
 from gz_course.tests.grader.run.supervised_jobs import {job}
 end_on(signal.SIGTERM)
 print("ready", flush=True)
@@ -39,10 +40,10 @@ Supervised([{job}], 1.0).run()
 @pytest.fixture(autouse=True)
 def nothing_is_left():
     before = set(psutil.Process().children(recursive=True))
-    descriptors = len(list(Path("/proc/self/fd").iterdir()))
+    descriptors = own_descriptors()
     yield
     assert set(psutil.Process().children(recursive=True)) == before
-    assert len(list(Path("/proc/self/fd").iterdir())) == descriptors
+    assert left_open(descriptors) == {}
 
 
 @pytest.fixture
