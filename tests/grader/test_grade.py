@@ -59,6 +59,7 @@ def test_a_folder_without_recordings(tmp_path):
         grade_again(tmp_path)
 
 
+@pytest.mark.proof
 def test_what_was_learnt_by_heart_is_found_out_by_hidden_trials(grade, course, root):
     """The whole way: full marks in public, none where the world is another; scored again, the same."""
     replay = root / "solutions/04_lidar_listener/rejected/replays_the_public_world"

@@ -84,6 +84,7 @@ def test_the_same_exercise_gives_the_same_bytes(archive, root, tmp_path):
     assert first == second
 
 
+@pytest.mark.proof
 def test_a_right_submission(autograder, solved):
     results = autograder({FILE: solved})
     assert results["score"] == 100

@@ -283,11 +283,9 @@ class Files:
     opens_files = True
 
     def find_model(self, uri: str, relative_to: Path | None) -> Path:
-        """Return the file of a model."""
         return find_model(uri, relative_to)
 
     def find_file(self, uri: str, relative_to: Path | None) -> Path:
-        """Return a mesh or image."""
         return find_file(uri, relative_to)
 
     def real(self, path: Path) -> Path:

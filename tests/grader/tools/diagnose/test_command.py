@@ -55,6 +55,7 @@ def sentences(report, kind):
     return [finding["sentence"] for finding in report["findings"] if finding["kind"] == kind]
 
 
+@pytest.mark.proof
 def test_from_a_healthy_system_to_one_whose_parts_are_gone(room, course, tmp_path):
     listener = tmp_path / "listener.py"
     listener.write_text(LISTENER)
