@@ -21,6 +21,8 @@ SCALARS = {
     "uint32": st.integers(0, 2**32 - 1),
     "uint8": st.integers(0, 255),
     "int8": st.integers(-128, 127),
+    "int16": st.integers(-(2**15), 2**15 - 1),
+    "int64": st.integers(-(2**63), 2**63 - 1),
     "uint16": st.integers(0, 2**16 - 1),
     "uint64": st.integers(0, 2**64 - 1),
     "string": st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\0"), max_size=20),
