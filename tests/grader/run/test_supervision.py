@@ -42,7 +42,7 @@ def nothing_is_left():
     before = set(psutil.Process().children(recursive=True))
     descriptors = own_descriptors()
     yield
-    assert set(psutil.Process().children(recursive=True)) == before
+    assert set(psutil.Process().children(recursive=True)) <= before  # one of an earlier test may end meanwhile
     assert left_open(descriptors) == {}
 
 
