@@ -27,7 +27,7 @@ from gz_course.sim.ros2.hand_over import hand_over
 
 COMMANDS = Path(__file__).parent / "command"
 _INTERRUPTED = 2
-_GRAPH = "ros2.graph"  # imported by verbs that have a node
+_GRAPH = "gz_course.sim.ros2.graph"  # imported by verbs that have a node
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -44,12 +44,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if "_ARGCOMPLETE" in os.environ:
         completion.complete()
     code = _explained(arguments)
-    if is_program and _GRAPH in sys.modules:
-        # The node is destroyed; the rest of DDS can block at exit.
-        with contextlib.suppress(OSError, ValueError):
-            sys.stdout.flush()
-            sys.stderr.flush()
-        os._exit(code)
+    if graph := sys.modules.get(_GRAPH):
+        if is_program:
+            interruption.ignore()
+        graph.destroy_ended(code if is_program else None)
+        if is_program:
+            # What is left of DDS can block at exit, too.
+            with contextlib.suppress(OSError, ValueError):
+                sys.stdout.flush()
+                sys.stderr.flush()
+            os._exit(code)
     return code
 
 

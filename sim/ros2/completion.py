@@ -69,11 +69,14 @@ def _completer(names: Callable[[Given], Iterable[str]]) -> Callable[..., list[st
 
 
 def _live(question: Callable[[Any], Iterable[str]]) -> list[str]:
-    from gz_course.sim.ros2.graph import Graph
+    from gz_course.sim.ros2.graph import Graph, destroy_ended
 
-    with Graph(argparse.Namespace(spin_time=None, use_sim_time=False)) as graph:
-        graph.settle()
-        return list(question(graph))
+    try:
+        with Graph(argparse.Namespace(spin_time=None, use_sim_time=False)) as graph:
+            graph.settle()
+            return list(question(graph))
+    finally:
+        destroy_ended()
 
 
 def _types(name: str, names_and_types: str, kind: str) -> Callable[[Given], Iterable[str]]:

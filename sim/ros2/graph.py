@@ -26,6 +26,7 @@ from gz_course.sim.ros2.discovery import Participants
 from gz_course.sim.ros2.errors import CommandError
 from gz_course.sim.ros2.interruption import check
 from gz_course.sim.ros2.option_values import seconds
+from gz_course.sim.ros_program.exit_deadline import end_within
 
 FIRST_CONTACT = 3.3  # [s] within which every node announces itself to a new one
 OTHER_MACHINES = 0.5  # [s] for answers over a network
@@ -38,6 +39,7 @@ UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"  # an endpoint whose node has not been anno
 
 Found = TypeVar("Found")
 NamesAndTypes = list[tuple[str, list[str]]]
+_ended: list[Graph] = []  # their nodes are still to be destroyed
 
 
 def add_graph_options(parser: argparse.ArgumentParser) -> None:
@@ -54,8 +56,22 @@ def is_hidden(name: str) -> bool:
     return any(part.startswith("_") for part in name.split("/"))
 
 
+def destroy_ended(exit_code: int | None = None) -> None:
+    """Destroy the nodes of all graphs whose `with` block has ended.
+
+    A process that ends with `exit_code` then does so even if DDS blocks.
+    """
+    if _ended and exit_code is not None:
+        end_within(exit_code)
+    while _ended:
+        _ended.pop().destroy()
+
+
 class Graph:
-    """A context manager for the graph as seen by its own hidden node (`_ros2cli_<pid>`)."""
+    """A context manager for the graph as seen by its own hidden node (`_ros2cli_<pid>`).
+
+    The node lives on until `destroy_ended`, so that what a command prints last is out before DDS can block.
+    """
 
     def __init__(self, arguments: argparse.Namespace, node_name: str | None = None) -> None:
         self._spin_time: float | None = arguments.spin_time
@@ -96,6 +112,10 @@ class Graph:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self._executor.shutdown(timeout_sec=0.5)
+        _ended.append(self)
+
+    def destroy(self) -> None:
+        """Destroy the node; DDS may block meanwhile."""
         self.node.destroy_node()
         self._context.try_shutdown()
 

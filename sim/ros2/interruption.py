@@ -21,6 +21,12 @@ def listen() -> None:
     sys.unraisablehook = _unraisable
 
 
+def ignore() -> None:
+    """Ignore both signals: the process is about to end."""
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_IGN)
+
+
 def check() -> None:
     """Raise KeyboardInterrupt if a signal has arrived."""
     if _heard:

@@ -18,7 +18,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 from gz_course.grader.tools.diagnose.system import Heard, HeardMessage, RosEndpoint, RosNode, RosSide, RunningBridge
 from gz_course.sim.ros2.errors import CommandError
-from gz_course.sim.ros2.graph import FIRST_CONTACT, UNKNOWN_NODE, Graph
+from gz_course.sim.ros2.graph import FIRST_CONTACT, UNKNOWN_NODE, Graph, destroy_ended
 from gz_course.sim.ros2.interface import message_class
 from gz_course.sim.ros_gz_bridge import bridged_topics
 from gz_course.sim.ros_gz_bridge.config import ConfigError, load_yaml
@@ -44,13 +44,16 @@ _ASKED = ("use_sim_time", bridged_topics.PARAMETER, "config_file")
 def observe(seconds: float) -> RosSide:
     """Query the graph, then listen for `seconds` [s]. Raises ros2.errors.CommandError if ROS does not start."""
     options = argparse.Namespace(spin_time=None, use_sim_time=False)
-    with Graph(options, f"_course_diagnose_{os.getpid()}") as graph:
-        graph.settle(FIRST_CONTACT)
-        side = RosSide(domain=graph.node.context.get_domain_id(), seconds=seconds)
-        side.endpoints = _named_endpoints(graph)
-        _ask(graph, side)
-        _Listener(graph, side).listen(seconds)
-        return side
+    try:
+        with Graph(options, f"_course_diagnose_{os.getpid()}") as graph:
+            graph.settle(FIRST_CONTACT)
+            side = RosSide(domain=graph.node.context.get_domain_id(), seconds=seconds)
+            side.endpoints = _named_endpoints(graph)
+            _ask(graph, side)
+            _Listener(graph, side).listen(seconds)
+            return side
+    finally:
+        destroy_ended()
 
 
 def _named_endpoints(graph: Graph) -> list[RosEndpoint]:

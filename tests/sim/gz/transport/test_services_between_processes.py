@@ -111,8 +111,9 @@ def test_own_provider_is_preferred(node, start_peer):
 
 def test_lists(node, start_peer):
     peer = start_peer()
-    peer.ask("serve", service="/b", answer="upper")
     peer.ask("serve", service="/a", answer="one way")
+    peer.ask("serve", service="/b", answer="upper")
+    assert ask(node, "/b")[0]  # what was announced before is known, too
     assert node.service_list() == ["/a", "/b"]
     (provider,) = node.service_info("/a")
     assert provider.addr.startswith("tcp://127.0.0.1:")
