@@ -8,6 +8,10 @@ PIP := $(BIN)/pip --disable-pip-version-check --quiet install --constraint const
 WORKERS ?= 3
 PARALLEL := --numprocesses $(WORKERS) --dist worksteal
 
+# Hundreds of Pythons are started: they find the modules compiled, whatever the caller's environment says.
+export PYTHONDONTWRITEBYTECODE =
+COMPILE := $(BIN)/python -m compileall -q sim grader public
+
 .PHONY: setup demo test verify bench book fuzz lint clean
 setup: .venv/with-course
 
@@ -30,9 +34,11 @@ demo: setup
 	@echo "Look at one:    $(BIN)/course show runs/demo/03_teleop.rrd"
 
 test: .venv/with-tools
+	@$(COMPILE)
 	exec $(BIN)/pytest -q -m "not proof" $(PYTEST_OPTIONS) $(PARALLEL)
 
 verify: .venv/with-tools
+	@$(COMPILE)
 	$(BIN)/course verify
 	exec $(BIN)/pytest -q -m proof $(PYTEST_OPTIONS) $(PARALLEL)
 

@@ -26,6 +26,7 @@ NEWER = {
 """Types that came after the release of the real client."""
 BOTH_KNOW = [name for name in OURS if name not in NEWER]
 AT_ONCE = 12
+pytestmark = pytest.mark.proof  # thousands of messages through the real client
 
 
 @pytest.fixture(scope="session")

@@ -67,6 +67,7 @@ def test_a_file_that_is_no_table_is_graded_without_a_run(grade, tmp_path):
     assert "topics.yaml, line 2: there is no column 'ros_tpye'; did you mean 'ros_type'?" in outcome.words
 
 
+@pytest.mark.proof
 def test_a_bridge_without_a_clock_still_leaves_a_recorded_world(grade, root):
     outcome = grade(BRIDGES, root / "exercises" / BRIDGES)
     assert (outcome.code, outcome.report["score"]) == (1, 0)

@@ -55,12 +55,14 @@ def test_a_submission_comes_out_as_its_case_says(case, tmp_path, grade, root):
     assert outcome.recording.is_file()
 
 
+@pytest.mark.proof
 @pytest.mark.skipif(not TEXTBOOK.is_dir(), reason="the textbook's files are not beside the repository")
 def test_the_textbook_teleop_earns_full_marks(grade):
     outcome = grade("03_teleop", TEXTBOOK / "teleop_node.py")
     assert (outcome.code, outcome.report["score"], outcome.report["diagnosis"]) == (0, 100, "")
 
 
+@pytest.mark.proof
 @pytest.mark.skipif(not TEXTBOOK.is_dir(), reason="the textbook's files are not beside the repository")
 def test_the_textbook_lidar_listener_earns_the_log_part_and_is_told_what_it_lacks(grade):
     outcome = grade("04_lidar_listener", TEXTBOOK / "lidar_subscriber.py")
@@ -69,6 +71,7 @@ def test_the_textbook_lidar_listener_earns_the_log_part_and_is_told_what_it_lack
     assert "no publisher on /nearest_obstacle" in outcome.report["diagnosis"]
 
 
+@pytest.mark.proof
 def test_a_file_name_that_is_not_utf8_is_no_internal_error(tmp_path, root, grade):
     name = os.fsdecode(b"tele\xffop.py")
     shutil.copy(root / "solutions/03_teleop/teleop_node.py", tmp_path / name)

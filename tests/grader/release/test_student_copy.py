@@ -92,6 +92,7 @@ def test_its_readme_is_true(student):
     assert not there & {"new", "release"}
 
 
+@pytest.mark.proof
 def test_the_course_works_in_it(student, course, clean, tmp_path):
     where = {"COURSE_ROOT": str(student), "PYTHONPATH": str(student / "public")}
     own = course(

@@ -144,6 +144,7 @@ def listed(course, *arguments):
     return outcome
 
 
+@pytest.mark.proof
 def test_grading_keeps_the_best_and_the_list_shows_it(course, root, tmp_path):
     """The whole way: full marks, then a file that cannot even run."""
     assert re.search(r"01_two_transports +100 +- +topics.yaml", listed(course).stdout)
