@@ -89,10 +89,10 @@ class Program:
         if self.process.poll() is None:
             os.killpg(self.process.pid, number)
         try:
-            code = self.process.wait(5)
+            code = self.process.wait(60)
         except subprocess.TimeoutExpired:
             os.killpg(self.process.pid, signal.SIGKILL)
-            code = self.process.wait(5)
+            code = self.process.wait(60)
         return self._finish(code)
 
     def wait(self):

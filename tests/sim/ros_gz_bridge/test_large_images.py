@@ -37,12 +37,12 @@ def test_large_pictures_reach_a_best_effort_subscriber(start, ros, inbox, eventu
             eventually(lambda: (number.publish(GzInt32(data=1)), numbers.messages)[1], "a small message arrives")
             eventually(lambda: subscriptions[0].get_publisher_count() == 1, "the bridge publishes pictures")
             publisher = gz.advertise("/hd", GzImage)
-            assert publisher.wait_for_subscribers(timeout=20)
+            assert publisher.wait_for_subscribers(timeout=120)
             # The other half of the connection announces itself by nothing: the first picture may be too early.
-            eventually(lambda: (publisher.publish(picture), pictures.messages)[1], "the first picture", timeout=5)
+            eventually(lambda: (publisher.publish(picture), pictures.messages)[1], "the first picture", timeout=120)
             for count in range(len(pictures.messages), len(pictures.messages) + PICTURES):
                 publisher.publish(picture)
-                pictures.wait(count + 1, timeout=5)
+                pictures.wait(count + 1, timeout=120)
     finally:
         for subscription in subscriptions:
             ros.node.destroy_subscription(subscription)
