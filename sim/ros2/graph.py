@@ -24,9 +24,9 @@ from rclpy.signals import SignalHandlerOptions
 
 from gz_course.sim.ros2.discovery import Participants
 from gz_course.sim.ros2.errors import CommandError
+from gz_course.sim.ros2.exit_deadline import end_within
 from gz_course.sim.ros2.interruption import check
 from gz_course.sim.ros2.option_values import seconds
-from gz_course.sim.ros_program.exit_deadline import end_within
 
 FIRST_CONTACT = 3.3  # [s] within which every node announces itself to a new one
 OTHER_MACHINES = 0.5  # [s] for answers over a network

@@ -7,7 +7,7 @@ import pytest
 
 BLOCKED = """
 import ctypes
-from gz_course.sim.ros_program.exit_deadline import end_within
+from gz_course.sim.ros2.exit_deadline import end_within
 print("all", end=" ")
 end_within({code}, 0.3)
 {then}
