@@ -5,7 +5,8 @@ This folder is an ament prefix: `share/ament_index` names the packages, `share/<
 `get_package_share_directory` and launch files find them. A workspace that the user has sourced comes first. Only `os`
 and `sys` are imported, because this runs at every start of Python.
 
-Source: https://docs.ros.org/en/jazzy/p/ament_index_python/ and REP-122, https://www.ros.org/reps/rep-0122.html
+Source: README.md of ament_index_python, https://github.com/ament/ament_index
+Source: REP-122, https://www.ros.org/reps/rep-0122.html
 """
 
 from __future__ import annotations

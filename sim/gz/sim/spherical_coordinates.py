@@ -26,7 +26,7 @@ SURFACES = {
     "MOON_SCS": (1738100.0, 1736000.0),
     "CUSTOM_SURFACE": (0.0, 0.0),
 }
-"""Semi-axes (m), equatorial and polar, of the surfaces Gazebo knows; those of a custom one are given."""
+"""Equatorial and polar semi-axes [m] of Gazebo's surface models; those of a custom surface are parameters."""
 
 
 @dataclass(frozen=True)

@@ -106,7 +106,7 @@ def run(values: argparse.Namespace) -> int:
         return 2
     try:
         return _simulate(values, stop)
-    except Exception as error:  # an internal error, not one of the world
+    except Exception as error:  # an internal error of the simulator
         logging.getLogger("gz.sim").debug("%s", traceback.format_exc())
         sys.stderr.write(f"gz sim: the simulator itself failed ({type(error).__name__}: {error}); -v 4 tells where\n")
         return 3

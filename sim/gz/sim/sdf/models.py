@@ -15,7 +15,7 @@ from gz_course.sim.gz.sim.sdf.joints import check_mimics, read_joint
 from gz_course.sim.gz.sim.sdf.links import read_link
 
 Placed = tuple[Model, Scope, Pose, str]
-"""A model, its scope, the pose its file states and the frame that pose is given in."""
+"""A model, its scope, its pose in the file, and the frame of that pose."""
 _UNHEARD = {
     "gripper": "grippers of Gazebo Classic are not simulated; use the DetachableJoint system",
     "enable_wind": "",

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 _ZERO = (0.0, 0.0, 0.0)
 _MOST = 10_000
-"""More pushes are not kept: a sender that never clears must not fill the memory."""
+"""Maximum number of stored wrenches, because a sender may never clear them."""
 
 
 @dataclass(frozen=True, slots=True)
