@@ -21,18 +21,19 @@ LIBRARY_PATH = "LD_LIBRARY_PATH"
 
 
 def main() -> None:
-    """Set up the environment of this process and its children."""
+    """Set up the environment of this process, which its children inherit."""
     source(os.environ)
-    # A student may have modules of these names.
+    # The user may have modules of these names.
     for name in (__name__, __name__.rpartition(".")[0]):
         sys.modules.pop(name, None)
 
 
 def source(environment: MutableMapping[str, str]) -> None:
-    """Append the course's prefix, that of the ROS wheels and the folder of the commands; may be repeated.
+    """Append the prefix of the course, that of the ROS wheels and the folder of the commands; calling it again adds
+    nothing.
 
-    AMENT_PREFIX_PATH and PATH grow at their end. COURSE_PYTHON becomes the Python that runs this, with which the
-    executables in `lib` start.
+    They are appended to AMENT_PREFIX_PATH and PATH. COURSE_PYTHON is set to the running Python, which the executables
+    in `lib` start.
     """
     _append(environment, "AMENT_PREFIX_PATH", PREFIX)
     _append(environment, "AMENT_PREFIX_PATH", sys.prefix)
