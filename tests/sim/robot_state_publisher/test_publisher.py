@@ -13,7 +13,7 @@ URDF = (
 
 @pytest.fixture
 def publisher(ros_node):
-    """Return a publisher with these values and the defaults; the sent transforms are in the lists `sent` and `static`."""
+    """Return a publisher with these values and the defaults; it appends to the lists `sent` and `static`."""
     from gz_course.sim.robot_state_publisher.publisher import DEFAULTS, StatePublisher
 
     def make(**values):

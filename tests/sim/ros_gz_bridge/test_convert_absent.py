@@ -92,7 +92,7 @@ def test_all_pairs_and_services_appear_with_their_packages(installed):
 
 
 def lossy(expected):
-    """Return the message (as `plain`) that is expected after conversion to Gazebo and back, with frames at any depth."""
+    """Return the message (as `plain`) expected after conversion to Gazebo and back, with frames at any depth."""
     if isinstance(expected, dict):
         return {
             key: value.replace("::", "/") if key in ("frame_id", "child_frame_id") else lossy(value)

@@ -1,4 +1,4 @@
-"""Shapes collide at the positions in their files: meshes, cones, polylines, heightmaps, rooms; lights move with links."""
+"""Shapes collide where their files place them: meshes, cones, polylines, heightmaps, rooms; lights move with links."""
 
 from __future__ import annotations
 
