@@ -77,7 +77,9 @@ class Requests:
     def refuse_inside_step(self, what: str) -> None:
         """Raise SimError if a system calls this during a step; `what` completes "a world cannot ..."."""
         if self._inside:
-            raise SimError(f"a world cannot {what} in the middle of a step; put the work into world.requests instead")
+            raise SimError(
+                f"a world cannot {what} in the middle of a step; pass the function to world.requests.put instead"
+            )
 
     def put(self, work: Callable[[], Any]) -> Request:
         """Queue a function, or run it directly if the caller is the stepping thread between two steps."""

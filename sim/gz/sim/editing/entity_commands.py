@@ -229,7 +229,7 @@ def place_on_planet(world: WorldAccess, where: Any, pose: Pose | None) -> Pose:
     """
     coordinates = world.description.spherical_coordinates
     if coordinates is None:
-        raise SimError(f"world '{world.name}' has no <spherical_coordinates>, so a latitude means nothing in it")
+        raise SimError(f"world '{world.name}' has no <spherical_coordinates>, so it has no latitude and longitude")
     numbers = (where.latitude_deg, where.longitude_deg, where.elevation, where.heading_deg)
     if not all(map(math.isfinite, numbers)):
         raise SimError("latitude, longitude, elevation and heading must be finite")

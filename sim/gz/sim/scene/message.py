@@ -88,7 +88,7 @@ class _SceneWriter:
             self._writers[vertex.kind](message, vertex)
         except SdfError as error:
             where, _, sentence = str(error).partition(": ")
-            self._world.diagnostics.warn_once(str(error), where, f"{sentence}; the scene goes without")
+            self._world.diagnostics.warn_once(str(error), where, f"{sentence}; it is left out of the scene message")
         for child in vertex.children:
             self._add(message, child)
 

@@ -30,7 +30,7 @@ from gz_course.sim.gz.sim.spherical_coordinates import SphericalCoordinates
 FARTHEST = 1e7  # [m]
 LONGEST_GOOD_STEP_NS = 20_000_000
 _NOT_SIMULATED = {
-    "actor": "is not simulated here, nobody walks through this world",
+    "actor": "is not simulated here, it is left out",
     "road": "is not simulated here, it is left out; use a flat box",
     "population": "is not simulated here; place the models one by one",
     "state": "is a saved state, which is not restored; the models start where they are defined",
