@@ -4,6 +4,7 @@
 Bayer patterns; any other causes a warning and an R8G8B8 image, as in Gazebo.
 
 Source: https://github.com/gazebosim/gz-sensors/blob/gz-sensors8/src/CameraSensor.cc
+Source: ITU-R BT.601 (luminance of L8 and L16)
 """
 
 from __future__ import annotations
