@@ -84,5 +84,5 @@ def _warn_of_unsupported(element: Element, model: Model, diagnostics: Diagnostic
             decay.where, f"<velocity_decay> of link '{element.name}' is ignored: nothing slows it down in air"
         )
     for part in element.all("projector", "audio_source", "audio_sink", "battery", "particle_emitter"):
-        text = f"<{part.tag}> of link '{element.name}' is not simulated here, it is left out"
+        text = f"<{part.tag}> is not simulated here, it is left out of link '{element.name}'"
         diagnostics.warn(part.where, text)
