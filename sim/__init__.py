@@ -1,1 +1,1 @@
-"""The tools of Gazebo and ROS 2: each package stands where the package of its name stands on a full installation."""
+"""The tools of Gazebo and ROS 2. Each package has the name and the content of a package of a full installation."""

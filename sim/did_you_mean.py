@@ -1,19 +1,19 @@
-"""The hint at the end of a sentence about a name that does not exist: the known name that was probably meant."""
+"""The end of an error sentence about an unknown name: the most similar known name."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from difflib import get_close_matches
 
-_LONGEST = 200  # characters that are compared: names come from files and networks of anybody
-_MOST = 5000  # names that are compared
+_LONGEST = 200  # compared characters; bounded, because names come from untrusted files and networks
+_MOST = 5000  # compared names
 _LISTED = 12
 
 
 def nearest_name(name: str, known: Iterable[str], cutoff: float = 0.6) -> str:
-    """Return the known name that is most like `name`, letter case ignored; empty if none is.
+    """Return the known name that is most similar to `name`, ignoring case; empty if none is similar enough.
 
-    `cutoff` says how much alike, from 0 to 1.
+    `cutoff` is the minimum similarity, from 0 to 1.
     """
     originals: dict[str, str] = {}
     for each in sorted(set(known))[:_MOST]:
@@ -23,9 +23,10 @@ def nearest_name(name: str, known: Iterable[str], cutoff: float = 0.6) -> str:
 
 
 def did_you_mean(name: str, known: Iterable[str], *, listing: str = "", cutoff: float = 0.6) -> str:
-    """Return the end of a sentence: `; did you mean 'x'?`, or nothing if no known name is like `name`.
+    """Return the end of a sentence: `; did you mean 'x'?` with the known name that is most similar to `name`.
 
-    With `listing`, such as `its links are`, it then lists the known names: `; its links are: a, b, ...`.
+    If no known name is similar it is `; its links are: a, b, ...` for the `listing` `its links are`, else an empty
+    text.
     """
     names = sorted(set(known))
     if near := nearest_name(name, names, cutoff):

@@ -1,9 +1,9 @@
-"""Makes packages of the private namespace importable by the names that Gazebo and ROS 2 give them.
+"""Makes packages of the private namespace importable by the names that they have in Gazebo and ROS 2.
 
-`public/` comes last on the import path and holds one small package for each public name, such as `launch` or
-`gz.transport13`. It calls `stand_for`, and the name and everything below it mean the modules of `gz_course.sim`: one
-module with two names, so a class is the same class under both. A real installation is found first; for `gz`, which is
-a namespace package, `give_way` looks for one.
+`public/` is the last entry of the import path and holds one small package for each public name, such as `launch` or
+`gz.transport13`. It calls `stand_for`, which maps the name and all names below it to the modules of `gz_course.sim`. A
+module is loaded once under both names, so that its classes are identical. A real installation is found first; for `gz`,
+a namespace package, `give_way` searches for one.
 """
 
 from __future__ import annotations
@@ -17,17 +17,17 @@ from importlib.machinery import ModuleSpec
 from pathlib import Path
 from types import CodeType, ModuleType
 
-_tried: set[str] = set()  # packages of which another than ours is being executed
+_tried: set[str] = set()  # names for which a real installation is being tried
 
 
 def stand_for(public: str, private: str) -> None:
-    """Let the package `public`, which is being imported, be the package `private`, with all modules below it."""
+    """Make the public name, while it is being imported, an alias of the package `private` and all modules below it."""
     sys.modules[public] = importlib.import_module(private)
     sys.meta_path.insert(0, _PublicModules(f"{public}.", f"{private}."))
 
 
 class _PublicModules(MetaPathFinder, Loader):
-    """Finds the modules below a public name: they are those below the private one."""
+    """The finder and loader of modules below a public name; it returns those below the private name."""
 
     def __init__(self, public: str, private: str) -> None:
         self._public = public
@@ -45,7 +45,7 @@ class _PublicModules(MetaPathFinder, Loader):
         sys.modules[module.__name__] = importlib.import_module(self._own_name(module.__name__))
 
     def get_code(self, fullname: str) -> CodeType | None:
-        """Return the code of a module, which `python -m` asks for."""
+        """Return the code of a module, as required by `python -m`."""
         own = importlib.util.find_spec(self._own_name(fullname))
         code: CodeType | None = own.loader.get_code(own.name) if own and own.loader else None  # type: ignore[attr-defined]
         return code
@@ -55,11 +55,11 @@ class _PublicModules(MetaPathFinder, Loader):
 
 
 def give_way(package: str, own_file: str) -> bool:
-    """Put the real package of this name into `sys.modules`, if there is one; return whether there was.
+    """Import the real package of this name into `sys.modules` if it is installed; return whether it was found.
 
-    Called by the `__init__.py` of a public name below a namespace package, with its `__name__` and `__file__`. Raises
-    ImportError if that is tried as a real installation just now: it is another copy of ours on the import path, and
-    the search goes on behind it.
+    Called with `__name__` and `__file__` by the `__init__.py` of a public name below a namespace package. Raises
+    ImportError if it is called while a real installation is being tried: then the file found is another copy of this
+    package, and the search continues.
     """
     if package in _tried:
         raise ImportError(f"{own_file} is another copy of this package, no installation of Gazebo's", name=package)
@@ -73,7 +73,7 @@ def give_way(package: str, own_file: str) -> bool:
 
 
 def _executed(package: str, file: Path) -> bool:
-    """Execute the package in `file` in the place of ours; return whether it could be imported."""
+    """Execute the package in `file` under this name; return whether it could be imported."""
     spec = importlib.util.spec_from_file_location(package, file, submodule_search_locations=[str(file.parent)])
     if spec is None or spec.loader is None:
         return False
@@ -82,7 +82,7 @@ def _executed(package: str, file: Path) -> bool:
     _tried.add(package)
     try:
         spec.loader.exec_module(module)
-    except ImportError:  # for another Python, without its libraries, or a copy of ours: as if it were not there
+    except ImportError:  # built for another Python, without its libraries, or a copy of this package
         sys.modules[package] = ours
         return False
     finally:

@@ -1,7 +1,7 @@
-"""The private namespace of the course: all of its own code is imported by names that begin with `gz_course`.
+"""The private namespace of the course: all of its code is imported by names that begin with `gz_course`.
 
 A name is the path of its file: `gz_course.sim.gz.transport.node` is `sim/gz/transport/node.py`. In an installation
-`sim/` and `grader/` stand in this package; in a checkout they stand two folders above.
+`sim/` and `grader/` are folders of this package; in a checkout they are two folders above it.
 """
 
 import os
@@ -12,7 +12,7 @@ if not os.path.isdir(os.path.join(_here, "sim")):  # noqa: PTH112, PTH118
     __path__ = [os.path.dirname(os.path.dirname(_here))]  # noqa: PTH120
     try:
         os.listdir(__path__[0])  # noqa: PTH208
-    except PermissionError:  # in a sandbox that shows `sim/` but not what stands beside it: nothing is found by listing
+    except PermissionError:  # in a sandbox the folder can be entered but not listed, so its packages are not found
         sim = type(sys)("gz_course.sim")
         sim.__path__ = [os.path.join(__path__[0], "sim")]  # noqa: PTH118
         sys.modules["gz_course.sim"] = sim

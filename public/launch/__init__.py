@@ -1,4 +1,4 @@
-"""ROS 2's `launch`, for machines without it: a real one comes earlier on the import path."""
+"""`launch` of ROS 2, for machines without it; an installed one comes first on the import path."""
 
 from gz_course.sim.public_name import stand_for
 

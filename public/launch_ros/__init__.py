@@ -1,4 +1,4 @@
-"""ROS 2's `launch_ros`, for machines without it: a real one comes earlier on the import path."""
+"""`launch_ros` of ROS 2, for machines without it; an installed one comes first on the import path."""
 
 import launch
 

@@ -52,7 +52,7 @@ def _help(commands: dict[str, Path]) -> str:
             "  -h, --help   this text",
             "  --versions   the versions of what is installed",
             "",
-            "`gz COMMAND --help` tells more about one of them.",
+            "`gz COMMAND --help` prints the options of a command.",
         ]
     )
 

@@ -89,7 +89,7 @@ class ChildProcess:
         self._reaped = True
         return code
 
-    def has_left_something(self) -> bool:
+    def has_background_processes(self) -> bool:
         """Return whether processes of its group are still running after its end."""
         try:
             os.killpg(self.pid, 0)
@@ -101,7 +101,7 @@ class ChildProcess:
 
     async def wait_for_group(self) -> None:
         """Wait until the last process of its group has ended."""
-        while self.has_left_something():
+        while self.has_background_processes():
             member = _member_of_group(self.pid)
             if member is None:
                 return
@@ -109,7 +109,7 @@ class ChildProcess:
 
     def send_signal(self, number: int) -> None:
         with contextlib.suppress(ProcessLookupError, PermissionError):
-            if not self._reaped or self.has_left_something():
+            if not self._reaped or self.has_background_processes():
                 os.killpg(self.pid, number)
 
     def kill(self) -> None:

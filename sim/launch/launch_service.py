@@ -7,7 +7,7 @@
 Events are processed one after the other: each is offered to all handlers, and the returned entities are visited. The
 run ends when every process, timer and coroutine has ended after a shutdown; an idle launch shuts down by itself.
 
-Source: ros2/launch, launch/launch_service.py and launch/doc/source/architecture.rst
+Source: ros2/launch, launch/launch/launch_service.py and launch/doc/source/architecture.rst
 """
 
 from __future__ import annotations

@@ -1,8 +1,9 @@
 """Ends processes whose launch was killed.
 
 `ChildProcess` registers each process group from its start to its end. While there is one, a small shell outside of the
-launch's session reads the groups from a pipe. The pipe closes when the launch ends for any reason: remaining groups
-then get SIGINT, later SIGTERM, later SIGKILL. After a normal end none remains, and the shell exits at once.
+launch's session reads the groups from a pipe. The pipe closes when the launch ends for any reason; the groups that are
+still registered then get SIGINT, later SIGTERM and later SIGKILL. After a normal end none is registered, and the shell
+exits at once.
 """
 
 from __future__ import annotations
@@ -52,14 +53,14 @@ class _Watch:
             if not self._groups:
                 self._start()
             self._groups.add(group)
-            self._tell(f"+ {group}\n")
+            self._write_line(f"+ {group}\n")
 
     def remove(self, group: int) -> None:
         with self._lock:
             if group not in self._groups:
                 return
             self._groups.remove(group)
-            self._tell(f"- {group}\n")
+            self._write_line(f"- {group}\n")
             if not self._groups:
                 self._end()
 
@@ -80,7 +81,7 @@ class _Watch:
         finally:
             os.close(read)
 
-    def _tell(self, line: str) -> None:
+    def _write_line(self, line: str) -> None:
         with contextlib.suppress(OSError):
             os.write(self._pipe, line.encode())
 

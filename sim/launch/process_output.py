@@ -10,7 +10,7 @@
 
 or with a dict: `{"stdout": "screen", "stderr": {"log", "own_log"}}`.
 
-Source: ros2/launch, launch/logging/__init__.py (get_output_loggers)
+Source: ros2/launch, launch/launch/logging/__init__.py (get_output_loggers)
 """
 
 from __future__ import annotations

@@ -8,7 +8,7 @@
     [['a'], [LaunchConfiguration('x')]]   a list; each item is joined and parsed as YAML
     ParameterValue(x, value_type=T)  of type T
 
-Source: ros2/launch_ros, launch_ros/utilities/normalize_parameters.py and evaluate_parameters.py
+Source: ros2/launch_ros, launch_ros/launch_ros/utilities/normalize_parameters.py and evaluate_parameters.py
 """
 
 from __future__ import annotations

@@ -5,7 +5,8 @@ This folder is an ament prefix: `share/ament_index` names the packages, `share/<
 `get_package_share_directory` and launch files find them. A workspace that the user has sourced comes first. Only `os`
 and `sys` are imported, because this runs at every start of Python.
 
-Source: https://docs.ros.org/en/jazzy/p/ament_index_python/ and REP-122, https://www.ros.org/reps/rep-0122.html
+Source: README.md of ament_index_python, https://github.com/ament/ament_index
+Source: REP-122, https://www.ros.org/reps/rep-0122.html
 """
 
 from __future__ import annotations
@@ -20,18 +21,19 @@ LIBRARY_PATH = "LD_LIBRARY_PATH"
 
 
 def main() -> None:
-    """Set up the environment of this process and its children."""
+    """Set up the environment of this process, which its children inherit."""
     source(os.environ)
-    # A student may have modules of these names.
+    # The user may have modules of these names.
     for name in (__name__, __name__.rpartition(".")[0]):
         sys.modules.pop(name, None)
 
 
 def source(environment: MutableMapping[str, str]) -> None:
-    """Append the course's prefix, that of the ROS wheels and the folder of the commands; may be repeated.
+    """Append the prefix of the course, that of the ROS wheels and the folder of the commands; calling it again adds
+    nothing.
 
-    AMENT_PREFIX_PATH and PATH grow at their end. COURSE_PYTHON becomes the Python that runs this, with which the
-    executables in `lib` start.
+    They are appended to AMENT_PREFIX_PATH and PATH. COURSE_PYTHON is set to the running Python, which the executables
+    in `lib` start.
     """
     _append(environment, "AMENT_PREFIX_PATH", PREFIX)
     _append(environment, "AMENT_PREFIX_PATH", sys.prefix)

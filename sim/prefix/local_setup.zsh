@@ -1,2 +1,2 @@
-# Every Python of this environment does by itself what this file does on a full install (local_setup.py). It is here
-# because the setup files of a colcon workspace source the one of each prefix that was there when it was built.
+# On a full install this file sets up the environment; here every Python of the environment does so (local_setup.py).
+# The file exists because the setup files of a colcon workspace source that of each prefix it was built with.

@@ -66,7 +66,7 @@ class MovingJoint:
 
 @dataclass
 class Kinematics:
-    """The joints of a robot; `moving` has them by name, `warnings` says what is not published."""
+    """The joints of a robot; `moving` has them by name, `warnings` tells which joints are not published."""
 
     name: str
     root: str

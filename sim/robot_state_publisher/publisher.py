@@ -61,15 +61,15 @@ class StatePublisher:
             raise UsageError(f"the parameter publish_frequency must be 0 to {_FASTEST_HZ:g} Hz, not {frequency:g}")
         self._period_ns = round(1e9 / frequency) if frequency else 0
         self._published_ns: dict[str, int] = {}
-        self._heard_ns = 0
-        self._complained = False
+        self._latest_ns = 0
+        self._has_warned = False
         self._send, self._send_static = (send, send_static) if send and send_static else _tf_topics(node)
         self._description = node.create_publisher(String, "robot_description", _LATCHED)
         try:
             self._kinematics = Kinematics.from_urdf(values["robot_description"])
         except SimError as error:
             raise UsageError(first_line(error)) from None
-        self._tell(values["robot_description"])
+        self._publish_description(values["robot_description"])
         node.create_subscription(JointState, "joint_states", self.take, qos_profile_sensor_data)
         node.add_on_set_parameters_callback(self._check)
         node.add_post_set_parameters_callback(self._change)
@@ -77,21 +77,21 @@ class StatePublisher:
     def take(self, state: JointState) -> None:
         """Send the transforms of a joint state, of each joint at most `publish_frequency` [Hz] by its stamps."""
         if len(state.name) != len(state.position):
-            self._complain(f"a joint state with {len(state.name)} names and {len(state.position)} positions is ignored")
+            self._warn(f"a joint state with {len(state.name)} names and {len(state.position)} positions is ignored")
             return
         positions = dict(zip(state.name, state.position, strict=True))
         unreal = next((name for name, position in positions.items() if not math.isfinite(position)), None)
         if unreal is not None:
-            self._complain(f"a joint state in which '{unreal}' is {positions[unreal]} is ignored")
+            self._warn(f"a joint state in which '{unreal}' is {positions[unreal]} is ignored")
             return
         if state.name and not any(name in self._kinematics.moving for name in state.name):
-            self._complain(f"no joint of the joint state is one of robot '{self._kinematics.name}': {state.name[0]}")
+            self._warn(f"no joint of the joint state is one of robot '{self._kinematics.name}': {state.name[0]}")
         stamp = state.header.stamp
         now = self._node.get_clock().now().nanoseconds
-        if now < self._heard_ns:
+        if now < self._latest_ns:
             self._logger.warning("Moved backwards in time, re-publishing joint transforms!")
             self._published_ns.clear()
-        self._heard_ns = now
+        self._latest_ns = now
         stamp_ns = stamp.sec * 10**9 + stamp.nanosec
         due = [name for name in positions if self._is_due(name, stamp_ns, now)]
         if not due:
@@ -111,15 +111,15 @@ class StatePublisher:
         # Stamps more than a second older come from a publisher that was restarted.
         return stamp_ns >= last + self._period_ns or stamp_ns < last - 10**9
 
-    def _complain(self, sentence: str) -> None:
-        if not self._complained:
-            self._complained = True
+    def _warn(self, sentence: str) -> None:
+        if not self._has_warned:
+            self._has_warned = True
             self._logger.warning(f"{sentence} (reported once)")
 
     def _stamped(self, transforms: Iterable[Transform], stamp: Any) -> list[TransformStamped]:
         return [_message(each, self._prefix, stamp) for each in transforms]
 
-    def _tell(self, text: str) -> None:
+    def _publish_description(self, text: str) -> None:
         """Publish the description and the transforms of fixed joints."""
         for warning in self._kinematics.warnings:
             self._logger.warning(warning)
@@ -150,7 +150,7 @@ class StatePublisher:
             if parameter.name == "robot_description":
                 self._kinematics = Kinematics.from_urdf(str(parameter.value))
                 self._published_ns.clear()
-                self._tell(str(parameter.value))
+                self._publish_description(str(parameter.value))
 
 
 def _message(transform: Transform, prefix: str, stamp: Any) -> TransformStamped:

@@ -59,7 +59,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _explained(arguments: list[str]) -> int:
     """Run `ros2`; report every error as one sentence, and return the exit code."""
-    # A shell's '&' starts programs with SIGINT ignored, but a node must announce its end: both signals arrive as
+    # A shell's '&' starts programs with SIGINT ignored, but a node must announce its end. Both signals arrive as
     # KeyboardInterrupt.
     interruption.listen()
     try:

@@ -19,7 +19,7 @@ from typing import Any
 from gz_course.sim.ros2.errors import CommandError
 
 Given = Mapping[str, Any]
-"""The arguments before the cursor by name."""
+"""The values of the arguments before the cursor, by name."""
 
 
 def complete(**options: Any) -> None:
@@ -162,4 +162,4 @@ _COMPLETERS: Mapping[str, Callable[[Given], Iterable[str]]] = MappingProxyType(
         "values": _values,
     }
 )
-"""Name of an argument, in whichever verb -> what it can be."""
+"""The function that returns the completions of an argument, by its name in any verb."""

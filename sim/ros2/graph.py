@@ -101,9 +101,9 @@ class Graph:
         self._executor: Any = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self.node)
         self._participants.attach(self.node)
-        self._born = time.monotonic()
+        self._created = time.monotonic()
         self._seen: Any = None
-        self._changed = self._born
+        self._changed = self._created
 
     def __enter__(self) -> Graph:
         return self
@@ -155,7 +155,7 @@ class Graph:
     def settle(self, deadline: float = SETTLE_DEADLINE) -> None:
         """Wait until the graph seems complete, at most `deadline` [s], or exactly --spin-time."""
         if self._spin_time is not None:
-            end = self._born + self._spin_time
+            end = self._created + self._spin_time
             # Called each time, because it also sends scouts to missing participants.
             self._wait(lambda: (self._participants.all_known(), time.monotonic() >= end)[1], self._spin_time)
         else:
@@ -166,7 +166,7 @@ class Graph:
         if self._spin_time is not None:
             self.settle()
         else:
-            given_up = self._born + GIVE_UP
+            given_up = self._created + GIVE_UP
 
             def decided() -> bool:
                 complete = self._complete(QUIET)  # called each time, because it also sends scouts
@@ -204,10 +204,10 @@ class Graph:
         if seen != self._seen:
             self._seen, self._changed = seen, now
         all_known = self._participants.all_known()
-        earliest = self._born + (OTHER_MACHINES if _listens_to_other_machines() else 0.0)
+        earliest = self._created + (OTHER_MACHINES if _listens_to_other_machines() else 0.0)
         if all_known is not True:
             # Unknown, or a participant does not answer: a program that is no ROS node, or one that hangs.
-            earliest = self._born + FIRST_CONTACT
+            earliest = self._created + FIRST_CONTACT
         nodes, endpoints, _ = seen
         # A node and its endpoints arrive separately in any order; both must be known.
         whole = nodes == {node for _, node, _ in endpoints}

@@ -19,7 +19,7 @@ from gz_course.sim.ros2.errors import CommandError
 from gz_course.sim.ros2.packages import package_share
 
 KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}
-"""Folder (and end of the file name) of a kind of interface -> heading."""
+"""The heading of each kind of interface; the key is its folder and file suffix."""
 
 _INDEX = "rosidl_interfaces"
 

@@ -9,13 +9,13 @@ import signal
 import sys
 from types import FrameType
 
-_heard = False
+_received = False
 
 
 def listen() -> None:
     """Handle both signals, even if a shell's `&` has set SIGINT to ignored."""
-    global _heard
-    _heard = False
+    global _received
+    _received = False
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, _interrupt)
     sys.unraisablehook = _unraisable
@@ -29,17 +29,17 @@ def ignore() -> None:
 
 def check() -> None:
     """Raise KeyboardInterrupt if a signal has arrived."""
-    if _heard:
+    if _received:
         raise KeyboardInterrupt
 
 
 def _unraisable(dropped: sys.UnraisableHookArgs) -> None:
     """Suppress the report about an interruption that Python drops, because `check` raises it again."""
-    if not (_heard and isinstance(dropped.exc_value, KeyboardInterrupt)):
+    if not (_received and isinstance(dropped.exc_value, KeyboardInterrupt)):
         sys.__unraisablehook__(dropped)
 
 
 def _interrupt(number: int, frame: FrameType | None) -> None:
-    global _heard
-    _heard = True
+    global _received
+    _received = True
     raise KeyboardInterrupt

@@ -32,7 +32,7 @@ _BITS = {f"{sign}int{bits}": (sign, bits) for sign in ("", "u") for bits in (8, 
 _TRUE, _FALSE = {"true", "yes", "on", "1"}, {"false", "no", "off", "0"}
 
 Stamp = Callable[[Any], None]
-"""Writes the time (a builtin_interfaces/Time) into the field it belongs to."""
+"""A function that writes a builtin_interfaces/Time into one field of a message."""
 
 
 def parse_yaml(text: str) -> yaml.Node | None:

@@ -38,7 +38,7 @@ _FIELDS = {
     ParameterType.PARAMETER_DOUBLE_ARRAY: ("Double", "double array", "double_array_value"),
     ParameterType.PARAMETER_STRING_ARRAY: ("String", "string array", "string_array_value"),
 }
-"""Type -> (word of `get`, word of `describe`, field of ParameterValue)"""
+"""For each type: the word in `get`, the word in `describe`, the field of ParameterValue."""
 
 _EXPONENT = re.compile(r"[-+]?\d+(\.\d*)?[eE][-+]?\d+")
 _INT64 = range(-(2**63), 2**63)
@@ -146,7 +146,7 @@ def type_word(kind: int) -> str:
 
 
 def value_from_yaml(text: str) -> ParameterValue:
-    """Return the parameter value of a YAML text. Raises CommandError for what no parameter can be."""
+    """Return the parameter value of a YAML text. Raises CommandError if no parameter can have this value."""
     parse_yaml(text)  # raises an error with the position
     try:
         value = yaml.safe_load(text)

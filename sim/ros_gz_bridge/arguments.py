@@ -1,6 +1,6 @@
-"""The bridges of a command line, written `NAME@ROS_TYPE@GZ_TYPE` and the like; for `parameter_bridge` and `lint`.
+"""The bridges of a command line, written as `NAME@ROS_TYPE@GZ_TYPE` and similar, for `parameter_bridge` and `lint`.
 
-The name is that of both sides; ROS remapping changes the one of the ROS side.
+The name is used on both sides; ROS remapping changes that of the ROS side.
 
 Source: ros_gz_bridge/src/parameter_bridge.cpp (its usage text), https://github.com/gazebosim/ros_gz
 """
@@ -24,7 +24,7 @@ _SERVICE_SYNTAX = "SERVICE@ROS_TYPE or SERVICE@ROS_TYPE@GZ_REQUEST_TYPE@GZ_REPLY
 
 
 def read_arguments(texts: Iterable[str], *, lazy: bool = False) -> Config:
-    """Return the entries and the faults of several arguments; raise nothing."""
+    """Return the entries and the faults of several arguments; faults raise no exception."""
     config = Config()
     order: dict[str, int] = {}
     for text in texts:

@@ -21,7 +21,7 @@ _makers: dict[type, Callable[[], Any]] = {}
 
 
 def blank(message_class: type[Message]) -> Message:
-    """Return a message equal to `message_class()`, which shares nothing mutable with another message."""
+    """Return a message equal to `message_class()`; it shares no mutable value with another message."""
     maker = _makers.get(message_class)
     if maker is None:
         maker = _makers[message_class] = _maker(message_class)
@@ -29,7 +29,7 @@ def blank(message_class: type[Message]) -> Message:
 
 
 def _maker(message_class: type) -> Callable[[], Any]:
-    """Return a function that makes such messages: the constructor itself if a field is of an unforeseen type."""
+    """Return a function that makes such messages: the constructor itself if the type of a field is not supported."""
     model = message_class()
     shared: list[tuple[str, Any]] = []
     renewed: list[tuple[str, Callable[[], Any]]] = []

@@ -101,7 +101,7 @@ class Bridge:
             return [dataclasses.replace(status) for status in self._status]
 
     def close(self) -> None:
-        """Destroy every publisher, subscription and timer; may be repeated. The counters stay."""
+        """Destroy all publishers, subscriptions and timers; the counters remain. Closing twice does nothing."""
         if self._timer is not None:
             self._ros_node.destroy_timer(self._timer)
             self._timer = None
@@ -119,7 +119,7 @@ class Bridge:
         self._gz_publishers.clear()
 
     def say_unsaid(self, at_once: bool = False) -> None:
-        """Warn of lost messages that no warning has counted yet; the owner calls it from time to time."""
+        """Log losses that have not been reported yet; the owner calls it periodically."""
         for link in self._links():
             link.say_unsaid(at_once)
 
@@ -232,7 +232,7 @@ def _echo_filters(rows: list[Row]) -> list[tuple[Row, EchoFilter]]:
 
 
 def _content_of(pair: TypePair) -> Callable[[Any], bytes]:
-    """Return the function by which an echo filter compares ROS messages: the bytes that Gazebo would get."""
+    """Return the function that converts a ROS message to the content an echo filter compares: the bytes for Gazebo."""
 
     def content(ros: Any) -> bytes:
         try:

@@ -1,6 +1,6 @@
-"""The program `ros2 run ros_gz_bridge bridge_types`, which prints the type pairs of the bridge, one a line.
+"""The program `ros2 run ros_gz_bridge bridge_types`, which prints the type pairs of the bridge, one per line.
 
-Pairs of ROS packages that are not installed are left out; standard error names these packages.
+Pairs of ROS packages that are not installed are omitted; standard error names these packages.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from gz_course.sim.ros_gz_bridge.type_pairs import (
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Print what was asked for; return 0, 1 for a type that has no partner, or 2 for wrong arguments."""
+    """Print the requested types; return 0, 1 for a type without a partner, or 2 for wrong arguments."""
     parser = argparse.ArgumentParser(
         prog="bridge_types", description="Says which message types the bridge converts into which."
     )
@@ -38,8 +38,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except UnknownPairError as error:
         print(f"bridge_types: {error}", file=sys.stderr)
         return 1
-    except BrokenPipeError:  # the reader has seen enough, for instance `head`
-        # What is still in the buffer must not fail once more when the interpreter ends.
+    except BrokenPipeError:  # the reader, such as `head`, has ended
+        # The text in the buffer would fail again when the interpreter ends.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     return 0

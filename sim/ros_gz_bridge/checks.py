@@ -1,7 +1,7 @@
-"""Checks of bridges that could be read: what cannot work, and what works in another way than expected.
+"""Checks of configured bridges: faults, and settings with an unexpected effect.
 
 `config` and `arguments` call `check`, so `lint` and a starting `parameter_bridge` report the same. A check is a
-function marked with `@_check`; it looks at all entries together and yields a `Finding` for each fault.
+function marked with `@_check`; it gets all entries together and yields a `Finding` for each fault.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ def _warning(entry: BridgeEntry, sentence: str) -> Finding:
 
 
 def _never(entry: BridgeEntry, sentence: str) -> Finding:
-    """Return an error about a bridge that can be set up but never carries a useful message; the original bridges it."""
+    """Return an error about a bridge that never carries a useful message; the original ros_gz_bridge makes it."""
     return Finding(entry.source, sentence, tolerated=True)
 
 
@@ -92,7 +92,7 @@ def _two_types_on_one_topic(topics: Sequence[BridgeEntry], services: Sequence[Se
 
 @_check
 def _clock_to_gazebo(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
-    """Report a bridge that advertises the clock in Gazebo, which then does not publish its own there."""
+    """Report a bridge of the clock to Gazebo: it advertises the topic, and Gazebo then publishes no clock on it."""
     for entry in topics:
         if entry.ros_type == _CLOCK and entry.direction is Direction.ROS_TO_GZ:
             yield _never(
@@ -110,7 +110,7 @@ def _clock_to_gazebo(topics: Sequence[BridgeEntry], services: Sequence[ServiceEn
 
 @_check
 def _clock_name(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
-    """Report a clock on another topic than /clock, and two clocks on it."""
+    """Report a clock on a topic other than /clock, and two clocks on /clock."""
     clocks = [entry for entry in topics if entry.ros_type == _CLOCK and entry.direction.to_ros]
     on_the_topic = [entry for entry in clocks if entry.ros_topic.strip("/") == "clock"]
     if clocks and not on_the_topic:
@@ -157,7 +157,7 @@ def _wrong_direction(topics: Sequence[BridgeEntry], services: Sequence[ServiceEn
 
 @_check
 def _poses_without_frames(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
-    """Report the poses of the scene, which carry names but no frames, as transforms."""
+    """Report a bridge of the poses of the scene to transforms, because these poses have no frames."""
     for entry in topics:
         if entry.ros_type == _TF and entry.direction.to_ros and entry.gz_topic.endswith("pose/info"):
             yield _warning(
@@ -169,7 +169,7 @@ def _poses_without_frames(topics: Sequence[BridgeEntry], services: Sequence[Serv
 
 @_check
 def _static_transforms(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
-    """Report /tf_static bridged so that nodes that start later do not receive it."""
+    """Report a bridge of /tf_static that nodes started later receive nothing from."""
     for entry in topics:
         if entry.ros_type != _TF or not entry.direction.to_ros or not entry.ros_topic.endswith("tf_static"):
             continue
@@ -185,7 +185,7 @@ def _static_transforms(topics: Sequence[BridgeEntry], services: Sequence[Service
 
 @_check
 def _lazy_commands(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
-    """Report lazy bridges to Gazebo: they save no computing of the sender, and lose the first command."""
+    """Report lazy bridges to Gazebo: they save no computation and lose the first command."""
     for entry in topics:
         if entry.lazy and entry.direction is Direction.ROS_TO_GZ:
             yield _warning(
@@ -212,9 +212,9 @@ def _frame_id_without_header(topics: Sequence[BridgeEntry], services: Sequence[S
 
 
 def private_gz_names(topics: Iterable[BridgeEntry], services: Iterable[ServiceEntry]) -> Iterator[Finding]:
-    """Yield an error for each Gazebo name with `~`, which works only with `expand_gz_topic_names`.
+    """Yield an error for each Gazebo name with `~`, which requires the parameter `expand_gz_topic_names`.
 
-    Not among the checks, because only the caller knows that parameter.
+    It is not one of the checks, because only the caller knows the parameter.
     """
     names = [(entry.source, entry.gz_topic) for entry in topics]
     names += [(entry.source, entry.gz_service) for entry in services]

@@ -21,21 +21,21 @@ from gz_course.sim.ros_gz_bridge.entry_reader import KEYS, SERVICE_KEYS, EntryRe
 from gz_course.sim.ros_gz_bridge.finding import ConfigError, Finding, raise_errors
 
 MAX_BYTES = 256 * 1024
-"""Size of the largest YAML file that is read [byte]."""
+"""Maximum size of a YAML file [byte]."""
 MAX_ENTRIES = 1000
-"""Largest number of bridges in a file."""
+"""Maximum number of bridges in a file."""
 
 
 @dataclass
 class Config:
-    """A configuration that was read: the bridges that can be made, and its errors and warnings."""
+    """The result of reading a configuration: the bridges that can be made, the errors and the warnings."""
 
     topics: list[BridgeEntry] = field(default_factory=list)
     services: list[ServiceEntry] = field(default_factory=list)
     findings: list[Finding] = field(default_factory=list)
 
     def add(self, entry: BridgeEntry | ServiceEntry | None) -> None:
-        """Add a topic or a service; None adds nothing."""
+        """Add a topic or a service; ignore None."""
         if isinstance(entry, ServiceEntry):
             self.services.append(entry)
         elif entry is not None:
@@ -48,9 +48,9 @@ class Config:
         self.findings += other.findings
 
     def tolerant(self) -> Config:
-        """Return the configuration as the original ros_gz_bridge takes it: every error becomes a warning.
+        """Return the configuration with the tolerance of the original ros_gz_bridge: errors become warnings.
 
-        Entries that cannot work are left out.
+        Entries that cannot work are omitted.
         """
         findings = [Finding(each.place, each.sentence, warning=True) for each in self.findings]
         broken = {each.place for each in self.findings if not (each.warning or each.tolerated)}
@@ -59,7 +59,7 @@ class Config:
 
 
 def load_yaml(path: str | Path, *, lazy: bool = False) -> list[BridgeEntry]:
-    """Return the topics of a YAML file. Raises ConfigError listing every fault, a service among them.
+    """Return the topics of a YAML file. Raises ConfigError with all faults; a service counts as a fault.
 
     `lazy` is the default for entries without that key.
     """
@@ -67,7 +67,7 @@ def load_yaml(path: str | Path, *, lazy: bool = False) -> list[BridgeEntry]:
 
 
 def topics_of(config: Config) -> list[BridgeEntry]:
-    """Return the topics. Raises ConfigError listing every error, and every service as one."""
+    """Return the topics. Raises ConfigError with all errors; a service counts as an error."""
     only_topics = "is a service; only topics can be bridged here"
     services = [Finding(entry.source, f"{entry.name} {only_topics}") for entry in config.services]
     raise_errors([*config.findings, *services])
@@ -75,10 +75,10 @@ def topics_of(config: Config) -> list[BridgeEntry]:
 
 
 def read_file(path: str | Path, *, lazy: bool = False) -> Config:
-    """Return the bridges and the faults of a YAML file; raise nothing."""
+    """Return the bridges and the faults of a YAML file; faults raise no exception."""
     path = Path(path)
     try:
-        if not stat.S_ISREG(path.stat().st_mode) and not path.is_dir():  # reading a pipe might never end
+        if not stat.S_ISREG(path.stat().st_mode) and not path.is_dir():  # reading from a pipe might never end
             return _only(str(path), "cannot read the bridge configuration: it is no ordinary file")
         with path.open("rb") as file:
             data = file.read(MAX_BYTES + 1)
@@ -89,7 +89,7 @@ def read_file(path: str | Path, *, lazy: bool = False) -> Config:
 
 
 def read_yaml(text: str | bytes, file_name: str = "<string>", *, lazy: bool = False) -> Config:
-    """Do the same as `read_file` for a text."""
+    """Return the bridges and the faults of a YAML text, like `read_file`."""
     first_line = f"{file_name}:1"
     if len(text) > MAX_BYTES:
         return _only(first_line, f"larger than {MAX_BYTES // 1024} KiB, which no bridge configuration needs")
@@ -127,7 +127,7 @@ def compose(text: str | bytes, file_name: str) -> yaml.Node | None:
     try:
         return yaml.compose(text, Loader=yaml.SafeLoader)
     except yaml.MarkedYAMLError as error:
-        # An unfinished key or quotation is noticed too late: report where it began.
+        # An unfinished key or quotation is detected at its end: report its beginning.
         began = error.context in ("while scanning a simple key", "while scanning a quoted scalar")
         mark = (error.context_mark if began else None) or error.problem_mark or error.context_mark
         problem = " ".join((error.problem or error.context or "unreadable").split())

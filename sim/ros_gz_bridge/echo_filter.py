@@ -1,19 +1,17 @@
 """Filters that keep a bridge from bridging its own messages back.
 
-A bidirectional entry publishes on a ROS topic it also subscribes to, so DDS hands it its own messages. rclpy
-neither lets a subscription ignore its own node nor says who sent a message, so `EchoFilter` recognises the
-echo by three properties together:
+A bidirectional entry publishes on a ROS topic to which it also subscribes, so DDS delivers its own messages to it. In
+rclpy a subscription cannot ignore its own node, and the sender of a message is unknown. `EchoFilter` therefore
+recognises an echo by three properties together:
 
-* content: what the message would become on the Gazebo side, byte for byte;
-* time: DDS stamps a message while `publish` runs, so the stamp of an echo lies between the moment just
-  before and the moment just after that call (both read from the same system clock, here with 1 µs of
-  rounding);
-* number: every publication accounts for one arrival.
+* content: the bytes that the message would become on the Gazebo side;
+* time: DDS stamps a message during `publish`, so the stamp of an echo lies between the times before and after that
+call (all from the system clock, rounded to 1 µs);
+* number: one arrival for each publication.
 
-So messages of others pass, however often they repeat. One that is sent before or after the bridge's own, even with the
-same content, has a stamp outside the window. One with the same content that is sent within the microseconds of
-`publish` is equal to the echo, and one of the two passes. An echo that DDS dropped leaves a record whose window no
-later stamp can fall into.
+Messages of other publishers therefore pass, even with the same content, because their stamps are outside of this
+window. If such a message is sent within the microseconds of `publish`, it cannot be distinguished from the echo, and
+one of the two passes. An echo that DDS dropped leaves a record whose window no later stamp can match.
 
 If the system clock is set back during `publish`, one message is bridged back once; it does not circulate, because
 `GzEcho` filters on the Gazebo side.
@@ -42,10 +40,10 @@ class _Publication:
 
 
 class EchoFilter:
-    """A filter for one ROS subscription against the messages published by the same bridge. Thread-safe.
+    """The filter of one ROS subscription for messages published by the same bridge. Thread-safe.
 
-    `content` turns a ROS message into the bytes that are compared. `capacity` is how many publications may still
-    arrive: the sum of the depths of the publishers and of the subscription.
+    `content` converts a ROS message to the bytes that are compared. `capacity` is the maximum number of publications
+    that may not have arrived yet: the sum of the depths of the publishers and of the subscription.
     """
 
     def __init__(self, content: Callable[[Any], bytes], capacity: int, now: Callable[[], int] = time.time_ns) -> None:
@@ -82,10 +80,10 @@ class EchoFilter:
 
 
 class EchoAwarePublisher(Publisher):
-    """A ROS publisher that records each message in echo filters when it is handed to DDS.
+    """A ROS publisher that records each message in echo filters when it is passed to DDS.
 
-    The owner of the bridge may hold messages back, so this is later than when the bridge converts them. `filters` are
-    those of the subscriptions on the same topic.
+    The owner of the bridge may delay messages, so this can be later than their conversion. `filters` are those of the
+    subscriptions on the same topic.
     """
 
     filters: tuple[EchoFilter, ...] = ()

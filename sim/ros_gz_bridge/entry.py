@@ -64,7 +64,7 @@ class BridgeEntry:
 class ServiceEntry:
     """One Gazebo service offered as a ROS service of the same name.
 
-    An empty Gazebo type stands for the one that pairs with the ROS type.
+    An empty Gazebo type means the type that pairs with the ROS type.
     """
 
     name: str

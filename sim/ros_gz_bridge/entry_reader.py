@@ -58,7 +58,7 @@ class EntryReader:
         self._lazy = lazy
 
     def read(self) -> BridgeEntry | ServiceEntry | None:
-        """Return the entry, or None if it has a fault that the original does not ignore either."""
+        """Return the entry, or None if it has a fault that the original ros_gz_bridge does not ignore."""
         service = any(key in self._values for key in _OF_SERVICES_ONLY)
         entry = self._service() if service else self._topic()
         broken = any(not (finding.warning or finding.tolerated) for finding in self._findings)

@@ -1,7 +1,7 @@
-"""Descriptions of message pairs, of which both directions of a conversion follow.
+"""Descriptions of message pairs, from which both directions of a conversion follow.
 
-A file in `convert/` describes a message as a `Part` (two functions) or as `Fields` (a list of fields that correspond)
-and enters it in the table of type pairs with `message_pair`. Parts may stand inside others.
+A file in `convert/` describes a message as a `Part` (two functions) or as `Fields` (a list of corresponding fields),
+and adds it to the table of type pairs with `message_pair`. A part can contain other parts.
 """
 
 from __future__ import annotations
@@ -140,7 +140,7 @@ def stamped(ros_class: Any, field: str, part: Part, gz_header: str = "header") -
 
 
 def message_pair(ros_type: str, gz_type: str, part: Part, fault: Callable[[Any], str | None] | None = None) -> None:
-    """Enter the pair that `part` describes in the table of type pairs; for `fault` see `TypePair`."""
+    """Add the pair that `part` describes to the table of type pairs; `fault` is explained at `TypePair`."""
     gz_class = message_class(gz_type)
 
     def to_gz(ros: Any) -> Any:

@@ -13,10 +13,9 @@ _LONGEST = 600
 
 @dataclass(frozen=True)
 class Finding:
-    """An error or a warning. `place` is `file:line`, or the argument or parameter it was found in.
+    """An error or a warning. `place` is `file:line`, or the name of the argument or parameter.
 
-    `tolerated` marks an error in spite of which the original ros_gz_bridge bridges the entry; with `--compat` it is
-    only a warning.
+    `tolerated` marks an error that the original ros_gz_bridge ignores; with `--compat` it is only a warning.
     """
 
     place: str

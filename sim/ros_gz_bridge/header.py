@@ -52,7 +52,9 @@ def frame_to_ros(name: str) -> str:
 
 
 def header_value(gz_header: Any, key: str) -> str:
-    """Return the frame kept under `key`, in ROS spelling; of several the last one, of none the empty text."""
+    """Return the frame stored under `key`, in the spelling of ROS: the last one of several, an empty text if there is
+    none.
+    """
     for entry in reversed(gz_header.data):
         if entry.key == key:
             return frame_to_ros(entry.value[0]) if entry.value else ""

@@ -1,7 +1,7 @@
 """The two directions of an entry of a bridge: from Gazebo to ROS, and from ROS to Gazebo.
 
 `bridge.Bridge` makes one link for each direction of each entry. A link owns its endpoint on the ROS side, converts and
-counts messages, and warns at most once a second that messages could not be bridged.
+counts messages, and warns at most once per second about messages that could not be bridged.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class Row:
 
 
 class Link:
-    """The common part of both directions: counters, and warnings of what could not be bridged."""
+    """The common part of both directions: counters, and warnings about messages that could not be bridged."""
 
     def __init__(self, bridge: Bridge, row: Row) -> None:
         self.entry = row.entry
@@ -55,11 +55,11 @@ class Link:
         self._status = row.status
         self._hears_itself = False
         self._closed = False
-        self._unsaid: Counter[str] = Counter()
+        self._unreported: Counter[str] = Counter()
         self._said_at: float | None = None
 
     def look_for_echoes(self, others: Iterable[Link]) -> None:
-        """Note whether one of `others`, which are of the other direction, uses the same Gazebo topic."""
+        """Record whether a link of the other direction, one of `others`, uses the same Gazebo topic."""
         self._hears_itself = any(other.gz_topic == self.gz_topic for other in others)
 
     def _count(self, field: str) -> None:
@@ -71,19 +71,19 @@ class Link:
         with self._bridge._status_lock:
             self._status.dropped += 1
             self._status.last_error = fault
-            self._unsaid[fault] += 1
+            self._unreported[fault] += 1
         self.say_unsaid()
 
     def say_unsaid(self, at_once: bool = False) -> None:
-        """Warn of the messages lost since the last warning; at most once a second unless `at_once`."""
+        """Warn about the messages lost since the last warning, at most once per second unless `at_once`."""
         with self._bridge._status_lock:
             now = self._bridge._monotonic()
             recently = self._said_at is not None and now - self._said_at < _SECONDS_BETWEEN_WARNINGS
-            if not self._unsaid or (recently and not at_once):
+            if not self._unreported or (recently and not at_once):
                 return
-            count = self._unsaid.total()
-            (fault, _), *others = self._unsaid.most_common()
-            self._unsaid.clear()
+            count = self._unreported.total()
+            (fault, _), *others = self._unreported.most_common()
+            self._unreported.clear()
             self._said_at = now
         more = f", and for {len(others)} other reasons" if len(others) > 1 else ", and another reason" if others else ""
         times = f" ({count} messages since the last such line{more})" if count > 1 else ""
@@ -108,7 +108,7 @@ class GzToRos(Link):
             self.publisher.filters = heard_by
 
     def wanted(self) -> bool:
-        """Return whether anybody but this bridge subscribes on the ROS side."""
+        """Return whether there is a ROS subscription other than that of this bridge."""
         own = sum(link.connected and link.ros_topic == self.ros_topic for link in self._bridge._to_gz)
         return bool(self.publisher.get_subscription_count() > own)
 
@@ -157,7 +157,7 @@ class GzToRos(Link):
     def _skipped(self) -> None:
         with self._bridge._status_lock:
             self._status.skipped += 1
-            self._unsaid[
+            self._unreported[
                 f"{self._pair.gz_type} on {self.entry.gz_topic} was skipped: they come faster than they can be bridged"
             ] += 1
         self.say_unsaid()
@@ -203,7 +203,7 @@ class RosToGz(Link):
         self.subscription: Any = None
 
     def wanted(self) -> bool:
-        """Return whether anybody subscribes on the Gazebo side; a bidirectional entry does so itself."""
+        """Return whether there is a Gazebo subscriber, which a bidirectional entry has itself."""
         return bool(self._publisher.has_connections())
 
     def connect(self) -> None:

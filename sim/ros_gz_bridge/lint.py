@@ -1,7 +1,7 @@
 """The program `ros2 run ros_gz_bridge lint bridge.yaml`, which checks the configuration of a bridge.
 
-It also takes the arguments of `parameter_bridge`. It prints the findings of a starting `parameter_bridge`, one a line;
-the exit code is 2 if there is an error among them, else 0.
+It also accepts the arguments of `parameter_bridge`. It prints the findings that `parameter_bridge` would report at its
+start, one per line; the exit code is 2 if there are errors among them, else 0.
 """
 
 from __future__ import annotations

@@ -17,7 +17,7 @@ _LONGEST = 1000
 
 
 def ros_name_fault(name: str) -> str | None:
-    """Return what is wrong with a ROS topic or service name, or None. `{node}` and `~` are allowed."""
+    """Return the fault of a ROS topic or service name, or None. `{node}` and `~` are allowed."""
     if len(name) <= _LONGEST and _ROS_NAME.fullmatch(name) and "__" not in name:
         return None
     return (
@@ -27,15 +27,16 @@ def ros_name_fault(name: str) -> str | None:
 
 
 def gz_name_fault(name: str) -> str | None:
-    """Return what is wrong with a Gazebo topic or service name, or None. `~/x` is allowed: it can be expanded."""
+    """Return the fault of a Gazebo topic or service name, or None. `~/x` is allowed, because it can be expanded."""
     rule = naming.broken_rule(name.removeprefix("~/"), may_be_empty=False)
     return f"'{name}' is not a Gazebo topic name: it {rule}" if rule else None
 
 
 def expand_gz_name(name: str, namespace: str, node_name: str) -> str:
-    """Return a Gazebo name expanded as a ROS name: `/abs` stays, `rel` and `~/private` get the node's namespace.
+    """Return a Gazebo name expanded like a ROS name: `/abs` is unchanged, `rel` and `~/private` get the node's
+    namespace.
 
-    This is what the parameter `expand_gz_topic_names` of ros_gz_bridge asks for.
+    Used for the parameter `expand_gz_topic_names` of ros_gz_bridge.
     """
     if name.startswith("/"):
         return name

@@ -97,7 +97,7 @@ def _bridge(node: Node, texts: list[str]) -> int:
             logger.warning(sentence)
         bridged_topics.offer(node, config.topics)
         parameters.declare(node)
-        # So soon a thread that converts an image yields to one that bridges the clock.
+        # The time after which a thread that converts an image yields to one that bridges the clock.
         sys.setswitchinterval(_SWITCH_S)
         watcher = Watcher(Watch(bridge, gz_node, logger), heartbeat)
         watcher.start()

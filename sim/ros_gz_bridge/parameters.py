@@ -46,7 +46,7 @@ class Parameters:
 
 
 def read_parameters(node: Node) -> Parameters:
-    """Return the parameters that `node` was started with (declared from its overrides); raise nothing."""
+    """Return the parameters with which `node` was started (declared from its overrides); faults raise no exception."""
     given = {name: parameter.value for name, parameter in node.get_parameters_by_prefix("").items()}
     read = Parameters()
     for name, default in DEFAULTS.items():

@@ -26,7 +26,7 @@ _STOP_WITHIN_S = 1.0
 class ListenerGroup(CallbackGroup):
     """The callback group of a listener's subscriptions and their QoS events, which executors ignore.
 
-    An executor that waited for the events alone would be woken by every message.
+    An executor that waits for the QoS events would also be woken by every message.
     """
 
     def can_execute(self, entity: Any) -> bool:

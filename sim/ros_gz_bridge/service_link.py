@@ -1,7 +1,7 @@
 """A Gazebo service offered as a ROS service.
 
 `bridge.Bridge` makes one link for each service entry. The call to Gazebo waits in a thread of the link, so that topics
-are bridged meanwhile; one thread is enough, because Gazebo answers the calls of a service one at a time.
+are bridged in the meantime; one thread is enough, because Gazebo answers the calls of a service one at a time.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ from gz_course.sim.ros_gz_bridge.entry import ServiceEntry
 from gz_course.sim.ros_gz_bridge.type_pairs import find_service
 
 TIMEOUT_S = 5.0
-"""Time for Gazebo to answer [s]."""
+"""Maximum time [s] for the response of Gazebo."""
 
 
 class ServiceLink:
-    """The service of `entry` on `ros_node`, whose owner spins it, until `close`.
+    """The ROS service of `entry` on `ros_node`, which its owner spins, until `close`.
 
-    `timeout` is how long to wait for Gazebo [s]. Raises what rclpy raises for a name it refuses.
+    `timeout` [s] is the maximum time for Gazebo's response. Raises the errors of rclpy for an invalid name.
     """
 
     def __init__(self, ros_node: RosNode, gz_node: GzNode, entry: ServiceEntry, timeout: float = TIMEOUT_S) -> None:
@@ -60,14 +60,14 @@ class ServiceLink:
         return response if reply is None else reply
 
     def _call(self, request: Any, answered: Future) -> None:
-        """Call Gazebo and set the result of `answered` to the ROS response, or to None if there is none."""
+        """Call Gazebo and set the result of `answered` to the ROS response, or to None if there was none."""
         reply = None
         try:
             reply = self._ask(request)
         except Exception as error:
             self._warn(f"the call was not bridged: {' '.join(str(error).split())}")
         finally:
-            with contextlib.suppress(RuntimeError):  # the executor may be gone by now
+            with contextlib.suppress(RuntimeError):  # the executor may have been shut down
                 answered.set_result(reply)
 
     def _ask(self, request: Any) -> Any:
@@ -88,10 +88,10 @@ class ServiceLink:
         if outcome.executed:
             self._warn("Gazebo could not do what was asked")
         else:
-            self._warn(f"no answer of Gazebo in {self._timeout:g} s: {self._why()}")
+            self._warn(f"no answer of Gazebo in {self._timeout:g} s: {self._likely_reason()}")
         return None
 
-    def _why(self) -> str:
+    def _likely_reason(self) -> str:
         """Return the likely reason why nobody has answered."""
         wanted = (self._types.gz_request_type, self._types.gz_reply_type)
         offered = {(each.req_type_name, each.rep_type_name) for each in self._gz_node.service_info(self._gz_name)}
@@ -103,5 +103,5 @@ class ServiceLink:
         return "it is busy"
 
     def _warn(self, sentence: str) -> None:
-        with contextlib.suppress(Exception):  # the node may be gone by now
+        with contextlib.suppress(Exception):  # the node may have been destroyed
             self._node.get_logger().warning(f"service {self.entry.name} ({self.entry.ros_type}): {sentence}")

@@ -1,8 +1,8 @@
-"""The tables of type pairs and of services: which ROS type becomes which Gazebo type.
+"""The tables of type pairs and of services: which ROS type is converted to which Gazebo type.
 
-`bridge` takes the two conversion functions of an entry from here; `config` asks whether an entry can work at all. The
-files of `convert/` fill the tables, one for each ROS package (`fields.message_pair`, `add_service`); adding a file
-there adds a package. The pairs of a package that is not installed are left out.
+`bridge` gets the two conversion functions of an entry from here; `config` checks whether they exist. The files of
+`convert/`, one for each ROS package, fill the tables (`fields.message_pair`, `add_service`); adding a file adds a
+package. The pairs of a package that is not installed are omitted.
 """
 
 from __future__ import annotations
@@ -39,8 +39,8 @@ class MissingPackageError(UnknownPairError):
 class TypePair:
     """One ROS type, one Gazebo type and the functions between them.
 
-    `to_ros` and `to_gz` raise ConversionError for a message that does not fit. `fault` returns None, or what in a ROS
-    message must not reach the simulator (`"linear.x is nan"`).
+    `to_ros` and `to_gz` raise ConversionError for a message that does not fit. `fault` returns a reason why a ROS
+    message must not reach the simulator (`"linear.x is nan"`), or None.
     """
 
     ros_type: str
@@ -57,7 +57,7 @@ class ServiceTypes:
     """One ROS service type, the types of request and reply of the Gazebo service, and the functions between them.
 
     Gazebo services are offered to ROS, never the reverse. `request_to_gz` and `reply_to_ros` raise ConversionError for
-    what does not fit. `fault` is for a ROS request what `TypePair.fault` is for a message.
+    a value that does not fit. `fault` checks a ROS request as `TypePair.fault` checks a message.
     """
 
     ros_type: str
@@ -85,7 +85,7 @@ def add_pair(
     to_gz: Callable[[Any], Any],
     fault: Callable[[Any], str | None] | None = None,
 ) -> None:
-    """Enter a pair in the table. Raises ValueError if the two types are already paired."""
+    """Add a pair to the table. Raises ValueError if the two types are already paired."""
     ros_class = _ros_class(ros_type)
     with _lock:
         if (ros_type, gz_type) in _pairs:
@@ -102,7 +102,7 @@ def add_service(
     reply_to_ros: Callable[[Any], Any],
     fault: Callable[[Any], str | None] | None = None,
 ) -> None:
-    """Enter a service in the table. Raises ValueError if it is there already."""
+    """Add a service to the table. Raises ValueError if it is already there."""
     key = (ros_type, gz_request_type, gz_reply_type)
     ros_class = _ros_class(ros_type)
     with _lock:
@@ -125,7 +125,7 @@ def convertible_packages() -> list[str]:
 
 
 def missing_packages() -> list[str]:
-    """Return those of `convertible_packages` that are not installed; their pairs cannot be used."""
+    """Return the packages among `convertible_packages` that are not installed; their pairs cannot be used."""
     return [name for name in convertible_packages() if not _installed(name)]
 
 
@@ -164,7 +164,7 @@ def find_pair(ros_type: str, gz_type: str) -> TypePair:
 
 
 def find_service(ros_type: str, gz_request_type: str = "", gz_reply_type: str = "") -> ServiceTypes:
-    """Return the service of these types; an empty Gazebo type matches any. Raises as `find_pair` does."""
+    """Return the service of these types; an empty Gazebo type matches any. Raises the errors of `find_pair`."""
     wanted = (canonical_gz_type(gz_request_type), canonical_gz_type(gz_reply_type))
     need_package(ros_type)
     for service in services():

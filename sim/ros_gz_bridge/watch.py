@@ -1,7 +1,7 @@
-"""Messages about the Gazebo side of a running bridge: publishers that are missing, went away or came back.
+"""Messages about the Gazebo side of a running bridge: publishers that are missing, have ended or have returned.
 
-`parameter_bridge` runs a `Watcher`. `gz.transport` reconnects by itself when a simulator comes back, but says nothing.
-The grader, whose simulator cannot go away, does not need one.
+`parameter_bridge` runs a `Watcher`, because `gz.transport` reconnects to a restarted simulator without a message. The
+grader, which owns its simulator, does not need it.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ if TYPE_CHECKING:
     from gz_course.sim.ros_gz_bridge.bridge import Bridge
 
 MISSING_AFTER_S = 5.0
-"""Time after which a topic without publisher is reported [s]."""
+"""Time [s] after which a topic without publisher is reported."""
 _MOST_NAMED = 5
 
 
 class Watch:
-    """The known publishers in Gazebo of every topic that goes to ROS; `look` reports what has changed."""
+    """The known Gazebo publishers of every topic that is bridged to ROS; `look` logs their changes."""
 
     def __init__(
         self,
@@ -48,7 +48,7 @@ class Watch:
         }
 
     def look(self) -> None:
-        """Log what has changed since the last call."""
+        """Log the changes since the last call."""
         self._bridge.say_unsaid()
         gone, back = [], []
         for topic, entry in self._expected.items():

@@ -1,7 +1,7 @@
 """A thread for the large messages of one topic, so that an image does not delay the clock.
 
-`link.GzToRos` queues them, and the worker converts and publishes them in order. The queue is bounded: when messages
-come faster than they can be bridged the oldest are dropped, as in DDS with history KEEP_LAST.
+`link.GzToRos` queues the messages; the worker converts and publishes them in order. The queue is bounded: if it is full
+the oldest messages are dropped, as in DDS with history KEEP_LAST.
 """
 
 from __future__ import annotations
@@ -11,16 +11,16 @@ from collections import deque
 from collections.abc import Callable
 
 HEAVY_BYTES = 64 * 1024
-"""Serialized size from which a message goes to a worker [byte]."""
+"""Minimum serialized size [byte] of the messages that a worker bridges."""
 _MOST_BYTES = 128 * 1024 * 1024
 _AT_LEAST = 2
 _STOP_WITHIN_S = 1.0
 
 
 class Worker:
-    """A thread that calls `work(data)` for everything that is put in, in order. Thread-safe.
+    """A thread that calls `work(data)` for all queued data, in order. Thread-safe.
 
-    At most `depth` messages and 128 MiB wait; `skipped()` is called for each that is dropped.
+    The queue holds at most `depth` messages and 128 MiB; `skipped()` is called for each dropped message.
     """
 
     def __init__(self, name: str, work: Callable[[bytes], None], depth: int, skipped: Callable[[], None]) -> None:

@@ -119,7 +119,7 @@ class ImageTopic:
 
 
 def qos_profile(name: str) -> QoSProfile:
-    """Return the QoS that a value of the parameter `qos` means. Raises UsageError for an unknown value."""
+    """Return the QoS for a value of the parameter `qos`. Raises UsageError for an unknown value."""
     from rclpy.qos import QoSProfile, qos_profile_sensor_data, qos_profile_system_default
 
     profiles = {

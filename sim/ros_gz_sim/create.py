@@ -1,7 +1,7 @@
 """The program `ros2 run ros_gz_sim create -file box.sdf -z 1`, which creates a model in a running world.
 
 It reads options and ROS parameters and calls Gazebo's service `/world/W/create/blocking` once. The text may be SDF or
-URDF, a file also xacro, whose expressions are Python and are run. Exit codes: 0 created, 1 not created, 2 unusable
+URDF, a file also xacro, whose expressions are executed as Python. Exit codes: 0 created, 1 not created, 2 invalid
 arguments.
 
 Source: ros_gz_sim/src/create.cpp, https://github.com/gazebosim/ros_gz

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 MODEL = 2
 TYPES = {"none": 0, "light": 1, "model": MODEL, "link": 3, "visual": 4, "collision": 5, "sensor": 6, "joint": 7}
 """The numbers of `ros_gz_interfaces/msg/Entity` and `gz.msgs.Entity`."""
-_ORIGINAL_MODEL = 6  # the number of a model, and the default, in the original program
+_ORIGINAL_MODEL = 6  # the type of a model, the default of the original program
 WHICH = (
     Flag("world", "World it is in (default: the one that runs)"),
     Flag("name", "Name of the entity"),

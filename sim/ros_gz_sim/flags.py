@@ -31,7 +31,7 @@ class Flag:
     kind: str = "text"
     count: int = 1
     parameter: bool = True
-    """Whether it may be given as a ROS parameter of the same name."""
+    """True if a ROS parameter of the same name also sets it."""
 
 
 def usage(head: str, flags: Iterable[Flag], tail: str = "") -> str:
@@ -41,7 +41,7 @@ def usage(head: str, flags: Iterable[Flag], tail: str = "") -> str:
 
 
 def read(arguments: Sequence[str], flags: Iterable[Flag]) -> dict[str, Any]:
-    """Return the values of the flags that are given; of a repeated one the last."""
+    """Return the values of the given flags; for a repeated flag the last value."""
     known = {flag.name: flag for flag in flags}
     values: dict[str, Any] = {}
     waiting = list(arguments)

@@ -1,7 +1,7 @@
-"""The program `gzserver`: Gazebo's server with the world named by ROS parameters, running.
+"""The program `gzserver`: Gazebo's server with a running world, which ROS parameters name.
 
-`gz_server.launch.py` starts it. It reads the parameters and becomes `gz sim -r -s` by `exec`, so signals and the exit
-code are those of the simulator.
+`gz_server.launch.py` starts it. It reads the parameters and becomes `gz sim -r -s` by `exec`, so that signals and the
+exit code are those of the simulator.
 
 Source: ros_gz_sim/src/gzserver.cpp, https://github.com/gazebosim/ros_gz
 """

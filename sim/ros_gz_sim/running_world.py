@@ -1,7 +1,6 @@
-"""The world of a running `gz sim`, reached through Gazebo's services, with one deadline for all calls.
+"""The world of a running `gz sim`, accessed by Gazebo's services, with one deadline for all calls.
 
-The programs of ros_gz_sim use it. If there is no answer in time, it raises Failure with the names of the worlds that
-run.
+Used by the programs of ros_gz_sim. Without an answer in time it raises Failure with the names of the running worlds.
 """
 
 from __future__ import annotations

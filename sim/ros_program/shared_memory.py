@@ -16,9 +16,9 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 SEGMENT_BYTES = 32 * 1024 * 1024
-"""Size of the segment [byte], enough for five images of 1920x1080; it takes up that much memory from the start."""
+"""Size of the segment [byte], enough for five images of 1920x1080. The memory is used from the start."""
 _FOLDER = Path("/dev/shm")
-_SHARE = 8  # of the free shared memory one segment takes at most an eighth
+_SHARE = 8  # maximum share of a segment in the free shared memory: one eighth
 _SETTING = "FASTRTPS_DEFAULT_PROFILES_FILE"
 _NEWER_SETTING = "FASTDDS_DEFAULT_PROFILES_FILE"
 _FILES = ("DEFAULT_FASTRTPS_PROFILES.xml", "DEFAULT_FASTDDS_PROFILES.xml")
@@ -62,7 +62,7 @@ def segment_for_images() -> Iterator[None]:
             file = stack.enter_context(tempfile.NamedTemporaryFile("w", prefix="segment_for_images-", suffix=".xml"))
             file.write(profile(os.environ))
             file.flush()
-        except OSError:  # nowhere to write: keep the default segment
+        except OSError:  # no writable folder: keep the default segment
             yield
             return
         os.environ[_SETTING] = os.environ[_NEWER_SETTING] = file.name

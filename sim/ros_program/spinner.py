@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from rclpy.node import Node
 
 STOP_SIGNALS = {signal.SIGINT, signal.SIGTERM}
-_END_S = 2.0  # for a callback that is running when the executor is shut down
+_END_S = 2.0  # [s] for the end of a running callback when the executor is shut down
 
 
 class Spinner:

@@ -1,4 +1,4 @@
-"""What the rooms with ROS programs share: a DDS domain and a Gazebo partition of their own, programs, a simulator."""
+"""Fixtures for tests of ROS programs: a DDS domain and a Gazebo partition for each session, programs, a simulator."""
 
 import contextlib
 import importlib
@@ -20,7 +20,7 @@ DEADLINE = 120.0
 
 
 class Program:
-    """A child process, what it has said so far, and its end."""
+    """A child process with its output so far and its end."""
 
     def __init__(self, command, environment, folder):
         self.process = subprocess.Popen(
@@ -51,7 +51,7 @@ class Program:
         assert found, f"no {words!r} in {self.said}"
 
     def wait(self):
-        """Its exit code, when it has ended by itself."""
+        """Return its exit code after it has ended by itself."""
         code = self.process.wait(DEADLINE)
         self._reader.join(DEADLINE)
         assert "Traceback" not in self.said, self.said
@@ -62,7 +62,7 @@ class Program:
         return self.wait()
 
     def end(self):
-        """Kill it with all below it: `ros2 run` gives its child a process group of its own."""
+        """Kill it and all its descendants: `ros2 run` gives its child a process group of its own."""
         if self.process.poll() is None:
             family = psutil.Process(self.process.pid).children(recursive=True)
             for each in [*family, self.process]:
@@ -73,7 +73,7 @@ class Program:
 
 
 class Programs:
-    """Starts programs that see the same domain, the same partition, and nobody else."""
+    """Starts programs in the same DDS domain and Gazebo partition, which no other program uses."""
 
     def __init__(self, domain, folder):
         self.partition = f"test-{uuid.uuid4().hex}"
@@ -81,7 +81,7 @@ class Programs:
         self.folder = folder
         self.ros = {
             "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-            # Shared memory leaves files behind when a process is killed.
+            # A killed process does not remove its files of shared memory.
             "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4",
             "ROS_LOG_DIR": str(folder / "ros_log"),
         }
@@ -105,12 +105,12 @@ class Programs:
         return self.start(sys.executable, "-P", "-m", name, *words, **variables)
 
     def finished(self, name, *words, **variables):
-        """Exit code and output of a module that ends by itself."""
+        """Run a module to its end; return its exit code and output."""
         program = self.module(name, *words, **variables)
         return program.wait(), program.said
 
     def gz_sim(self, world):
-        """A running server with this world (the text between <world> and </world>); its name is `small`."""
+        """Start a server with a world called `small` with this content of <world>."""
         path = self.folder / f"{uuid.uuid4().hex}.sdf"
         path.write_text(f"<sdf version='1.9'><world name='small'>{world}</world></sdf>")
         return self.start(Path(sys.executable).with_name("gz"), "sim", "-r", "-s", path)
@@ -123,7 +123,7 @@ class Programs:
         return Node(options)
 
     def scene(self):
-        """Name -> gz.msgs.Model of every model in the world `small`."""
+        """Return the models of the world `small`, as gz.msgs.Model by name."""
         from gz_course.sim.gz.msgs.empty_pb2 import Empty
         from gz_course.sim.gz.msgs.scene_pb2 import Scene
 
@@ -139,7 +139,7 @@ class Programs:
 
 @pytest.fixture(scope="session")
 def free_domain():
-    """The number of a DDS domain held for this session."""
+    """Return the number of a DDS domain reserved for this session."""
     with Domain() as domain:
         yield domain.id
 
@@ -153,9 +153,9 @@ def programs(free_domain, tmp_path_factory):
 
 @pytest.fixture
 def ros_node(programs, monkeypatch):
-    """A ROS node of this process among those programs; it is spun by whoever needs it."""
+    """Return a ROS node of this process in the domain of the programs; its user spins it."""
     with warnings.catch_warnings():
-        # The parser that ROS's message packages bring along (lark) still imports a deprecated module.
+        # lark, the parser in ROS's message packages, still imports a deprecated module.
         warnings.simplefilter("ignore", DeprecationWarning)
         import rclpy
         import rosidl_generator_py  # noqa: F401
@@ -171,7 +171,7 @@ def ros_node(programs, monkeypatch):
 
 @pytest.fixture
 def spin_until(ros_node):
-    """Run the callbacks of `ros_node` until a condition holds, or fail in time."""
+    """Run the callbacks of `ros_node` until a condition holds; fail after a deadline."""
     import time
 
     from rclpy.executors import SingleThreadedExecutor
@@ -191,7 +191,7 @@ def spin_until(ros_node):
 
 @pytest.fixture
 def call(programs, monkeypatch, capfd):
-    """Exit code and output of a program's `main` in this process: for faults, many times faster than a process."""
+    """Run a program's `main` in this process, much faster than in a child process; return exit code and output."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DeprecationWarning)
         import rosidl_generator_py  # noqa: F401

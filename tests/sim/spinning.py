@@ -1,4 +1,4 @@
-"""Runs an executor in a thread of a test, while the test makes and destroys endpoints in its own."""
+"""Runs an executor in a thread of a test, while the test creates and destroys endpoints in its own thread."""
 
 from __future__ import annotations
 
@@ -12,6 +12,6 @@ def spin(executor: Any, closing: threading.Event) -> None:
     from rclpy.impl.implementation_singleton import rclpy_implementation
 
     while not closing.is_set():
-        # An endpoint may be destroyed at the moment at which the executor collects what it waits for.
+        # An endpoint may be destroyed while the executor collects the entities to wait for.
         with contextlib.suppress(rclpy_implementation.InvalidHandle):
             executor.spin()

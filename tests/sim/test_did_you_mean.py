@@ -1,4 +1,4 @@
-"""A wrong name is answered with the nearest."""
+"""The hint about a wrong name contains the nearest known name."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""`gz.msgs` without a version: the package of the course."""
+"""`gz.msgs` without a version number: the package of the course."""
 
 from gz_course.sim.public_name import stand_for
 

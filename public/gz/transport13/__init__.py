@@ -1,4 +1,4 @@
-"""`gz.transport13`, as Gazebo Harmonic calls it; where the real one is installed, that one is imported."""
+"""`gz.transport13`, the name in Gazebo Harmonic; an installed package of this name is imported instead."""
 
 from gz_course.sim.public_name import give_way, stand_for
 

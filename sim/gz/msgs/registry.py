@@ -62,8 +62,8 @@ def file_stems() -> list[str]:
 
 
 @functools.cache
-def _home_of_each_type() -> dict[str, tuple[str, str]]:
-    """Return (kind, file stem) by top-level name, read from the texts of all files without linking any."""
+def _file_of_each_type() -> dict[str, tuple[str, str]]:
+    """Return (kind, file stem) by top-level name, read from the texts of all files without linking them."""
     homes: dict[str, tuple[str, str]] = {}
     for stem in file_stems():
         text = (PROTO_FOLDER / f"{stem}.proto").read_text(encoding="utf-8")
@@ -72,7 +72,7 @@ def _home_of_each_type() -> dict[str, tuple[str, str]]:
 
 
 @functools.cache
-def _fortress_homes() -> dict[str, str]:
+def _fortress_files() -> dict[str, str]:
     """Return the file stem by name for the messages that differ in Fortress."""
     homes: dict[str, str] = {}
     for path in sorted((PROTO_FOLDER / "fortress").glob("*.proto")):
@@ -83,19 +83,19 @@ def _fortress_homes() -> dict[str, str]:
 
 def differs_in_fortress(name: str) -> bool:
     """Return whether a type, in any spelling, has other bytes in Fortress (`ignition.msgs.X`) than in `gz.msgs.X`."""
-    return canonical_name(name).removeprefix(_PACKAGE) in _fortress_homes()
+    return canonical_name(name).removeprefix(_PACKAGE) in _fortress_files()
 
 
 def type_names() -> list[str]:
     """Return the full names of all top-level message types, sorted: `["gz.msgs.Actuators", ...]`."""
-    return sorted(_PACKAGE + name for name, (kind, _) in _home_of_each_type().items() if kind == "message")
+    return sorted(_PACKAGE + name for name, (kind, _) in _file_of_each_type().items() if kind == "message")
 
 
 @functools.lru_cache(maxsize=1024)
 def canonical_name(name: str) -> str:
-    """Return a type name in the spelling `gz.msgs.X`; names that are not of Gazebo are returned unchanged.
+    """Return a type name in the spelling `gz.msgs.X`; the names of other packages are returned unchanged.
 
-    `ignition.msgs.Twist`, as Fortress calls it, `ign_msgs.Twist` and `gz_msgs.Twist` are `gz.msgs.Twist`.
+    `ignition.msgs.Twist`, as Fortress calls it, `ign_msgs.Twist` and `gz_msgs.Twist` become `gz.msgs.Twist`.
     """
     bare = name.removeprefix(".")
     for prefix in _PREFIXES:
@@ -113,10 +113,10 @@ def message_class(name: str) -> type[Message]:
     UnknownTypeError with the nearest names for anything else.
     """
     bare = canonical_name(name).removeprefix(_PACKAGE)
-    if name.removeprefix(".") == _FORTRESS_PACKAGE + bare and bare in _fortress_homes():
-        load_file(_fortress_homes()[bare])
+    if name.removeprefix(".") == _FORTRESS_PACKAGE + bare and bare in _fortress_files():
+        load_file(_fortress_files()[bare])
         return message_factory.GetMessageClass(_pool.FindMessageTypeByName(_FORTRESS_PACKAGE + bare))
-    kind, stem = _home_of_each_type().get(bare.partition(".")[0], ("", ""))
+    kind, stem = _file_of_each_type().get(bare.partition(".")[0], ("", ""))
     if kind == "message":
         load_file(stem)
         try:

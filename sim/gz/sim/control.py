@@ -1,8 +1,8 @@
-"""Pauses, steps and rewinds a running world as the service `/world/W/control` requests.
+"""Pauses, steps and resets a running world on requests of the service `/world/W/control`.
 
 `Server.run` asks `Control` before every batch how many steps are allowed. Requests arrive through `World.requests`, so
-all of this runs in the stepping thread. As in Gazebo every request sets whether the world is paused afterwards,
-`multi_step` applies to a paused world only, and a reset rewinds without pausing.
+that all of this runs in the stepping thread. As in Gazebo every request sets whether the world is paused afterwards,
+`multi_step` applies to a paused world only, and a reset does not pause.
 
 Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/SimulationRunner.cc
 """
@@ -21,15 +21,15 @@ MOST_STEPS = 2**32 - 1
 
 
 class Control:
-    """The run state of a world: whether it is paused, and the steps left until it pauses again."""
+    """The run state of a world: whether it is paused, and the number of steps until it pauses again."""
 
     def __init__(self, world: World, on_rewind: Callable[[], None]) -> None:
-        """Start unpaused; `on_rewind()` is called after time was set back."""
+        """Start unpaused; `on_rewind()` is called after a reset."""
         self._world = world
         self._on_rewind = on_rewind
         self.paused = False
         self.stepping = False
-        """Whether it runs only for the steps that were asked for."""
+        """True while a paused world runs the requested number of steps."""
         self._steps_left = 0
         self._run_to_ns: int | None = None
 
@@ -64,7 +64,7 @@ class Control:
                 raise SimError(f"run_to_sim_time {wanted * 1e-9:g} s is not ahead of the present time, {now:g} s")
 
     def steps_allowed(self, most: int) -> int:
-        """Return how many steps, up to `most`, may be run before the next call."""
+        """Return how many steps, at most `most`, may run before the next call."""
         if self._steps_left:
             most = min(most, self._steps_left)
         if self._run_to_ns is not None:
@@ -73,7 +73,7 @@ class Control:
         return most
 
     def stepped(self, count: int) -> None:
-        """Count `count` steps, and pause after the last requested one."""
+        """Record that `count` steps have run; pause after the last requested one."""
         if self._steps_left:
             self._steps_left -= min(count, self._steps_left)
             if not self._steps_left:

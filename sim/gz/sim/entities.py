@@ -1,9 +1,9 @@
-"""The numbers of a world's entities, as Gazebo's messages carry them (`Pose.id`, `Entity.id`, `Model.id`).
+"""Entity ids, which identify the parts of a world in Gazebo's messages (`Pose.id`, `Entity.id`, `Model.id`).
 
-The world is 1; every model, link, visual, collision, sensor, joint and light gets the next number in file order. A
-number is not used again until the world is reset, even if its entity was removed.
+The world has the id 1; every model, link, visual, collision, sensor, joint and light gets the next number in file
+order. The id of a removed entity is not used again until the world is reset.
 
-Source: Gazebo Sim API reference, gz::sim::Entity and gz::sim::kNullEntity
+Source: gz::sim::Entity and kNullEntity, https://github.com/gazebosim/gz-sim/blob/gz-sim8/include/gz/sim/Entity.hh
 """
 
 from __future__ import annotations
@@ -16,8 +16,9 @@ from gz_course.sim.gz.sim.sdf.description import Light, Model, WorldDescription
 
 @dataclass(frozen=True, slots=True)
 class Entity:
-    """One entity: its number, its `kind` (world, model, link, visual, collision, sensor, joint, light), and the `path`
-    of names below the world, outermost first. Names of nested models are scoped: `arm::hand`.
+    """One entity: its number, its `kind` (world, model, link, visual, collision, sensor, joint, light) and its `path`.
+
+    The path holds the names below the world, outermost first; names of nested models are scoped: `arm::hand`.
     """
 
     number: int
@@ -36,7 +37,7 @@ class Entities:
         self.restart(world)
 
     def restart(self, world: WorldDescription) -> None:
-        """Assign all numbers again as at the start, because the world was reset."""
+        """Assign all numbers again after a reset of the world."""
         self._by_number: dict[int, Entity] = {}
         self._numbers: dict[tuple[str, tuple[str, ...]], int] = {}
         self._last = 0

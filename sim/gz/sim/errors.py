@@ -16,7 +16,7 @@ _LONGEST = 1000  # characters of one sentence
 
 
 class SimError(Exception):
-    """Base of the errors this package raises deliberately; the text is one sentence for students."""
+    """The base class of the errors that this package raises deliberately; the text is one sentence for the user."""
 
 
 class SdfError(SimError, ValueError):
@@ -31,7 +31,7 @@ class ResourceError(SdfError, FileNotFoundError):
 
 
 def one_line(sentence: str) -> str:
-    """Return the sentence without line breaks and shortened, because it may quote text of a file."""
+    """Return the sentence in one line and shortened, because it may quote the text of a file."""
     words = " ".join(sentence.split())
     return words if len(words) <= _LONGEST else f"{words[: _LONGEST // 2]} ... {words[-_LONGEST // 2 :]}"
 
@@ -56,7 +56,7 @@ class Diagnostics:
         self._report(where, sentence, doubt=False)
 
     def doubt(self, where: str, sentence: str) -> None:
-        """Report something that is used as written but is probably a mistake."""
+        """Report something that is valid but probably a mistake."""
         self._report(where, sentence, doubt=True)
 
     def _report(self, where: str, sentence: str, doubt: bool) -> None:
@@ -73,26 +73,26 @@ class Diagnostics:
             LOG.warning("%s", text)
 
     def warn_once(self, subject: str, where: str, sentence: str) -> None:
-        """Report `sentence` for the first place at which `subject` occurs, and ignore the others."""
+        """Report `sentence` only for the first call with this `subject`."""
         if subject not in self._known and len(self._known) <= _MOST_WARNINGS:
             self._known.add(subject)
             self.warn(where, sentence)
 
     def __post_init__(self) -> None:
-        self._asked = self.strict
+        self._strict_loading = self.strict
 
     @contextmanager
     def refusing(self) -> Iterator[None]:
-        """Apply strict loading to a later part, such as a model that is created."""
-        since, self.strict = len(self.warnings), self._asked
+        """Apply strict loading to a later operation, such as the creation of a model."""
+        since, self.strict = len(self.warnings), self._strict_loading
         try:
             yield
         finally:
             refused, self.strict = self.warnings[since:], False
-        self._refuse(refused if self._asked else [])
+        self._refuse(refused if self._strict_loading else [])
 
     def refuse(self) -> None:
-        """End strict loading. Raises SdfError with all collected sentences, one per line, if there are any."""
+        """End strict loading. Raises SdfError with all collected warnings, one per line, if there are any."""
         strict, self.strict = self.strict, False
         self._refuse(self.warnings if strict else [])
 

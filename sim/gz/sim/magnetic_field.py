@@ -12,7 +12,7 @@ import functools
 import math
 
 REFERENCE_RADIUS = 6371200.0
-"""Radius [m] of the sphere the coefficients belong to."""
+"""The radius [m] of the reference sphere of the coefficients."""
 _DEGREE = 8
 # Cosine and sine coefficients [nT]: degree 1 orders 0 and 1, degree 2 orders 0 to 2, ...
 _COSINE = (

@@ -3,6 +3,7 @@
 Quaternions are (w, x, y, z), Hamilton convention, unit length; lengths are in [m], angles in [rad].
 
 Source: http://sdformat.org/tutorials?tut=specify_pose (roll, pitch, yaw)
+Source: https://en.wikipedia.org/wiki/Quaternions_and_spatial_rotation
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
-"""The queue of changes that other threads request of a world; they are made between two steps.
+"""The queue of functions that other threads pass to the thread that steps a world; they run between two steps.
 
 Service callbacks run in threads of the transport, but only the stepping thread may access a world. They pass functions
-to `Requests.call` or `put`; `World.step` and the paused `Server` call `serve`. A request by the stepping thread outside
-of a step runs at once, so that a program can step a world and call its services. The stepping thread is the one that
-created the world, until another thread steps or serves it; that thread waits for a request that is running.
+to `Requests.call` or `put`; `World.step` and the paused `Server` call `serve`. A request by the stepping thread itself
+runs at once, unless it is inside a step. The stepping thread is the one that created the world, until another thread
+steps or serves it; that thread first waits for the end of a running request.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from typing import Any
 from gz_course.sim.gz.sim.errors import LOG, SimError
 
 PATIENCE_S = 5.0
-"""How long a caller waits for its work to be done. When nobody steps the world by then, it is not done at all."""
+"""Time [s] after which `call` withdraws a request that has not been served."""
 
 
 class Request:
-    """One function to run, its result and its error."""
+    """A queued function, its result and its error."""
 
     def __init__(self, work: Callable[[], Any]) -> None:
         self.work = work
@@ -30,16 +30,16 @@ class Request:
         self._taken = threading.Lock()
 
     def take(self) -> bool:
-        """Claim the request, to run or to abandon it; True for the first caller only."""
+        """Claim the request for running or withdrawing it; return True for the first caller only."""
         return self._taken.acquire(blocking=False)
 
     def run(self) -> None:
-        """Run the function, unless the caller has abandoned the request."""
+        """Run the function, unless its caller has withdrawn the request."""
         if not self.take():
             return
         try:
             self.result = self.work()
-        except Exception as error:  # raised in the caller; the world goes on
+        except Exception as error:  # raised again in the caller; the world continues
             self.error = error
         finally:
             self.done.set()
@@ -50,11 +50,11 @@ class Requests:
 
     def __init__(self) -> None:
         self.waiting: deque[Request] = deque()
-        """The queue; whoever steps looks at it before every step, so it is no more than that."""
+        """The queue; a plain deque, because `World.step` checks it before every step."""
         self._arrived = threading.Condition()
         self._owner = threading.get_ident()
         self._handover = threading.RLock()
-        """Held while work is done at once, so that no other thread begins to step meanwhile."""
+        """Held while `put` runs a function directly, so that no other thread starts stepping in the meantime."""
         self._inside = False
 
     def __bool__(self) -> bool:
@@ -75,12 +75,14 @@ class Requests:
         self._inside = False
 
     def refuse_inside_step(self, what: str) -> None:
-        """Raise SimError if a system requests a change of the world during a step."""
+        """Raise SimError if a system calls this during a step; `what` completes "a world cannot ..."."""
         if self._inside:
-            raise SimError(f"a world cannot {what} in the middle of a step; put the work into world.requests instead")
+            raise SimError(
+                f"a world cannot {what} in the middle of a step; pass the function to world.requests.put instead"
+            )
 
     def put(self, work: Callable[[], Any]) -> Request:
-        """Queue a function, or run it at once if the caller is the stepping thread between two steps."""
+        """Queue a function, or run it directly if the caller is the stepping thread between two steps."""
         request = Request(work)
         if threading.get_ident() == self._owner and not self._inside:
             with self._handover:
@@ -95,8 +97,8 @@ class Requests:
     def call(self, work: Callable[[], Any], patience: float = PATIENCE_S) -> Any:
         """Run a function in the stepping thread; return its result or raise its error.
 
-        Raises SimError, without running it, if the world was not stepped for `patience` [s], or if the stepping thread
-        calls from inside a step and would wait for itself.
+        Raises SimError without running it if the world was not stepped for `patience` [s], or if the caller is inside a
+        step, where waiting would be a deadlock.
         """
         request = self.put(work)
         if threading.get_ident() == self._owner and not request.done.is_set():
@@ -110,8 +112,9 @@ class Requests:
         return request.result
 
     def serve(self) -> None:
-        """Run the queued requests; called by the stepping thread between steps. A function passed to `put` must handle
-        its own errors.
+        """Run the queued requests; called by the stepping thread between steps.
+
+        A function passed to `put` must handle its own errors.
         """
         self.own()
         for _ in range(len(self.waiting)):
@@ -124,7 +127,7 @@ class Requests:
 
 
 def logged(work: Callable[[], Any], about: str) -> Callable[[], bool]:
-    """Wrap a function that nobody waits for: log an error as one sentence about `about`, and return success."""
+    """Wrap a function whose result has no receiver: log an error in one sentence about `about`; return success."""
 
     def run() -> bool:
         try:

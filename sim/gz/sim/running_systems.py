@@ -1,8 +1,8 @@
-"""The systems of a world: creates them from the plugins, configures, binds, starts, connects and closes them.
+"""The systems of a world: their creation from plugins, configuration, connection to the transport and removal.
 
 `World` calls `add` for the plugins of the world and of every model, `bind` after each build of MuJoCo's model and
-`start` at time zero, and runs the collected hooks around every step. Every system has its own transport node, so that
-its topics and services end with its model.
+`start` at time zero, and calls the collected hooks in every step. Every system has its own transport node, so that its
+topics and services end with its model.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ Hook = Callable[[UpdateInfo], None]
 
 @dataclass(eq=False)
 class Running:
-    """A system, its model (None: the world), and its node once the world is connected."""
+    """A system with its model (None: the world) and, once it is connected, its node."""
 
     system: System
     model: Model | None
@@ -38,13 +38,13 @@ class Running:
 
 
 class RunningSystems:
-    """The systems of one world: those of the world first, then those of the models in order."""
+    """The systems of one world: those of the world first, then those of the models in file order."""
 
     def __init__(self, world: WorldAccess) -> None:
         self._world = world
         self._running: list[Running] = []
         self.servos: dict[str, list[JointServo]] = {}
-        """The joints that systems drive, by model."""
+        """The servos that systems have requested, by model."""
         self._options_of: Node | None = None
         self._shared_topics = SharedTopics(world.diagnostics)
         self.pre_updates: list[Hook] = []
@@ -71,7 +71,7 @@ class RunningSystems:
     def add(self, model: Model) -> list[Running]:
         """Create, configure and return the systems of a model.
 
-        Raises SdfError for invalid parameters; none of the model's systems is kept then.
+        Raises SdfError for invalid parameters; then no system of the model is kept.
         """
         before = list(self._running)
         taken = self.servos[model.name] = []
@@ -120,12 +120,12 @@ class RunningSystems:
         return [getattr(each, hook) for each in self if getattr(type(each), hook) is not getattr(System, hook)]
 
     def start(self, only: Iterable[Running] | None = None) -> None:
-        """Start all systems, or `only` these, from the present state."""
+        """Initialize all systems, or those in `only`, from the present state."""
         for each in self._running if only is None else only:
             each.system.start()
 
     def connect(self, node: Node) -> None:
-        """Connect every system, also those added later, with a node that has the options of `node`."""
+        """Connect every system, including those added later, by a node with the options of `node`."""
         self._options_of = node
         self.connect_new()
 
@@ -154,7 +154,7 @@ class RunningSystems:
                 yield Talker(system.name, shown, name, each.plugin.element, each.node, joins)
 
     def remove(self, model: Model) -> None:
-        """Close the systems of a model with their topics and services."""
+        """Close the systems of a model and their nodes."""
         gone = [each for each in self._running if each.model is model]
         self._running = [each for each in self._running if each.model is not model]
         self.servos.pop(model.name, None)
@@ -174,7 +174,7 @@ class RunningSystems:
             running.node.close()
 
     def check_world(self) -> None:
-        """Warn about a world that has plugins but no Physics."""
+        """Warn about a world that has plugins but not Physics."""
         description = self._world.description
         wanted = {system_name(plugin) for plugin in description.plugins}
         if wanted and "Physics" not in wanted:
@@ -185,7 +185,7 @@ class RunningSystems:
             )
 
     def check_sensors(self, model: Model) -> None:
-        """Warn about each sensor of a model that no system runs."""
+        """Warn about each sensor of a model that is not run by a system."""
         running = {each.name for each in self}
         for sensor in model.sensors():
             text = _why_silent(sensor, running)

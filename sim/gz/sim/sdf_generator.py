@@ -2,6 +2,8 @@
 
 Used by the service `/world/W/generate_world_sdf`, recordings and `gz model`. As in Gazebo the models are written as
 they were read; joints are at zero when the text is loaded. An `<include>` is kept, unless it is to be expanded.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/SdfGenerator.cc
 """
 
 from __future__ import annotations

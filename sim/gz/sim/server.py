@@ -5,7 +5,9 @@
 requests are handled between two steps, also while the world is paused.
 
 The clock is published after every call of `step`, and by `run` at most every 5 ms of simulated time. Gazebo publishes
-it at every step; at 1 ms that takes each rclpy node a third of a core without a benefit for a robot's node.
+it at every step; with steps of 1 ms this costs each rclpy node a third of a core without a benefit for a robot's node.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/SimulationRunner.cc
 """
 
 from __future__ import annotations
@@ -24,11 +26,9 @@ from gz_course.sim.gz.transport import Node
 
 STATS_PERIOD_NS = 100_000_000
 PACE_NS = 5_000_000
-"""In `run`, this much simulated time is stepped at once (one step when steps are longer), then the clock is
-published.
-"""
+"""Simulated time [ns] between two clock messages in `run`; at least one step."""
 _NOTICE_S = 0.05
-"""How long a paused server may take to notice that it was stopped."""
+"""Period [s] at which a paused server checks whether it has been stopped."""
 
 
 class Server:
@@ -40,7 +40,7 @@ class Server:
         self.node = node
         self.control = Control(world, self._on_rewind)
         self.stopped = False
-        """Set when a client asked the server to end."""
+        """True after a client has requested the end of the server."""
         world.attach(node)
         stem = world.topic
         self._clocks = [node.advertise(topic, Clock) for topic in ("/clock", f"{stem}/clock")]
@@ -63,10 +63,10 @@ class Server:
         self.control.paused = paused
 
     def step(self, n: int = 1) -> None:
-        """Run `n` steps, publish the clock and, each 0.1 [s] of simulated time, the statistics; pending requests come
+        """Run `n` steps, publish the clock and, every 0.1 [s] of simulated time, the statistics; pending requests run
         first.
 
-        Raises SimError as `World.step` does.
+        Raises SimError like `World.step`.
         """
         world = self.world
         world.step(n)
@@ -150,7 +150,7 @@ class Server:
         """Handle requests at once and publish the time ten times per second, until unpaused or stopped."""
         self._pause_began = beat = time.monotonic_ns()
         self._factor = 0.0
-        self._tell_paused()
+        self._publish_paused()
         while self.paused and not (stop.is_set() or self.stopped):
             self.world.requests.wait(_NOTICE_S)
             asked = bool(self.world.requests)
@@ -158,17 +158,17 @@ class Server:
             now = time.monotonic_ns()
             if asked or now - beat >= STATS_PERIOD_NS:
                 beat = now
-                self._tell_paused()
+                self._publish_paused()
         self._pause_ns = self._pause_time_ns(time.monotonic_ns())
         self._pause_began = None
 
-    def _tell_paused(self) -> None:
+    def _publish_paused(self) -> None:
         self._publish_stats()
         self._publish_clock()
         self.world.paused_update()
 
     def _on_rewind(self) -> None:
-        """Restart the clocks of the server after the world was rewound."""
+        """Restart the clocks of the server after a reset of the world."""
         self._next_stats_ns = self.world.sim_time_ns + STATS_PERIOD_NS
         self._started = time.monotonic_ns()
         self._pause_ns = 0

@@ -16,9 +16,9 @@ from gz_course.sim.gz.sim.sdf.element import Element
 from gz_course.sim.gz.transport import Node
 
 NAMED_EVERYWHERE = frozenset(("gz.msgs.Pose", "gz.msgs.Pose_V"))
-"""Types whose messages say which entity they are about: anybody may add to such a topic."""
+"""Types whose messages name their entity, so that any system may publish on such a topic."""
 NAMED_IN_A_MODEL = NAMED_EVERYWHERE | {"gz.msgs.Model", "gz.msgs.Contacts"}
-"""Types whose messages say which part of a model they are about."""
+"""Types whose messages name a part of a model."""
 FOR_SEVERAL_JOINTS = "gz.msgs.Actuators"
 ANY_TYPE = "google.protobuf.Message"
 _TAGS = {
@@ -26,7 +26,7 @@ _TAGS = {
     "gz.msgs.OdometryWithCovariance": "odom_covariance_topic",
     "gz.msgs.CameraInfo": "camera_info_topic",
 }
-"""Which parameter names a topic of a type that was not stated; for all others `topic`."""
+"""The parameter that sets the topic of each message type, if it is not `topic`."""
 _MOST_NAMED = 3  # topics in one sentence
 
 
@@ -46,7 +46,7 @@ class Talker:
 
 
 Users = dict[str, list[tuple[Talker, str]]]
-"""Topic -> who is there, with which type of message."""
+"""The users of each topic, with their message type."""
 Rule = Callable[[Talker, Talker, str], bool]
 
 

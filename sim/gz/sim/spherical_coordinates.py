@@ -26,7 +26,7 @@ SURFACES = {
     "MOON_SCS": (1738100.0, 1736000.0),
     "CUSTOM_SURFACE": (0.0, 0.0),
 }
-"""Semi-axes (m), equatorial and polar, of the surfaces Gazebo knows; those of a custom one are given."""
+"""Equatorial and polar semi-axes [m] of Gazebo's surface models; those of a custom surface are parameters."""
 
 
 @dataclass(frozen=True)
@@ -74,11 +74,14 @@ class SphericalCoordinates:
         return cls(surface, latitude, longitude, elevation, heading, equatorial, polar)
 
     def spherical(self, position: Vector) -> tuple[float, float, float]:
-        """Return latitude, longitude [deg] and elevation [m] of a point (3,) [m] in the world frame."""
+        """Return latitude, longitude [deg] and elevation [m] of a point (3,) [m] in the world frame.
+
+        Bowring's formula is exact to 1e-11 [rad] within kilometres of the surface.
+        Source: B. R. Bowring, Transformation from spatial to geographical coordinates, Survey Review 23 (181), 1976
+        """
         x, y, z = self._origin() + self._east_north_up() @ (self._heading() @ position)
         a, b = self.surface_axis_equatorial, self.surface_axis_polar
         across = math.hypot(x, y)
-        # Bowring's formula: exact to 1e-11 rad within kilometres of the surface.
         theta = math.atan2(z * a, across * b)
         flat = 1.0 - b * b / (a * a)
         latitude = math.atan2(

@@ -1,6 +1,6 @@
-"""The true state of a world: poses and velocities by name, visible shapes, and addresses of joints.
+"""The true state of a world: poses and velocities by name, visible shapes, and indices of joints in MuJoCo's arrays.
 
-After a step MuJoCo's world poses are one step old; `refresh` updates them.
+MuJoCo computes world poses at the beginning of a step, so they are one step old after it; `refresh` updates them.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class JointAddress:
 
 
 class Truth:
-    """The poses and velocities of one world in its present state.
+    """The present poses and velocities of the models and links of one world.
 
     Raises SimError with the nearest name for an unknown model or link.
     """
@@ -40,13 +40,14 @@ class Truth:
         self._description = description
         self._canonical: dict[str, tuple[int, Pose]] = {}
         self.models = {model.name: model for model in description.models}
-        """The models by name; the editor keeps it in step with the description."""
+        """The models by name; `Editor` updates it together with the description."""
         self.stale = True
-        """Whether MuJoCo's world poses may lag behind; set by whoever changes the state."""
+        """True if MuJoCo's world poses may be out of date; set by every change of the state."""
 
     def bind(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        """Use a new MuJoCo model: look up, for each moving model, the body of its canonical link and its frame in that
-        link.
+        """Set MuJoCo's new model and data.
+
+        For each moving model, look up the body of its canonical link and the pose of the model's frame in that link.
         """
         self.model, self.data, self.stale = model, data, True
         self._canonical.clear()
@@ -59,13 +60,13 @@ class Truth:
                 self._canonical[each.name] = (body, canonical.pose.inverse())
 
     def refresh(self) -> None:
-        """Update MuJoCo's world poses (`data.xpos`, `site_xpos`, ...), which are one step old after a step."""
+        """Update MuJoCo's world poses (`data.xpos`, `site_xpos`, ...) if they are out of date."""
         if self.stale:
             mujoco.mj_kinematics(self.model, self.data)
             self.stale = False
 
     def model_names(self, *, static: bool = False) -> list[str]:
-        """Return the names of the models that can move, in file order; with `static` followed by the others."""
+        """Return the names of the models that can move, in file order; `static` appends those of the static ones."""
         moving = [model.name for model in self._description.models if not model.static]
         return moving + [model.name for model in self._description.models if model.static] if static else moving
 

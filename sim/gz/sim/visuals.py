@@ -1,6 +1,6 @@
 """The visible shapes of a world as plain data, for recordings and viewers.
 
-`Truth.geometry` lists them once; `Truth.link_pose` gives the poses of their links.
+`Truth.geometry` returns them; they do not change. `Truth.link_pose` returns the poses of their links.
 """
 
 from __future__ import annotations

@@ -1,9 +1,10 @@
-"""A simulated world as a library: load an SDF file, step it, ask for the truth, change it, rewind it.
+"""A simulated world as a library: load an SDF file, step it, read its true state, edit it, reset it.
 
-No transport is needed (`World.load("lidar_room.sdf").step(1000)`); with a node attached the world's systems
-take commands and publish. `World.load` reads (`gz.sim.sdf`), builds (`gz.sim.physics`), starts the systems
-(`gz.sim.running_systems`); every `step` runs pre_update of all systems, one MuJoCo step, post_update of all
-systems. The questions are in `truth`, the changes in `editing`. Same file, seed and commands: same bytes.
+No transport is needed (`World.load("lidar_room.sdf").step(1000)`); with a node attached the systems of the world
+receive commands and publish. `World.load` reads the file (`gz.sim.sdf`), builds MuJoCo's model (`gz.sim.physics`) and
+starts the systems (`gz.sim.running_systems`). Every step calls pre_update of all systems, steps MuJoCo, and calls
+post_update of all systems. `truth` returns poses and velocities, `editor` changes the world. The same file, seed and
+commands give the same bytes.
 """
 
 from __future__ import annotations
@@ -36,9 +37,9 @@ if TYPE_CHECKING:
 
 
 class World:
-    """One world: its description, its MuJoCo model and data, its parts and its clock.
+    """One world: its description, its MuJoCo model and data, its systems and its clock.
 
-    Not thread-safe: a world belongs to the thread that steps it; other threads go through `requests`.
+    Not thread-safe: a world belongs to the thread that steps it; other threads use `requests`.
     """
 
     def __init__(
@@ -55,33 +56,33 @@ class World:
     ) -> None:
         """Build and start a world from its description; use `World.load` or `World.from_string`.
 
-        `server_plugins` are systems of the world that its file does not name. What is created later opens the files it
-        names with `resources`.
+        `server_plugins` are systems of the world that its file does not name. `resources` opens the files of models
+        that are created later.
         """
         self.description = description
         self.diagnostics = diagnostics
         self.resources = resources
         self.seed = seed
         self.render_engine = check_engine(render_engine)
-        """What the cameras see with: `raycast` or `mujoco`."""
+        """The render engine of the cameras: `raycast` or `mujoco`."""
         self.node: Node | None = None
         self.iterations = 0
         self.dropped_commands: dict[str, int] = {}
-        """How many commands were refused because they were not finite, by topic."""
+        """The number of commands dropped because they were not finite, by topic."""
         self.entities = Entities(description)
-        """The numbers of all entities."""
+        """The entity ids of the world and its parts."""
         self.requests = Requests()
-        """What other threads want done between two steps."""
+        """The queue of functions that other threads pass to the stepping thread."""
         if not 0.0 <= initial_sim_time <= 1e9:
             raise SimError(f"initial_sim_time must be between 0 and 1e9 seconds, got {initial_sim_time}")
         self._initial_ns = self._origin_ns = round(initial_sim_time * 1e9)
         self._info = UpdateInfo(description.step_size_ns * 1e-9)
         self.truth = Truth(description)
-        """Where everything is."""
+        """The true poses and velocities of models and links."""
         self.editor = Editor(self)
-        """What changes the world between two steps."""
+        """The methods that change the world between two steps."""
         self.systems = RunningSystems(self)
-        """The systems that run, in the order in which they are called."""
+        """The running systems, in the order in which they are called."""
         if not description.plugins:
             description.plugins = default_plugins(description.element)
         self.systems.add_world((*description.plugins, *server_plugins))
@@ -109,8 +110,10 @@ class World:
         strict: bool = False,
         server_plugins: Sequence[Plugin] = (),
     ) -> World:
-        """Load a world by path, by name in GZ_SIM_RESOURCE_PATH, or built in; raise `SdfError` saying where
-        and why. With `strict` everything that would be a warning is an error.
+        """Load a world by path, by name in GZ_SIM_RESOURCE_PATH, or by the name of a built-in world.
+
+        With `strict` every warning is an error. Raises `SdfError` with file and line, `ResourceError` if there is no
+        such file.
         """
         diagnostics = Diagnostics(strict=strict)
         description = read_world_file(find_world(path_or_name), diagnostics)
@@ -136,7 +139,7 @@ class World:
         initial_sim_time: float = 0.0,
         strict: bool = False,
     ) -> World:
-        """Load a world from SDF text; `file_name` stands for it in messages."""
+        """Load a world from SDF text; messages call it `file_name`."""
         diagnostics = Diagnostics(strict=strict)
         description = read_world(sdf, file_name, diagnostics)
         return cls(
@@ -165,7 +168,7 @@ class World:
 
     @property
     def sim_time_ns(self) -> int:
-        """Simulated time [ns]: steps done times step size, exact."""
+        """Simulated time [ns], an exact integer: the number of steps times the step size."""
         return self._origin_ns + self.iterations * self.description.step_size_ns
 
     def model_names(self, *, static: bool = False) -> list[str]:
@@ -174,11 +177,11 @@ class World:
 
     @property
     def warnings(self) -> list[str]:
-        """Return everything this world was warned about, one sentence each."""
+        """Return all warnings about this world, one sentence each."""
         return self.diagnostics.warnings
 
     def _build(self) -> None:
-        """Make MuJoCo's model and its state at time zero; replace nothing if MuJoCo refuses the model."""
+        """Build MuJoCo's model and its state at time zero; keep the present ones if MuJoCo rejects the model."""
         spec = build_spec(self.description, self.systems.servos, self.diagnostics)
         mujoco.set_mju_user_warning(lambda text: LOG.warning("physics: %s", text))
         self.model, self.data = compile_world(spec, self.description, self.diagnostics)
@@ -186,21 +189,21 @@ class World:
         self.truth.bind(self.model, self.data)
 
     def rebuild(self) -> None:
-        """Build MuJoCo's model anew from the changed description; what was there goes on exactly as it was."""
+        """Rebuild MuJoCo's model from the changed description; the state of unchanged entities is kept exactly."""
         model, data = self.model, self.data
         self._build()
         copy_state(model, data, self.model, self.data)
         self.systems.bind()
 
     def continue_from(self, sim_time_ns: int) -> None:
-        """Count on from a simulated time [ns] with the step size that the description has now."""
+        """Continue at a simulated time [ns] with the step size of the changed description."""
         self._origin_ns = sim_time_ns - self.iterations * self.step_size_ns
         self._info.dt = self.step_size_ns * 1e-9
 
     def attach(self, node: Node | None) -> None:
-        """Let every system subscribe and advertise on a node of its own that has the options of `node`.
+        """Give every system a node of its own with the options of `node`, and let it subscribe and advertise.
 
-        A world is attached once at most; `close` ends what it opened.
+        A world can be attached once; `close` closes the nodes.
         """
         if node is None or node is self.node:
             return
@@ -211,13 +214,13 @@ class World:
             self.systems.connect(node)
 
     def close(self) -> None:
-        """End everything the systems advertised and subscribed to."""
+        """Close the nodes of all systems, with their publishers, subscriptions and services."""
         self.systems.close()
 
     def step(self, n: int = 1) -> None:
-        """Run `n` physics steps with all systems; what other threads asked for is done before each of them.
+        """Run `n` physics steps with all systems; queued requests of other threads run before each step.
 
-        Raises `SimError`, naming the body, when the physics came out not finite.
+        Raises `SimError` with the name of the body if the physics becomes unstable.
         """
         requests, info, systems, truth = self.requests, self._info, self.systems, self.truth
         advance = mujoco.mj_step
@@ -231,7 +234,7 @@ class World:
             origin_ns, step_ns = self._origin_ns, self.description.step_size_ns
             requests.enter_step()
             try:
-                while True:  # one step at least, however much is asked for
+                while True:  # at least one step between two calls of serve()
                     done += 1
                     self.iterations = iterations = self.iterations + 1
                     info.iterations = iterations
@@ -240,7 +243,7 @@ class World:
                     for pre_update in pre_updates:
                         pre_update(info)
                     advance(model, data)
-                    truth.stale = True  # a system may have asked for poses before the step
+                    truth.stale = True  # a system may have refreshed the poses before the step
                     for post_update in post_updates:
                         post_update(info)
                     if waiting or done >= n:
@@ -251,17 +254,17 @@ class World:
                 raise SimError(why_unstable(self.description, model, data, self.sim_time_ns))
 
     def paused_update(self) -> None:
-        """Let the systems that talk while the world is paused do so."""
+        """Call `paused_update` of the systems that publish while the world is paused."""
         info = self._info
         info.iterations, info.sim_time_ns = self.iterations, self.sim_time_ns
         for hook in self.systems.paused_updates:
             hook(info)
 
     def reset(self, *, time_only: bool = False) -> None:
-        """Rewind to the beginning: every topic carries the same bytes again as in the first run.
+        """Reset to the start; every topic then carries the same bytes as in the first run.
 
-        What was spawned goes, what was removed or changed comes back as it was. With `time_only` the clock and the
-        systems begin anew, and everything stays where it is and moves on.
+        Spawned models are removed; removed and changed ones are restored. With `time_only` the clock and the systems
+        are reset, but all bodies keep their positions and velocities.
         """
         self.requests.refuse_inside_step("be reset")
         self.iterations, self._origin_ns = 0, self._initial_ns
@@ -294,7 +297,7 @@ class World:
             mujoco.mj_forward(self.model, self.data)
 
     def drop_command(self, topic: str, what: str) -> None:
-        """Count a command that was refused because it is not finite; say so the first time for each topic."""
+        """Count a command that was refused because it is not finite; warn at the first one of each topic."""
         count = self.dropped_commands.get(topic, 0) + 1
         self.dropped_commands[topic] = count
         if count == 1:

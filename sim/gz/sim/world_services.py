@@ -5,6 +5,7 @@
 transport's threads; access to the world goes through `World.requests`.
 
 Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/ServerPrivate.cc
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/SimulationRunner.cc
 """
 
 from __future__ import annotations
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
     from gz_course.sim.gz.transport import Node
 
 CONTROL_PATIENCE_S = 0.5
-"""A control request is answered when it was obeyed, or after this long: then it waits for the next step."""
+"""Time [s] after which a control request is answered before it is applied, if the world is not stepped."""
 
 
 class WorldServices:

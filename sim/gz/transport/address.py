@@ -1,7 +1,7 @@
-"""Decides which addresses of other processes may be used: numeric ones, and from 127.0.0.1 only those of this machine.
+"""Checks addresses of other processes: only numeric ones are used, and from 127.0.0.1 only those of this machine.
 
 Every address received in a datagram or a request is checked here before a socket connects to it. A process on 127.0.0.1
-therefore sends nothing to other machines, and no name has to be resolved.
+therefore sends nothing to other machines, and no host name has to be resolved.
 """
 
 from __future__ import annotations

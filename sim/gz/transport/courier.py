@@ -18,13 +18,13 @@ import zmq
 from gz_course.sim.gz.transport.environment import complain
 
 RETRY_S = 0.001
-"""How often the I/O thread tries again while something waits."""
+"""Period [s] at which the I/O thread retries pending messages."""
 _MOST_CONNECTIONS = 256
 _MOST_WAITING = 10_000
 _RECONNECT_MS, _RECONNECT_MOST_MS = 20, 1000
 
 Target = tuple[str, bytes, Sequence[bytes]]
-"""(address, routing id of the socket there, the frames for it)"""
+"""The address of a process, the routing id of its socket, and the frames to send."""
 
 
 class Letter:

@@ -24,15 +24,15 @@ from gz_course.sim.gz.transport.options import Scope
 HEARTBEAT_S = 1.0
 SILENCE_LIMIT_S = 3.0
 COMPLETE_AFTER_S = HEARTBEAT_S + 0.1
-"""By then every other process has sent a heartbeat, so the list is complete."""
+"""Time [s] within which every other process has sent a heartbeat, so that the list is complete."""
 _RECEIVE_BUFFER_BYTES = 1 << 20
 _MOST_AT_ONCE = 1000
 _MOST_PROCESSES, _MOST_TOPICS, _MOST_OF_ONE_TOPIC = 2000, 20_000, 1000
-"""More than any real network has; a flood of invented ones must not fill the memory."""
+"""Limits of the tables, above those of any real network, so that forged messages cannot fill the memory."""
 _CHECK_EVERY_S = 0.1
 
 RecordKey = tuple[str, str, str]
-"""(process, node, address)"""
+"""The process UUID, node UUID and address of a record."""
 
 
 class DiscoveryChannel:

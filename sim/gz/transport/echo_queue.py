@@ -28,7 +28,7 @@ class Arrival(NamedTuple):
     data: bytes
     type_name: str
     time_ns: int
-    """When it arrived, on the monotonic clock [ns]."""
+    """Time of arrival on the monotonic clock [ns]."""
 
 
 class EchoQueue:
@@ -49,8 +49,9 @@ class EchoQueue:
             self._queue.put(Arrival(data, info.type, time.monotonic_ns()))
 
     def next(self, deadline: float) -> Arrival | None:
-        """Return the next message; None at the deadline (time.monotonic() [s]), or earlier so that reader_gone() is
-        checked.
+        """Return the next message, or None at the deadline (time.monotonic() [s]).
+
+        It may also return None earlier, so that the caller can check reader_gone().
         """
         wait = min(deadline - time.monotonic(), _LOOK_AT_READER_S)
         try:

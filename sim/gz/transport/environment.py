@@ -1,8 +1,8 @@
 """The environment variables of gz-transport, with the defaults of this course.
 
 They are read once per node (partition) and once per process (addresses and ports). One default differs from
-gz-transport: without GZ_IP all traffic stays on 127.0.0.1, so that nobody drives a robot on another machine by mistake.
-To reach other machines, set GZ_IP to the address of this one.
+gz-transport: without GZ_IP all traffic stays on 127.0.0.1, so that a robot on another machine cannot be driven by
+mistake. To reach other machines, set GZ_IP to the address of this one.
 
 Source: https://github.com/gazebosim/gz-transport/blob/gz-transport13/src/NodeShared.cc
 Source: https://github.com/gazebosim/gz-transport/blob/gz-transport13/src/NodeOptions.cc
@@ -33,7 +33,7 @@ _NOT_IMPLEMENTED = (
 
 
 def complain(sentence: str) -> None:
-    """Print one line on stderr, where no exception can reach the user."""
+    """Print one line on stderr, in threads where an exception would not reach the user."""
     print(f"[gz.transport] {sentence}", file=sys.stderr, flush=True)
 
 

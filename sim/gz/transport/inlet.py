@@ -19,7 +19,7 @@ import zmq
 from gz_course.sim.gz.transport.environment import complain
 
 LEAVE_AFTER_S = 5.0
-"""So long the connection to a publisher that is gone stays open: what it sent last is still to be read."""
+"""Time [s] that the connection to an ended publisher stays open, because its last messages may be unread."""
 _LARGEST_FRAME = 1 << 30
 _FRAMES = 4
 _MORE, _NO_WAIT = int(zmq.RCVMORE), int(zmq.NOBLOCK)  # plain ints are faster

@@ -17,11 +17,11 @@ class MessageInfo:
     topic: str
     """Topic name without the partition, e.g. `/cmd_vel`."""
     type: str
-    """Type name as it was sent, e.g. `gz.msgs.Twist`."""
+    """Type name as sent, e.g. `gz.msgs.Twist`."""
     partition: str
     """Partition without a leading slash."""
     intra_process: bool
-    """True when the publisher is in this process."""
+    """True if the publisher is in this process."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,19 +31,19 @@ class MessagePublisher:
     topic: str
     """Topic name without the partition."""
     addr: str
-    """Address of the process, e.g. `tcp://127.0.0.1:37011`; empty when nobody outside can reach it."""
+    """Address of the process, e.g. `tcp://127.0.0.1:37011`; empty if other processes cannot reach it."""
     msg_type_name: str
-    """Type name; `google.protobuf.Message` for a subscriber that takes any type."""
+    """Type name; `google.protobuf.Message` for a subscriber to messages of any type."""
     p_uuid: str
-    """Identity of the process."""
+    """UUID of the process."""
     n_uuid: str
-    """Identity of the node."""
+    """UUID of the node."""
     scope: Scope = Scope.ALL
-    """How far it reaches."""
+    """Processes and machines that it reaches."""
     msgs_per_sec: int = UNTHROTTLED
-    """The most messages per second it sends."""
+    """Maximum number of messages sent per second."""
     ctrl: str = ""
-    """Unused in this version of the protocol."""
+    """Not used in this version of the protocol."""
 
     @property
     def options(self) -> AdvertiseMessageOptions:
@@ -58,19 +58,19 @@ class ServicePublisher:
     topic: str
     """Name of the service without the partition."""
     addr: str
-    """Address of the process, e.g. `tcp://127.0.0.1:37011`; empty when nobody outside can reach it."""
+    """Address of the process, e.g. `tcp://127.0.0.1:37011`; empty if other processes cannot reach it."""
     req_type_name: str
     """Type name of requests."""
     rep_type_name: str
-    """Type name of responses; `gz.msgs.Empty` when there are none."""
+    """Type name of responses; `gz.msgs.Empty` for a one-way service."""
     p_uuid: str
-    """Identity of the process."""
+    """UUID of the process."""
     n_uuid: str
-    """Identity of the node."""
+    """UUID of the node."""
     scope: Scope = Scope.ALL
-    """How far it reaches."""
+    """Processes and machines that it reaches."""
     socket_id: str = ""
-    """Identity of the socket at `addr`."""
+    """Routing id of the socket at `addr`."""
 
     @property
     def options(self) -> AdvertiseServiceOptions:

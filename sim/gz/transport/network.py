@@ -55,7 +55,7 @@ class Network:
         self._services: ServiceNetwork | None = None
         self._services_lock = threading.Lock()
         self._commands: deque[Callable[[], None]] = deque()
-        self._told: dict[tuple[str, str, str, str], float] = {}
+        self._notified: dict[tuple[str, str, str, str], float] = {}
         self._context: zmq.Context[zmq.Socket[bytes]] = zmq.Context()
         try:
             self._outlet = Outlet(self._context, settings.ip, settings.send_high_water_mark, SWITCHBOARD.notify)
@@ -227,7 +227,7 @@ class Network:
             return
         for record in self._discovery.known(subscription.name):
             if subscription.accepts(record.msg_pub.msg_type) and self._inlet.listen(record.topic, record.address):
-                self._tell(record, subscription.node_uuid)
+                self._notify(record, subscription.node_uuid)
         self._discovery.ask(subscription.name)
 
     def _disconnect(self, subscription: Subscription) -> None:
@@ -236,9 +236,9 @@ class Network:
             self._inlet.ignore(subscription.name)
         if not any(each.node_uuid == subscription.node_uuid for each in left):
             self._discovery.send_end_connection(subscription.name, subscription.node_uuid)
-            self._told = {
+            self._notified = {
                 key: when
-                for key, when in self._told.items()
+                for key, when in self._notified.items()
                 if key[0] != subscription.name or key[3] != subscription.node_uuid
             }
 
@@ -247,19 +247,19 @@ class Network:
         nodes = {each.node_uuid for each in SWITCHBOARD.networked_subscriptions(record.topic) if each.accepts(kind)}
         if nodes and self._inlet.listen(record.topic, record.address):
             for node in sorted(nodes):
-                self._tell(record, node, again=is_new)
+                self._notify(record, node, again=is_new)
 
-    def _tell(self, record: Discovery.Publisher, node_uuid: str, again: bool = True) -> None:
+    def _notify(self, record: Discovery.Publisher, node_uuid: str, again: bool = True) -> None:
         """Notify a publisher of a subscriber; repeated every second, because datagrams can be lost."""
         key = (record.topic, record.process_uuid, record.node_uuid, node_uuid)
         now = time.monotonic()
-        if again or now - self._told.get(key, 0.0) > 0.9 * HEARTBEAT_S:
-            self._told[key] = now
+        if again or now - self._notified.get(key, 0.0) > 0.9 * HEARTBEAT_S:
+            self._notified[key] = now
             self._discovery.send_new_connection(record, node_uuid)
 
     def _on_gone(self, records: list[Discovery.Publisher]) -> None:
         gone = {(record.topic, record.process_uuid, record.node_uuid) for record in records}
-        self._told = {key: when for key, when in self._told.items() if key[:3] not in gone}
+        self._notified = {key: when for key, when in self._notified.items() if key[:3] not in gone}
         still_there = {record.address for record in self._discovery.all_known()}
         for address in {record.address for record in records} - still_there:
             self._inlet.leave_soon(address)

@@ -9,11 +9,11 @@ from typing import TypeVar
 from gz_course.sim.gz.transport import environment, naming
 
 UNTHROTTLED = 2**64 - 1
-"""The rate that means "no limit", as it is written on the wire."""
+"""The rate that means "no limit" in the protocol."""
 
 
 class Scope(enum.IntEnum):
-    """How far a publisher reaches; the numbers are those of the protocol.
+    """The processes that a publisher or service reaches; the numbers are those of the protocol.
 
     Source: https://github.com/gazebosim/gz-msgs/blob/gz-msgs10/proto/gz/msgs/discovery.proto (Scope)
     """

@@ -1,4 +1,4 @@
-"""Returns the network that a scope requires, and joins it when it is first needed."""
+"""The network that a scope requires; it is joined when it is first needed."""
 
 from __future__ import annotations
 

@@ -19,18 +19,18 @@ from gz_course.sim.gz.transport.options import Scope
 from gz_course.sim.gz.transport.subscription import one_line
 
 EMPTY_TYPE = "gz.msgs.Empty"
-"""As the type of a response it means that there is none: the call is one-way."""
+"""The response type of one-way services."""
 
 
 class CallResult(NamedTuple):
     """The outcome of a request."""
 
     executed: bool
-    """False when no response came in time, for whatever reason."""
+    """False if no response arrived in time."""
     result: bool
-    """What the provider says: False when it could not do what was asked."""
+    """The result reported by the provider; False for a failure."""
     response: bytes
-    """The serialized response; empty unless `result`."""
+    """The serialized response; empty if `result` is False."""
 
 
 TIMED_OUT = CallResult(False, False, b"")

@@ -30,7 +30,7 @@ from gz_course.sim.gz.transport.service_threads import ServiceThreads, while_wai
 from gz_course.sim.gz.transport.switchboard import SWITCHBOARD
 
 RESPONSE_DEADLINE_S = 5.0
-"""How long delivery to a requester that cannot be reached is tried."""
+"""Time [s] after which a response is dropped if its requester cannot be reached."""
 _MOST_AT_ONCE = 100
 _REQUEST_FRAMES, _RESPONSE_FRAMES = 9, 6
 _LARGEST_FRAME = 1 << 30

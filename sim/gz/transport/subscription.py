@@ -22,7 +22,7 @@ from gz_course.sim.gz.transport.options import Scope, SubscribeOptions
 from gz_course.sim.gz.transport.throttle import Throttle
 
 GENERIC_TYPE = "google.protobuf.Message"
-"""The type name of a raw subscription that takes messages of every type."""
+"""The type name of a raw subscription to messages of any type."""
 
 
 class Subscription:

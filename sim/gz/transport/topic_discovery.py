@@ -3,7 +3,7 @@
 Subscribers notify a publisher when they connect (NEW_CONNECTION) and leave (END_CONNECTION), and answer the request for
 all subscriptions (SUBSCRIBERS_REQ), which only lists need.
 
-Source: https://github.com/gazebosim/gz-transport/blob/gz-transport13/src/NodeShared.cc (NewConnection, EndConnection)
+Source: https://github.com/gazebosim/gz-transport/blob/gz-transport13/src/NodeShared.cc (OnEndRegistration)
 """
 
 from __future__ import annotations
@@ -20,10 +20,10 @@ from gz_course.sim.gz.transport.environment import NetworkSettings
 from gz_course.sim.gz.transport.subscription import GENERIC_TYPE, Subscription
 
 ANSWER_TIME_S = 0.1
-"""How long answers to "who subscribes?" are collected: the protocol does not say how many will come."""
+"""Time [s] for which answers to a request for subscribers are collected; their number is not known in advance."""
 
 SubscriberKey = tuple[str, str]
-"""(process, node)"""
+"""The process UUID and node UUID of a subscriber."""
 
 
 class TopicDiscovery(DiscoveryChannel):
@@ -64,7 +64,7 @@ class TopicDiscovery(DiscoveryChannel):
         self._send_about_process(Discovery.SUBSCRIBERS_REQ)
 
     def wait_for_answers(self) -> None:
-        """Wait until lists of publishers and subscribers are as complete as the protocol allows."""
+        """Wait until the lists of publishers and subscribers are as complete as the protocol allows."""
         time.sleep(max(ANSWER_TIME_S, self.seconds_until_complete()))
 
     def subscribers(self) -> list[Discovery.Publisher]:

@@ -178,7 +178,7 @@ class ExecuteLocal(Action):
         try:
             retries = 0
             while not (context.is_shutdown or self.__must_stop.is_set()):
-                if not await self._live_once(context, settings) or not settings.respawn:
+                if not await self._run_once(context, settings) or not settings.respawn:
                     break
                 if 0 <= self.__respawn_max_retries <= retries:
                     break
@@ -190,7 +190,7 @@ class ExecuteLocal(Action):
         finally:
             self.cleanup()
 
-    async def _live_once(self, context: LaunchContext, settings: ProcessSettings) -> bool:
+    async def _run_once(self, context: LaunchContext, settings: ProcessSettings) -> bool:
         """Run the process once; return whether it may be restarted."""
         child = self._start(context, settings)
         self.__child = child
@@ -208,8 +208,8 @@ class ExecuteLocal(Action):
                 settings.logger.error(f"process has died [pid {child.pid}, exit code {code}, cmd '{words}'].")
             context.emit_event_sync(ProcessExited(returncode=code, action=self, **self.process_details))
             self.__ended.set()
-            if child.has_left_something():
-                await self._wait_for_what_is_left(child, context, settings)
+            if child.has_background_processes():
+                await self._wait_for_group(child, context, settings)
         except asyncio.CancelledError:  # the event loop ends before the launch
             child.kill()
             raise
@@ -222,10 +222,8 @@ class ExecuteLocal(Action):
             self.__printed.close()
         return not self.__must_stop.is_set()
 
-    async def _wait_for_what_is_left(
-        self, child: ChildProcess, context: LaunchContext, settings: ProcessSettings
-    ) -> None:
-        """Wait for the background processes of the process, which belong to the launch, too."""
+    async def _wait_for_group(self, child: ChildProcess, context: LaunchContext, settings: ProcessSettings) -> None:
+        """Wait for the background processes of the process, which also belong to the launch."""
         if settings.respawn and not context.is_shutdown:
             child.send_signal(signal.SIGKILL)  # before the restart
         elif not context.is_shutdown:

@@ -2,7 +2,7 @@
 
 A package adds its own with `expose_substitution`, as launch_ros does.
 
-Source: ros2/launch, launch/frontend/grammar.lark; the names are those of XML launch files
+Source: ros2/launch, launch/launch/frontend/grammar.lark; the names are those of XML launch files
 """
 
 from __future__ import annotations

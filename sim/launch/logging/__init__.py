@@ -5,7 +5,7 @@
 prints `[INFO] [my_launch]: up and running` and writes the same with a time stamp to `launch.log`. The log folder is
 `<date>-<time>-<host>-<pid>` below ROS_LOG_DIR, else ROS_HOME/log, else ~/.ros/log; the first logged line creates it.
 
-Source: ros2/launch, launch/logging/__init__.py
+Source: ros2/launch, launch/launch/logging/__init__.py
 """
 
 from __future__ import annotations

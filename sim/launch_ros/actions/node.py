@@ -3,7 +3,8 @@
     <executable> <arguments> [--ros-args <ros_arguments>] --ros-args [-r __node:=<name>] [-r __ns:=<namespace>]
         <parameters of the scope> <its own parameters> [-r <from>:=<to> ...]
 
-Source: ros2/launch_ros, launch_ros/actions/node.py; ROS 2 design, "ROS Command Line Arguments"
+Source: ros2/launch_ros, launch_ros/launch_ros/actions/node.py
+Source: https://design.ros2.org/articles/ros_command_line_arguments.html
 """
 
 from __future__ import annotations

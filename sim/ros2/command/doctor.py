@@ -17,7 +17,7 @@ _DEADLINE = 30.0  # [s] for `course doctor --help`
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="For programs")
     for names in (("-r", "--report"), ("-rf", "--report-failed"), ("-iw", "--include-warnings")):
-        parser.add_argument(*names, action="store_true", help="Accepted and ignored: everything is told anyway")
+        parser.add_argument(*names, action="store_true", help="Accepted and ignored: everything is printed anyway")
 
 
 def main(arguments: argparse.Namespace) -> int:

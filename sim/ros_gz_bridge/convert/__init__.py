@@ -1,7 +1,7 @@
-"""Conversions, one file or folder for each ROS message package, named like it; `type_pairs` finds them here.
+"""Conversions, one file or folder for each ROS message package, with its name; `type_pairs` finds them here.
 
-Which types pair, and how their fields correspond, is as in ros_gz_bridge. What a field means and its unit are in the
-`.msg` and `.srv` files of the ROS package and in the `.proto` files of gz-msgs.
+The type pairs and the corresponding fields are those of ros_gz_bridge. The meaning and the unit of a field are
+documented in the `.msg` and `.srv` files of the ROS package and in the `.proto` files of gz-msgs.
 
 Source: README.md and src/convert/*.cpp of ros_gz_bridge, https://github.com/gazebosim/ros_gz/tree/jazzy/ros_gz_bridge
 """

@@ -1,4 +1,7 @@
-"""builtin_interfaces: Time."""
+"""builtin_interfaces: Time.
+
+Source: ros_gz_bridge/src/convert/builtin_interfaces.cpp, https://github.com/gazebosim/ros_gz
+"""
 
 from __future__ import annotations
 

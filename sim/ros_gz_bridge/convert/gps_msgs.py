@@ -17,8 +17,8 @@ from gz_course.sim.ros_gz_bridge.header import copy_header, fill_stamp, frame_to
 def _fill_fix(gz: Any, ros: GPSFix) -> None:
     """Write position [deg], [m] and velocity as speed [m/s], track [rad] and climb [m/s].
 
-    The track is the angle of the velocity from east towards north, as ros_gz_bridge fills it, not the compass bearing
-    in degrees that the ROS message describes.
+    As in ros_gz_bridge the track is the angle of the velocity from east towards north, although the ROS message
+    specifies a compass bearing in degrees.
     """
     for header in (ros.header, ros.status.header):
         fill_stamp(gz.header.stamp, header.stamp)
@@ -32,7 +32,7 @@ def _fill_fix(gz: Any, ros: GPSFix) -> None:
 
 
 def _copy_fix(ros: GPSFix, gz: Any) -> None:
-    # A track that is not finite is unknown; sine and cosine would refuse it.
+    # A track that is not finite is unknown; sine and cosine would raise an error.
     track = ros.track if math.isfinite(ros.track) else 0.0
     copy_header(ros.header, gz.header)
     gz.latitude_deg, gz.longitude_deg, gz.altitude = ros.latitude, ros.longitude, ros.altitude

@@ -59,7 +59,7 @@ def _fill_dvl(gz: Any, ros: Dvl) -> None:
 
 
 def _copy_dvl(ros: Dvl, gz: Any) -> None:
-    """Write velocity and beams; the velocity of a beam points along it."""
+    """Write velocity and beams; the velocity of a beam is along its direction."""
     copy_header(ros.header, gz.header)
     gz.type = next((number for number, name in _TYPES.items() if name == ros.dvl_type), 0)
     gz.target.type = next((number for number, name in _MODES.items() if name == ros.velocity_mode), 0)

@@ -1,4 +1,7 @@
-"""nav_msgs: Odometry, without and with covariances."""
+"""nav_msgs: Odometry, without and with covariances.
+
+Source: ros_gz_bridge/src/convert/nav_msgs.cpp, https://github.com/gazebosim/ros_gz
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""rcl_interfaces: ParameterValue, one value of a type that is known only when it arrives.
+"""rcl_interfaces: ParameterValue, a value whose type is known only when it arrives.
 
 Source: rcl_interfaces/msg/ParameterType.msg, https://github.com/ros2/rcl_interfaces; gz/msgs/any.proto
 """
@@ -35,7 +35,7 @@ def fill_value(gz: Any, ros: ParameterValue) -> bool:
 
 
 def copy_value(ros: ParameterValue, gz: Any) -> bool:
-    """Write into a `gz.msgs.Any`, clamping integers to 32 bits; return False for a list, which it cannot hold."""
+    """Write into a `gz.msgs.Any`, clamping integers to 32 bits; return False for a list, which Any cannot hold."""
     if ros.type == ParameterType.PARAMETER_NOT_SET:
         gz.type = GzAny.NONE
         return True

@@ -1,4 +1,7 @@
-"""rosgraph_msgs: Clock, the simulated time that every node with `use_sim_time` takes as its own."""
+"""rosgraph_msgs: Clock, the simulated time for nodes with `use_sim_time`.
+
+Source: ros_gz_bridge/src/convert/rosgraph_msgs.cpp, https://github.com/gazebosim/ros_gz
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""std_msgs: the scalars, String, Empty, Header and ColorRGBA."""
+"""std_msgs: the scalars, String, Empty, Header and ColorRGBA.
+
+Source: ros_gz_bridge/src/convert/std_msgs.cpp, https://github.com/gazebosim/ros_gz
+"""
 
 from __future__ import annotations
 

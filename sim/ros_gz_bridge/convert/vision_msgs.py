@@ -18,7 +18,7 @@ _LABELS = range(2**32)
 
 
 def _fill_label(gz: Any, ros: msg.Detection2D | msg.Detection3D) -> None:
-    """Write the header, and Gazebo's one label as the only hypothesis, with the score 1."""
+    """Write the header, and the label of Gazebo as the only hypothesis with score 1."""
     fill_header(gz.header, ros.header)
     ros.results = [msg.ObjectHypothesisWithPose(hypothesis=msg.ObjectHypothesis(class_id=str(gz.label), score=1.0))]
 
@@ -43,7 +43,7 @@ def _fill_2d(gz: Any, ros: msg.Detection2D) -> None:
 
 
 def _copy_2d(ros: msg.Detection2D, gz: Any) -> None:
-    """Write centre and size as two corners; raise ConversionError for a box that is turned."""
+    """Write centre and size as two corners. Raises ConversionError for a rotated box."""
     _copy_label(ros, gz)
     box, center, low, high = ros.bbox, ros.bbox.center.position, gz.box.min_corner, gz.box.max_corner
     if box.center.theta:

@@ -10,7 +10,7 @@ from gz_course.sim.gz import command
 
 @pytest.fixture
 def count(tmp_path, monkeypatch):
-    """A sub-command `count` among the commands of another package, whose options are read for it."""
+    """Return a sub-command `count` among the commands of another package, whose options are parsed."""
     folder = tmp_path / "gz" / "numbers" / "commands"
     folder.mkdir(parents=True)
     (folder / "__init__.py").write_text("")

@@ -1,4 +1,4 @@
-"""Code written for the official packages of Harmonic runs unchanged; where they are installed, they are used."""
+"""Code for the official packages of Harmonic runs unchanged; installed ones are used instead."""
 
 import os
 import shutil
@@ -63,7 +63,7 @@ def test_a_real_installation_wins_even_when_it_comes_last(installation):
 
 @pytest.fixture
 def copies(tmp_path):
-    """Three more checkouts of ours on the import path, as a clone within a clone has them."""
+    """Return three more checkouts of ours on the import path, as in a clone within a clone."""
     folders = [tmp_path / f"copy{number}" for number in range(3)]
     for folder in folders:
         shutil.copytree(ROOT / "public", folder, ignore=shutil.ignore_patterns("__pycache__"))

@@ -1,4 +1,4 @@
-"""Running launch descriptions in this process, with what they print."""
+"""Fixtures that run launch descriptions in this process and return their output."""
 
 import threading
 
@@ -21,7 +21,7 @@ def log_folder(tmp_path, monkeypatch):
 
 
 class Result:
-    """Exit code and printed lines of a run, without the two lines every run begins with."""
+    """Exit code and printed lines of a run, without the two lines at the beginning of every run."""
 
     def __init__(self, code, text):
         self.code = code
@@ -29,14 +29,14 @@ class Result:
         self.lines = text.splitlines()[2:]
 
     def printed_by(self, name):
-        """The lines of processes with this name, without their label."""
+        """Return the lines of processes with this name, without their label."""
         prefix = f"[{name}-"
         return [line.partition("] ")[2] for line in self.lines if line.startswith(prefix)]
 
 
 @pytest.fixture
 def run(capsys):
-    """Run actions to the end; the launch is shut down after a deadline."""
+    """Run actions to the end; the launch is shut down at a deadline."""
 
     def run(*entities, arguments=None, **options):
         launch_logging.reset()
@@ -58,7 +58,7 @@ def run(capsys):
 
 @pytest.fixture
 def performed():
-    """The text of a substitution, with these launch configurations."""
+    """Return the text of a substitution with these launch configurations."""
 
     def perform(substitution, **configurations):
         context = launch.LaunchContext()

@@ -1,4 +1,4 @@
-"""Names stand in the modules in which ROS 2's launch and launch_ros have them."""
+"""Names are in the same modules as in ROS 2's launch and launch_ros."""
 
 import ast
 import importlib
@@ -12,7 +12,7 @@ import launch_ros.event_handlers
 import launch_ros.events
 import pytest
 
-# Modules that hold public classes of another name than their own, as they do in ROS 2's launch and launch_ros.
+# Modules whose public classes have other names than the module, as in ROS 2's launch and launch_ros.
 SEVERAL = {
     "launch.actions.shutdown_action": {"Shutdown"},
     "launch.conditions.evaluate_condition_expression_impl": {"InvalidConditionExpressionError"},
@@ -28,7 +28,7 @@ SEVERAL = {
     "launch_ros.parameter_descriptions": {"Parameter", "ParameterFile", "ParameterValue"},
     "launch_ros.substitutions.find_package": {"FindPackagePrefix", "FindPackageShare"},
 }
-# Modules that only these packages have.
+# Modules that exist only in these packages.
 OWN = {
     "launch.errors": {
         "InvalidArgumentError",
@@ -49,7 +49,7 @@ def snake(name):
 
 
 def modules():
-    """The name below the package's own (`launch.actions.log_info`), and the module."""
+    """Yield the name below that of the package (`launch.actions.log_info`), and the module."""
     for name, package in (("launch", launch), ("launch_ros", launch_ros)):
         yield name, package
         for found in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):

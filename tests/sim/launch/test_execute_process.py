@@ -1,4 +1,4 @@
-"""ExecuteProcess: what is started, what is printed, how it ends."""
+"""ExecuteProcess: the started command, the output, the end."""
 
 import contextlib
 import os
@@ -40,7 +40,7 @@ def sh(script, *words, **options):
 
 
 def when_printed(action, word, *entities):
-    """Answers a process that prints a word, once."""
+    """Answer once when a process prints a word."""
     seen, answered = [], []
 
     def look(event):
@@ -264,13 +264,13 @@ def test_a_time_out_that_is_no_number(run):
 
 
 def test_all_that_a_shell_has_started_ends_with_it(run):
-    """The shell's background job ignores SIGINT, as POSIX wants it, and is no child of ours."""
+    """The shell's background job ignores SIGINT, as POSIX requires, and is not our child."""
     action = ExecuteProcess(
         cmd="sleep 1000 & echo $! up; (sleep 1001 | cat); true", shell=True, output="screen", name="job"
     )
     result = run(action, when_printed(action, "up", Shutdown()))
     (line,) = result.printed_by("job")
-    with contextlib.suppress(psutil.NoSuchProcess):  # whoever is its parent now may not have taken notice
+    with contextlib.suppress(psutil.NoSuchProcess):  # its new parent may not have reaped it yet
         assert psutil.Process(int(line.split()[0])).status() == psutil.STATUS_ZOMBIE
     assert result.code == 0
 

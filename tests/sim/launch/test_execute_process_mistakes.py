@@ -1,4 +1,4 @@
-"""ExecuteProcess: what is said about processes that cannot be started."""
+"""ExecuteProcess: the messages about processes that cannot be started."""
 
 import pytest
 

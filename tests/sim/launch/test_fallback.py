@@ -1,4 +1,4 @@
-"""Where a real launch is installed or sourced, it is the one that is imported; ours is only there for want of it."""
+"""An installed or sourced launch is imported; ours is used only if there is none."""
 
 import os
 import subprocess
@@ -15,7 +15,7 @@ PUBLIC_NAMES = "gz_course_public_names"
 
 
 def python(*options, code, **environment):
-    """(stdout, last line of stderr) of a Python that executes some code."""
+    """Run code in a new Python; return (stdout, last line of stderr)."""
     done = subprocess.run(
         [sys.executable, *options, "-c", code],
         env={**os.environ, **environment},
@@ -29,7 +29,7 @@ def python(*options, code, **environment):
 
 @pytest.fixture
 def real(tmp_path):
-    """A folder with a package launch that is not ours."""
+    """Return a folder with a package `launch` that is not ours."""
     folder = tmp_path / "real"
     (folder / "launch").mkdir(parents=True)
     (folder / "launch/__init__.py").write_text("who = 'real'\n")
@@ -38,7 +38,7 @@ def real(tmp_path):
 
 @pytest.fixture
 def installed(tmp_path):
-    """A site-packages folder as the wheel makes it."""
+    """Return a site-packages folder with the files of the wheel."""
     site = tmp_path / "site"
     (site / "gz_course").mkdir(parents=True)
     (site / PUBLIC_NAMES).mkdir()

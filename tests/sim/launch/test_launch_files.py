@@ -1,4 +1,4 @@
-"""Launch files: loading, arguments, includes, and what is said about mistakes in them."""
+"""Launch files: loading, arguments, includes, and the messages about mistakes."""
 
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -37,7 +37,7 @@ def generate_launch_description():
 
 @pytest.fixture
 def write(tmp_path):
-    """Write a launch file: the entities, or a whole text."""
+    """Write a launch file with these entities or this text."""
 
     def write(name, entities=None, text=None):
         path = tmp_path / name

@@ -30,7 +30,7 @@ service.run()
 """
 
 
-# The tests themselves may have been started with SIGINT ignored, as a shell's & does.
+# The tests may have been started with SIGINT ignored, as by the & of a shell.
 STUBBORN = """\
 import signal
 for name in ("SIGINT", "SIGTERM"):
@@ -44,14 +44,14 @@ while True:
 def all_watchers():
     found = set()
     for each in psutil.Process().children():
-        with contextlib.suppress(psutil.Error):  # another test's child has ended just now
+        with contextlib.suppress(psutil.Error):  # the child of another test has just ended
             found |= {each.pid} if "orphan_watch" in each.cmdline() else set()
     return found
 
 
 @pytest.fixture
 def watchers():
-    """Looks for the watchers that came since the test began."""
+    """Return a function that finds the watcher processes started since the beginning of the test."""
     before = all_watchers()
     return lambda: all_watchers() - before
 
@@ -85,7 +85,7 @@ def test_sigkill_leaves_no_orphan(tmp_path):
 
 @pytest.mark.parametrize(
     ("ignored", "patience", "end"),
-    # Patience is not used up where the signal works, but must be long enough for it on a busy machine.
+    # The time limit is not reached if the signal works, but it must be long enough for a busy machine.
     [((), 300, -signal.SIGINT), (("SIGINT",), 10, -signal.SIGTERM), (("SIGINT", "SIGTERM"), 2, -signal.SIGKILL)],
 )
 def test_it_escalates(ignored, patience, end):
@@ -131,7 +131,7 @@ def test_a_fork_does_not_keep_it(watchers):
         fork = multiprocessing.get_context("fork").Process(target=signal.pause)
         fork.start()
         try:
-            orphan_watch.unwatch(child.pid)  # waits for the shell, which reads until nobody holds the pipe
+            orphan_watch.unwatch(child.pid)  # waits for the shell, which reads until the pipe is closed
             assert watchers() == set()
         finally:
             for each in (fork, child):

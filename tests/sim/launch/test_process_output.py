@@ -1,4 +1,4 @@
-"""Where the output of processes goes, line by line."""
+"""The destinations of the output of processes, line by line."""
 
 from pathlib import Path
 
@@ -13,7 +13,7 @@ from gz_course.sim.launch.process_output import ProcessOutput, sinks
 
 
 class Screen:
-    """Takes the place of screen and log file while lines are being cut."""
+    """A substitute for screen and log file, for tests of splitting lines."""
 
     def __init__(self):
         self.text = ""

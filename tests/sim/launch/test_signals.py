@@ -1,4 +1,4 @@
-"""Signals end a launch, whatever it is doing, and nothing is left."""
+"""Signals end a launch in every state, and no process remains."""
 
 import contextlib
 import os
@@ -14,7 +14,7 @@ from gz_course.sim.launch.substitutions import Command
 
 
 def living_with(name, value):
-    """The processes that have this environment variable."""
+    """Return the processes that have this environment variable."""
     found = []
     for process in psutil.process_iter():
         with contextlib.suppress(psutil.Error):
@@ -50,7 +50,7 @@ def test_signals_end_it_whatever_it_does(tmp_path, entities, number, code):
     setup = "def forever():\n    print('up', flush=True)\n    while True: pass"
     program = INTERRUPTED.format(setup=setup, entities=entities)
     with subprocess.Popen(
-        # As a shell's & does, the parent has SIGINT ignored.
+        # The parent ignores SIGINT, as after the & of a shell.
         ["sh", "-c", 'trap "" INT; exec "$@"', "sh", sys.executable, "-c", program],
         env={**os.environ, "ROS_LOG_DIR": str(tmp_path)},  # which marks all processes of this test
         stdout=subprocess.PIPE,
@@ -64,7 +64,7 @@ def test_signals_end_it_whatever_it_does(tmp_path, entities, number, code):
                 if line.rstrip().endswith("up"):
                     break
             process.send_signal(number)
-            rest, _ = process.communicate(timeout=120)  # until the last process that holds its output has gone
+            rest, _ = process.communicate(timeout=120)  # until the last process with its output has ended
         finally:
             left = living_with("ROS_LOG_DIR", str(tmp_path))
             for each in left:

@@ -1,4 +1,4 @@
-"""Substitutions: their texts, and their sentences when there is none."""
+"""Substitutions: their texts, and the errors if they have none."""
 
 import math
 import os

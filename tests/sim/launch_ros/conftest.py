@@ -1,4 +1,4 @@
-"""Nodes of a package of the test's own, and what they are started with."""
+"""Nodes of a package for tests, and the arguments they are started with."""
 
 import json
 import sys
@@ -10,7 +10,7 @@ from gz_course.sim.launch import LaunchDescription, LaunchService
 from gz_course.tests.sim.launch.conftest import performed  # noqa: F401
 
 DEADLINE = 120.0
-# Writes its words, and what is in its parameter files, as one line of JSON.
+# Prints its arguments and the content of its parameter files as one line of JSON.
 TELL = f"""\
 #!{sys.executable} -S
 import json, sys
@@ -30,7 +30,9 @@ def log_folder(tmp_path, monkeypatch):
 
 @pytest.fixture
 def package(tmp_path, monkeypatch):
-    """The prefix of the package my_robot with the executable `tell`; temporary files go to its folder `temporary`."""
+    """Return the prefix of the package my_robot with the executable `tell`; temporary files are in its folder
+    `temporary`.
+    """
     prefix = tmp_path / "install"
     index = prefix / "share/ament_index/resource_index/packages"
     index.mkdir(parents=True)
@@ -46,7 +48,7 @@ def package(tmp_path, monkeypatch):
 
 
 class Told:
-    """A run: its exit code, its output, the words of each `tell` and the texts of its parameter files."""
+    """A run: its exit code, its output, the arguments of each `tell` and the texts of its parameter files."""
 
     def __init__(self, code, text):
         self.code = code
@@ -58,7 +60,7 @@ class Told:
 
 @pytest.fixture
 def tell(package, tmp_path, capsys):
-    """Run actions to the end. No temporary file may be left."""
+    """Run actions to the end, and check that no temporary file remains."""
 
     def run(*entities, **configurations):
         launch_logging.reset()

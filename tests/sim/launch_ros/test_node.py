@@ -1,4 +1,4 @@
-"""Node: the command it becomes, and what is said when it cannot become one."""
+"""Node: the resulting command, and the errors if it cannot be built."""
 
 import stat
 

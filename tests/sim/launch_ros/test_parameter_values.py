@@ -1,4 +1,4 @@
-"""The types of parameter values, as a table, and as a real node gets them."""
+"""The types of parameter values as a table, and as received by a real node."""
 
 import json
 import math
@@ -159,7 +159,7 @@ def test_nested_names_are_joined_with_dots(nested):
     assert flattened(LaunchContext(), nested) == dict(leaves(nested, ""))
 
 
-# What a real node makes of them: one process with all values, in a file and as arguments.
+# A real node: one process with all values, in a file and as arguments.
 NODE = """\
 import json, sys
 import rclpy

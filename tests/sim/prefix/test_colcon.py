@@ -1,4 +1,4 @@
-"""A package of one's own, built by the real colcon, is found by `ros2` (skipped without the extra `colcon`)."""
+"""A user's package, built by the real colcon, is found by `ros2` (skipped without the extra `colcon`)."""
 
 import os
 import subprocess
@@ -58,7 +58,7 @@ ros2 launch my_robot hello.launch.py
 
 @pytest.fixture
 def workspace(tmp_path, free_domain):
-    """A folder with src/my_robot in it, and the environment of somebody who has activated this environment."""
+    """Return a folder with src/my_robot, and the environment of a user who has activated this environment."""
     files = {
         "package.xml": MANIFEST,
         "setup.py": SETUP,

@@ -1,4 +1,4 @@
-"""The launch files in the ament prefix: ros_gz_sim's and ros_gz_bridge's."""
+"""The launch files of ros_gz_sim and ros_gz_bridge in the ament prefix."""
 
 import os
 import signal
@@ -17,7 +17,7 @@ from gz_course.sim.prefix import local_setup
 
 SHARE = Path(local_setup.PREFIX) / "share"
 FILES = sorted(SHARE.glob("*/launch/*.launch.py"))
-# As in the packages of these names on a full installation.
+# The launch files of the packages of these names on a full installation.
 ARGUMENTS = {
     "gz_spawn_model.launch.py": [
         *("world", "file", "model_string", "topic", "entity_name", "allow_renaming", "x", "y", "z", "R", "P", "Y"),
@@ -32,9 +32,9 @@ ARGUMENTS = {
 
 @pytest.fixture
 def start(tmp_path):
-    """Run one of the launch files: a process whose output is read line by line, ended with the test.
+    """Run one of the launch files as a process whose output is read by line and which ends with the test.
 
-    All of one test share a partition.
+    All processes of a test share a partition.
     """
     running = []
     partition = uuid.uuid4().hex

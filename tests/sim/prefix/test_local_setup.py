@@ -1,4 +1,4 @@
-"""The ament prefix: what it holds, and how a fresh Python comes to know it."""
+"""The ament prefix: its content, and how a new Python finds it."""
 
 import os
 import shutil
@@ -18,7 +18,7 @@ PACKAGES = sorted(path.name for path in (PREFIX / "share/ament_index/resource_in
 
 @pytest.fixture
 def python(tmp_path):
-    """Run code in a Python that finds the hook the way site-packages would show it, in a cleaned environment."""
+    """Run code in a Python that loads the hook as from site-packages, in a cleaned environment."""
     site = tmp_path / "site"
     site.mkdir()
     shutil.copy(PREFIX / "gz_ros2_course_prefix.pth", site)
@@ -128,7 +128,7 @@ EXECUTABLES = sorted(path for path in (PREFIX / "lib").glob("*/*"))
 @pytest.mark.parametrize("path", EXECUTABLES, ids=lambda path: path.name)
 def test_an_executable_starts_with_the_course_python_whatever_the_path(path, tmp_path):
     assert path.parent.name in PACKAGES
-    # Files a Python that looks into the current folder would stumble over.
+    # Files that would be imported from the current folder by mistake.
     (tmp_path / "rclpy.py").write_text("raise SystemExit('wrong rclpy')")
     (tmp_path / "python3").write_text("#!/bin/sh\necho wrong python\n")
     (tmp_path / "python3").chmod(0o755)

@@ -1,4 +1,4 @@
-"""The transforms of a URDF, against MuJoCo's own kinematics of the same robot."""
+"""The transforms of a URDF against the kinematics of MuJoCo for the same robot."""
 
 import math
 import random
@@ -47,7 +47,7 @@ ARM = "".join(
 
 
 def chained(transforms, root):
-    """Pose of every link in the frame of the root."""
+    """Return the pose of every link in the frame of the root."""
     poses = {root: Pose()}
     for each in transforms:
         poses[each.child] = poses[each.parent] * each.pose

@@ -1,4 +1,4 @@
-"""StatePublisher between joint states and transforms; the transforms are caught before they need tf2_msgs."""
+"""StatePublisher between joint states and transforms, which are intercepted before tf2_msgs is needed."""
 
 import math
 
@@ -13,7 +13,7 @@ URDF = (
 
 @pytest.fixture
 def publisher(ros_node):
-    """A publisher with these values over the defaults; what it sends is in the lists `sent` and `static`."""
+    """Return a publisher with these values and the defaults; it appends to the lists `sent` and `static`."""
     from gz_course.sim.robot_state_publisher.publisher import DEFAULTS, StatePublisher
 
     def make(**values):

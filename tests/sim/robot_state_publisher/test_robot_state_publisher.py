@@ -1,4 +1,4 @@
-"""The executable robot_state_publisher: where the robot comes from, what is said, who else may do it."""
+"""The executable robot_state_publisher: sources of the robot, messages, and an installed one in its place."""
 
 import importlib.util
 import signal

@@ -1,4 +1,4 @@
-"""Running `ros2` as a process, in a DDS domain nobody else uses."""
+"""Fixtures that run `ros2` as a process in a DDS domain that no other program uses."""
 
 import os
 import signal
@@ -18,7 +18,7 @@ DEADLINE = 120.0
 
 @pytest.fixture(scope="session")
 def ros_domain(tmp_path_factory):
-    """The number of a DDS domain held for this session, set in the environment for children too."""
+    """Reserve a DDS domain for this session, set it in the environment, and return its number."""
     with Domain() as domain, pytest.MonkeyPatch.context() as patch:
         patch.setenv("ROS_DOMAIN_ID", str(domain.id))
         patch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
@@ -27,7 +27,7 @@ def ros_domain(tmp_path_factory):
 
 
 class Command:
-    """A running `ros2 …` in a session of its own whose lines are read as they come."""
+    """A running `ros2 …` in its own session, with its lines as they arrive."""
 
     def __init__(
         self,
@@ -59,7 +59,7 @@ class Command:
 
     def _read(self, name):
         with getattr(self.process, name) as stream:
-            for line in stream:  # ends when the last process of the tree has gone
+            for line in stream:  # ends after the last process of the tree
                 with self._changed:
                     self._lines[name].append(line)
                     self._changed.notify_all()
@@ -71,11 +71,11 @@ class Command:
             assert found, f"no {words!r} in {self._lines}"
 
     def wait(self):
-        """(exit code, stdout, stderr) at its end."""
+        """Return (exit code, stdout, stderr) at its end."""
         try:
             code = self.process.wait(DEADLINE)
         except subprocess.TimeoutExpired:
-            self.process.send_signal(signal.SIGABRT)  # it says where it hangs
+            self.process.send_signal(signal.SIGABRT)  # prints where it hangs
             code = self.process.wait(DEADLINE)
         for reader in self._readers:
             reader.join(DEADLINE)
@@ -106,13 +106,13 @@ def start():
 
 @pytest.fixture
 def ros2(start):
-    """Run `ros2` to its end: (exit code, stdout, stderr)."""
+    """Run `ros2` to its end; return (exit code, stdout, stderr)."""
     return lambda *arguments, **options: start(*arguments, **options).wait()
 
 
 @pytest.fixture
 def workspace(tmp_path):
-    """A prefix with the package my_robot; `workspace(name, text)` adds an executable to it."""
+    """Return a prefix with the package my_robot; `workspace(name, text)` adds an executable to it."""
     index = tmp_path / "install/share/ament_index/resource_index/packages"
     index.mkdir(parents=True)
     (index / "my_robot").touch()
@@ -131,9 +131,9 @@ def workspace(tmp_path):
 
 @pytest.fixture(scope="module")
 def robot(ros_domain):
-    """The node /robot/driver, which spins: parameters of every kind, a service, a publisher, a subscription.
+    """Return the spinning node /robot/driver: parameters of every kind, a service, a publisher, a subscription.
 
-    The node /robot/idle does not, and so its service /robot/silent does not answer.
+    The node /robot/idle does not spin, so its service /robot/silent does not answer.
     """
     import rclpy
     from geometry_msgs.msg import PointStamped, Twist
@@ -170,7 +170,7 @@ def robot(ros_domain):
 
     node.create_service(SetBool, "enable", enable)
     idle = rclpy.create_node("idle", namespace="/robot", context=context, start_parameter_services=False)
-    idle.create_service(Trigger, "silent", lambda request, response: response)  # nobody spins it
+    idle.create_service(Trigger, "silent", lambda request, response: response)  # it is not spun
 
     def publish():
         point = PointStamped()
@@ -194,9 +194,9 @@ def robot(ros_domain):
 
 @pytest.fixture(scope="session")
 def run_together():
-    """Run several `ros2` commands, a few at a time: their results in order.
+    """Run several `ros2` commands, a few at a time; return their results in order.
 
-    Many new participants at the same moment drown each other's announcements.
+    Many new participants at the same time lose each other's announcements.
     """
 
     def run(arguments):

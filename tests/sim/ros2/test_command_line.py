@@ -1,4 +1,4 @@
-"""The `ros2` command: help, unknown words, and stepping aside for a real ros2."""
+"""The `ros2` command: help, unknown words, and handing over to a real ros2."""
 
 import argparse
 import sys

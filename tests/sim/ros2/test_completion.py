@@ -1,4 +1,4 @@
-"""What a Tab offers."""
+"""The completions at a Tab."""
 
 import io
 import shlex

@@ -1,4 +1,4 @@
-"""How a newcomer meets everybody: packets, the table of ports, and real participants."""
+"""Discovery by a new participant: packets, the table of ports, and real participants."""
 
 import argparse
 import socket
@@ -18,7 +18,7 @@ PREFIXES = st.binary(min_size=12, max_size=12)
 
 
 def parameters(data):
-    """Identifier -> value of a parameter list, and what follows it."""
+    """Return the values of a parameter list by identifier, and the remaining bytes."""
     found = {}
     while True:
         identifier, length = struct.unpack_from("<HH", data)
@@ -29,7 +29,7 @@ def parameters(data):
 
 
 def submessage(packet, prefix):
-    """(flags, sequence number, what follows the fixed part) of the one DATA submessage of a packet."""
+    """Return (flags, sequence number, data after the fixed part) of the single DATA submessage of a packet."""
     assert packet[:8] == b"RTPS\x02\x02\0\0"
     assert packet[8:20] == prefix
     kind, flags, length = struct.unpack_from("<BBH", packet, 20)
@@ -66,7 +66,7 @@ OPTIONS = argparse.Namespace(spin_time=None, use_sim_time=False)
 
 
 def seconds_until_complete(*nodes):
-    """How long a newcomer takes to settle, having then seen these nodes."""
+    """Return the time [s] after which a new node knows these nodes."""
     start = time.monotonic()
     with Graph(OPTIONS) as newcomer:
         newcomer.settle()
@@ -76,14 +76,14 @@ def seconds_until_complete(*nodes):
 
 
 def test_a_newcomer_meets_everybody_well_before_their_next_announcement(robot):
-    """Without the scout every second round waits for that, up to 3 s; a busy machine may spoil some series."""
+    """Without the scout every second round takes up to 3 s; a busy machine may spoil some series."""
     series = (max(seconds_until_complete("/robot/driver") for _ in range(ROUNDS)) for _ in range(5))
     assert any(longest < 2.0 for longest in series)
 
 
 @pytest.fixture
 def first_contact(monkeypatch):
-    """How long one has to wait for somebody who may or may not be there [s], shortened."""
+    """Shorten the time [s] to wait for participants that may not exist."""
     monkeypatch.setattr(graph, "FIRST_CONTACT", 1.2)
     return 1.2
 
@@ -94,14 +94,14 @@ def test_without_a_table_of_ports_it_takes_as_long_as_announcements_do(robot, mo
 
 
 def test_a_program_that_is_no_participant_is_not_waited_for_for_ever(robot, ros_domain, first_contact):
-    """Its port is one of the domain's: it might be a node that is just starting."""
+    """Its port is one of the domain, so it might be a node that is starting."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as stranger:
         stranger.bind(("", 7410 + 250 * ros_domain + 2 * 100))
         assert first_contact <= seconds_until_complete("/robot/driver") < first_contact + 1.0
 
 
 class FakeNode:
-    """A node that has heard of one participant only: itself."""
+    """A node that knows only one participant: itself."""
 
     def get_name(self):
         return "fake"

@@ -1,4 +1,4 @@
-"""`ros2 doctor`, `ros2 bag` and `ros2 daemon`: what is somewhere else here, or not at all."""
+"""`ros2 doctor`, `ros2 bag` and `ros2 daemon`: commands that are elsewhere or missing here."""
 
 import argparse
 import subprocess
@@ -12,7 +12,7 @@ from gz_course.sim.ros2.errors import CommandError
 
 @pytest.fixture
 def course(tmp_path, monkeypatch):
-    """Puts a `course` beside the Python; `course(text)` is its program."""
+    """Install a program `course` beside the Python; its text is the argument of `course(text)`."""
     monkeypatch.setattr(sys, "executable", str(tmp_path / "python"))
     monkeypatch.setenv("PATH", "/usr/bin:/bin")
     # run_child waits for signals, which in a test run other threads may get.

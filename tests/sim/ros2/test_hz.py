@@ -8,7 +8,7 @@ MS = 1_000_000
 
 
 def rate_of(*stamps, window=10000):
-    """The report after messages at these times in ms."""
+    """Return the report after messages at these times [ms]."""
     clock = iter(stamps)
     rate = Rate(lambda: next(clock) * MS, window)
     for _ in stamps:

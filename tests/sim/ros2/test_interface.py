@@ -1,4 +1,4 @@
-"""`ros2 interface`: definitions as they are installed."""
+"""`ros2 interface`: the installed definitions."""
 
 import pytest
 import yaml
@@ -43,7 +43,7 @@ geometry_msgs/TwistWithCovariance twist
 
 @pytest.fixture
 def interface(capsys, monkeypatch):
-    """Run `ros2 interface` in this process: (exit code, stdout, stderr)."""
+    """Run `ros2 interface` in this process; return (exit code, stdout, stderr)."""
     monkeypatch.setattr("signal.signal", lambda number, handler: None)
     monkeypatch.setattr("gz_course.sim.ros2.command_line.hand_over", lambda arguments: None)
 
@@ -84,7 +84,7 @@ def test_show_reads_a_name_from_standard_input(ros2):
 
 
 def test_every_installed_interface_is_shown_down_to_its_leaves(interface):
-    """Below a field stands something, one step further in, exactly if the field is a message that has fields."""
+    """Below a field there are lines with more indentation exactly if the field is a message with fields."""
     for name in interface_names():
         code, text, errors = interface("show", name, "--no-comments")
         assert (code, errors) == (0, "")

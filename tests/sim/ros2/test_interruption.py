@@ -1,4 +1,4 @@
-"""A signal that comes where Python drops exceptions is heard at the next check."""
+"""A signal that arrives where Python drops exceptions takes effect at the next check."""
 
 import os
 import signal
@@ -10,7 +10,7 @@ from gz_course.sim.ros2 import interruption
 
 
 class Deaf:
-    """Is interrupted while it is deleted."""
+    """An object that is interrupted during its deletion."""
 
     def __del__(self):
         os.kill(os.getpid(), signal.SIGINT)
@@ -19,7 +19,7 @@ class Deaf:
 
 
 class Broken:
-    """Fails while it is deleted."""
+    """An object whose deletion fails."""
 
     def __del__(self):
         raise ValueError("a fault of its own")

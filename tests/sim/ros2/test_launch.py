@@ -1,4 +1,4 @@
-"""`ros2 launch`: finding the file, its arguments, its options, its exit codes, and a robot driven under it."""
+"""`ros2 launch`: finding the file, arguments, options, exit codes, and a robot that is driven."""
 
 import re
 import shutil
@@ -34,14 +34,14 @@ def log_folder(tmp_path, monkeypatch):
 
 @pytest.fixture
 def gz(monkeypatch):
-    """A Gazebo partition that nobody else uses."""
+    """Return a Gazebo partition that no other program uses."""
     monkeypatch.setenv("GZ_IP", "127.0.0.1")
     monkeypatch.setenv("GZ_PARTITION", uuid.uuid4().hex)
 
 
 @pytest.fixture
 def write(tmp_path):
-    """Write a launch file with these entities; its path."""
+    """Write a launch file with these entities; return its path."""
 
     def write(entities, name="robot.launch.py"):
         path = tmp_path / name
@@ -53,7 +53,7 @@ def write(tmp_path):
 
 @pytest.fixture
 def package(workspace, tmp_path):
-    """The package my_robot with two launch files; the environment that knows it."""
+    """Return the package my_robot with two launch files, and the environment that contains it."""
     share = tmp_path / "install/share/my_robot"
     for name in ("launch/drive.launch.py", "launch/more/twin.launch.py", "other/twin.launch.py"):
         path = share / name
@@ -63,7 +63,7 @@ def package(workspace, tmp_path):
 
 
 def after_greeting(text):
-    """The lines after the two with which every launch begins."""
+    """Return the lines after the two at the beginning of every launch."""
     first, second, *rest = text.splitlines()
     assert first.startswith("[INFO] [launch]: All log files can be found below ")
     assert second == "[INFO] [launch]: Default logging verbosity is set to INFO"
@@ -225,7 +225,7 @@ def test_what_children_print_is_seen_when_it_is_printed(start, write):
     command.process.send_signal(signal.SIGINT)
     code, text, _ = command.wait()
     assert code == 0
-    assert "[INFO] [child-1]: sending signal 'SIGINT' to process[child-1]" in text  # nobody sits at a terminal
+    assert "[INFO] [child-1]: sending signal 'SIGINT' to process[child-1]" in text  # there is no terminal
 
 
 def test_on_a_terminal_ctrl_c_needs_no_explanation(start, write):

@@ -13,7 +13,7 @@ MS = 1_000_000
 
 
 def bandwidth_of(*messages, now, window=100):
-    """The report at `now` after (ms, bytes) messages."""
+    """Return the report at `now` after (ms, bytes) messages."""
     clock = iter([*(stamp for stamp, _ in messages), now])
     bandwidth = Bandwidth(lambda: next(clock) * MS, window)
     for _, size in messages:
@@ -43,7 +43,7 @@ def test_a_clock_that_jumps_back_begins_a_new_bandwidth():
 
 
 def delays_of(*messages, window=100):
-    """The reports after each of the (clock, stamp) messages in ms."""
+    """Return the reports after each of the (clock, stamp) messages [ms]."""
     clock = iter([now for now, _ in messages])
     delay = Delay(lambda: next(clock) * MS, window)
     for _, stamp in messages:

@@ -61,7 +61,7 @@ def test_csv_has_every_value_once():
     assert to_csv(header, TextFormat()) == "7,0,lidar"
 
 
-# YAML takes the line breaks of Unicode for its own.
+# YAML treats the line breaks of Unicode as its own.
 @example("a\x85b")
 @example("\u2028")
 @example("a\u2029")

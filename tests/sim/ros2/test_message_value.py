@@ -1,4 +1,4 @@
-"""YAML to messages: round trip with what `ros2 topic echo` prints, and one sentence for what does not fit."""
+"""YAML to messages: round trip with the output of `ros2 topic echo`, and one sentence for invalid values."""
 
 import importlib
 import string
@@ -36,7 +36,7 @@ TEXTS = st.one_of(
 
 
 def values(kind):
-    """Any value of a field of this type."""
+    """Return a strategy for the values of a field of this type."""
     if isinstance(kind, AbstractNestedType):
         sizes = {"max_size": min(4, getattr(kind, "maximum_size", 4))}
         if isinstance(kind, Array):
@@ -58,7 +58,7 @@ def values(kind):
 
 
 def messages(cls):
-    """Any message of a class."""
+    """Return a strategy for the messages of a class."""
     names = list(cls.get_fields_and_field_types())
     return st.builds(cls, **dict(zip(names, map(values, cls.SLOT_TYPES), strict=True)))
 
@@ -82,7 +82,7 @@ def test_what_echo_prints_can_be_published_again(cls, data):
 
 
 def test_every_kind_of_field_is_drawn():
-    """The types above have arrays, sequences, bounded ones, bytes, characters and messages in messages."""
+    """The types above have arrays, sequences, bounded ones, bytes, characters and nested messages."""
     kinds = {type(kind) for cls in REAL_TYPES for kind in cls.SLOT_TYPES}
     assert {Array, BoundedSequence, BasicType} <= kinds
 

@@ -1,4 +1,4 @@
-"""`ros2 node` against a node that runs."""
+"""`ros2 node` against a running node."""
 
 import pytest
 

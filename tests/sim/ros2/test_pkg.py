@@ -1,4 +1,4 @@
-"""`ros2 pkg`: what is installed, and where."""
+"""`ros2 pkg`: the installed packages and their folders."""
 
 import sys
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""`ros2 topic pub`, `bw`, `delay` and `find` against nodes that listen and publish for real."""
+"""`ros2 topic pub`, `bw`, `delay` and `find` against real nodes."""
 
 import itertools
 import os
@@ -38,14 +38,14 @@ def answers(robot, run_together):
     def run(names):
         return dict(zip(names, run_together(*(["topic", *ASKED[name]] for name in names)), strict=True))
 
-    # Who looks at the graph must not see the topics and types of the commands that publish.
+    # The topics and types of the publishing commands must not be visible in the graph.
     publishing = [name for name in ASKED if ASKED[name][0] == "pub"]
     return run([name for name in ASKED if name not in publishing]) | run(publishing)
 
 
 @pytest.fixture
 def heard(robot):
-    """Messages of /heard as they arrive, and a way to wait for so many."""
+    """Return the messages of /heard as they arrive, and a function that waits for a number of them."""
     from std_msgs.msg import Header
 
     messages, arrived = [], threading.Condition()

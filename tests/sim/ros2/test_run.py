@@ -1,4 +1,4 @@
-"""`ros2 run`: finding the executable, its arguments, its exit code and its signals."""
+"""`ros2 run`: finding the executable, arguments, exit code and signals."""
 
 import os
 import signal
@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-# Says what it hears, after a child of its own has said it.
+# Prints the signals it receives, after its own child has printed them.
 LISTENER = f"""\
 #!{sys.executable}
 import os, signal, sys

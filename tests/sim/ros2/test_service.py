@@ -1,4 +1,4 @@
-"""`ros2 service` against services that run."""
+"""`ros2 service` against running services."""
 
 import os
 import re

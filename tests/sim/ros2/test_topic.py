@@ -1,4 +1,4 @@
-"""`ros2 topic` against nodes that publish and listen for real."""
+"""`ros2 topic` against real publishers and subscriptions."""
 
 import os
 import re
@@ -15,14 +15,14 @@ SYSTEM = ["/parameter_events", "/rosout"]
 
 @pytest.fixture(scope="module")
 def nodes(ros_domain):
-    """Two nodes: /talker publishes numbered texts, a scan and a latched map name; /listener listens."""
+    """Return two nodes: /talker publishes numbered texts, a scan and a latched map name; /listener subscribes."""
     import rclpy
     from rclpy.executors import SingleThreadedExecutor
     from rclpy.qos import DurabilityPolicy, QoSProfile
     from sensor_msgs.msg import LaserScan
     from std_msgs.msg import Int32, String
 
-    # Two contexts: one participant cannot have a topic of two types.
+    # Two contexts, because one participant cannot have two types on a topic.
     context, other = rclpy.Context(), rclpy.Context()
     rclpy.init(context=context, domain_id=ros_domain)
     rclpy.init(context=other, domain_id=ros_domain)
@@ -76,7 +76,7 @@ LISTINGS = {
 
 @pytest.fixture(scope="module")
 def listings(nodes, run_together):
-    """Results of the verbs that wait for the whole graph or for a topic that does not come, run side by side."""
+    """Return the results of the verbs that wait for the whole graph or for a missing topic, run in parallel."""
     return dict(zip(LISTINGS, run_together(*(["topic", *words] for words in LISTINGS.values())), strict=True))
 
 

@@ -1,7 +1,7 @@
-"""Real Python message classes of ROS packages that are not installed, made by ROS's own generator.
+"""Python message classes of ROS packages that are not installed, made by ROS's own generator.
 
-Only the Python half is made: such messages can be filled and converted, but not sent over DDS. The definitions
-list the fields of the Jazzy packages.
+Only the Python half is generated: the messages can be filled and converted, but not sent over DDS. The definitions list
+the fields of the Jazzy packages.
 """
 
 import contextlib
@@ -209,7 +209,7 @@ DEFINITIONS = {
 
 
 def generate(folder: Path) -> Path:
-    """Write the packages below ``folder``; returns what belongs on ``sys.path``."""
+    """Write the packages below `folder`; return the folder for `sys.path`."""
     with contextlib.redirect_stdout(io.StringIO()):
         for package, interfaces in DEFINITIONS.items():
             _generate_package(folder, package, interfaces)
@@ -247,6 +247,6 @@ def _generate_package(folder, package, interfaces):
 
 
 def _qualified(line, package, interfaces):
-    """A field of a type of the same package, with the package: a service's file wants it."""
+    """Return a line in which the type of a field of the same package has the package name, as service files require."""
     kind = line.split(" ")[0].partition("[")[0]
     return f"{package}/{line}" if f"msg/{kind}" in interfaces else line

@@ -1,7 +1,7 @@
-"""Builds ROS packages that are not installed, with ROS's own generators and the C compiler: they go over DDS.
+"""Builds ROS packages that are not installed, with ROS's own generators and the C compiler, for use over DDS.
 
-`python -m tests.sim.ros_gz_bridge.built_interfaces FOLDER` leaves what belongs on PYTHONPATH in FOLDER/python. Of each
-package the Python half is complete; the C half has what `BUILT` names, because a compiler takes its time.
+`python -m tests.sim.ros_gz_bridge.built_interfaces FOLDER` writes the folder for PYTHONPATH to FOLDER/python. The
+Python half of each package is complete; the C half contains only the types in `BUILT`, because compiling is slow.
 """
 
 import contextlib
@@ -37,7 +37,7 @@ LIBRARIES = [
 
 
 def build(folder: Path) -> None:
-    """Generate, compile and link every package of `BUILT`. Raises RuntimeError with what the compiler says."""
+    """Generate, compile and link every package of `BUILT`. Raises RuntimeError with the output of the compiler."""
     generate(folder)
     for package, interfaces in BUILT.items():
         sources = _sources(folder, package, [f"{folder / 'idl' / package}:{name}.idl" for name in interfaces])
@@ -48,7 +48,7 @@ def build(folder: Path) -> None:
         shared = [str(made) for made in objects.values() if made not in entries.values()]
         _run("g++", "-shared", "-o", f"{out}/lib{package}.so", *shared, *_linked())
         own = [f"-L{out}", "-Wl,--no-as-needed", f"-l{package}", "-Wl,-rpath,$ORIGIN"]
-        for part in DDS:  # ROS loads a library of this name, and finds one that is loaded already
+        for part in DDS:  # ROS loads a library of this name, which is already loaded
             name = f"lib{package}__{part}.so"
             _run("g++", "-shared", f"-Wl,-soname,{name}", "-o", f"{out}/{name}", *own)
         own += [f"-l{package}__{part}" for part in DDS]

@@ -1,4 +1,4 @@
-"""A DDS domain and a Gazebo partition nobody else uses, ROS, a parameter_bridge, waiting with a deadline."""
+"""Fixtures: a DDS domain and a Gazebo partition for the session, ROS, a parameter_bridge, waiting with a deadline."""
 
 import os
 import signal
@@ -15,7 +15,7 @@ from gz_course.grader.run.domain import Domain
 from gz_course.tests.sim.spinning import spin
 
 with warnings.catch_warnings():
-    # The parser that ROS's message packages bring along (lark) still imports a deprecated module.
+    # lark, the parser in ROS's message packages, still imports a deprecated module.
     warnings.simplefilter("ignore", DeprecationWarning)
     import rosidl_generator_py  # noqa: F401
 
@@ -24,7 +24,7 @@ COMMAND = [sys.executable, "-m", "gz_course.sim.ros_gz_bridge.parameter_bridge"]
 
 
 class Inbox:
-    """A callback that keeps what it is given; `wait(n)` returns n messages, or fails in time."""
+    """A callback that stores messages; `wait(n)` returns n messages, or fails at a deadline."""
 
     def __init__(self):
         self.messages = []
@@ -43,7 +43,7 @@ class Inbox:
 
 
 def _eventually(condition, what, timeout=DEADLINE):
-    """Wait for something that announces itself by no event (DDS discovery, a counter)."""
+    """Wait for a condition that causes no event (DDS discovery, a counter)."""
     pause, end = threading.Event(), time.monotonic() + timeout
     while not condition():
         assert time.monotonic() < end, f"not within {timeout} s: {what}"
@@ -62,14 +62,14 @@ def inbox():
 
 @pytest.fixture(scope="session")
 def ros_domain(tmp_path_factory):
-    """The number of a DDS domain held for this session, set in the environment for children too."""
+    """Reserve a DDS domain for this session, set it in the environment, and return its number."""
     with Domain() as domain, pytest.MonkeyPatch.context() as patch:
         patch.setenv("ROS_DOMAIN_ID", str(domain.id))
         patch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
         patch.setenv("ROS_LOG_DIR", str(tmp_path_factory.mktemp("ros_log")))
         patch.setenv(
             "FASTDDS_BUILTIN_TRANSPORTS", "UDPv4"
-        )  # shared memory leaves files behind when a process is killed
+        )  # a killed process does not remove its files of shared memory
         patch.setenv("GZ_PARTITION", f"test-{uuid.uuid4().hex}")
         patch.setenv("GZ_IP", "127.0.0.1")
         yield domain.id
@@ -118,7 +118,7 @@ def ros(ros_domain):
 
 
 class Process:
-    """A running parameter_bridge whose log is read as it comes."""
+    """A running parameter_bridge with its log lines as they arrive."""
 
     def __init__(self, *arguments, command=COMMAND):
         self.process = subprocess.Popen(

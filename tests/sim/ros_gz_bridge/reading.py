@@ -1,4 +1,4 @@
-"""Entries of a text or of arguments, or the ConfigError about them."""
+"""Returns the entries of a text or of arguments, or raises the ConfigError about them."""
 
 from gz_course.sim.ros_gz_bridge.arguments import read_arguments
 from gz_course.sim.ros_gz_bridge.config import read_yaml, topics_of

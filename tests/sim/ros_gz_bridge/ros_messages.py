@@ -1,4 +1,4 @@
-"""Any ROS message of a class, for property-based tests; and messages as plain values that can be compared."""
+"""ROS messages of any class for property-based tests, and messages as comparable plain values."""
 
 import importlib
 import math
@@ -30,7 +30,7 @@ SCALARS = {
 
 
 def messages(ros_class):
-    """Any ROS message of a class, built from what the class says of its fields."""
+    """Return a strategy for the messages of a class, from its type description."""
     if ros_class.__name__ in _SPECIAL:
         return _SPECIAL[ros_class.__name__]()
     fields = ros_class.get_fields_and_field_types()
@@ -97,7 +97,7 @@ _SPECIAL = {"Image": images, "JointState": joint_states, "ParameterValue": param
 
 
 def plain(message):
-    """A message as nested dicts in which nan equals nan."""
+    """Return a message as nested dicts in which nan equals nan."""
     if hasattr(message, "get_fields_and_field_types"):
         return {name: plain(getattr(message, name)) for name in message.get_fields_and_field_types()}
     if isinstance(message, (array, np.ndarray, list, tuple)):

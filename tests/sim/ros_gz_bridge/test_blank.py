@@ -1,4 +1,4 @@
-"""Blank messages equal those of the constructor and share nothing that can be changed."""
+"""Blank messages equal those of the constructor and share no mutable value."""
 
 from array import array
 
@@ -15,7 +15,7 @@ CLASSES = sorted({pair.ros_class for pair in pairs()}, key=str)
 
 
 def changeable(message):
-    """The identities of everything in a message that can be changed."""
+    """Return the identities of all mutable values in a message."""
     values = [getattr(message, slot) for slot in message.__slots__]
     for value in values:
         if hasattr(value, "get_fields_and_field_types"):

@@ -26,7 +26,7 @@ with_and_without_threads = pytest.mark.parametrize("threaded", [False, True], id
 
 
 class Stage:
-    """A node for the bridge, one for the test, and the same on the Gazebo side; topics of its own."""
+    """A node for the bridge and one for the test, on both sides, with their own topics."""
 
     def __init__(self, ros, eventually):
         self.topic = f"/t{uuid.uuid4().hex}"

@@ -1,4 +1,4 @@
-"""The program that lists the pairs: its answers, its refusals, and that `ros2 run` finds it."""
+"""The program that lists the pairs: its output, its errors, and finding it by `ros2 run`."""
 
 import importlib.util
 import subprocess

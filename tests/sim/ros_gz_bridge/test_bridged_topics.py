@@ -1,4 +1,4 @@
-"""What a bridge tells of itself can be read back, and is what it really bridges."""
+"""The parameter `bridged_topics` can be read back and describes the real bridges."""
 
 import pytest
 from hypothesis import given
@@ -12,7 +12,7 @@ ENTRIES = st.builds(BridgeEntry, NAMES, NAMES, NAMES, NAMES, direction=st.sample
 
 
 class Node:
-    """As much of a node as is asked: names stay as they are, one parameter is kept."""
+    """A minimal substitute for a node: names are not changed, one parameter is stored."""
 
     def __init__(self):
         self.offered = None

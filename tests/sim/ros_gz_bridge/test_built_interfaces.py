@@ -1,4 +1,4 @@
-"""Packages that pip does not have, once they are there: their services and transforms go over DDS by themselves."""
+"""Packages that pip does not provide: after they are built, their services and transforms are bridged over DDS."""
 
 import os
 import shutil
@@ -26,7 +26,7 @@ pytestmark = [
 
 @pytest.fixture(scope="module")
 def python_path(tmp_path_factory):
-    """A folder with the built packages."""
+    """Return a folder with the built packages."""
     folder = tmp_path_factory.mktemp("built")
     words = [sys.executable, "-m", "gz_course.tests.sim.ros_gz_bridge.built_interfaces", str(folder)]
     done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, timeout=600, check=False)
@@ -36,13 +36,13 @@ def python_path(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def bridge(programs, python_path):
-    """A bridge of four services and of transforms beside a running world `small`."""
+    """Return a bridge of four services and of transforms beside a running world `small`."""
     programs.gz_sim(GROUND)
     services = [f"/world/small/{name}@ros_gz_interfaces/srv/{kind}" for name, kind in KINDS.items()]
     transforms = "/model/robot/tf@tf2_msgs/msg/TFMessage[gz.msgs.Pose_V"
     bridge = programs.ros2("run", "ros_gz_bridge", "parameter_bridge", *services, transforms, **python_path)
     bridge.wait_for("ready: 5 bridges")
-    programs.scene()  # the world is up
+    programs.scene()  # the world is running
     yield bridge
     assert bridge.stop() == 0
 

@@ -1,4 +1,4 @@
-"""The configuration is read as ros_gz_bridge reads it, and every fault is said with its place."""
+"""The configuration is read like in ros_gz_bridge, and every fault is reported with its place."""
 
 import pytest
 import yaml
@@ -54,7 +54,7 @@ def errors_of(text, **options):
 
 
 def bridge(**changes):
-    """YAML of one good bridge with some keys changed; None leaves a key out."""
+    """Return the YAML of a valid bridge with some keys changed; None omits a key."""
     keys = {
         "topic_name": "/scan",
         "ros_type_name": "sensor_msgs/msg/LaserScan",
@@ -154,7 +154,7 @@ def test_what_is_written_is_read(written):
             for entry in written
         ]
     )
-    read = read_yaml(text, "x").topics  # whether such bridges make sense is another question
+    read = read_yaml(text, "x").topics  # the plausibility of such bridges is checked elsewhere
     assert [BridgeEntry(**(vars(entry) | {"source": ""})) for entry in read] == written
 
 

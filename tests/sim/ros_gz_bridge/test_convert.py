@@ -1,4 +1,4 @@
-"""Every pair in the table survives the way there and back, but for what the other side has no words for."""
+"""Every pair in the table survives conversion and back, except for fields without a counterpart."""
 
 import math
 import operator
@@ -24,7 +24,7 @@ from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError, find_pair
 from gz_course.tests.sim.ros_gz_bridge.ros_messages import messages, plain
 
 PAIRS = type_pairs.pairs()
-# What a message of Gazebo cannot carry, and so what comes back.
+# The fields that a Gazebo message cannot hold, and their values after conversion back.
 _REPLACED = {
     "BatteryState": {
         "temperature": "nan",
@@ -49,7 +49,7 @@ _REPLACED = {
 
 
 def lossy(pair, expected):
-    """What is left of a ROS message (as `plain`) after a visit to Gazebo."""
+    """Return the ROS message (as `plain`) that is expected after conversion to Gazebo and back."""
     for key in ("header", None):
         inside = expected.get(key, {}) if key else expected
         for name in ("frame_id", "child_frame_id"):

@@ -1,6 +1,6 @@
-"""Pairs and services of ROS packages that are not installed appear with the package, and convert as they should.
+"""Pairs and services of ROS packages that are not installed appear with the package and convert correctly.
 
-The message classes are real ones made for the test, without DDS type support.
+The message classes are generated for the test, without DDS type support.
 """
 
 import importlib
@@ -56,13 +56,13 @@ SERVICES = [
     ("ros_gz_interfaces/srv/SetEntityPose", "gz.msgs.Pose"),
     ("ros_gz_interfaces/srv/SpawnEntity", "gz.msgs.EntityFactory"),
 ]
-# These are computed from other fields or lose some; they have tests of their own.
+# Fields of these are computed or lost; they have their own tests.
 _COMPUTED = {"GPSFix", "Dvl", "ParamVec", "Detection2D", "Detection2DArray", "Detection3D", "Detection3DArray"}
 
 
 @pytest.fixture(scope="module")
 def installed(tmp_path_factory):
-    """The absent packages, installed; afterwards everything is as if they had never been."""
+    """Install the absent packages, and remove them completely afterwards."""
     ours = ("ros_gz_bridge.convert.", *PACKAGES)
     before = set(sys.modules)
     with pytest.MonkeyPatch.context() as patch:
@@ -92,7 +92,7 @@ def test_all_pairs_and_services_appear_with_their_packages(installed):
 
 
 def lossy(expected):
-    """What is left of a message (as `plain`) after a visit to Gazebo, wherever in it a frame stands."""
+    """Return the message (as `plain`) expected after conversion to Gazebo and back, with frames at any depth."""
     if isinstance(expected, dict):
         return {
             key: value.replace("::", "/") if key in ("frame_id", "child_frame_id") else lossy(value)

@@ -1,4 +1,4 @@
-"""The echo filter drops echoes and nothing else, whatever arrives in whatever order."""
+"""The echo filter drops exactly the echoes, for any messages in any order."""
 
 import threading
 from collections import Counter
@@ -13,7 +13,7 @@ US = 1000
 
 
 class Clock:
-    """Nanoseconds that advance only by being told."""
+    """A clock [ns] that advances only on request."""
 
     def __init__(self):
         self.now = 10**18
@@ -23,7 +23,7 @@ class Clock:
 
 
 def publish(echo_filter, clock, content, took=20 * US):
-    """Publish like DDS does: the stamp is taken somewhere inside the call."""
+    """Publish like DDS: the stamp is taken during the call."""
     with echo_filter.publishing(content):
         clock.now += took // 2
         stamp = clock.now
@@ -45,7 +45,7 @@ def test_what_passes_is_exactly_what_others_sent(script, order):
     for kind, content in script:
         if kind != "foreign":
             arriving.append(publish(echo_filter, clock, content))
-        if kind == "during":  # somebody else sends the same in the same microsecond
+        if kind == "during":  # another publisher sends the same in the same microsecond
             arriving.append((content, clock.now - 5 * US))
             foreign[content] += 1
         if kind == "other":  # or something else

@@ -1,4 +1,4 @@
-"""Large images reach subscribers without settings of their own, through the publisher's segment of shared memory."""
+"""Large images reach subscribers without special settings, through the publisher's segment of shared memory."""
 
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import Image
@@ -33,12 +33,12 @@ def test_large_pictures_reach_a_best_effort_subscriber(start, ros, inbox, eventu
     try:
         with Node() as gz:
             number = gz.advertise("/number", GzInt32)
-            # Small ones say when DDS has connected the two processes, whatever becomes of the large ones.
+            # Small images show when DDS has connected the two processes, independently of the large ones.
             eventually(lambda: (number.publish(GzInt32(data=1)), numbers.messages)[1], "a small message arrives")
             eventually(lambda: subscriptions[0].get_publisher_count() == 1, "the bridge publishes pictures")
             publisher = gz.advertise("/hd", GzImage)
             assert publisher.wait_for_subscribers(timeout=120)
-            # The other half of the connection announces itself by nothing: the first picture may be too early.
+            # The other half of the connection causes no event, so the first image may be too early.
             eventually(lambda: (publisher.publish(picture), pictures.messages)[1], "the first picture", timeout=120)
             for count in range(len(pictures.messages), len(pictures.messages) + PICTURES):
                 publisher.publish(picture)

@@ -1,4 +1,4 @@
-"""lint says what parameter_bridge would say, and its exit code is that of the worst finding."""
+"""lint reports the findings of parameter_bridge, and its exit code is that of the worst finding."""
 
 import os
 import subprocess

@@ -1,4 +1,4 @@
-"""parameter_bridge as an ordinary process, between a Gazebo node and a ROS node of this one."""
+"""parameter_bridge as a process, between a Gazebo node and a ROS node of this process."""
 
 import re
 import signal
@@ -37,7 +37,7 @@ CONFIG = """\
 
 @pytest.fixture(params=["arguments", "file"])
 def bridged(request, start, tmp_path):
-    """(process, ROS and gz command topic, ROS and gz scan topic) for both ways to configure."""
+    """Return (process, ROS and gz command topic, ROS and gz scan topic) for both kinds of configuration."""
     if request.param == "file":
         file = tmp_path / "bridge.yaml"
         file.write_text(CONFIG)
@@ -70,7 +70,7 @@ def test_messages_pass_both_ways(bridged, ros, inbox, eventually):
             eventually(lambda: subscription.get_publisher_count() == 1, "the bridge publishes to ROS")
             twist = Twist()
             twist.linear.x = 1.5
-            # Discovery is one-sided for a moment: the first messages may find nobody listening.
+            # Discovery is one-sided at first, so the first messages may have no receiver.
             eventually(lambda: (publisher.publish(twist), commands.messages)[1], "a command arrives")
             scan = GzLaserScan(frame="a::b", count=1, ranges=[2.5])
             eventually(lambda: (gz_publisher.publish(scan), scans.messages)[1], "a scan arrives")

@@ -1,4 +1,4 @@
-"""What the ROS parameters of a bridge do, in real processes: every way to give them, and what is wrong with them."""
+"""The effects of the ROS parameters of a bridge in real processes: all ways to set them, and errors."""
 
 import os
 import signal
@@ -37,7 +37,7 @@ PARAMETERS = """\
 
 
 def fails(*arguments):
-    """The sentences of a bridge that does not start."""
+    """Return the error sentences of a bridge that does not start."""
     command = [sys.executable, "-m", "gz_course.sim.ros_gz_bridge.parameter_bridge", *arguments]
     done = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False)
     assert done.returncode == 2, done.stderr
@@ -60,7 +60,7 @@ def test_bridges_from_a_parameter_file_in_a_namespace(start, ros, inbox, eventua
             eventually(lambda: (publisher.publish(GzLaserScan(frame="x")), scans.messages)[1], "a scan arrives")
             assert scans.messages[0].header.frame_id == "front"
 
-        def known() -> bool:  # DDS tells of endpoints before it tells the names of their nodes
+        def known() -> bool:  # DDS announces endpoints before the names of their nodes
             found = ros.node.get_subscriptions_info_by_topic("/robot1/cmd")
             return bool(found) and not found[0].node_name.startswith("_NODE_NAME_UNKNOWN")
 

@@ -1,4 +1,4 @@
-"""The profiles a file may name are those of ROS."""
+"""The named QoS profiles are those of ROS."""
 
 import pytest
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy

@@ -1,4 +1,4 @@
-"""A listener hands over what comes from ROS in a thread of its own, whatever the node's executor is doing."""
+"""A listener passes ROS messages on in its own thread, independently of the node's executor."""
 
 import threading
 import uuid
@@ -18,7 +18,7 @@ def fails(error):
 
 
 class Listened:
-    """A node with a listener; topics nobody else uses."""
+    """A node with a listener, on topics that no other program uses."""
 
     def __init__(self, ros, eventually):
         self.ros = ros

@@ -1,4 +1,4 @@
-"""A Gazebo service is called through ROS; what goes wrong is answered and said, and topics go on meanwhile."""
+"""A Gazebo service is called through ROS; failures are answered and logged, and topics are bridged meanwhile."""
 
 import threading
 import uuid
@@ -23,7 +23,7 @@ DEADLINE = 120.0
 
 @pytest.fixture(autouse=True)
 def set_bool(monkeypatch):
-    """A pair of our own: the services that Gazebo's own bridge knows need packages that may be absent."""
+    """Add a pair for tests, because the services of Gazebo's own bridge need packages that may be absent."""
     monkeypatch.setattr(type_pairs, "_services", dict(type_pairs._services))
     type_pairs.add_service(
         *TYPES,

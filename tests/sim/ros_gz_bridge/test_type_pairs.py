@@ -1,4 +1,4 @@
-"""The table of pairs is found by looking into its folder, and says what is missing."""
+"""The table of pairs is found by scanning its folder, and reports missing packages."""
 
 import importlib.util
 

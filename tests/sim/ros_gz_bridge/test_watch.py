@@ -1,4 +1,4 @@
-"""The watch says once what is missing on Gazebo's side, what went away, and what came back."""
+"""The watch reports once which publishers on Gazebo's side are missing, have ended and have returned."""
 
 import uuid
 
@@ -22,7 +22,7 @@ class Logger(list):
 
 
 class Bridge:
-    """What the watch asks of a bridge."""
+    """The methods of a bridge that the watch uses."""
 
     def __init__(self, *entries):
         self.entries = entries

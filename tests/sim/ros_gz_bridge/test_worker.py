@@ -1,4 +1,4 @@
-"""A worker keeps order, holds a bounded number of messages, and lets others go on."""
+"""A worker keeps the order, holds a bounded number of messages, and lets other threads run."""
 
 import threading
 

@@ -1,4 +1,4 @@
-"""image_bridge as a process: pictures of a Gazebo node arrive in ROS as they were."""
+"""image_bridge as a process: images of a Gazebo node arrive unchanged in ROS."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""`create` against a real `gz sim`: every source, every option, and every way it can go wrong."""
+"""`create` against a real `gz sim`: every source, option and error."""
 
 import math
 import signal
@@ -183,7 +183,7 @@ def test_an_interrupt_ends_the_wait(programs, world, number):
 
 @pytest.mark.parametrize("to_all", [True, False], ids=["ctrl-c", "only the launch"])
 def test_a_launch_whose_create_waits_ends_at_once(programs, world, to_all):
-    """Ctrl-C in a terminal reaches launch and create at the same moment; `kill` reaches the launch alone."""
+    """Ctrl-C in a terminal reaches launch and create at the same time; `kill` reaches only the launch."""
     file = programs.folder / "waits.launch.py"
     file.write_text(
         "from launch import LaunchDescription\n"

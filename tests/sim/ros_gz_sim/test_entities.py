@@ -37,7 +37,7 @@ def test_spawn_and_move(world, run):
     assert run("spawn_entity", "--sdf_string", text, "--name", "moved", "--pos", "1", "2", "-3e0")[0] == 0
     pose = world.scene()["moved"].pose
     assert (pose.position.x, pose.position.y, pose.position.z) == (1.0, 2.0, -3.0)
-    # 6 is what the original calls a model.
+    # 6 is the number of a model in the original program.
     words = ["--name", "moved", "--type", "6", "--pos", "4", "5", "6", "--quat", "0", "0", "2", "0"]
     assert run("set_entity_pose", *words)[0] == 0
     pose = world.scene()["moved"].pose

@@ -1,4 +1,4 @@
-"""Options of ros_gz_sim's executables: dashes, values, what is refused."""
+"""Options of ros_gz_sim's executables: dashes, values, rejected input."""
 
 import math
 

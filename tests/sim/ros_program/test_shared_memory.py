@@ -21,7 +21,7 @@ NAMESPACE = "{http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles}"
 
 @pytest.fixture
 def unset(monkeypatch, tmp_path):
-    """No settings of DDS, in a folder without any."""
+    """Remove all settings of DDS, and use a folder without any."""
     for name in SETTINGS:
         monkeypatch.delenv(name, raising=False)
     monkeypatch.chdir(tmp_path)
@@ -63,7 +63,7 @@ def test_a_profile_in_the_working_directory_counts(unset, tmp_path):
 
 
 def test_little_shared_memory_is_left_to_dds(unset):
-    unset.setattr(shared_memory, "_free_bytes", lambda: 64 * 1024 * 1024)  # what a container has by default
+    unset.setattr(shared_memory, "_free_bytes", lambda: 64 * 1024 * 1024)  # the default of a container
     before = dict(os.environ)
     with segment_for_images():
         assert dict(os.environ) == before

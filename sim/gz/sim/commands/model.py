@@ -66,7 +66,7 @@ def _scene(node: Node, world: str) -> Any:
 
     done, scene = node.request(valid_topic(f"/world/{world}/scene/info"), None, Empty, Scene, _TIMEOUT_MS)
     if not done:
-        raise ValueError(f"world '{world}' does not tell its scene; it needs the SceneBroadcaster system")
+        raise ValueError(f"world '{world}' does not publish its scene; it needs the SceneBroadcaster system")
     return scene
 
 

@@ -39,7 +39,7 @@ _ACCEPTED_FLAGS = ("--levels", "--log-compress", "--record-resources")
 def add_arguments(parser: Parser) -> None:
     parser.add_argument("file", nargs="?", help="world: a path, a name in GZ_SIM_RESOURCE_PATH, or a built-in world")
     parser.add_argument("-r", dest="run", action="store_true", help="run at once (without it the world starts paused)")
-    parser.add_argument("-s", dest="server", action="store_true", help="server only; there is no other way here")
+    parser.add_argument("-s", dest="server", action="store_true", help="server only, which is always the case here")
     parser.add_argument("-g", dest="gui", action="store_true", help="the window of a full Gazebo; refused here")
     parser.add_argument(
         "-v", "--verbose", nargs="?", type=whole_number, const=3, default=1, metavar="LEVEL",
@@ -51,7 +51,7 @@ def add_arguments(parser: Parser) -> None:
     parser.add_argument(
         "--initial-sim-time", type=positive_number, default=0.0, metavar="S", help="simulated time to start at [s]"
     )
-    parser.add_argument("--strict", action="store_true", help="refuse a world that would be warned about")
+    parser.add_argument("--strict", action="store_true", help="refuse a world that causes warnings")
     recording = parser.add_argument_group("recording (read it with gz log)")
     recording.add_argument("--record", action="store_true", help="record poses into ~/.gz/sim/log/TIME/state.tlog")
     recording.add_argument("--record-path", metavar="FOLDER", help="record into this folder")
@@ -106,7 +106,7 @@ def run(values: argparse.Namespace) -> int:
         return 2
     try:
         return _simulate(values, stop)
-    except Exception as error:  # an internal error, not one of the world
+    except Exception as error:  # an internal error of the simulator
         logging.getLogger("gz.sim").debug("%s", traceback.format_exc())
         sys.stderr.write(f"gz sim: the simulator itself failed ({type(error).__name__}: {error}); -v 4 tells where\n")
         return 3

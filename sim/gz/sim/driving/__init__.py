@@ -1,1 +1,1 @@
-"""What systems that drive joints and wheels are built on: controllers, speed limits, odometry."""
+"""The common parts of systems that drive joints and wheels: controllers, speed limits, odometry."""

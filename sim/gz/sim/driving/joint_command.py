@@ -1,7 +1,9 @@
 """Base class of JointPositionController, JointController and ApplyJointForce: one number drives one or more joints.
 
 The number arrives as a `gz.msgs.Double` or as one entry of a `gz.msgs.Actuators`. A number that is not finite is
-dropped and reported by the world.
+dropped and counted by the world.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/joint_controller/JointController.cc
 """
 
 from __future__ import annotations
@@ -31,9 +33,9 @@ class JointCommand(System):
     """
 
     quantity: ClassVar[str] = ""
-    """The last part of the default topic (`cmd_vel`)."""
+    """The last part of the default topic, such as `cmd_vel`."""
     actuators_field: ClassVar[str] = ""
-    """The array of `gz.msgs.Actuators` it can listen to (`velocity`)."""
+    """The field of `gz.msgs.Actuators` that holds the number, such as `velocity`."""
     TOPIC_PARAMETERS: ClassVar[frozenset[str]] = frozenset(
         ("joint_name", "topic", "sub_topic", "use_actuator_msg", "actuator_number")
     )
@@ -77,8 +79,8 @@ class JointCommand(System):
 
     def bind(self) -> None:
         model, mj_model = self.scope.model, self.world.model
-        wishes = (JointServo(joint.name, self._kind, axis=self.index) for joint in self.joints)
-        found = (find_drive(mj_model, model, wish) for wish in wishes)
+        servos = (JointServo(joint.name, self._kind, axis=self.index) for joint in self.joints)
+        found = (find_drive(mj_model, model, servo) for servo in servos)
         self.drives = [drive for drive in found if drive is not None]
 
     def connect(self, node: Node) -> None:

@@ -1,6 +1,8 @@
 """Publishes the wheel odometry of DiffDrive and AckermannSteering as `Odometry` and, for transforms, as `Pose_V`.
 
 The topics are `/model/M/odometry` and `/model/M/tf`, the rate is `<odom_publish_frequency>`.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/diff_drive/DiffDrive.cc
 """
 
 from __future__ import annotations

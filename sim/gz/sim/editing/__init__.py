@@ -1,1 +1,1 @@
-"""Changes of a running world: the `Editor`, and the commands of UserCommands that call it."""
+"""Editing of a running world: the `Editor`, and the commands of UserCommands, which call it."""

@@ -1,8 +1,8 @@
-"""Changes of a running world: spawn, remove, set_pose, and the properties of lights, visuals, collisions and physics.
+"""Edits a running world: creates, removes and moves entities, and changes lights, visuals, collisions and physics.
 
-`World.editor` is used by UserCommands and by programs. A change is made to the description, then MuJoCo's model is
-built anew from it and the state of all else is carried over bit for bit (`gz.sim.physics.state`). The first values are
-remembered, so that `World.reset` can take the changes back.
+`World.editor` is used by UserCommands and by programs. A change is made in the description; then MuJoCo's model is
+rebuilt from it, and the state of all unchanged entities is copied exactly (`gz.sim.physics.state`). The original values
+are kept for `World.reset`.
 """
 
 from __future__ import annotations
@@ -27,16 +27,16 @@ if TYPE_CHECKING:
     from gz_course.sim.gz.sim.world import World
 
 DEEP_M = 0.01
-"""A model that starts deeper than this inside another is warned about."""
+"""Penetration [m] of a new model into another one above which a warning is given."""
 SHORTEST_STEP_NS, LONGEST_STEP_NS = 1_000, 100_000_000
 SPAWNED_FILE = "<spawned>"
 
 
 class Editor:
-    """Changes what is in one world; only the thread that steps the world may call it, between two steps."""
+    """The methods that change one world; called only by its stepping thread, between two steps."""
 
     def __init__(self, world: World) -> None:
-        """Remember the world as it is now: this is what a reset brings back."""
+        """Record the present models, lights and joints, which a reset restores."""
         self._world = world
         self._description = world.description
         self._truth = world.truth
@@ -46,12 +46,12 @@ class Editor:
         self._changed: dict[tuple[int, str], tuple[Any, str, Any]] = {}
 
     def _change(self, owner: Any, attribute: str, value: Any) -> None:
-        """Change one attribute of a description; keep the first value for the reset."""
+        """Set an attribute of a description; keep its original value for the reset."""
         self._changed.setdefault((id(owner), attribute), (owner, attribute, getattr(owner, attribute)))
         setattr(owner, attribute, value)
 
     def restore(self) -> bool:
-        """Make the description what it was at first; return whether anything in it had changed."""
+        """Restore the original description; return whether it had been changed."""
         description = self._description
         same = description.models == self._original_models and description.lights == self._original_lights
         changed = bool(self._changed) or not same
@@ -72,15 +72,16 @@ class Editor:
         allow_renaming: bool = False,
         file_name: str = SPAWNED_FILE,
     ) -> str:
-        """Put a model or a light into the running world; return the name it got.
+        """Add a model or a light to the running world; return its name.
 
-        `what` is an SDF text, or a description that is in no world yet. `pose` (world frame) replaces its own. A name
-        that is taken gets `_0`, `_1`, ... behind it with `allow_renaming`. The state of all else stays as it is, to the
-        bit. From then on one solver serves all, so that last digits (1e-20 m) may differ. Raises `SimError` (`SdfError`
-        with file and line for a bad text); the world is then as before.
+        `what` is an SDF text, or a description that belongs to no world. `pose` (world frame) replaces the pose of the
+        description. With `allow_renaming` a name that is taken gets the suffix `_0`, `_1`, ... The state of all other
+        entities is kept exactly; afterwards their motion may differ in the last digits (1e-20 m), because one solver
+        computes all bodies together. Raises `SimError` (`SdfError` with file and line for an invalid text) and then
+        leaves the world unchanged.
         """
         world = self._world
-        world.requests.refuse_inside_step("take in a model")
+        world.requests.refuse_inside_step("create an entity")
         made = read_model(what, file_name, world.diagnostics, name, world.resources) if isinstance(what, str) else what
         _check_pose(pose, made.name)
         wanted = name or made.name
@@ -135,7 +136,7 @@ class Editor:
         return f"{name}_{number}"
 
     def _check_overlap(self, model: Model) -> None:
-        """Say so when a model starts deep inside others: the physics will push it out."""
+        """Warn if a model starts deep inside others, because the physics pushes it out."""
         prefix = f"{model.name}::"
         physics, data = self._world.model, self._world.data
         for contact in data.contact[: data.ncon]:
@@ -149,11 +150,11 @@ class Editor:
                 return
 
     def remove(self, name: str) -> None:
-        """Take a model or a light out of the running world; raise `SimError` with the nearest name for an unknown one.
+        """Remove a model or a light from the running world, with its systems and their topics.
 
-        Its systems end and their topics go; all else goes on exactly as it was.
+        The state of all other entities is kept exactly. Raises `SimError` with the nearest name for an unknown name.
         """
-        self._world.requests.refuse_inside_step("let go of a model")
+        self._world.requests.refuse_inside_step("remove an entity")
         light = next((each for each in self._description.lights if each.name == name), None)
         if name in self._truth.models:
             self._forget(self._truth.models[name])
@@ -179,10 +180,12 @@ class Editor:
         self._world.entities.remove("model", model.name)
 
     def set_pose(self, name: str, pose: Pose) -> None:
-        """Move a model, a light or a floating link (`model::link`) to a pose in the world frame, with its velocity
-        turned along; raise `SimError` for what is not there or cannot be moved.
+        """Move a model, a light or a floating link (`model::link`) to a pose in the world frame; its velocity turns
+        with it.
+
+        Raises `SimError` for an unknown name and for an entity that is held by a joint.
         """
-        self._world.requests.refuse_inside_step("move a model")
+        self._world.requests.refuse_inside_step("move an entity")
         _check_pose(pose, name)
         light = next((each for each in self._description.lights if each.name == name), None)
         if light is not None and name not in self._truth.models:
@@ -204,7 +207,7 @@ class Editor:
         if not (moved or held):
             raise SimError(f"model '{name}' hangs on a joint of the world to another model; move that one")
         if held:
-            # What the world holds stands where the description says, not in the state.
+            # The pose of a part that is fixed to the world is in the description, not in MuJoCo's state.
             self._change(model, "pose", move * model.pose)
             self._world.rebuild()
         self._truth.stale = True
@@ -220,7 +223,7 @@ class Editor:
         self._truth.stale = True
 
     def _move_body(self, body: int, move: Pose) -> bool:
-        """Move a body that floats freely, with its velocity; return False if it does not float."""
+        """Move a body that has a free joint, with its velocity; return False if it has none."""
         model, data = self._world.model, self._world.data
         joint = int(model.body_jntadr[body])
         if joint < 0 or int(model.jnt_type[joint]) != int(mujoco.mjtJoint.mjJNT_FREE):
@@ -230,12 +233,12 @@ class Editor:
         turned = multiply(move.quaternion, data.qpos[q + 3 : q + 7])
         data.qpos[q : q + 3] = there.position
         data.qpos[q + 3 : q + 7] = turned / np.linalg.norm(turned)
-        # MuJoCo keeps the linear velocity in world axes and the angular one in the body's own.
+        # MuJoCo keeps the linear velocity along the world's axes, the angular velocity along the body's own.
         data.qvel[v : v + 3] = rotate(move.quaternion, data.qvel[v : v + 3].copy())
         return True
 
     def set_light(self, name: str, **changes: Any) -> None:
-        """Change attributes of a light of the world (those of `gz.sim.sdf.description.Light`)."""
+        """Change attributes of a light of the world; their names are those of `gz.sim.sdf.description.Light`."""
         self._world.requests.refuse_inside_step("change a light")
         light = next((each for each in self._description.lights if each.name == name), None)
         if light is None:
@@ -251,9 +254,9 @@ class Editor:
         self._world.rebuild()
 
     def set_physics(self, *, step_size: float | None = None, real_time_factor: float | None = None) -> None:
-        """Change the length of a step [s] and the wanted real-time factor.
+        """Change the step size [s] and the real-time factor.
 
-        Raises `SimError` for a step outside of 1 us to 100 ms, and for a factor below zero.
+        Raises `SimError` for a step size outside of 1e-6 to 0.1 [s] and for a negative factor.
         """
         self._world.requests.refuse_inside_step("change its physics")
         if step_size is not None:
@@ -272,19 +275,19 @@ class Editor:
             self._change(self._description, "real_time_factor", real_time_factor)
 
     def set_spherical_coordinates(self, coordinates: SphericalCoordinates) -> None:
-        """Say where on a planet the world lies."""
-        self._world.requests.refuse_inside_step("move to another place")
+        """Set the place of the world on a planet."""
+        self._world.requests.refuse_inside_step("change its spherical coordinates")
         self._change(self._description, "spherical_coordinates", coordinates)
         self._world.rebuild()
 
     def set_colour(self, visual: Visual, rgba: tuple[float, float, float, float]) -> None:
-        """Paint a visual; `rgba` each 0..1."""
+        """Set the colour of a visual; values of `rgba` are 0..1."""
         self._world.requests.refuse_inside_step("change a visual")
         self._change(visual, "rgba", rgba)
         self._world.rebuild()
 
     def enable_collisions(self, collisions: list[Collision], enabled: bool) -> None:
-        """Let collisions touch again, or touch nothing from now on."""
+        """Enable collisions, or disable them, so that they touch nothing."""
         self._world.requests.refuse_inside_step("change a collision")
         for collision in collisions:
             if not enabled:

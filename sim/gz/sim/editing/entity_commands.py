@@ -1,7 +1,7 @@
 """The commands of UserCommands that create, remove and move models and lights.
 
-Each takes a message and returns the function to run between two steps; an invalid message raises SimError with one
-sentence. Poses are in the world frame, or in that of the model named by `relative_to`.
+Each command reads a message, in any thread, and returns the function that changes the world between two steps. Both
+raise SimError with one sentence. Poses are in the world frame, or in the frame of the model that `relative_to` names.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
 Command = Callable[["WorldAccess", Any], Callable[[], None]]
-"""Looks at a message (in any thread) and returns what is to be done between two steps; both raise `SimError`."""
+"""A command: reads a message and returns the function to run between two steps."""
 _LIGHT_KINDS = ("point", "spot", "directional")
 
 
@@ -64,7 +64,7 @@ def pose_of(message: Any, about: str) -> Pose:
 
 
 def create(world: WorldAccess, message: Any) -> Callable[[], None]:
-    """Read a gz.msgs.EntityFactory; the returned function adds the entity to the world."""
+    """Read a gz.msgs.EntityFactory; the returned function creates the entity."""
     source = message.WhichOneof("from")
     about = message.name or source or ""
     pose = pose_of(message.pose, about) if message.HasField("pose") else None
@@ -99,12 +99,12 @@ def create(world: WorldAccess, message: Any) -> Callable[[], None]:
 
 
 def create_multiple(world: WorldAccess, message: Any) -> Callable[[], None]:
-    """Create every entity in a gz.msgs.EntityFactory_V; a failure of one does not stop the others."""
+    """Create the entities of a gz.msgs.EntityFactory_V; a failure of one does not prevent the others."""
     return _together([create(world, each) for each in message.data])
 
 
 def remove(world: WorldAccess, message: Any) -> Callable[[], None]:
-    """Remove the model or light of a gz.msgs.Entity, found by number or name."""
+    """Remove the model or light that a gz.msgs.Entity names by id or name."""
     kinds = {message.MODEL: "model", message.LIGHT: "light", message.NONE: ""}
     if not message.id and not message.name:
         raise SimError("the request names no entity: set name and type (MODEL or LIGHT), or id")
@@ -118,7 +118,7 @@ def remove(world: WorldAccess, message: Any) -> Callable[[], None]:
 
 
 def set_pose(world: WorldAccess, message: Any) -> Callable[[], None]:
-    """Move the model, light or floating link of a gz.msgs.Pose, found by number or name."""
+    """Move the model, light or floating link that a gz.msgs.Pose names by id or name."""
     if not message.id and not message.name:
         raise SimError("the request names no entity: set name, or id")
     pose = pose_of(message, message.name or f"entity {message.id}")
@@ -126,14 +126,14 @@ def set_pose(world: WorldAccess, message: Any) -> Callable[[], None]:
 
 
 def set_pose_vector(world: WorldAccess, message: Any) -> Callable[[], None]:
-    """Move every entity in a gz.msgs.Pose_V."""
+    """Move the entities of a gz.msgs.Pose_V."""
     return _together([set_pose(world, each) for each in message.pose])
 
 
 def name_of(world: WorldAccess, number: int, name: str, kind: str = "") -> str:
-    """Return the name (`model`, `model::link` or of a light) of an entity given by number or name.
+    """Return the name of an entity given by id or name: `model`, `model::link`, or that of a light.
 
-    Raises SimError if there is none or it is of another kind.
+    Raises SimError if it does not exist or is of another kind.
     """
     if not number:
         if kind and not world.entities.number(kind, name):
@@ -197,7 +197,7 @@ def _light(message: Any, name: str) -> Light:
 def light_changes(message: Any) -> dict[str, Any]:
     """Return the changes in a gz.msgs.Light as attributes of `description.Light`.
 
-    Unset fields change nothing, except the switches, because proto3 cannot tell unset from false.
+    Unset fields change nothing, except booleans, because proto3 does not distinguish unset from false.
     """
     changes: dict[str, Any] = {"on": not message.is_light_off, "cast_shadows": message.cast_shadows}
     for attribute, field in (
@@ -223,13 +223,13 @@ def light_changes(message: Any) -> dict[str, Any]:
 
 
 def place_on_planet(world: WorldAccess, where: Any, pose: Pose | None) -> Pose:
-    """Return the world pose of a gz.msgs.SphericalCoordinates, with the orientation of `pose` added to its heading.
+    """Return the world pose of a gz.msgs.SphericalCoordinates; its heading is combined with the orientation of `pose`.
 
     Raises SimError if the world has no spherical coordinates.
     """
     coordinates = world.description.spherical_coordinates
     if coordinates is None:
-        raise SimError(f"world '{world.name}' has no <spherical_coordinates>, so a latitude means nothing in it")
+        raise SimError(f"world '{world.name}' has no <spherical_coordinates>, so it has no latitude and longitude")
     numbers = (where.latitude_deg, where.longitude_deg, where.elevation, where.heading_deg)
     if not all(map(math.isfinite, numbers)):
         raise SimError("latitude, longitude, elevation and heading must be finite")

@@ -1,7 +1,7 @@
 """The commands of UserCommands that change lights, colours, collisions, physics and spherical coordinates.
 
-Each takes a message and returns the function to run between two steps; an invalid message raises SimError with one
-sentence.
+Each command reads a message, in any thread, and returns the function that changes the world between two steps. Both
+raise SimError with one sentence.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ def commands() -> dict[str, tuple[type, Command]]:
 
 
 def light_config(world: WorldAccess, message: Any) -> Callable[[], None]:
-    """Change a light of the world to match a gz.msgs.Light."""
+    """Change the light of the world that a gz.msgs.Light names."""
     if not message.id and not message.name:
         raise SimError("the request names no light: set name, or id")
     changes = light_changes(message)
@@ -140,15 +140,16 @@ def _collisions(world: WorldAccess) -> list[tuple[str, Collision]]:
 
 
 def set_physics(world: WorldAccess, message: Any) -> Callable[[], None]:
-    """Set step size and real-time factor from a gz.msgs.Physics; zero changes nothing, and as in Gazebo other fields
-    are ignored.
+    """Set the step size and the real-time factor of a gz.msgs.Physics.
+
+    A value of zero changes nothing; as in Gazebo the other fields are ignored.
     """
     step, factor = message.max_step_size or None, message.real_time_factor or None
     return lambda: world.editor.set_physics(step_size=step, real_time_factor=factor)
 
 
 def set_spherical_coordinates(world: WorldAccess, message: Any) -> Callable[[], None]:
-    """Set the spherical coordinates of the world, or move the entity that the message names there."""
+    """Set the spherical coordinates of the world, or move the entity named in the message to these coordinates."""
     numbers = (message.latitude_deg, message.longitude_deg, message.elevation, message.heading_deg)
     if not all(map(math.isfinite, numbers)):
         raise SimError("latitude, longitude, elevation and heading must be finite")
@@ -173,5 +174,5 @@ def set_spherical_coordinates(world: WorldAccess, message: Any) -> Callable[[], 
 
 
 def wheel_slip(world: WorldAccess, message: Any) -> Callable[[], None]:
-    """Raise SimError: MuJoCo's contacts have no slip compliance."""
+    """Raise SimError: wheel slip is not simulated."""
     raise SimError("wheel slip is not simulated here, so it cannot be set")

@@ -36,15 +36,16 @@ from gz_course.sim.gz.sim.sdf.description import Joint, Link, Model, WorldDescri
 __all__ = ["COLLISION_GROUP", "SITE_GROUP", "VISUAL_GROUP", "VISUAL_SUFFIX", "build_spec", "scoped"]
 
 DEEPEST = 1000
-"""So many links can hang on each other in a row; MuJoCo ends there."""
+"""Maximum length of a chain of links; MuJoCo allows no more."""
 MOST_TOUCHING = 2000
-"""So many links of one model can have collisions: each pair of them is kept apart by name."""
+"""Maximum number of links with collisions in one model, because every pair of them is excluded from contacts by name.
+"""
 MOST_MOVING = 10_000
-"""So many links of a world can move; the time MuJoCo takes to take them in grows with their square (20 s for these)."""
+"""Maximum number of moving links in a world; the time of compilation grows with its square (20 s for this number)."""
 _MANY_LINKS = 300
 _WORKSPACE = (1 << 29, 1 << 18)
-"""Bytes of a large world's workspace, and more for each link. MuJoCo's own guess grows with their square: 14 GB
-for 3000 boxes, which use 40 MB.
+"""MuJoCo's memory for a large world [byte], and the addition for each link. MuJoCo's default grows with the square of
+the number of links: 14 GB for 3000 boxes, which use 40 MB.
 """
 
 
@@ -71,8 +72,10 @@ class _Edge:
 
 @dataclass(eq=False)
 class _Tree:
-    """The kinematic tree: the joint that carries each link, joints left over, gearboxes with the hinges they couple,
-    and the joints that became MuJoCo joints.
+    """The kinematic tree of a world.
+
+    It holds the joint that carries each link, the remaining joints, which close loops, the gearboxes with the hinges
+    they couple, and the joints that became MuJoCo joints.
     """
 
     carried: dict[str, _Edge] = field(default_factory=dict)
@@ -270,8 +273,9 @@ class _Builder:
                 self._spec.add_exclude(bodyname1=scoped(model, one.name), bodyname2=scoped(model, other.name))
 
     def _skeleton(self, link: str) -> str:
-        """Return the (nested) model that a link moves with; links of one model that no joint connects can touch each
-        other.
+        """Return the (nested) model that a link moves with.
+
+        Links of one model that are not connected by joints can touch each other.
         """
         while link in self._tree.carried and self._tree.carried[link].parent != "world":
             link = self._tree.carried[link].parent

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
 CollisionPath = tuple[str, str, str]
-"""Model, link and collision; the names of nested models' links are scoped."""
+"""The names of model, link and collision; link names of nested models are scoped."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +48,7 @@ class CollisionGeoms:
                 for part in link.collisions:
                     known[f"{model.name}::{link.name}::{part.name}"] = (model.name, link.name, part.name)
         self.paths: dict[int, CollisionPath] = {}
-        """The collision each geom belongs to."""
+        """The collision of each geom."""
         self._geoms: dict[CollisionPath, list[int]] = {}
         for geom in np.flatnonzero(world.model.geom_group == COLLISION_GROUP).tolist():
             name = world.model.geom(geom).name

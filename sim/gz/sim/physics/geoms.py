@@ -19,9 +19,9 @@ VISUAL_GROUP = 1
 SITE_GROUP = 5
 VISUAL_SUFFIX = "#visual"
 _UNDERGROUND = 1.0
-"""Thickness (m) of the ground below the lowest point of a heightmap."""
+"""Thickness [m] of the ground below the lowest point of a heightmap."""
 _PLATE = 0.001
-"""Half thickness (m) of a plane that moves."""
+"""Half the thickness [m] of a plane that moves."""
 
 _TYPES = {
     "box": mujoco.mjtGeom.mjGEOM_BOX,
@@ -93,7 +93,7 @@ class Geoms:
     def _add(
         self, body: mujoco.MjsBody, name: str, pose: Pose, geometry: Geometry, moving: bool, *, piece: int
     ) -> mujoco.MjsGeom:
-        """Add the shape alone: of a mesh the convex `piece`, or with -1 the whole surface."""
+        """Add the shape alone: the convex `piece` of a mesh, or with -1 its whole surface."""
         if geometry.heights is not None and geometry.mesh is not None:
             field = self._fields.get(geometry.mesh) or self._add_field(geometry.mesh, geometry)
             lift = Pose((0.0, 0.0, float(geometry.heights.min())))

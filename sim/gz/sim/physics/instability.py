@@ -20,7 +20,7 @@ _WHAT = {
     mujoco.mjtWarning.mjWARN_BADCTRL: "command",
 }
 UNSTABLE = np.array([int(kind) for kind in _WHAT])
-"""The numbers of MuJoCo's warnings that mean it."""
+"""The numbers of MuJoCo's warnings about unstable physics."""
 
 
 def why_unstable(world: WorldDescription, model: mujoco.MjModel, data: mujoco.MjData, now_ns: int) -> str:
@@ -29,7 +29,7 @@ def why_unstable(world: WorldDescription, model: mujoco.MjModel, data: mujoco.Mj
     for kind, word in _WHAT.items():
         warning = data.warning[int(kind)]
         if warning.number and not where:
-            what, where = word, _culprit(model, int(kind), int(warning.lastinfo))
+            what, where = word, _faulty_part(model, int(kind), int(warning.lastinfo))
         warning.number = 0
     return (
         f"the physics of world '{world.name}' became unstable before {now_ns * 1e-9:.3f} s: the {what} of {where} "
@@ -38,7 +38,7 @@ def why_unstable(world: WorldDescription, model: mujoco.MjModel, data: mujoco.Mj
     )
 
 
-def _culprit(model: mujoco.MjModel, kind: int, number: int) -> str:
+def _faulty_part(model: mujoco.MjModel, kind: int, number: int) -> str:
     if kind == int(mujoco.mjtWarning.mjWARN_BADCTRL):
         return f"actuator '{mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_ACTUATOR, number)}'"
     starts = model.jnt_qposadr if kind == int(mujoco.mjtWarning.mjWARN_BADQPOS) else model.jnt_dofadr

@@ -13,26 +13,24 @@ from collections.abc import Iterable
 import mujoco
 
 GRAVITY = 9.8
-"""Gazebo's default gravity (m/s^2); the wheel servo is scaled with the weight the wheels carry."""
+"""Gazebo's default gravity [m/s^2]; the gain of wheel servos is proportional to the weight on the wheels."""
 
 SLIP_SPEED = 0.01
-"""Speed error (m/s at the rim) at which a wheel servo pushes with the full traction its share of the weight
-gives.
-"""
+"""Speed error [m/s] at the rim at which a wheel servo applies the full traction of its share of the weight."""
 
 SERVO_GIVE = 1e-3
-"""How much a load may slow a joint servo, as a fraction of what it does to a free joint in one step. Measured: stiffer
-gains nothing, softer lets an arm creep.
+"""Speed error of a joint servo under a load, relative to the speed change of a free joint under that load in one step.
+In measurements a stiffer servo was not better, and a softer one let an arm sink slowly.
 """
 
 CONTACT_IMPEDANCE = (0.95, 0.97)
-"""Impedance of a contact that just touches and of one pressed in: so hard that a wheel sinks in by less than 0.25 % of
-its radius, which is its error in speed (with MuJoCo's default up to 0.7 % at steps of 4 ms).
+"""Impedance of a contact at zero and at full penetration. With these values a wheel sinks in by less than 0.25 % of its
+radius, which is also the error of its speed; with MuJoCo's defaults it is up to 0.7 % at steps of 4 ms.
 """
 
 DISCRETE = True
-"""Use MuJoCo's `discrete` integrator. With False, `implicitfast` and a rotor inertia on the wheels give the
-same numbers.
+"""True for MuJoCo's `discrete` integrator. False selects `implicitfast` and a rotor inertia of the wheels, with the
+same results.
 """
 
 

@@ -18,20 +18,20 @@ from gz_course.sim.gz.sim.physics.joint_axis import JointAxis, axis_name, find_a
 from gz_course.sim.gz.sim.sdf.description import UNLIMITED, Model
 
 WHEEL = "wheel"
-"""Holds a velocity as far as the tyre grips: the recipe for wheels that carry a robot."""
+"""A velocity servo for wheels that carry a robot; its torque is limited by the traction (see `recipe`)."""
 VELOCITY = "velocity"
-"""Holds a velocity against any load, as Gazebo's joint servos do."""
+"""A velocity servo that holds against any load, as in Gazebo."""
 FORCE = "force"
-"""Pushes with the force a controller computes."""
+"""A motor that applies the force computed by a controller."""
 APPLIED = "applied"
-"""Pushes with a force that comes on top of all else."""
+"""A motor that applies a force in addition to other actuators."""
 
 FASTEST = 1e4
-"""No joint is asked to move faster than this (rad/s or m/s), whatever its limits say."""
+"""Maximum commanded speed of any joint [rad/s or m/s]."""
 
 MAX_WHEEL_SPEED = 200.0
-"""Fastest a driven wheel is ever asked to turn (rad/s); beyond any real wheel, and beyond it no step of 1 ms is
-exact.
+"""Maximum commanded speed of a driven wheel [rad/s], higher than that of any real wheel; above it steps of 1 ms are
+inaccurate.
 """
 
 _SUFFIX = {WHEEL: "", VELOCITY: "", FORCE: "#force", APPLIED: "#applied"}
@@ -82,8 +82,10 @@ def add_servo(spec: mujoco.MjSpec, model: Model, servo: JointServo, name: str) -
 
 @dataclass(frozen=True, slots=True)
 class Drive:
-    """A servo or motor of the compiled model: its index `control` in `data.ctrl`, the `axis` it moves, and its largest
-    command `limit` [rad/s or m/s for a servo, N m or N for a motor].
+    """A servo or motor of the compiled model.
+
+    `control` is its index in `data.ctrl`, `axis` the axis it moves, `limit` its largest command [rad/s or m/s for a
+    servo, N m or N for a motor].
     """
 
     control: int

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 KINDS = ("none", "gaussian", "gaussian_quantized")
 COARSEST_IGNORED = 1e-6
-"""Gazebo takes a precision up to this for none."""
+"""A precision up to this value is ignored, as in Gazebo."""
 
 
 @dataclass(frozen=True)

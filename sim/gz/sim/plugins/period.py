@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 LONGEST_NS = 10**18
-"""Thirty years: longer than any run."""
+"""The longest period [ns], about thirty years."""
 
 
 def period_ns(hertz: float) -> int:
-    """Return the period [ns] of a frequency [Hz]; 0, meaning every step, for frequencies not above zero or above 1
-    GHz.
+    """Return the period [ns] of a frequency [Hz].
+
+    It is 0, which means every step, for frequencies of 0 or less and above 1 GHz.
     """
     return int(min(1e9 / hertz, LONGEST_NS)) if hertz > 0.0 else 0

@@ -59,19 +59,19 @@ KNOWN_TYPES = frozenset(
         "wide_angle_camera",
     ]
 )
-"""Every sensor type of SDF, also those this simulator has no file for."""
+"""All sensor types of SDF, including those that are not simulated."""
 
 
 _ZEROS = np.zeros(4, dtype=np.uint64)
 _FRESH = {"bit_generator": "Philox", "buffer": _ZEROS, "buffer_pos": 4, "has_uint32": 0, "uinteger": 0}
-"""The state of a Philox generator that has drawn nothing yet, but for its key."""
+"""The initial state of a Philox generator, without its key."""
 
 
 class SensorBase:
     """Base of all sensors: parameters common to every type and the schedule of its updates."""
 
     runs_in = "Sensors"
-    """Name of the system that runs sensors of this type."""
+    """The name of the system that runs sensors of this type."""
 
     def __init__(self, world: WorldAccess, description: Sensor) -> None:
         """Read topic, frame and rate; `world` gives time, poses and the seed."""
@@ -91,7 +91,7 @@ class SensorBase:
         self.frame_id = next((text for text in stated if text), self.scoped_name)
         rate = element.number("update_rate", 0.0)
         self.highest_rate = rate if 0.0 < rate < math.inf else 0.0
-        """`<update_rate>` [Hz], 0 for every step: what `set_rate` may not exceed."""
+        """`<update_rate>` [Hz], the limit of `set_rate`; 0 means every step."""
         self.period_ns = _period_ns(self.highest_rate)
         self.next_update_ns = 0
         self.updates = 0

@@ -25,9 +25,9 @@ class SiteSensor(SensorBase):
     """Base of the sensors that measure at one point; `motion` is that of the sensor, `noise` holds its channels."""
 
     suffix: ClassVar[str]
-    """Last part of the default topic."""
+    """The last part of the default topic."""
     message_type: ClassVar[str]
-    """Name of the message type, for example gz.msgs.IMU."""
+    """The name of the message type, for example gz.msgs.IMU."""
 
     def __init__(self, world: WorldAccess, description: Sensor) -> None:
         super().__init__(world, description)

@@ -46,9 +46,9 @@ class System:
     filename: ClassVar[str] = ""
     parameters: ClassVar[frozenset[str]] = frozenset()
     once: ClassVar[bool] = False
-    """Whether it serves the whole world, so that a second one would do everything twice."""
+    """True if a world may have only one instance."""
     joins_topics: ClassVar[bool] = False
-    """Whether it may publish and listen on the topics of others as a matter of course."""
+    """True if it may share topics of other systems without a warning."""
 
     @classmethod
     def servos(cls, model: Model, plugin: Plugin) -> list[JointServo]:
@@ -112,7 +112,7 @@ def scan(room: str) -> None:
 
 
 BUILT_IN = {"Physics"}
-"""Systems whose work the world itself does."""
+"""Systems that are part of `World`."""
 
 OTHER_GAZEBO_SYSTEMS = frozenset(
     [

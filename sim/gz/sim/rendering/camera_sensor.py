@@ -33,11 +33,11 @@ class CameraSensor(SensorBase):
     """Base of the cameras; `pinhole` is the lens, `caster` casts the rays of its pixels."""
 
     info_beside = True
-    """Whether camera_info stands beside the topic; otherwise below it."""
+    """True if `camera_info` is beside the topic of the camera, False if it is below it."""
     near_hides = True
-    """Whether what is nearer than the near plane is looked through."""
+    """True if surfaces nearer than the near plane are invisible."""
     wanted: ClassVar[dict[str, str]] = {}
-    """Suffix of each topic this camera publishes, and the message type."""
+    """The message type of each published topic, by the suffix of the topic."""
 
     def __init__(self, world: WorldAccess, description: Sensor) -> None:
         super().__init__(world, description)

@@ -21,7 +21,7 @@ LIDAR = np.dtype(
         "itemsize": 32,
     }
 )
-"""One point of a lidar: metres in the sensor's frame, laser_retro, number of the row (0 lowest)."""
+"""One point of a lidar: position [m] in the sensor's frame, `laser_retro`, and number of the row from the lowest, 0."""
 
 COLOURED = np.dtype(
     {
@@ -31,7 +31,7 @@ COLOURED = np.dtype(
         "itemsize": 24,
     }
 )
-"""One point of a depth camera: metres in the sensor's frame (x ahead), colour as 0x00RRGGBB."""
+"""One point of a depth camera: position [m] in the sensor's frame (x forward), colour as 0x00RRGGBB."""
 
 
 def pack_rgb(colours: NDArray[np.uint8]) -> NDArray[np.uint32]:

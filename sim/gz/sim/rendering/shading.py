@@ -1,7 +1,11 @@
 """Shades the ray hits of cameras: ambient light, Lambert's cosine law for every light, shadows and sky.
 
 It needs neither GPU nor OpenGL and gives the same bytes on every run. A surface shows its `rgba`, brightened by
-emission; a ray without a hit shows the background of the scene, or a sky if `<scene>` has one.
+emission; a ray without a hit shows the background of the scene, or a sky if `<scene>` has one. Attenuation is 1 /
+(constant + linear d + quadratic d^2) at the distance d [m].
+
+Source: Lambert's cosine law, https://en.wikipedia.org/wiki/Lambert%27s_cosine_law
+Source: SDFormat, element `<light>` (attenuation), http://sdformat.org/spec?elem=light
 """
 
 from __future__ import annotations
@@ -22,11 +26,11 @@ if TYPE_CHECKING:
 Colours = NDArray[np.float32]
 
 _FAR_LIGHT = 1e4
-"""Distance [m] at which a directional light is taken to stand when its shadows are cast: straight enough, and no
-digits are lost.
+"""Distance [m] of the point from which a directional light casts shadows: its rays are nearly parallel there, and
+rounding errors are small.
 """
 _SHADOW_GAP = 2e-3
-"""A surface shadows a point only when it is at least this far [m] before it."""
+"""Minimum distance [m] between a point and a surface that shadows it."""
 _UNKNOWN = -1
 _ZENITH = np.array((0.30, 0.52, 0.85))
 _HORIZON = np.array((0.80, 0.88, 0.95))
@@ -164,8 +168,9 @@ class Shader:
 
 
 class _View(NamedTuple):
-    """The points to shade, in rows of `width`: which rays `met` a surface, and the `points`, `normals` and `geom`
-    there.
+    """The points to shade, in rows of `width`.
+
+    `met` tells which rays hit a surface; `points`, `normals` and `geom` describe the surface there.
     """
 
     met: NDArray[np.bool_]
@@ -176,8 +181,9 @@ class _View(NamedTuple):
 
 
 def _spread(state: NDArray[np.int8], geom: NDArray[np.int32]) -> NDArray[np.int8]:
-    """Return for each pixel of `geom` (h, w) the value on which its neighbours in `state` (every second pixel of every
-    second row) agree, counting those on the same geom; _UNKNOWN if there is none or two disagree.
+    """Return for each pixel of `geom` (h, w) the value of its neighbours in `state`, which holds every second pixel.
+
+    Only neighbours on the same geom count; the value is _UNKNOWN if there are none or two disagree.
     """
     decided = np.full(geom.shape, _UNKNOWN, dtype=np.int8)
     for down, right in ((0, 0), (0, 1), (1, 0), (1, 1)):

@@ -1,7 +1,7 @@
 """The scene graph: every entity of a world as a vertex below its parent, with its pose relative to that parent.
 
-It is built from the description of the world and the entity ids, again after models were added or removed.
-SceneBroadcaster and PosePublisher publish its poses, `gz.sim.scene.message` converts it to gz.msgs.Scene,
+It is built from the description of the world and the entity ids, and rebuilt after models were added or removed.
+SceneBroadcaster and PosePublisher publish its poses; `gz.sim.scene.message` converts it to gz.msgs.Scene,
 `gz.sim.scene.state` to gz.msgs.SerializedStateMap. Links of nested models are below their nested model, as in Gazebo.
 """
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 KINDS = ("model", "link", "visual", "light")
-"""The kinds whose poses `/world/W/pose/info` carries, in its order."""
+"""The kinds of entities whose poses are in `/world/W/pose/info`, in this order."""
 
 
 @dataclass(eq=False, slots=True)
@@ -50,7 +50,7 @@ class Vertex:
             yield from child.below()
 
     def scoped_name(self) -> str:
-        """Return the name preceded by those of its parents below the world: `robot::arm::hand`."""
+        """Return the name with those of its parents below the world: `robot::arm::hand`."""
         if self.parent is None or self.parent.kind == "world":
             return self.name
         return f"{self.parent.scoped_name()}::{self.name}"
@@ -105,7 +105,7 @@ class SceneGraph:
         return _chain(-_rotate(back, above_positions), back, positions, quaternions)
 
     def look(self) -> None:
-        """Write the present poses of the movers into their vertices."""
+        """Update the poses of the movers in their vertices."""
         for vertex, position, quaternion in zip(self.movers, *self.poses(), strict=True):
             vertex.pose = Pose(position, quaternion)
 

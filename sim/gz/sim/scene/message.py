@@ -2,6 +2,8 @@
 
 SceneBroadcaster answers `/world/W/scene/info` with `scene_message(world)` and publishes the part for new entities.
 Poses are the present ones in the parent's frame; the pose of a joint is in its child link.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/Conversions.cc
 """
 
 from __future__ import annotations
@@ -38,7 +40,7 @@ def scene_message(world: WorldAccess, graph: SceneGraph | None = None, only: Ite
 
 
 class _SceneWriter:
-    """Writes the vertices of one graph; `_writers` maps each kind to its method."""
+    """Writes the vertices of one graph; `_writers` holds the method for each kind of entity."""
 
     def __init__(self, world: WorldAccess, graph: SceneGraph) -> None:
         self._world = world
@@ -78,7 +80,7 @@ class _SceneWriter:
         return scene
 
     def _add(self, parent: Any, vertex: Vertex) -> None:
-        """Add a vertex to the field of the same name in its parent's message, with the fields that all kinds have."""
+        """Add a vertex to the list of its kind in the message of its parent, with the fields common to all kinds."""
         message = getattr(parent, vertex.kind).add()
         message.id, message.name = vertex.number, vertex.name
         set_pose(message.pose, vertex.pose)
@@ -86,7 +88,7 @@ class _SceneWriter:
             self._writers[vertex.kind](message, vertex)
         except SdfError as error:
             where, _, sentence = str(error).partition(": ")
-            self._world.diagnostics.warn_once(str(error), where, f"{sentence}; the scene goes without")
+            self._world.diagnostics.warn_once(str(error), where, f"{sentence}; it is left out of the scene message")
         for child in vertex.children:
             self._add(message, child)
 

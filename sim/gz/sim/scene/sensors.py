@@ -1,6 +1,8 @@
 """Converts a sensor to gz.msgs.Sensor: name, type, rate, topic, and the fields of its type.
 
-A sensor type is added as one function under `@describes`.
+One function under `@describes` writes the fields of each sensor type.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/Conversions.cc
 """
 
 from __future__ import annotations
@@ -35,7 +37,7 @@ def describes(*kinds: str) -> Callable[[Callable[[Any, Element], None]], Callabl
 
 
 def fill_sensor(message: Any, sensor: Sensor, topic: str = "") -> None:
-    """Write a sensor into a gz.msgs.Sensor, without ids and pose; `topic` is the one it publishes on."""
+    """Write a sensor into a gz.msgs.Sensor, without ids and pose; `topic` is the topic it publishes on."""
     element = sensor.element
     message.type = sensor.kind
     message.always_on = element.flag("always_on", False)

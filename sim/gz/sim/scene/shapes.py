@@ -1,7 +1,9 @@
-"""Shapes and materials as gz.msgs.Geometry, gz.msgs.Material and gz.msgs.Surface.
+"""Converts shapes and materials to gz.msgs.Geometry, gz.msgs.Material and gz.msgs.Surface.
 
-`gz.sim.scene.message` asks for them, visual by visual and collision by collision. What the description keeps is taken
-from there, because it may have been changed while the world runs; the rest (files, textures) from the SDF element.
+Called by `gz.sim.scene.message` for every visual and collision. Sizes, colours, friction and bitmasks come from the
+description, which may have been changed at run time; files, textures and other values come from the SDF element.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/Conversions.cc
 """
 
 from __future__ import annotations
@@ -23,7 +25,7 @@ _SPECULAR_MAPS = ("glossiness_map", "specular_map")
 
 
 def fill_geometry(message: Any, owner: Collision | Visual, resources: Resources) -> None:
-    """Write the shape of a collision or visual into a gz.msgs.Geometry; lengths in metres."""
+    """Write the shape of a collision or visual into a gz.msgs.Geometry; lengths are in [m]."""
     geometry, kinds = owner.geometry, GeometryMessage
     x, y, z = geometry.size
     if geometry.kind in ("box", "sphere", "cylinder", "capsule", "cone", "ellipsoid", "plane"):
@@ -45,7 +47,7 @@ def fill_geometry(message: Any, owner: Collision | Visual, resources: Resources)
 
 
 def _fill_from_file(message: Any, geometry: Geometry, element: Element, resources: Resources) -> None:
-    """Write a mesh, heightmap or polyline: what the SDF says about it, not its triangles."""
+    """Write a mesh, heightmap or polyline: its file and parameters, without triangles."""
     shape = element.find(geometry.kind)
     if shape is None:
         message.type = GeometryMessage.EMPTY
@@ -69,7 +71,7 @@ def _fill_from_file(message: Any, geometry: Geometry, element: Element, resource
 
 
 def _fill_heightmap(message: Any, geometry: Geometry, shape: Element, resources: Resources) -> None:
-    """Write a heightmap; its `<pos>` is part of the pose of its visual, so the origin stays zero."""
+    """Write a heightmap. Its origin is left at zero, because `<pos>` is part of the pose of the visual."""
     message.filename = _path(shape, "uri", resources)
     set_vector(message.size, geometry.size)
     message.use_terrain_paging = shape.flag("use_terrain_paging", False)
@@ -85,7 +87,7 @@ def _fill_heightmap(message: Any, geometry: Geometry, shape: Element, resources:
 
 
 def _path(element: Element, tag: str, resources: Resources) -> str:
-    """Return the file a child names as an absolute path, or its text when there is no such file."""
+    """Return the absolute path of the file that child `tag` names, or its text if that file does not exist."""
     uri = element.text_of(tag)
     if not uri:
         return ""
@@ -96,14 +98,14 @@ def _path(element: Element, tag: str, resources: Resources) -> str:
 
 
 def transparency(visual: Visual) -> float:
-    """Return a visual's `<transparency>`, 0 (solid) to 1."""
+    """Return the `<transparency>` of a visual, from 0 (opaque) to 1."""
     return min(1.0, max(0.0, visual.element.number("transparency", 0.0)))
 
 
 def fill_material(visual: Visual, resources: Resources) -> Material | None:
-    """Return what a visual looks like, or None if nothing was said about it.
+    """Return the material of a visual, or None if it has no `<material>` and no colour of its own.
 
-    Diffuse is the colour the visual has now; where the SDF gives no other, ambient is the same.
+    Diffuse is the present colour of the visual; ambient is the same unless `<ambient>` is given.
     """
     element = visual.element.find("material")
     solid = 1.0 - transparency(visual)
@@ -144,7 +146,7 @@ def _colour(element: Element, tag: str, default: tuple[float, ...]) -> tuple[flo
 
 
 def _fill_pbr(message: Any, pbr: Element, resources: Resources) -> None:
-    """Write the metal workflow, or the specular one when there is no other."""
+    """Write the metal workflow of `<pbr>`, or the specular one if there is no metal workflow."""
     workflow = pbr.find("metal") or pbr.find("specular")
     if workflow is None:
         return
@@ -165,7 +167,7 @@ def _fill_pbr(message: Any, pbr: Element, resources: Resources) -> None:
 
 
 def fill_surface(message: Any, collision: Collision) -> None:
-    """Write friction and contact parameters of a collision into a gz.msgs.Surface."""
+    """Write the friction and contact parameters of a collision into a gz.msgs.Surface."""
     message.collide_bitmask = collision.bitmask
     message.friction.mu = message.friction.mu2 = collision.mu
     surface = collision.element.find("surface")

@@ -36,7 +36,7 @@ JOINT_TYPES = (
     "screw",
     "universal",
 )
-"""The kinds of joints in the order of their numbers in the component JointType."""
+"""The kinds of joints; the index is the number in the component JointType."""
 
 Components = Iterator[tuple[str, bytes]]
 
@@ -59,7 +59,7 @@ def component_type(name: str) -> int:
 
 
 def full_state(world: WorldAccess, graph: SceneGraph) -> SerializedStateMap:
-    """Return every entity of the world with its present components."""
+    """Return all entities of the world with their present components."""
     message = SerializedStateMap(has_one_time_component_changes=True)
     set_stamp(message.header, world.sim_time_ns)
     parts = _parts_by_number(scene_message(world, graph))
@@ -83,13 +83,13 @@ def _put(message: SerializedStateMap, entity: int, name: str, data: bytes) -> No
     kind = component_type(name)
     holder = message.entities[entity]
     holder.id = entity
-    # The key of the map is signed, the type is not.
+    # The key of the map is a signed number, the type an unsigned one.
     component = holder.components[kind - (1 << 64) if kind >> 63 else kind]
     component.type, component.component = kind, data
 
 
 def _parts_by_number(scene: Any) -> dict[int, Any]:
-    """Return all messages inside a gz.msgs.Scene by entity id."""
+    """Return the messages of all entities in a gz.msgs.Scene by entity id."""
     found: dict[int, Any] = {}
     waiting = [*scene.model, *scene.light, *scene.joint]
     while waiting:

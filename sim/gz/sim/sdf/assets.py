@@ -1,7 +1,7 @@
-"""Things that a description names, held in memory under the hash of their content: resources without any file.
+"""The models, meshes and images that a description names, in memory under the hash of their content.
 
-`gz.sim.sdf.packing` makes them from files; a reader that is given `Assets` opens nothing else, expands no xacro, and
-knows no other models. An address is `asset:SHA256` with an ending that says what the bytes are:
+`gz.sim.sdf.packing` makes assets from files. A reader that is given `Assets` opens no files, expands no xacro and finds
+no other models. An address is `asset:SHA256` with a suffix for the format:
 
     .sdf    the text of a model, light or world that an `<include>` brings (UTF-8)
     .mesh   uint32 vertices, uint32 triangles, float64 (vertices, 3) [m], int32 (triangles, 3) indices; little-endian
@@ -21,16 +21,16 @@ from gz_course.sim.gz.sim.errors import ResourceError
 from gz_course.sim.gz.sim.sdf.heightmap import MOST_PIXELS
 from gz_course.sim.gz.sim.sdf.meshes import Mesh
 
-MOST_BYTES = 64 << 20  # of all together
+MOST_BYTES = 64 << 20  # [byte] of all assets together
 MOST_ASSETS = 500
-LONGEST_TEXT = 8 << 20  # [bytes]
-MOST_OPENED = 256 << 20  # [bytes] of texts, each counted as often as it is included
+LONGEST_TEXT = 8 << 20  # [byte]
+MOST_OPENED = 256 << 20  # [byte] of all included texts; a text counts once for each include
 ADDRESS = re.compile(r"asset:([0-9a-f]{64})\.(sdf|mesh|grey)", re.ASCII)
 _LARGEST = 1e9  # [m]
 
 
 def address(data: bytes, kind: str) -> str:
-    """Return the address of some bytes; `kind` is `sdf`, `mesh` or `grey`."""
+    """Return the address of the content `data`; `kind` is `sdf`, `mesh` or `grey`."""
     return f"asset:{hashlib.sha256(data).hexdigest()}.{kind}"
 
 
@@ -46,7 +46,7 @@ def image_bytes(image: NDArray[np.uint8]) -> bytes:
 
 
 class Assets:
-    """A collection of assets that a reader can be given as its resources."""
+    """A collection of assets, for use as the resources of a reader."""
 
     opens_files = False
 
@@ -55,7 +55,9 @@ class Assets:
         self._bytes = self._opened = 0
 
     def add(self, name: str, data: bytes) -> None:
-        """Take bytes in under their address. Raises `ResourceError` if that is not theirs, or for too many."""
+        """Add an asset. Raises `ResourceError` if its address is not that of its content, or if there are too many
+        assets.
+        """
         match = ADDRESS.fullmatch(name)
         if match is None or name != address(data, match[2]):
             raise ResourceError("what was handed over is not what its address says")
@@ -71,7 +73,7 @@ class Assets:
         self._bytes += len(data)
 
     def text(self, name: str) -> str:
-        """Return the text at an address; raise `ResourceError` when there is none."""
+        """Return the text at an address. Raises `ResourceError` if it does not exist."""
         data = self._data(Path(name), "sdf")
         self._opened += len(data)
         if self._opened > MOST_OPENED:
@@ -79,19 +81,19 @@ class Assets:
         return data.decode("utf-8", "replace")
 
     def find_model(self, uri: str, relative_to: Path | None) -> Path:
-        """Return the address of a text that is held."""
+        """Return the path for the address of a text."""
         return self._found(uri, "sdf")
 
     def find_file(self, uri: str, relative_to: Path | None) -> Path:
-        """Return the address of a mesh or image that is held."""
+        """Return the path for the address of a mesh or image."""
         return self._found(uri, "mesh", "grey")
 
     def real(self, path: Path) -> Path:
-        """Return the address: each thing has but one."""
+        """Return `path`, because every asset has one path only."""
         return path
 
     def stamp(self, path: Path) -> tuple[int, ...]:
-        """Return nothing: the content at an address never changes."""
+        """Return an empty tuple, because the content at an address never changes."""
         return ()
 
     def read_text(self, path: Path) -> str:
@@ -99,7 +101,7 @@ class Assets:
         return self.text(str(path))
 
     def read_mesh(self, path: Path, submesh: str, center: bool) -> Mesh:
-        """Return a mesh; its part was picked and moved when it was packed."""
+        """Return a mesh; submesh and centring were applied when it was packed."""
         data = self._data(path, "mesh")
         count, faces = (int(number) for number in np.frombuffer(data[:8].ljust(8, b"\0"), "<u4"))
         if len(data) != 8 + 24 * count + 12 * faces or not faces:

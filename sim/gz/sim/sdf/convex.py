@@ -22,10 +22,10 @@ MOST_STATIC_PIECES = 4000
 WEDGE = 0.01
 """Thickness [m] of the wedge behind a triangle of a hollow surface."""
 SHEET = 0.001
-"""Thickness [m] given to a part that is flat."""
-_CONCAVE = 0.02  # relative to its size, a bump this high makes a part concave
-_HOLE = 1e-3  # relative to the surface, a hole of this area makes it open
-_SAMPLES = 1000  # the most triangles, and points, that are checked for bumps
+"""Thickness [m] of a flat part."""
+_CONCAVE = 0.02  # minimum height of a bump of a concave part, relative to its size
+_HOLE = 1e-3  # minimum area of the holes of an open surface, relative to its area
+_SAMPLES = 1000  # maximum number of triangles and of points checked for bumps
 
 
 def convex_pieces(vertices: Points, triangles: Triangles, *, moving: bool) -> tuple[tuple[Points, ...], float]:

@@ -1,7 +1,7 @@
 """Plain data of an SDF file: a world of models with links, joints, shapes, sensors and plugins.
 
-The reader creates them; builder, systems, sensors and viewer read them. Nested models are flattened into their top
-model: names of links and joints carry the scope (`arm::hand`), poses are in the frame of the top model.
+The reader creates it; builder, systems, sensors and viewer read it. Nested models are flattened into their top model:
+names of links and joints are scoped (`arm::hand`), poses are in the frame of the top model.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from gz_course.sim.gz.sim.sdf.element import Element
 from gz_course.sim.gz.sim.spherical_coordinates import SphericalCoordinates
 
 UNLIMITED = 1e16
-"""Joint limits of this size and above mean "no limit" in Gazebo."""
+"""Joint limits of this magnitude and above mean "no limit" in Gazebo."""
 
 
 @dataclass(eq=False)

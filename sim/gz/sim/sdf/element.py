@@ -20,9 +20,9 @@ from gz_course.sim.gz.sim.errors import SdfError, one_line
 from gz_course.sim.gz.sim.pose import Pose
 
 DEEPEST = 200
-"""Elements deeper than this are refused; real worlds stay below 30."""
+"""Maximum depth of nested elements; that of real worlds is below 30."""
 MOST_ELEMENTS = 500_000
-"""A file with more elements is refused; a world of 3000 models has 100,000."""
+"""Maximum number of elements in a file; a world of 3000 models has 100,000."""
 
 _OPENING = re.compile(r"<!--|<!\[CDATA\[|<\?xml")
 _CLOSING_TAG = re.compile(r"</\s*([^\s<>/]+)")
@@ -59,7 +59,7 @@ class Element:
         return None if self.file.startswith("<") else Path(self.file).parent
 
     def error(self, sentence: str) -> SdfError:
-        """Return the error with `sentence` about this element, without raising it."""
+        """Return an error with `sentence` about this element, without raising it."""
         return SdfError(f"{self.where}: {one_line(sentence)}")
 
     def find(self, tag: str) -> Element | None:

@@ -1,8 +1,9 @@
-"""`<geometry>` of a `<collision>` or `<visual>`: its shape and size.
+"""Reads `<geometry>` of a `<collision>` or `<visual>`: its shape and size.
 
-Part of the reader: `Element` -> `Geometry`; meshes, heightmaps and polylines have files of their own. A shape that
-cannot be built is reported and left out.
-Source: SDFormat, element `<geometry>`, http://sdformat.org/spec
+Meshes, heightmaps and polylines are read by files of their own. A shape that cannot be built is left out with a
+warning.
+
+Source: SDFormat, element `<geometry>`, http://sdformat.org/spec?elem=geometry
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ _SIDES = 32  # of a cone
 
 
 def read_geometry(owner: Element, moving: bool, diagnostics: Diagnostics, resources: Resources) -> Geometry | None:
-    """Return the shape of a `<collision>` or `<visual>`, or None after a warning when there is none to build.
+    """Return the shape of a `<collision>` or `<visual>`, or None after a warning if it has none that can be built.
 
     `moving` tells whether the link can move.
     """
@@ -87,7 +88,9 @@ def _positive(shape: Element, what: str, size: tuple[float, ...]) -> tuple[float
 
 @lru_cache(maxsize=64)
 def _cone(size: tuple[float, float, float]) -> TriangleMesh:
-    """Return a cone about z of `size` (diameter, diameter, length) [m]: its base at -length/2, its tip at length/2."""
+    """Return a cone along z of `size` (diameter, diameter, length) [m] with its base at -length/2 and its tip at
+    length/2.
+    """
     angles = np.linspace(0.0, 2.0 * np.pi, _SIDES, endpoint=False)
     low, high = -size[2] / 2.0, size[2] / 2.0
     ring = np.stack((np.cos(angles) * size[0] / 2.0, np.sin(angles) * size[0] / 2.0, np.full(_SIDES, low)), axis=1)

@@ -1,8 +1,9 @@
-"""`<heightmap>` of a `<geometry>`: a grey image becomes heights over a rectangle.
+"""Reads `<heightmap>` of a `<geometry>`: the grey values of an image as heights over a rectangle.
 
-Part of the reader: `gz.sim.sdf.geometry` calls it, `gz.sim.physics.geoms` makes MuJoCo's height field of it. The
-brightest pixel is as high as `<size>` says, black is at zero, the first row of the image lies at +y; a negative z of
-`<size>` inverts the heights. The image is decoded by MuJoCo.
+`gz.sim.sdf.geometry` calls it; `gz.sim.physics.geoms` makes a MuJoCo height field of the result. Black has the height
+zero and the brightest pixel of the image the z of `<size>`; a negative z inverts the heights. The first row of the
+image lies at +y. MuJoCo decodes the image.
+
 Source: gz-common 5, https://github.com/gazebosim/gz-common/blob/gz-common5/geospatial/src/ImageHeightmap.cc
 """
 
@@ -26,7 +27,7 @@ MOST_PIXELS = 4_200_000
 def read_heightmap(
     shape: Element, owner: Element, moving: bool, diagnostics: Diagnostics, resources: Resources
 ) -> Geometry | None:
-    """Return the terrain without its `<pos>`, its heights beginning at zero, or None after a warning."""
+    """Return the terrain with heights from zero, without the offset of `<pos>`, or None after a warning."""
     left_out = f"so <{owner.tag}> '{owner.name}' is left out"
     uri = shape.text_of("uri")
     if moving:
@@ -54,7 +55,7 @@ def _terrain(
 ) -> tuple[NDArray[np.float64], TriangleMesh]:
     """Return the heights (rows, columns) [m] and their surface.
 
-    `_stamp`, which changes with the content, makes the cache read a changed file again.
+    `_stamp` changes with the content of the file, so that the cache does not return an old version.
     """
     pixels = resources.read_image(path).astype(np.float64)
     brightest = float(pixels.max())

@@ -1,9 +1,11 @@
-"""`<include>`: a model, light or world of another file, with the overrides stated beside the `<uri>`.
+"""Reads `<include>`: a model, light or world from another file, with the overrides given beside the `<uri>`.
 
-Part of the reader: `gz.sim.sdf.models` and `gz.sim.sdf.reader` open every include with it; `gz.sim.sdf.resources` finds
-the file. A file is parsed once, however often it is included. With `merge="true"` the children of the model are put
-beside the include, and a frame `_merged__NAME__model__` replaces the frame of the model.
-Source: Model Composition, http://sdformat.org/tutorials?tut=composition_proposal
+`gz.sim.sdf.models` and `gz.sim.sdf.reader` open every include with it; `gz.sim.sdf.resources` finds the file. Each file
+is parsed once. With `merge="true"` the children of the included model take the place of the include, and a frame
+`_merged__NAME__model__` takes the place of the frame of that model.
+
+Source: Composition, http://sdformat.org/tutorials?tut=composition
+Source: Merging for Composition, http://sdformat.org/tutorials?tut=composition_merge_proposal
 """
 
 from __future__ import annotations
@@ -21,7 +23,7 @@ from gz_course.sim.gz.sim.sdf.urdf.xacro_file import restore_places
 
 Version = tuple[int, int]
 MOST_INCLUDES = 5000
-"""Limit of the includes of a world: files that include each other twice grow without bound."""
+"""Maximum number of includes in a world, because nested includes can grow exponentially."""
 _KEPT_BY_PARENT = frozenset(("pose", "static", "self_collide", "allow_auto_disable", "enable_wind", "include_uri"))
 _IN_WORLD = frozenset(("model", "include", "frame", "joint", "plugin"))
 _OF_WORLDS = frozenset(("model", "include", "light", "frame", "joint", "plugin", "actor"))
@@ -29,8 +31,10 @@ _OF_WORLDS = frozenset(("model", "include", "light", "frame", "joint", "plugin",
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Opened:
-    """An element of a file or of an include: the element, the SDF version of its file, the element of the including
-    file (`place`), and the files that are open around it (`chain`).
+    """An element of a file, or one that an include refers to.
+
+    `version` is the SDF version of its file, `place` the element in the including file, and `chain` lists the files
+    being included.
     """
 
     element: Element
@@ -40,12 +44,12 @@ class Opened:
 
     @property
     def merged(self) -> bool:
-        """Return whether this is an include with `merge`, whose children are put beside it."""
+        """Return whether this is an include with `merge="true"`."""
         return self.place is not self.element and self.place.attributes.get("merge", "false").lower() in ("true", "1")
 
 
 def sdf_version(root: Element) -> Version:
-    """Return the version of an `<sdf>` element. Raises `SdfError` when it is not a version."""
+    """Return the version of an `<sdf>` element. Raises `SdfError` if it is invalid."""
     text = root.attributes.get("version", "1.10")
     major, _, minor = text.partition(".")
     if not (major.isdigit() and minor.isdigit() and len(text) < 10):
@@ -54,7 +58,7 @@ def sdf_version(root: Element) -> Version:
 
 
 def read_root(text: str, file: str, diagnostics: Diagnostics) -> Element:
-    """Return the `<sdf>` element of a text after checking its words; a URDF `<robot>` is converted."""
+    """Return the `<sdf>` element of a text and check its elements and attributes; a URDF `<robot>` is converted."""
     root = parse(text, file)
     restore_places(root)
     if root.tag == "robot":
@@ -70,7 +74,7 @@ def read_root(text: str, file: str, diagnostics: Diagnostics) -> Element:
 
 
 class Includes:
-    """The includes of one world, and the names of those that were not found."""
+    """The includes of one world, with the names of the models that were not found."""
 
     def __init__(self, diagnostics: Diagnostics, resources: Resources) -> None:
         self.resources = resources
@@ -78,11 +82,12 @@ class Includes:
         self._roots: dict[Path, Element] = {}
         self._count = 0
         self.skipped: set[str] = set()
-        """Names of the models that were not found; joints to them are skipped as well."""
+        """Names of the models that were not found; joints to these models are skipped, too."""
 
     def open(self, child: Element, version: Version, chain: tuple[Path, ...]) -> Opened | None:
-        """Return `child`, or for an `<include>` the included element with its overrides, or None after a warning when
-        it was not found. Raises `SdfError` for files that include each other.
+        """Return `child`, or for an `<include>` the included element with its overrides.
+
+        Returns None after a warning if the file was not found. Raises `SdfError` for files that include each other.
         """
         if child.tag != "include":
             return Opened(child, version, child, chain)
@@ -125,7 +130,7 @@ class Includes:
         return found
 
     def _overridden(self, found: Element, include: Element) -> Element:
-        """Return a copy of the included element with the overrides of the include."""
+        """Return a copy of the included element with the overrides of the `<include>`."""
         made = replace(found, attributes=dict(found.attributes), children=list(found.children))
         for tag in ("static", "pose"):
             override = include.find(tag)
@@ -148,11 +153,11 @@ class Includes:
         return made
 
 
-def lifted(opened: Opened, pose: Pose, base: str, link: str, *, world: bool) -> list[Element]:
-    """Return the children of a merged include, as they stand beside it.
+def merged_children(opened: Opened, pose: Pose, base: str, link: str, *, world: bool) -> list[Element]:
+    """Return the children of a merged include as elements of the including model or world.
 
-    `pose` and the frame `base` it is given in say where the model's own frame stands; `link` is what that frame is
-    fixed to. Whatever was relative to the model becomes relative to the frame that takes its place.
+    `pose`, given in the frame `base`, is the pose of the included model's frame, and `link` is the link to which that
+    frame is fixed. Poses relative to the included model become relative to the frame that replaces it.
     """
     model = opened.element
     if model.tag == "world":
@@ -179,7 +184,7 @@ def lifted(opened: Opened, pose: Pose, base: str, link: str, *, world: bool) -> 
 
 
 def _relative_to(element: Element, proxy: str, version: Version) -> Element:
-    """Return a copy of a model's child in which the model's frame is called `proxy`."""
+    """Return a copy of a child of a model in which the model's frame is called `proxy`."""
     made = _renamed(element, proxy, version)
     pose = made.find("pose")
     stated = "" if pose is None else pose.attributes.get("relative_to", "") or pose.attributes.get("frame", "")
@@ -188,7 +193,7 @@ def _relative_to(element: Element, proxy: str, version: Version) -> Element:
         if pose is not None:
             fresh = replace(pose, attributes={**pose.attributes, "relative_to": proxy})
         elif made.tag == "include":
-            return made  # its own file says where it stands
+            return made  # the pose is in its own file
         made.children = [child for child in made.children if child.tag != "pose"]
         made.children.insert(0, fresh)
     if made.tag == "frame" and not made.attributes.get("attached_to"):

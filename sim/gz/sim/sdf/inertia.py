@@ -20,7 +20,7 @@ from gz_course.sim.gz.sim.sdf.element import Element
 
 Matrix = NDArray[np.float64]
 WATER = 1000.0
-"""Default density of SDF [kg/m^3]."""
+"""The default density of SDF [kg/m^3]."""
 _HEAVIEST = 1e12  # [kg]
 
 

@@ -1,7 +1,8 @@
-"""`<link>` and what is fixed to it: inertia, collisions, visuals, sensors, lights.
+"""Reads `<link>` and its parts: inertia, collisions, visuals, sensors and lights.
 
-Part of the reader, called once per link with the scope that knows where the model's frames are.
-Source: SDFormat, element `<link>`, http://sdformat.org/spec
+Called once for each link, with the scope that resolves the frames of its model.
+
+Source: SDFormat, element `<link>`, http://sdformat.org/spec?elem=link
 """
 
 from __future__ import annotations
@@ -46,7 +47,7 @@ def read_link(element: Element, scope: Scope, model: Model, diagnostics: Diagnos
             link.inertial = automatic_inertial(inertial, link.collisions, diagnostics)
         elif not is_automatic(inertial):
             link.inertial = read_inertial(inertial, pose, model.static)
-    _warn_of_what_is_missing(element, model, diagnostics)
+    _warn_of_unsupported(element, model, diagnostics)
     return link
 
 
@@ -70,7 +71,7 @@ def _add_shape(
         link.visuals.append(Visual(part.name, pose, geometry, part, read_colour(part, diagnostics)))
 
 
-def _warn_of_what_is_missing(element: Element, model: Model, diagnostics: Diagnostics) -> None:
+def _warn_of_unsupported(element: Element, model: Model, diagnostics: Diagnostics) -> None:
     """Warn about each element of a link that is not simulated."""
     kinematic = element.find("kinematic")
     if kinematic is not None and element.flag("kinematic", False) and not model.static:
@@ -83,5 +84,5 @@ def _warn_of_what_is_missing(element: Element, model: Model, diagnostics: Diagno
             decay.where, f"<velocity_decay> of link '{element.name}' is ignored: nothing slows it down in air"
         )
     for part in element.all("projector", "audio_source", "audio_sink", "battery", "particle_emitter"):
-        text = f"<{part.tag}> is not simulated here, link '{element.name}' goes without"
+        text = f"<{part.tag}> is not simulated here, it is left out of link '{element.name}'"
         diagnostics.warn(part.where, text)

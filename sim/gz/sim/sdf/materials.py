@@ -94,7 +94,7 @@ def read_colour(visual: Element, diagnostics: Diagnostics) -> Rgba:
         elif script is not None and (script.text or script.text_of("name")):
             red, green, blue, alpha = _script_colour(script, diagnostics)
         if material.find("pbr/metal/albedo_map") or material.find("pbr/specular/albedo_map"):
-            text = "textures are not drawn, the plain colours of materials are (said once for the whole world)"
+            text = "textures are not drawn, only the plain colours of materials (reported once for the whole world)"
             diagnostics.warn_once("textures", material.where, text)
     return red, green, blue, alpha * (1.0 - transparency)
 

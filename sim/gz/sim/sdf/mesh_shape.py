@@ -1,8 +1,9 @@
-"""`<mesh>` of a `<geometry>`: file, scale and submesh as a surface of triangles.
+"""Reads `<mesh>` of a `<geometry>`: a surface of triangles from a file, with its scale and submesh.
 
-Part of the reader: `gz.sim.sdf.geometry` calls it, `gz.sim.sdf.resources` opens the file, `gz.sim.sdf.convex` makes the
-convex pieces that collide. Equal meshes (file, submesh, scale) are read once and shared.
-Source: SDFormat, element `<mesh>`, http://sdformat.org/spec
+`gz.sim.sdf.geometry` calls it; `gz.sim.sdf.resources` opens the file, `gz.sim.sdf.convex` makes the convex pieces that
+collide. Meshes of the same file, submesh and scale are read once and shared.
+
+Source: SDFormat, element `<mesh>`, http://sdformat.org/spec?elem=geometry
 """
 
 from __future__ import annotations
@@ -21,16 +22,16 @@ from gz_course.sim.gz.sim.sdf.element import Element
 from gz_course.sim.gz.sim.sdf.resources import Resources
 
 FULLER = 0.1
-"""A hull whose volume exceeds that of its mesh by more than this part causes a warning."""
+"""Relative excess of the volume of a convex hull over that of its mesh above which a warning is given."""
 _LARGEST = 1e6  # [m]
-_LONGEST_MOVING = 20.0  # [m]; a longer thing that moves is more likely a drawing in millimetres
+_LONGEST_MOVING = 20.0  # [m]; the file of a longer moving mesh is probably in millimetres
 _SMALLEST_AREA = 1e-12  # [m^2]
 
 
 def read_mesh_shape(
     shape: Element, owner: Element, moving: bool, diagnostics: Diagnostics, resources: Resources
 ) -> Geometry | None:
-    """Return the mesh of a `<collision>` or `<visual>`, or None after a warning when its file cannot be used."""
+    """Return the mesh of a `<collision>` or `<visual>`, or None after a warning if its file cannot be used."""
     left_out = f"so <{owner.tag}> '{owner.name}' is left out"
     uri = shape.text_of("uri")
     if not uri:
@@ -79,12 +80,15 @@ def _load(
     scale: tuple[float, float, float],
     touching: str,
 ) -> tuple[TriangleMesh, float]:
-    """Read and scale a mesh. `_stamp`, which changes with the content, makes the cache read a changed file again."""
+    """Read and scale a mesh; return it with the relative excess of its convex hulls.
+
+    `_stamp` changes with the content of the file, so that the cache does not return an old version.
+    """
     read = resources.read_mesh(path, submesh, center)
     vertices = np.asarray(read.vertices, dtype=np.float64) * np.array(scale)
     triangles = np.asarray(read.triangles, dtype=np.int32)
     if np.prod(np.sign(scale)) < 0.0:
-        triangles = triangles[:, ::-1]  # a mirrored surface would be inside out
+        triangles = triangles[:, ::-1]  # mirroring reverses the winding order
     pieces: tuple[NDArray[np.float64], ...] = ()
     fuller = 0.0
     if not np.all(np.isfinite(vertices)) or _area(vertices, triangles) < _SMALLEST_AREA:

@@ -10,12 +10,12 @@ from gz_course.sim.gz.sim.pose import Pose
 from gz_course.sim.gz.sim.sdf.description import Model, NestedModel, Plugin
 from gz_course.sim.gz.sim.sdf.element import Element
 from gz_course.sim.gz.sim.sdf.frames import Scope
-from gz_course.sim.gz.sim.sdf.includes import Includes, Opened, lifted
+from gz_course.sim.gz.sim.sdf.includes import Includes, Opened, merged_children
 from gz_course.sim.gz.sim.sdf.joints import check_mimics, read_joint
 from gz_course.sim.gz.sim.sdf.links import read_link
 
 Placed = tuple[Model, Scope, Pose, str]
-"""A model, its scope, the pose its file states and the frame that pose is given in."""
+"""A model, its scope, its pose in the file, and the frame of that pose."""
 _UNHEARD = {
     "gripper": "grippers of Gazebo Classic are not simulated; use the DetachableJoint system",
     "enable_wind": "",
@@ -112,11 +112,11 @@ class ModelReader:
         world.
         """
         if part.element.tag == "world":
-            children = lifted(part, Pose(), "", "", world=True)
+            children = merged_children(part, Pose(), "", "", world=True)
         else:
             # The model is read once for the pose of its frame; its children are read again in their new scope.
             model, _, pose, base = self.read(part, static)
-            children = lifted(part, pose, base, model.canonical_link, world=world)
+            children = merged_children(part, pose, base, model.canonical_link, world=world)
         made: list[Opened] = []
         for child in children:
             inner = self._includes.open(child, part.version, part.chain)

@@ -1,8 +1,8 @@
-"""A description packed together with everything it names, so that it can be read where its files are not.
+"""Packs a description together with the files it names, so that it can be read without these files.
 
-The opposite end is `gz.sim.sdf.assets`. A URDF has become SDF, xacro is expanded, meshes and images are decoded; every
-`<uri>` of an `<include>`, `<mesh>` or `<heightmap>` is the address of an asset. Elements keep the file and line they
-come from, for messages (as those of an expanded xacro file do).
+`gz.sim.sdf.assets` reads the result. URDF is converted to SDF, xacro is expanded, meshes and images are decoded; every
+`<uri>` of an `<include>`, `<mesh>` or `<heightmap>` becomes the address of an asset. Elements keep their file and line
+for messages, in the same attributes as those of an expanded xacro file.
 """
 
 from __future__ import annotations
@@ -22,21 +22,21 @@ from gz_course.sim.gz.sim.sdf.urdf.xacro_file import PLACE
 from gz_course.sim.gz.sim.sdf.writer import to_xml
 
 NOT_FOUND = "missing:"
-"""Begins the `<uri>` of what was not found; a reader leaves it out as the one that looked for it did."""
+"""The prefix of the `<uri>` of a file that was not found; readers leave such an element out with a warning."""
 
 
 @dataclass
 class Packed:
-    """The address of a description among the `assets` that belong to it, by address."""
+    """The address of a description, and all `assets` it refers to, by address."""
 
     description: str
     assets: dict[str, bytes] = field(default_factory=dict)
 
 
 def pack(text: str, file: str) -> Packed:
-    """Pack an SDF or URDF text; `file` names it in messages and is where relative addresses start.
+    """Pack an SDF or URDF text; `file` is its name in messages and the base of relative addresses.
 
-    Raises `SdfError` where a reader would.
+    Raises `SdfError` like a reader.
     """
     return _Packer().pack(text, file)
 
@@ -46,7 +46,7 @@ class _Packer:
         self._assets: dict[str, bytes] = {}
         self._models: dict[Path, str] = {}
         self._open: list[Path] = []
-        self._silent = Diagnostics(quiet=True)  # the warnings are the reader's to say
+        self._silent = Diagnostics(quiet=True)  # warnings are given when the result is read
 
     def pack(self, text: str, file: str) -> Packed:
         return Packed(self._text(text, file), self._assets)

@@ -19,9 +19,9 @@ Found = Iterator[tuple[str, str]]
 
 NEWEST_VERSION = (1, 12)
 MOST_RADIANS = 6.5
-"""An angle [rad] in a pose beyond this is more than a turn; most likely degrees were meant."""
+"""Maximum plausible angle [rad] of a pose, just above a full turn; larger ones are probably in degrees."""
 DEGREES = frozenset(range(15, 361, 15))
-"""Limits of joints that are most likely degrees; other large ones are joints of several turns."""
+"""Limits of joints that are probably in degrees; other large limits are those of joints with several turns."""
 _NEEDED = {
     "box": ("size",),
     "sphere": ("radius",),
@@ -30,7 +30,7 @@ _NEEDED = {
     "cone": ("radius", "length"),
     "ellipsoid": ("radii",),
 }
-"""What every shape should state, although SDF has a default for it."""
+"""The elements that every shape should have, although SDF has defaults for them."""
 _NO_TEXT = frozenset((*_NEEDED, *["plane", "mesh", "geometry", "visual", "link", "inertial", "inertia", "axis"]))
 _AXIS_NEEDED = frozenset(("revolute", "continuous", "prismatic", "screw"))
 
@@ -150,7 +150,7 @@ def _numbers(text: str) -> list[float]:
     try:
         return [float(word) for word in text.split()]
     except ValueError:
-        return []  # the reader reports it
+        return []  # the reader reports this error
 
 
 def check_model(model: Model, held: bool, diagnostics: Diagnostics) -> None:

@@ -1,7 +1,9 @@
-"""Reader of SDF: a text becomes a `WorldDescription`, with includes opened, frames resolved, nested models flattened.
+"""Reader of SDF: converts a text to a `WorldDescription`.
 
-`World.load` -> `read_world_file` -> (here) -> `gz.sim.physics.builder`. Unknown elements are reported and skipped; what
-makes no sense (a text for a number, a joint to a link that does not exist) raises `SdfError` with its line.
+Includes are opened, frames are resolved and nested models are flattened. `World.load` calls `read_world_file`;
+`gz.sim.physics.builder` builds the result. Unknown elements are ignored with a warning; invalid ones (a text instead of
+a number, a joint to a link that does not exist) raise `SdfError` with the line.
+
 Source: SDFormat, elements `<sdf>` and `<world>`, http://sdformat.org/spec
 """
 
@@ -28,7 +30,7 @@ from gz_course.sim.gz.sim.spherical_coordinates import SphericalCoordinates
 FARTHEST = 1e7  # [m]
 LONGEST_GOOD_STEP_NS = 20_000_000
 _NOT_SIMULATED = {
-    "actor": "is not simulated here, nobody walks through this world",
+    "actor": "is not simulated here, it is left out",
     "road": "is not simulated here, it is left out; use a flat box",
     "population": "is not simulated here; place the models one by one",
     "state": "is a saved state, which is not restored; the models start where they are defined",
@@ -37,14 +39,14 @@ _NOT_SIMULATED = {
 
 
 def read_world_file(path: Path, diagnostics: Diagnostics) -> WorldDescription:
-    """Read the world of an SDF file. Raises `SdfError` for anything else, also for a file with only a model."""
+    """Read the world of an SDF file. Raises `SdfError` for any other file, including one with only a model."""
     return read_world(read_text(path), str(path), diagnostics)
 
 
 def read_world(text: str, file: str, diagnostics: Diagnostics, resources: Resources = FILES) -> WorldDescription:
-    """Read the world of an SDF text; `file` names it in messages and is where relative includes start.
+    """Read the world of an SDF text.
 
-    Whatever else it names is opened with `resources`.
+    `file` is its name in messages and the base of relative includes; `resources` opens the files it refers to.
     """
     root = read_root(text, file, diagnostics)
     world = root.find("world")
@@ -63,9 +65,9 @@ def read_world(text: str, file: str, diagnostics: Diagnostics, resources: Resour
 def read_model(
     text: str, file: str, diagnostics: Diagnostics, name: str = "", resources: Resources = FILES
 ) -> Model | Light:
-    """Read the one model (or light) of an SDF text that comes into a running world; `name` replaces its own.
+    """Read the model or light of an SDF text that is created in a running world; `name` replaces its name.
 
-    It is read as if it stood in a world of its own, so its pose is in the world frame.
+    Its pose is in the world frame.
     """
     root = read_root(text, file, diagnostics)
     found = [child for child in root.children if child.tag in ("model", "light", "include")]
@@ -88,7 +90,7 @@ def read_model(
 
 
 class _WorldReader:
-    """Walks one `<world>`; holds what every level needs: the SDF version and where warnings go."""
+    """Reads one `<world>`; holds the SDF version, the includes and the diagnostics."""
 
     def __init__(self, version: tuple[int, int], diagnostics: Diagnostics, resources: Resources) -> None:
         self._version = version
@@ -120,7 +122,7 @@ class _WorldReader:
         return description
 
     def _read_entities(self, world: Element, description: WorldDescription) -> None:
-        """Read models, lights, frames, joints and plugins, those that includes bring among them."""
+        """Read models, lights, frames, joints and plugins, including those of included files."""
         scope = Scope("world", world)
         models: list[tuple[Opened, Model]] = []
         lights: list[Element] = []
@@ -189,7 +191,7 @@ class _WorldReader:
 
 
 def long_step(step: float) -> str:
-    """Return the sentence about a step of `step` seconds that is longer than good."""
+    """Return the warning about a step of `step` [s] that is longer than recommended."""
     return (
         f"<max_step_size> is {step:g} s; above {LONGEST_GOOD_STEP_NS * 1e-9:g} s wheels slip (a robot is 7 % slow at "
         "0.05 s, 25 % at 0.1 s), what stands sinks in, and stiff joints become unstable; 0.001 to 0.004 s is usual"
@@ -197,7 +199,7 @@ def long_step(step: float) -> str:
 
 
 def _bounded(pose: Pose, element: Element) -> Pose:
-    """Return the pose; raise `SdfError` when it is so far out that numbers lose their meaning."""
+    """Return the pose. Raises `SdfError` if it is so far from the origin that floating-point numbers lose precision."""
     if not np.max(np.abs(pose.position)) < FARTHEST:
         raise element.error(f"<{element.tag}> '{element.name}' stands more than {FARTHEST:g} m away from the origin")
     return pose

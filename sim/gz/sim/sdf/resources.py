@@ -1,14 +1,15 @@
-"""Files of worlds, models, meshes and images: how they are found and how their text is read.
+"""Finds and reads the files of worlds, models, meshes and images.
 
-Called by `World.load` for the name of the world and by the reader for every `<uri>`. Folders are those of
-GZ_SIM_RESOURCE_PATH, then of SDF_PATH and IGN_GAZEBO_RESOURCE_PATH, then the built-in ones; `package://` also looks
-into `share/` of every prefix in AMENT_PREFIX_PATH. Nothing is ever downloaded: an address of Gazebo Fuel means the
-model of that name in one of those folders (`Ground Plane` and `Sun` are built in).
+Called by `World.load` for the name of the world and by the reader for every `<uri>`. Files are searched for in the
+folders of GZ_SIM_RESOURCE_PATH, then of SDF_PATH and IGN_GAZEBO_RESOURCE_PATH, then in the built-in folders; for
+`package://` also in `share/` of every prefix in AMENT_PREFIX_PATH. Nothing is downloaded: an address of Gazebo Fuel
+refers to the model of that name in one of these folders (`Ground Plane` and `Sun` are built in).
+
+The reader opens files only through the `Resources` object it was given: `FILES` opens files of this machine,
+`gz.sim.sdf.assets` holds the content in memory. A xacro file is expanded when it is read. Its expressions are Python
+code, so read only xacro files that you trust.
+
 Source: Finding resources, https://gazebosim.org/api/sim/8/resources.html
-
-The reader opens nothing by itself: it asks the `Resources` object it was handed. `FILES` opens the files of this
-machine; `gz.sim.sdf.assets` opens nothing and knows only what was put into it. A xacro file is expanded when it is
-read, and its expressions are Python: read xacro files of people you trust only.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ _MOST_BYTES = 64 * 1024 * 1024
 
 
 def resource_paths() -> list[Path]:
-    """Return the folders named in GZ_SIM_RESOURCE_PATH and its older names (separated by `:`), in order."""
+    """Return the folders in GZ_SIM_RESOURCE_PATH and in the variables with older names (separated by `:`), in order."""
     words = [word for name in _VARIABLES for word in os.environ.get(name, "").split(os.pathsep) if word]
     return [Path(word) for word in dict.fromkeys(words)]
 
@@ -51,7 +52,7 @@ def package_shares() -> list[Path]:
 
 
 def find_world(name: str | Path) -> Path:
-    """Return the file of a world given as a path or a name. Raises `ResourceError` with the nearest name."""
+    """Return the world file for a path or a name. Raises `ResourceError` with the nearest name."""
     text = str(name)
     if text.startswith(("http://", "https://")):
         raise ResourceError(f"world '{text}' would have to be downloaded, which is not done here; save it as a file")
@@ -81,11 +82,11 @@ def _worlds_in(folder: Path) -> Iterator[Path]:
 
 
 def find_model(uri: str, relative_to: Path | None) -> Path:
-    """Return the SDF, URDF or xacro file that an `<include><uri>` means.
+    """Return the SDF, URDF or xacro file that the `<uri>` of an `<include>` refers to.
 
-    `model://NAME`, `package://NAME/FILE`, `file://PATH`, an address of Fuel, and paths (absolute, or relative to the
-    folder `relative_to` of the including file) are understood; a folder stands for the file its model.config names.
-    Raises `ResourceError`; its text has no file:line (the caller knows it).
+    A `<uri>` is `model://NAME`, `package://NAME/FILE`, `file://PATH`, an address of Fuel, or a path, absolute or
+    relative to the folder `relative_to` of the including file. For a folder the file named in its model.config is
+    returned. Raises `ResourceError` without file and line, which the caller adds.
     """
     for candidate in _candidates(uri, relative_to):
         if _exists(candidate):
@@ -108,9 +109,9 @@ def find_model(uri: str, relative_to: Path | None) -> Path:
 
 
 def find_file(uri: str, relative_to: Path | None) -> Path:
-    """Return the mesh or image of a `<uri>`, written as those of `find_model`.
+    """Return the mesh or image that a `<uri>` refers to, in the notations of `find_model`.
 
-    Raises `ResourceError` when there is no such file.
+    Raises `ResourceError` if there is no such file.
     """
     candidates = list(_candidates(uri, relative_to))
     for candidate in candidates:
@@ -128,7 +129,7 @@ def find_file(uri: str, relative_to: Path | None) -> Path:
 
 
 def _candidates(uri: str, relative_to: Path | None) -> Iterator[Path]:
-    """Yield the places a URI can mean, best first."""
+    """Yield the paths that a `<uri>` can refer to, in order of precedence."""
     scheme, separator, rest = uri.partition("://")
     if not separator:
         scheme, rest = "", uri
@@ -140,7 +141,7 @@ def _candidates(uri: str, relative_to: Path | None) -> Iterator[Path]:
         for folder in (*beside, *resource_paths()):
             yield folder / path
         if scheme or "/" in path:
-            return  # a bare name may still be a built-in model
+            return  # a name without folder may be that of a built-in model
     path = path.strip("/")
     if not path:
         return
@@ -170,7 +171,7 @@ def _fuel_path(uri: str) -> str:
 
 
 def _path_hint(path: str, relative_to: Path | None) -> str:
-    """Return what to set when the file belongs to the model that names it, but no path leads to its folder."""
+    """Return a hint which folder to add to GZ_SIM_RESOURCE_PATH, if the file is in the model that includes it."""
     name = path.split("/")[0]
     for folder in (relative_to, *relative_to.resolve().parents) if relative_to is not None else ():
         for each in (folder, folder / name):
@@ -180,7 +181,7 @@ def _path_hint(path: str, relative_to: Path | None) -> str:
 
 
 def _model_file(path: Path, uri: str) -> Path:
-    """Return `path` itself when it is a file, else the file of highest SDF version named by its model.config."""
+    """Return `path` if it is a file, else the file of the highest SDF version named in its model.config."""
     if _is_file(path):
         return path
     config = next((path / name for name in ("model.config", "manifest.xml") if _is_file(path / name)), None)
@@ -196,19 +197,19 @@ def _model_file(path: Path, uri: str) -> Path:
             found.append((version <= NEWEST_SDF, version, entry.text))
     if not found:
         raise ResourceError(f"{config}: it names no <sdf> file that exists, so '{uri}' cannot be included")
-    # Of equal versions the first counts; a file newer than what is understood only when there is no other.
+    # Of equal versions the first file is used; one of an unsupported newer version only if there is no other.
     known = [each for each in found if each[0]]
     best = max(known, key=lambda each: each[1]) if known else min(found, key=lambda each: each[1])
     return path / best[2]
 
 
 def read_text(path: Path) -> str:
-    """Return the text of an SDF or URDF file, whatever its encoding; raise `SdfError` when it cannot be read.
+    """Return the text of an SDF or URDF file in any encoding. Raises `SdfError` if it cannot be read.
 
-    A xacro file (`.xacro` is among its endings: `robot.urdf.xacro`, `robot.xacro.urdf`) is expanded first.
+    A file with `.xacro` among its suffixes (`robot.urdf.xacro`, `robot.xacro.urdf`) is expanded first.
     """
     if ".xacro" in path.suffixes:
-        from gz_course.sim.gz.sim.sdf.urdf.xacro_file import expand  # few worlds need it
+        from gz_course.sim.gz.sim.sdf.urdf.xacro_file import expand  # slow to import, and rarely needed
 
         return expand(path)
     try:
@@ -228,7 +229,7 @@ def read_text(path: Path) -> str:
 def _exists(path: Path) -> bool:
     try:
         return path.exists()
-    except (OSError, ValueError):  # a name too long, or with a zero byte
+    except (OSError, ValueError):  # the name is too long or contains a null byte
         return False
 
 
@@ -244,37 +245,37 @@ def _listed(folder: Path) -> list[Path]:
 
 
 class Resources(Protocol):
-    """What a reader opens the models, meshes and images with that a description names.
+    """The access of a reader to the models, meshes and images that a description names.
 
-    Paths are only handed back to the object they came from; they need not be files.
+    A path is only passed back to the object that returned it; it need not be the path of a file.
     """
 
     def __hash__(self) -> int:
-        """Return a number for caches; each object counts as another."""
+        """Return the identity of the object, as a key of caches."""
 
     opens_files: bool
-    """Whether there are files behind it: only then may a description write some, too."""
+    """True if it reads files of this machine; only then may systems of the world write files."""
 
     def find_model(self, uri: str, relative_to: Path | None) -> Path:
-        """Return what the `<uri>` of an `<include>` means; raise `ResourceError` when there is no such thing."""
+        """Return the path for the `<uri>` of an `<include>`. Raises `ResourceError` if it does not exist."""
 
     def find_file(self, uri: str, relative_to: Path | None) -> Path:
-        """Return the mesh or image a `<uri>` means; raise `ResourceError` when there is no such thing."""
+        """Return the path for the `<uri>` of a mesh or image. Raises `ResourceError` if it does not exist."""
 
     def real(self, path: Path) -> Path:
-        """Return the one path of a thing that has several."""
+        """Return the canonical path of a file that has several paths."""
 
     def stamp(self, path: Path) -> tuple[int, ...]:
-        """Return numbers that change with the content; raise OSError when there is none."""
+        """Return numbers that change with the content. Raises OSError if there is no such file."""
 
     def read_text(self, path: Path) -> str:
-        """Return the text of an SDF or URDF file; raise `SdfError` when it cannot be read."""
+        """Return the text of an SDF or URDF file. Raises `SdfError` if it cannot be read."""
 
     def read_mesh(self, path: Path, submesh: str, center: bool) -> Mesh:
-        """Return a mesh, as `gz.sim.sdf.meshes.read_mesh` does."""
+        """Return a mesh like `gz.sim.sdf.meshes.read_mesh`."""
 
     def read_image(self, path: Path) -> NDArray[np.uint8]:
-        """Return the first channel (rows, columns) of an image; raise `ResourceError` when it cannot be read."""
+        """Return the first channel (rows, columns) of an image. Raises `ResourceError` if it cannot be read."""
 
 
 class Files:
@@ -289,16 +290,16 @@ class Files:
         return find_file(uri, relative_to)
 
     def real(self, path: Path) -> Path:
-        """Return the path without links."""
+        """Return the path with symbolic links resolved."""
         return path.resolve()
 
     def stamp(self, path: Path) -> tuple[int, ...]:
-        """Return when it was changed last [ns] and its size [bytes]."""
+        """Return the time of the last change [ns] and the size [byte]."""
         stat = path.stat()
         return stat.st_mtime_ns, stat.st_size
 
     def read_text(self, path: Path) -> str:
-        """Return the text; a xacro file is expanded, which runs what it says."""
+        """Return the text; a xacro file is expanded, which executes its expressions."""
         return read_text(path)
 
     def read_mesh(self, path: Path, submesh: str, center: bool) -> Mesh:

@@ -222,10 +222,10 @@ CHILDREN: dict[str, frozenset[str]] = {
         "fog": "color type start end density",
     }.items()
 }
-"""Child elements by parent. A parent that is not here is not looked into."""
+"""Child elements by parent; parents that are not listed are not checked."""
 
 _MOST_HOMES = 3
-"""An element that can stand in more places is not sent there."""
+"""Maximum number of places named in a hint about a misplaced element."""
 
 _RARE_HOMES = frozenset(("actor", "model_state", "link_state", "joint_state", "light_state", "collision_state"))
 _CHILDREN_LISTING = "elements that can stand there are"

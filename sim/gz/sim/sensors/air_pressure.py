@@ -1,7 +1,7 @@
 """Air pressure at the height of the sensor, as `gz.msgs.FluidPressure`.
 
-The atmosphere is the International Standard Atmosphere, with sea level at the world's zero height; neither
-`<atmosphere>` nor the elevation of `<spherical_coordinates>` changes it, as in Gazebo.
+The atmosphere is the International Standard Atmosphere, whose sea level is at the height zero of the world. As in
+Gazebo neither `<atmosphere>` nor the elevation of `<spherical_coordinates>` changes it.
 
 Source: U.S. Standard Atmosphere, 1976 (NOAA-S/T 76-1562)
 Source: https://github.com/gazebosim/gz-sensors/blob/gz-sensors8/src/AirPressureSensor.cc
@@ -32,11 +32,11 @@ SEA_LEVEL_TEMPERATURE = 288.15
 LAPSE_RATE = 0.0065
 """[K/m]"""
 EARTH_RADIUS = 6356766.0
-"""Radius [m] of the geopotential height."""
+"""The radius of the earth [m] in the formula of the geopotential height."""
 EXPONENT = 9.80665 * 28.9644 / (8314.32 * LAPSE_RATE)
-"""g M / (R L): gravity, molar mass of air [kg/kmol], gas constant [J/(kmol K)], lapse rate."""
+"""g M / (R L): gravity [m/s^2], molar mass of air [kg/kmol], gas constant [J/(kmol K)], lapse rate [K/m]."""
 HIGHEST = 44_000.0
-"""Height [m] at which the formula of the troposphere ends: no air is left there."""
+"""Height [m] at which the pressure in the formula of the troposphere becomes zero."""
 
 
 def standard_temperature(height: float) -> float:

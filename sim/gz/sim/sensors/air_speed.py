@@ -21,9 +21,9 @@ from gz_course.sim.gz.sim.sdf.element import Element
 from gz_course.sim.gz.sim.sensors.air_pressure import HIGHEST, LAPSE_RATE, SEA_LEVEL_TEMPERATURE
 
 SEA_LEVEL_DENSITY = 1.225
-"""kg/m^3."""
+"""[kg/m^3]"""
 DENSITY_EXPONENT = 4.256
-"""How the density of the standard atmosphere falls with its temperature."""
+"""Exponent of the density of the standard atmosphere as a function of its temperature."""
 
 
 @sensor_type("air_speed")

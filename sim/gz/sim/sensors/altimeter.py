@@ -27,7 +27,7 @@ class Altimeter(SiteSensor):
     suffix = "altimeter"
     message_type = "gz.msgs.Altimeter"
     reference = 0.0
-    """Height [m] of the sensor in the world at the start; positions are relative to it."""
+    """Height [m] of the sensor in the world at the start, the zero of the reported positions."""
 
     def read_noises(self, element: Element) -> Sequence[tuple[str, Noise]]:
         """Return the noises of the position [m] and of the velocity [m/s]."""

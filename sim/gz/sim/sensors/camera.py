@@ -2,6 +2,9 @@
 
 `camera_sensor` has the base class and the topics, `renderer` makes the colours. Formats are R8G8B8, L8, L16 and the
 Bayer patterns; any other causes a warning and an R8G8B8 image, as in Gazebo.
+
+Source: https://github.com/gazebosim/gz-sensors/blob/gz-sensors8/src/CameraSensor.cc
+Source: ITU-R BT.601 (luminance of L8 and L16)
 """
 
 from __future__ import annotations
@@ -32,7 +35,7 @@ FORMATS = {
     "BAYER_GBRG8": "BAYER_GBRG8",
     "BAYER_GRBG8": "BAYER_GRBG8",
 }
-"""SDF's pixel formats that Gazebo's cameras make, and the names of gz.msgs.PixelFormatType."""
+"""The names of gz.msgs.PixelFormatType by the pixel formats of SDF that Gazebo's cameras support."""
 _LUMINANCE = np.array((0.299, 0.587, 0.114))
 _BAYER = {"BAYER_RGGB8": "RGGB", "BAYER_BGGR8": "BGGR", "BAYER_GBRG8": "GBRG", "BAYER_GRBG8": "GRBG"}
 
@@ -69,7 +72,7 @@ class Camera(CameraSensor):
         image = self.camera.find("image")
         stated = image.text_of("format", "R8G8B8") if image is not None else "R8G8B8"
         self.format = FORMATS.get(stated, "RGB_INT8")
-        """The name of the images' gz.msgs.PixelFormatType."""
+        """The name of the format in gz.msgs.PixelFormatType."""
         if image is not None and stated not in FORMATS:
             world.diagnostics.warn(
                 image.where,

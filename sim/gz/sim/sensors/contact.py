@@ -50,7 +50,7 @@ class Contact(SensorBase):
         link = model.link(description.link)
         names = [part.name for part in link.collisions] if link is not None else []
         self.collisions: list[CollisionPath] = []
-        """The collisions that feel."""
+        """The collisions whose contacts are reported."""
         for child in contact.all("collision"):
             if child.text in names:
                 self.collisions.append((description.model, description.link, child.text))

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 FRAMES = ("child", "parent", "sensor")
 DIRECTIONS = ("child_to_parent", "parent_to_child")
-"""`a_to_b`: the wrench that link a puts on link b. The first of each is the default."""
+"""The measured wrench: `a_to_b` is that of link a on link b. The first one is the default."""
 
 
 @sensor_type("force_torque")

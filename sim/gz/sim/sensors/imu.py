@@ -33,7 +33,7 @@ _FROM_ENU = {
     "NED": (math.pi, 0.0, math.pi / 2.0),
     "NWU": (0.0, 0.0, math.pi / 2.0),
 }
-"""Roll, pitch, yaw of the named frames seen from east-north-up."""
+"""Roll, pitch, yaw [rad] of the named frames in the east-north-up frame."""
 LOCALIZATIONS = (*_FROM_ENU, "CUSTOM", "GRAV_UP", "GRAV_DOWN")
 _AXES = [f"{group}/{axis}" for group in ("angular_velocity", "linear_acceleration") for axis in "xyz"]
 
@@ -59,7 +59,7 @@ class Imu(SiteSensor):
         variances = [noise.stddev**2 for _, noise in self.read_noises(element)]
         self._covariances = [np.diag(variances[start : start + 3]).ravel().tolist() for start in (0, 3)]
         self.reference: Vector = quaternion_from_rpy(0.0, 0.0, 0.0)
-        """The frame the orientation is seen from: its quaternion (wxyz) in the world."""
+        """The orientation (wxyz) of the reference frame in the world."""
 
     def read_noises(self, element: Element) -> Sequence[tuple[str, Noise]]:
         """Return the noises of the angular velocity [rad/s] and the acceleration [m/s^2], x y z each."""
@@ -113,10 +113,10 @@ class Imu(SiteSensor):
         if parent is None:
             return None
         gravity = np.array(self.world.description.gravity)
-        wish = rotate(parent, np.array(self._frame.vector("grav_dir_x", (1.0, 0.0, 0.0))))
+        wanted = rotate(parent, np.array(self._frame.vector("grav_dir_x", (1.0, 0.0, 0.0))))
         strength = float(np.linalg.norm(gravity))
         up = -sign * gravity / strength if strength > 0.0 else np.zeros(3)
-        ahead = wish - up * float(up @ wish)
+        ahead = wanted - up * float(up @ wanted)
         length = float(np.linalg.norm(ahead))
         if strength == 0.0 or length < 1e-9:
             self._warn(f"{self.localization} needs gravity and a <grav_dir_x> that is not parallel to it")

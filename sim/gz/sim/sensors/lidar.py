@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from gz_course.sim.gz.transport import Node
 
 MOST_RAYS = 2_000_000
-"""More beams than this would take minutes a scan."""
+"""Maximum number of rays of a lidar; a scan with more would take minutes."""
 _MORE_THAN_ROUND = 6.5  # [rad]; more than 2 pi, because a full turn may be rounded
 
 

@@ -40,9 +40,9 @@ class LogicalCamera(SiteSensor):
         camera = element.find("logical_camera") or Element("logical_camera", file=element.file, line=element.line)
         self.near, self.far = camera.number("near", 0.0), camera.number("far", 1.0)
         self.horizontal_fov = camera.number("horizontal_fov", 1.0)
-        """Angle of view [rad] from side to side."""
+        """Horizontal angle of view [rad]."""
         self.aspect_ratio = camera.number("aspect_ratio", 1.0)
-        """Width divided by height."""
+        """Width of the frustum divided by its height."""
         if not (0.0 <= self.near < self.far < math.inf):
             raise camera.error(f"<logical_camera> needs 0 <= near < far, got near {self.near} and far {self.far}")
         if not (0.0 < self.horizontal_fov < math.pi and 0.0 < self.aspect_ratio < math.inf):

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
 GAUSS = 1e4
-"""Gauss in a tesla."""
+"""Gauss per tesla."""
 
 
 @sensor_type("magnetometer")
@@ -39,9 +39,9 @@ class Magnetometer(SiteSensor):
     suffix = "magnetometer"
     message_type = "gz.msgs.Magnetometer"
     use_units_gauss = True
-    """Whether the earth's field is in gauss; set by the system."""
+    """True if the earth's field is in gauss; set by the system."""
     use_earth_frame_ned = True
-    """Whether the earth's field is along north, east, down, and not east, north, up; set by the system."""
+    """True if the earth's field is along north, east, down instead of east, north, up; set by the system."""
 
     def read_noises(self, element: Element) -> Sequence[tuple[str, Noise]]:
         """Return the noise of each axis, in the unit of the field."""

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
 SUSPICIOUS_DEGREES = 0.01
-"""A deviation of the horizontal position from here on (1.1 km) was most likely meant in metres."""
+"""Standard deviation [deg] of the horizontal position (1.1 km) from which on it is probably in metres."""
 
 
 @sensor_type("navsat", "gps")

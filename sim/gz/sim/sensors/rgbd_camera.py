@@ -1,4 +1,7 @@
-"""RGBD camera: colour image, depth image and coloured points from one cast of rays."""
+"""RGBD camera: colour image, depth image and coloured points from one cast of rays.
+
+Source: https://github.com/gazebosim/gz-sensors/blob/gz-sensors8/src/RgbdCameraSensor.cc
+"""
 
 from __future__ import annotations
 

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from gz_course.sim.gz.transport import Node
 
 STRAIGHT = 0.001
-"""Turning rates [rad/s] below this are straight on."""
+"""Turning rates [rad/s] below this value mean straight driving."""
 _WHEELS = ("left_joint", "right_joint")
 _STEERING = ("left_steering_joint", "right_steering_joint")
 _LIMITS = [f"{bound}_{what}" for bound in ("min", "max") for what in ("velocity", "acceleration", "jerk")]

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 _ZERO = (0.0, 0.0, 0.0)
 _MOST = 10_000
-"""More pushes are not kept: a sender that never clears must not fill the memory."""
+"""Maximum number of stored wrenches, because a sender may never clear them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,7 +142,7 @@ class ApplyLinkWrench(System):
             known = (each.name for each in self.world.description.models)
             hint = did_you_mean(wrench.name.split("::")[0], known, listing="models are")
             self.world.diagnostics.warn(
-                "", f"a wrench is for '{wrench.name or wrench.number}', which is not there{hint}"
+                "", f"a wrench is for '{wrench.name or wrench.number}', which does not exist{hint}"
             )
         if body <= 0:
             return

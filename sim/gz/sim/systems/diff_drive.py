@@ -87,12 +87,9 @@ class DiffDrive(System):
         for side in self._sides:
             if _skids(model, side, radius):
                 text = f"DiffDrive of model '{scope.full_name}' has wheels one behind the other: it must skid to turn; "
-                text += (
-                    "tyres grip alike in all directions here (<slip1>, <slip2>, <mu2> do not count), so it turns with "
-                )
-                text += (
-                    "a third (as long as wide) to nine tenths of the commanded rate; two wheels and casters give all"
-                )
+                text += "friction is the same in all directions here (<slip1>, <slip2>, <mu2> have no effect), so it "
+                text += "turns with a third (as long as wide) to nine tenths of the commanded rate; "
+                text += "use two wheels and casters"
                 world.diagnostics.warn(element.where, text)
                 break
         self._odometry = WheelOdometry(separation, radius)

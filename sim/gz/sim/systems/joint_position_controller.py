@@ -3,7 +3,7 @@
 `gz.msgs.Double` on `/model/M/joint/J/0/cmd_pos` [rad or m] -> error of the first joint -> PID -> force on every joint.
 With `<use_velocity_commands>` there is no PID: the joints move at once, or with the speed `<cmd_max>`.
 
-Source: https://github.com/gazebosim/gz-sim, branch gz-sim8, src/systems/joint_position_controller
+Source: JointPositionController.cc, https://github.com/gazebosim/gz-sim/tree/gz-sim8/src/systems/joint_position_controller
 """
 
 from __future__ import annotations

@@ -5,7 +5,7 @@ of the position PID and the velocity PID and the effort of the point are added t
 interpolated and accelerations are ignored. Each new point publishes the fraction of points reached on
 `<topic>_progress` (`Float`).
 
-Source: https://github.com/gazebosim/gz-sim, branch gz-sim8, src/systems/joint_trajectory_controller
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/joint_traj_control/JointTrajectoryController.cc
 """
 
 from __future__ import annotations
@@ -100,8 +100,8 @@ class JointTrajectoryController(System):
 
     def bind(self) -> None:
         for actuated in self.joints.values():
-            wish = JointServo(actuated.joint.name, FORCE)
-            actuated.drive = find_drive(self.world.model, self.scope.model, wish)
+            servo = JointServo(actuated.joint.name, FORCE)
+            actuated.drive = find_drive(self.world.model, self.scope.model, servo)
 
     def start(self) -> None:
         self._trajectory: _Trajectory | None = None

@@ -3,6 +3,8 @@
 `gz sim --record` adds it. It records the poses (`/world/W/pose/info`, `/world/W/dynamic_pose/info`), the initial world
 as SDF (`/W/log/sdf`), and every topic whose whole name matches one of the `<record_topic>` patterns. A recorded sensor
 counts as subscribed. `gz log` (`gz.sim.tlog`) reads the file.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/log/LogRecord.cc
 """
 
 from __future__ import annotations
@@ -25,7 +27,7 @@ if TYPE_CHECKING:
     from gz_course.sim.gz.transport import Node
 
 _LOOK_NS = 100_000_000
-"""How often, in simulated time, it looks for topics that came."""
+"""Period [ns] of simulated time at which it searches for new topics."""
 
 
 @system("LogRecord", "gz-sim-log-record-system")

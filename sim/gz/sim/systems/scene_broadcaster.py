@@ -82,11 +82,11 @@ class SceneBroadcaster(System):
         self._state_hertz = _rate(plugin.element, "state_hertz")
         self._graph: SceneGraph | None = None
         self._stale = True
-        """Return whether there are changes that were not published yet."""
+        """True if there are unpublished changes."""
         self._pose_vectors: tuple[PoseVector, PoseVector] | None = None
-        """What goes out on pose/info and dynamic_pose/info, once somebody listens."""
+        """The messages of `pose/info` and `dynamic_pose/info`, created for the first subscriber."""
         self._sent: dict[tuple[str, str], list[int]] = {}
-        """What the outside knows of: kind and name -> its number and those of the models and lights inside it."""
+        """The published entities: the ids of a model or light and of its parts, by kind and name."""
         self._node: Node | None = None
 
     def bind(self) -> None:

@@ -1,4 +1,7 @@
-"""Sensors: runs the rendering sensors (lidars, cameras); a plugin of the world."""
+"""Sensors: runs the rendering sensors (lidars, cameras); a plugin of the world.
+
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/sensors/Sensors.cc
+"""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from gz_course.sim.gz.transport import Node
 
 _MOST = 10_000
-"""So many answers may wait for their time; the oldest go first."""
+"""Maximum number of delayed outputs; the oldest ones are dropped."""
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from gz_course.sim.gz.transport import Node
 
 FASTEST = 1e4
-"""Fastest motion asked for (m/s, rad/s)."""
+"""Maximum commanded velocity [m/s, rad/s]."""
 _INVERSE = np.array((1.0, -1.0, -1.0, -1.0))
 _FREE = int(mujoco.mjtJoint.mjJNT_FREE)
 

@@ -58,7 +58,7 @@ def _info(node: Node, service: str) -> int:
             print(f"  {each.addr}, {each.req_type_name}, {each.rep_type_name}")
         return 0
     print(f"No service providers on service [{service}]")
-    _say(f"there is no service [{service}]{_nearest_service(node, service)}")
+    _report(f"there is no service [{service}]{_nearest_service(node, service)}")
     return 1
 
 
@@ -110,5 +110,5 @@ def _nearest_service(node: Node, service: str) -> str:
     return did_you_mean(service, node.service_list()) or "; see gz service -l"
 
 
-def _say(sentence: str) -> None:
+def _report(sentence: str) -> None:
     print(f"gz service: {sentence}", file=sys.stderr)

@@ -77,7 +77,7 @@ def _info(node: Node, topic: str) -> int:
             print(f"No {kind.lower()} on topic [{topic}]")
     if publishers or subscribers:
         return 0
-    _say(f"there is no topic [{topic}]{_nearest_topic(node, topic) or '; see gz topic -l'}")
+    _report(f"there is no topic [{topic}]{_nearest_topic(node, topic) or '; see gz topic -l'}")
     return 1
 
 
@@ -101,7 +101,7 @@ def _echo(node: Node, values: argparse.Namespace) -> int:
                     break
                 elif time.monotonic() >= look_at:
                     look_at = math.inf
-                    _say_when_unpublished(node, values.topic, printed)
+                    _report_unpublished(node, values.topic, printed)
     except KeyboardInterrupt:
         return 0
     return 1 if not printed and values.duration is not None and not _published(node, values.topic) else 0
@@ -111,7 +111,7 @@ def _decoded(arrival: Arrival, topic: str) -> Message | None:
     try:
         return message_class(arrival.type_name).FromString(arrival.data)
     except DecodeError:
-        _say(f"a message on [{topic}] is no {arrival.type_name}; it is left out.")
+        _report(f"a message on [{topic}] is no {arrival.type_name}; it is left out.")
         return None
 
 
@@ -131,7 +131,7 @@ def _frequency(node: Node, topic: str) -> int:
                     return 0
                 elif time.monotonic() >= look_at:
                     look_at = math.inf
-                    _say_when_unpublished(node, topic, len(times))
+                    _report_unpublished(node, topic, len(times))
     except KeyboardInterrupt:
         return 0
 
@@ -164,10 +164,10 @@ def _publish(node: Node, values: argparse.Namespace) -> int:
     listening = [each for each in node.topic_info(values.topic)[1] if _is_other(each, type_name)]
     if listening:
         wanted = listening[0].msg_type_name
-        _say(f"the subscribers of [{values.topic}] take {wanted}, so nobody received the {type_name}.")
+        _report(f"the subscribers of [{values.topic}] take {wanted}, so nobody received the {type_name}.")
     else:
         hint = _nearest_topic(node, values.topic) or "; see gz topic -l"
-        _say(f"nobody listens on [{values.topic}], so the message is lost{hint}")
+        _report(f"nobody listens on [{values.topic}], so the message is lost{hint}")
     return 1
 
 
@@ -179,9 +179,9 @@ def _published(node: Node, topic: str) -> bool:
     return bool(node.topic_info(topic)[0])
 
 
-def _say_when_unpublished(node: Node, topic: str, heard: int) -> None:
+def _report_unpublished(node: Node, topic: str, heard: int) -> None:
     if not heard and not _published(node, topic):
-        _say(f"still waiting for somebody who publishes on [{topic}]{_nearest_topic(node, topic)}")
+        _report(f"still waiting for somebody who publishes on [{topic}]{_nearest_topic(node, topic)}")
 
 
 def _nearest_topic(node: Node, topic: str) -> str:
@@ -189,5 +189,5 @@ def _nearest_topic(node: Node, topic: str) -> str:
     return did_you_mean(topic, [each for each in node.topic_list() if each not in own])
 
 
-def _say(sentence: str) -> None:
+def _report(sentence: str) -> None:
     print(f"gz topic: {sentence}", file=sys.stderr)

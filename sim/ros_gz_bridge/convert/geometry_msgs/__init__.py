@@ -1,7 +1,7 @@
 """geometry_msgs: vectors, rotations, poses, transforms, twists and wrenches.
 
-Both sides use the units of REP-103 ([m], [rad], [m/s], [rad/s], [N], [N m]), so every number is copied. Quaternions
-are x, y, z, w on both sides and copied as they are: one that was never set stays 0, 0, 0, 0, and its sign is kept.
+Both sides use the units of REP-103 ([m], [rad], [m/s], [rad/s], [N], [N m]), so every number is copied. Quaternions are
+x, y, z, w on both sides and copied without normalization: an unset one remains 0, 0, 0, 0.
 
 Source: REP-103, https://www.ros.org/reps/rep-0103.html; ros_gz_bridge/src/convert/geometry_msgs.cpp
 """

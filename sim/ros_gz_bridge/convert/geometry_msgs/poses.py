@@ -37,7 +37,7 @@ def _copy_transform(ros: msg.Transform, gz: Any) -> None:
 
 
 def fill_frames(gz: Any, ros: Any) -> None:
-    """Write header and child frame, both of which Gazebo keeps in its header, into a ROS message.
+    """Write the header and the child frame, which are both in the Gazebo header, into a ROS message.
 
     Source: REP-105, https://www.ros.org/reps/rep-0105.html
     """
@@ -62,9 +62,9 @@ def _copy_transform_stamped(ros: msg.TransformStamped, gz: Any) -> None:
 
 
 def with_covariance(ros_class: Any, field: str, part: Part) -> Part:
-    """Return the part of a message that holds, in `field`, what `part` describes, and a row-major covariance (6, 6).
+    """Return the part of a message with `part` in `field` and a row-major covariance (6, 6).
 
-    A Gazebo list of another length leaves the ROS covariance zero.
+    If the Gazebo list has another length the ROS covariance stays zero.
     """
 
     def fill(gz: Any, ros: Any) -> None:

@@ -1,4 +1,7 @@
-"""Twists (velocity) and wrenches (force and torque). Commands must be finite."""
+"""Twists (velocity) and wrenches (force and torque). Commands must be finite.
+
+Source: ros_gz_bridge/src/convert/geometry_msgs.cpp, https://github.com/gazebosim/ros_gz
+"""
 
 from __future__ import annotations
 
@@ -34,7 +37,7 @@ def finite(*paths: str) -> Callable[[Any], str | None]:
             else:
                 axes = "xyzw" if isinstance(value, msg.Quaternion) else "xyz"
                 if math.isfinite(sum([getattr(value, axis) for axis in axes])):
-                    continue  # as almost always: a sum is finite only if all numbers are
+                    continue  # the common case: a sum is finite only if all numbers are
                 numbers = [(f"{path}.{axis}", getattr(value, axis)) for axis in axes]
             bad += [f"{name} is {number}" for name, number in numbers if not math.isfinite(number)]
         return ", ".join(bad) or None

@@ -1,4 +1,7 @@
-"""The messages of ros_gz_interfaces, field by field."""
+"""The messages of ros_gz_interfaces, field by field.
+
+Source: ros_gz_bridge/src/convert/ros_gz_interfaces.cpp, https://github.com/gazebosim/ros_gz
+"""
 
 from __future__ import annotations
 
@@ -27,7 +30,7 @@ from gz_course.sim.ros_gz_bridge.fields import (
 )
 from gz_course.sim.ros_gz_bridge.header import copy_header, fill_header, header_value, set_header_value
 
-# ROS wraps these in messages of their own.
+# In ROS these lists are messages of their own.
 _TEXT = Plain(lambda text: String(data=text), lambda ros: ros.data)
 _NUMBER = Plain(lambda number: UInt32(data=number), lambda ros: ros.data)
 
@@ -62,7 +65,7 @@ TRACK_VISUAL = Fields(
 
 
 def _pair(name: str, part: Part, gz_name: str = "", fault: Callable[[Any], str | None] | None = None) -> None:
-    """Enter a pair whose Gazebo type has the same name, unless `gz_name` is given."""
+    """Add a pair whose Gazebo type has the same name, or the name `gz_name`."""
     message_pair(f"ros_gz_interfaces/msg/{name}", f"gz.msgs.{gz_name or name}", part, fault)
 
 

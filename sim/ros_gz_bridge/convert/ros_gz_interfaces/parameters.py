@@ -1,4 +1,4 @@
-"""ParamVec: named values. Gazebo nests its parameters; ROS has one flat list, whose names hold the path.
+"""ParamVec: named values. Parameters of Gazebo are nested; in ROS they are a flat list with the path in each name.
 
 Source: ros_gz_bridge/src/convert/ros_gz_interfaces.cpp; gz/msgs/param.proto and param_v.proto
 """
@@ -17,14 +17,14 @@ from gz_course.sim.ros_gz_bridge.fields import Part, message_pair
 from gz_course.sim.ros_gz_bridge.header import copy_header, fill_header
 from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError
 
-_DEEPEST = 50  # protobuf itself refuses to read more than 100 messages in one another
+_DEEPEST = 50  # protobuf does not parse more than 100 nested messages
 
 
 def _flat(gz: Any, prefix: str = "") -> Iterator[Parameter]:
     """Yield the parameters of a `gz.msgs.Param` and of its children, in the order of their names."""
     for name in sorted(gz.params):
         parameter = Parameter(name=prefix + name)
-        fill_value(gz.params[name], parameter.value)  # a type that ROS does not have leaves it not set
+        fill_value(gz.params[name], parameter.value)  # a type that ROS does not have leaves the value unset
         yield parameter
     for number, child in enumerate(gz.children):
         yield from _flat(child, f"{prefix}child_{number}/")
@@ -45,7 +45,7 @@ def _nest(params: Iterable[tuple[str, ParameterValue]], gz: Any, depth: int = 0)
 def _grouped(
     params: Iterable[tuple[str, ParameterValue]], word: str
 ) -> tuple[list[tuple[str, ParameterValue]], list[list[tuple[str, ParameterValue]]]]:
-    """Return the values named without `word_<number>/`, and those with it (cut off), by number."""
+    """Return the values without a prefix `word_<number>/`, and those with one, without it, by number."""
     plain: list[tuple[str, ParameterValue]] = []
     groups: dict[int, list[tuple[str, ParameterValue]]] = {}
     for name, value in params:
@@ -77,7 +77,7 @@ def _fill_several(gz: Any, ros: ParamVec) -> None:
 
 
 def _copy_several(ros: ParamVec, gz: Any) -> None:
-    """Write several sets of parameters; names without `param_<number>/` make a first set of their own."""
+    """Write several sets of parameters; names without `param_<number>/` form the first set."""
     copy_header(ros.header, gz.header)
     plain, sets = _grouped(_named(ros), "param")
     for params in [*([plain] if plain else []), *sets]:

@@ -23,7 +23,7 @@ _SOURCES = ("sdf", "sdf_filename", "clone_name")
 def _service(
     ros_class: Any, gz_type: str, copy: Callable[[Any, Any], None], fault: Callable[[Any], str | None] | None = None
 ) -> None:
-    """Enter a service whose request `copy(ros, gz)` writes and which Gazebo answers with a `gz.msgs.Boolean`."""
+    """Add a service whose request is written by `copy(ros, gz)` and whose Gazebo response is a `gz.msgs.Boolean`."""
     gz_class = message_class(gz_type)
 
     def request_to_gz(ros: Any) -> Any:
@@ -42,7 +42,7 @@ def _service(
 
 
 def _control(ros: Any, gz: Any) -> None:
-    """Write pause, step, reset and seed. Every field is set: a request that leaves `pause` out runs the world."""
+    """Write pause, step, reset and seed. All fields are set, so that a request without `pause` runs the world."""
     control = ros.world_control
     gz.pause, gz.step, gz.multi_step, gz.seed = control.pause, control.step, control.multi_step, control.seed
     gz.reset.all = control.reset.all
@@ -52,7 +52,7 @@ def _control(ros: Any, gz: Any) -> None:
 
 
 def _spawn(ros: Any, gz: Any) -> None:
-    """Write an entity as SDF text, a file or the name of another entity: the first of them that is set."""
+    """Write an entity as SDF text, file or name of another entity; the first one that is set is used."""
     factory = ros.entity_factory
     source = next((field for field in _SOURCES if getattr(factory, field)), None)
     if source is None:
@@ -63,7 +63,7 @@ def _spawn(ros: Any, gz: Any) -> None:
 
 
 def _set_pose(ros: Any, gz: Any) -> None:
-    """Write name, id and pose; the type of the entity has no field in Gazebo."""
+    """Write name, id and pose; Gazebo has no field for the type of the entity."""
     if ros.entity.id >= 2**32:
         raise ConversionError(f"the entity id {ros.entity.id} does not fit the 32 bits of gz.msgs.Pose")
     gz.name, gz.id = ros.entity.name, ros.entity.id

@@ -40,19 +40,19 @@ _MODEL_NAMES = {number: name for name, number in _MODELS.items()}
 
 
 def _fill_image(gz: Any, ros: Image) -> None:
-    """Write pixels row by row; rows keep the padding they came with."""
+    """Write pixels row by row; rows keep their padding."""
     encoding = _FORMATS.get(gz.pixel_format_type)
     if encoding is None:
         number = gz.pixel_format_type
         name = PixelFormatType.Name(number) if number in PixelFormatType.values() else f"number {number}"
         raise ConversionError(f"the pixel format {name} has no ROS encoding (known: {', '.join(ENCODINGS)})")
     step = gz.step or gz.width * ENCODINGS[encoding][1]
-    data = gz.data  # every access makes a copy
+    data = gz.data  # every access copies the bytes
     _check_pixels(gz.width, gz.height, step, len(data), encoding)
     fill_header(gz.header, ros.header)
     ros.height, ros.width, ros.step = gz.height, gz.width, step
     ros.encoding = encoding
-    ros.data.frombytes(data)  # assigned, the bytes would be copied three times
+    ros.data.frombytes(data)  # an assignment would copy the bytes three times
 
 
 def _copy_image(ros: Image, gz: Any) -> None:

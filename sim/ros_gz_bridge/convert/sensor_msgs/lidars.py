@@ -17,10 +17,10 @@ from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError
 
 
 def _fill_scan(gz: Any, ros: LaserScan) -> None:
-    """Write the ranges [m] of the middle layer by angle [rad]; no return is infinite on both sides.
+    """Write the ranges [m] of the middle layer by angle [rad]; a ray without return is infinite on both sides.
 
-    A Gazebo scan may have several layers, one above the other, where ROS has one. Its frame is in the field `frame`,
-    not in the header. The times between beams are unknown and stay 0.
+    A Gazebo scan may have several layers, a ROS scan has one. The frame is in the field `frame` instead of the header.
+    The times between rays are unknown and stay 0.
     """
     ranges, intensities, count = gz.ranges, gz.intensities, gz.count
     start = (gz.vertical_count // 2) * count
@@ -55,7 +55,7 @@ def _copy_frame(ros: LaserScan | Range, gz: Any) -> None:
 
 
 def _fill_range(gz: Any, ros: Range) -> None:
-    """Write the nearest range [m] of all beams, as a real range finder reports it."""
+    """Write the smallest range [m] of all rays, like a real range finder."""
     _fill_frame(gz, ros)
     ros.radiation_type = Range.INFRARED
     ros.field_of_view = gz.angle_max - gz.angle_min
@@ -64,7 +64,7 @@ def _fill_range(gz: Any, ros: Range) -> None:
 
 
 def _copy_range(ros: Range, gz: Any) -> None:
-    """Write one beam, straight ahead in the middle of the field of view [rad]."""
+    """Write one ray in the middle of the field of view [rad]."""
     _copy_frame(ros, gz)
     gz.angle_min, gz.angle_max, gz.angle_step = -ros.field_of_view / 2, ros.field_of_view / 2, ros.field_of_view
     gz.range_min, gz.range_max, gz.count = ros.min_range, ros.max_range, 1
@@ -72,7 +72,7 @@ def _copy_range(ros: Range, gz: Any) -> None:
 
 
 def _fill_cloud(gz: Any, ros: PointCloud2) -> None:
-    """Write points as bytes, with the fields that say how to read them; Gazebo counts types from 0, ROS from 1."""
+    """Write points as bytes, with the fields that describe them; Gazebo numbers types from 0, ROS from 1."""
     fill_header(gz.header, ros.header)
     for field in gz.field:
         _check_type(field.name, field.datatype + 1)
@@ -82,7 +82,7 @@ def _fill_cloud(gz: Any, ros: PointCloud2) -> None:
     ]
     ros.height, ros.width, ros.point_step, ros.row_step = gz.height, gz.width, gz.point_step, gz.row_step
     ros.is_bigendian, ros.is_dense = gz.is_bigendian, gz.is_dense
-    ros.data.frombytes(gz.data)  # assigned, the bytes would be copied three times
+    ros.data.frombytes(gz.data)  # an assignment would copy the bytes three times
 
 
 def _copy_cloud(ros: PointCloud2, gz: Any) -> None:

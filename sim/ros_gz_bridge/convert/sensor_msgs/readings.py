@@ -1,4 +1,7 @@
-"""Imu, JointState, BatteryState, NavSatFix, FluidPressure, Joy and MagneticField."""
+"""Imu, JointState, BatteryState, NavSatFix, FluidPressure, Joy and MagneticField.
+
+Source: ros_gz_bridge/src/convert/sensor_msgs.cpp, https://github.com/gazebosim/ros_gz
+"""
 
 from __future__ import annotations
 
@@ -36,7 +39,7 @@ def _fill_imu(gz: Any, ros: msg.Imu) -> None:
 
 
 def _copy_imu(ros: msg.Imu, gz: Any) -> None:
-    """Write all of it; the frame is the entity's name too."""
+    """Write the same fields; the entity name is the frame."""
     copy_header(ros.header, gz.header)
     gz.entity_name = ros.header.frame_id
     _copy_motion(ros, gz)
@@ -55,7 +58,7 @@ def _fill_joints(gz: Any, ros: msg.JointState) -> None:
 
 
 def _copy_joints(ros: msg.JointState, gz: Any) -> None:
-    """Write the same; positions, velocities or efforts that ROS leaves out become 0."""
+    """Write the same fields; positions, velocities and efforts that are missing in ROS become 0."""
     copy_header(ros.header, gz.header)
     columns = {"position": ros.position, "velocity": ros.velocity, "effort": ros.effort}
     for name, numbers in columns.items():
@@ -68,7 +71,7 @@ def _copy_joints(ros: msg.JointState, gz: Any) -> None:
 
 
 def _fill_battery(gz: Any, ros: msg.BatteryState) -> None:
-    """Write [V], [A], [Ah] and a share of 1; what Gazebo does not model is unknown (NaN)."""
+    """Write voltage [V], current [A], charge and capacity [Ah] and percentage [0..1]; unknown values are NaN."""
     fill_header(gz.header, ros.header)
     _copy_charge(gz, ros)
     ros.temperature = ros.design_capacity = math.nan
@@ -91,7 +94,7 @@ def _copy_charge(source: Any, target: Any) -> None:
 
 
 def _fill_fix(gz: Any, ros: msg.NavSatFix) -> None:
-    """Write latitude [deg], longitude [deg] and altitude [m]; always a fix, of unknown accuracy, without velocity."""
+    """Write latitude [deg], longitude [deg] and altitude [m]; the status is always a fix, the covariance unknown."""
     fill_stamp(gz.header.stamp, ros.header.stamp)
     ros.header.frame_id = frame_to_ros(gz.frame_id)
     ros.status.status = msg.NavSatStatus.STATUS_FIX

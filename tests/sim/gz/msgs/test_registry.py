@@ -118,7 +118,7 @@ def test_the_definitions_are_inside_the_package():
     assert registry.PROTO_FOLDER.is_relative_to(gz_msgs.__path__[0])
 
 
-# What Harmonic has beyond Fortress cannot be compared with Debian's Fortress: some of it, number by number.
+# Messages that exist only in Harmonic cannot be compared with Debian's Fortress; some field numbers are checked here.
 @pytest.mark.parametrize(
     ("name", "fields"),
     [
@@ -142,7 +142,7 @@ def test_numbers_of_what_harmonic_added(name, fields):
 
 
 def test_all_of_gazebo_is_there():
-    assert len(registry.file_stems()) == 212  # as many files as gz-msgs 10 has
+    assert len(registry.file_stems()) == 212  # the number of files in gz-msgs 10
     assert not [
         stem for stem in registry.file_stems() if "reserved" in (registry.PROTO_FOLDER / f"{stem}.proto").read_text()
     ]

@@ -18,9 +18,9 @@ from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
 from gz_course.sim.gz.msgs.text import MessageTextError, from_text, to_json_line, to_text
 from gz_course.sim.gz.msgs.twist_pb2 import Twist
 
-# A negative zero is written as -0, which JSON readers take for a whole number, without sign.
+# A negative zero is written as -0, which JSON readers parse as an integer without sign.
 DOUBLES = st.floats().map(lambda value: value + 0.0)
-# Python's JSON reader refuses the largest singles, which are rounded up when they are written.
+# Python's JSON reader rejects the largest float32 numbers, which are rounded up when written.
 SINGLES = st.floats(width=32).filter(lambda value: not 3.4e38 < abs(value) < math.inf).map(lambda value: value + 0.0)
 TEXTS = st.text(st.characters(exclude_categories=["Cs"]))
 
@@ -33,7 +33,7 @@ def test_nested_messages_are_indented_and_an_empty_message_is_no_text():
     assert to_text(message) == "linear {\n  x: 1\n}\nangular {\n}\n"
 
 
-# What the tools of Gazebo print for these (the conformance tests ask them).
+# The output of Gazebo's own tools, as compared by the conformance tests.
 @pytest.mark.parametrize(
     ("value", "text"),
     [

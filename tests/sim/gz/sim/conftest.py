@@ -1,4 +1,4 @@
-"""What the tests of the simulator share: small worlds as text, and nodes that never leave the process."""
+"""Fixtures for tests of the simulator: small worlds as text, and nodes within the process."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ PLUGINS = """
 
 @pytest.fixture
 def world_text() -> Callable[..., str]:
-    """Wraps the inside of a <world> into an SDF text."""
+    """Wrap the content of a <world> in an SDF text."""
 
     def wrap(inside: str, *, version: str = "1.10", step: float = 0.001) -> str:
         physics = f"<physics type='x'><max_step_size>{step}</max_step_size></physics>"
@@ -43,7 +43,7 @@ def node() -> Iterator[Node]:
 
 @pytest.fixture(autouse=True)
 def worlds_are_closed(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Ends what the worlds of a test put on the wire: the worlds of the next one have the same topics."""
+    """Close the worlds of a test, because those of the next one use the same topics."""
     attached: list[World] = []
     attach = World.attach
 

@@ -1,4 +1,4 @@
-"""The worlds and models that come with the simulator: all load without a word, run, and stand in its README."""
+"""The built-in worlds and models: they load without warnings, run, and are listed in the README."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Same world, seed and commands: the same bytes on every topic, in any process, however busy the machine is."""
+"""The same world, seed and commands give the same bytes on every topic, in any process and under any load."""
 
 from __future__ import annotations
 

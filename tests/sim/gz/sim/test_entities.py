@@ -1,4 +1,4 @@
-"""Entities: every part of a world has a number of its own, which goes with it and is not given again."""
+"""Entities: every part of a world has its own id, which is removed with it and not used again."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The earth's field against what the World Magnetic Model and maps say, and against what a field must be."""
+"""The earth's field against the World Magnetic Model, its maps, and properties of a potential field."""
 
 from __future__ import annotations
 
@@ -42,6 +42,6 @@ def test_strength_is_that_of_the_earth_everywhere(latitude: float, longitude: fl
 
 @given(st.floats(-80, 80))
 def test_no_current_flows_through_the_surface(latitude: float) -> None:
-    """The field is a gradient: summed up along a parallel, its east component is nothing."""
+    """The field is a gradient: the sum of its east component along a parallel is zero."""
     steps = [earth_field(latitude, float(longitude))[1] for longitude in range(0, 360, 5)]
     assert sum(steps) / len(steps) == pytest.approx(0, abs=1e-12)

@@ -1,4 +1,4 @@
-"""Work for the stepping thread: who does it, when, and who is told what came of it."""
+"""Requests to the stepping thread: which thread runs them, when, and who gets the result."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from gz_course.sim.gz.sim.requests import Request, Requests, logged
 
 
 def elsewhere(requests: Requests, work: object, patience: float = 20.0) -> tuple[threading.Thread, list[object]]:
-    """Call from another thread; its result or its error comes into the list."""
+    """Call from another thread; its result or error is appended to the returned list."""
     results: list[object] = []
 
     def run() -> None:

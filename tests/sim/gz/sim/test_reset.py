@@ -1,4 +1,4 @@
-"""Rewinding: after a reset every topic of every system carries the same bytes again, whatever happened before."""
+"""After a reset every topic of every system carries the same bytes again, whatever was changed before."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def plugin(name: str, inside: str = "") -> str:
 
 
 def arm() -> str:
-    """A row of links on the world, each joint with another controller."""
+    """Return a chain of links on the world, each joint with another controller."""
     parts, plugins, parent = LINK.format("base", "3 0 1", ""), "", "base"
     wrench = "<sensor name='ft' type='force_torque'><update_rate>50</update_rate></sensor>"
     for number, (system, joint) in enumerate(CONTROLLED.items()):
@@ -70,7 +70,7 @@ def arm() -> str:
 
 
 def truck() -> str:
-    """A body on two driven wheels behind and two steered ones in front."""
+    """Return a body with two driven wheels behind and two steered ones in front."""
     parts = LINK.format("body", "0 0 0.3", "")
     for side, y in (("l", 0.2), ("r", -0.2)):
         parts += LINK.format(f"back_{side}", f"-0.3 {y} 0.1", "") + LINK.format(f"front_{side}", f"0.3 {y} 0.1", "")
@@ -82,7 +82,7 @@ def truck() -> str:
 
 
 def flyer() -> str:
-    """A body with all sensors, moved by its velocity, that falls on the ground and reports everything about itself."""
+    """Return a body with all sensors, moved by its velocity, that falls on the ground and is reported completely."""
     sensors, seen = "", set()
     for kind, found in sorted(sensor_types().items()):
         if found not in seen and kind != "force_torque":
@@ -101,7 +101,7 @@ def flyer() -> str:
 
 
 def runs_alone(name: str) -> bool:
-    """Whether a system can be loaded into a world with no more than `IN_WORLD` says. What writes files has its own
+    """Return whether a system can be loaded with the content of `IN_WORLD`; systems that write files have their own
     tests.
     """
     text = f"<sdf version='1.10'><world name='w'>{plugin(name, IN_WORLD.get(name, ''))}</world></sdf>"
@@ -112,7 +112,7 @@ def runs_alone(name: str) -> bool:
 
 @pytest.fixture
 def world(node: Node) -> Iterator[World]:
-    """A world in which every system that this simulator has does its work, and every sensor."""
+    """Return a world in which every system and every sensor is active."""
     coordinates = "<spherical_coordinates><latitude_deg>47</latitude_deg></spherical_coordinates>"
     rest = "".join(f"<include><uri>model://{uri}</uri></include>" for uri in ("two_wheel_robot", "ground_plane", "sun"))
     models = rest + arm() + truck() + flyer()
@@ -125,7 +125,7 @@ def world(node: Node) -> Iterator[World]:
 
 
 class Tape:
-    """A digest of the bytes of every topic of the world, in their order."""
+    """A digest of the bytes of every topic of the world, in order."""
 
     def __init__(self, world: World, node: Node) -> None:
         self._digests: dict[str, object] = {}
@@ -155,7 +155,7 @@ class Tape:
 
 
 def drive(world: World, node: Node) -> None:
-    """Half a second in which everything that takes commands gets some."""
+    """Run half a second with commands to everything that accepts them."""
     publishers: list[tuple[Any, Any]] = []
     for topic in node.topic_list():
         kinds = {each.msg_type_name for each in node.topic_info(topic)[1]}
@@ -216,7 +216,7 @@ def test_the_same_after_things_came_went_and_moved(world: World, node: Node) -> 
 
 
 def test_what_comes_later_begins_its_schedules_then(world: World, node: Node) -> None:
-    """No system and no sensor makes up for the time before it came."""
+    """New systems and sensors do not catch up on the time before their creation."""
     world.step(2000)
     world.editor.spawn(f"<sdf version='1.10'>{flyer()}</sdf>", name="later", pose=Pose((-2.0, -2.0, 0.099)))
     tape = Tape(world, node)

@@ -1,4 +1,4 @@
-"""A running world written as SDF loads again with everything where it was."""
+"""A running world written as SDF loads again with the same poses."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A world on the wire: clock after every step, statistics ten times a second, paused start, pacing, stop."""
+"""A world on the transport: clock after every step, statistics ten times per second, paused start, pacing, stop."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def server(node: Node) -> Server:
 
 @pytest.fixture
 def running() -> Iterator[Callable[..., threading.Event]]:
-    """Runs a server in a thread; whatever happens, it is stopped and joined."""
+    """Run a server in a thread, which is stopped and joined after the test."""
     threads: list[tuple[threading.Thread, threading.Event]] = []
 
     def start(server: Server, **options: Any) -> threading.Event:
@@ -84,7 +84,7 @@ def test_run_ends_after_its_iterations(server: Server) -> None:
 
 
 def test_run_keeps_pace_with_the_wall_clock(server: Server, monkeypatch: pytest.MonkeyPatch) -> None:
-    """With a clock that only moves when the server waits, simulated time and waited time are the same."""
+    """With a clock that moves only while the server waits, simulated time and waited time are equal."""
     now = [0]
     monkeypatch.setattr("gz_course.sim.gz.sim.server.time.monotonic_ns", lambda: now[0])
 

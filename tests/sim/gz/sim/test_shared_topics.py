@@ -1,4 +1,4 @@
-"""Two on one topic: who is named, where, with which fix; and which sharing is meant and stays silent."""
+"""Two users of one topic: the names, places and advice in the warning; intended sharing is not reported."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def sensor(name: str, kind: str, topic: str = "", inside: str = "") -> str:
 
 @pytest.fixture
 def load(load_text: Load) -> Iterator[Load]:
-    """Loads a world, on a node that no other world hears."""
+    """Load a world on a node that is isolated from other worlds."""
     worlds: list[World] = []
     with Node(NodeOptions(scope=Scope.PROCESS)) as node:
 
@@ -77,7 +77,7 @@ def test_the_line_is_that_of_the_topic_of_the_second(load: Load) -> None:
 
 
 def load_line(load: Load) -> int:
-    """The line on which the text given to `load` begins."""
+    """Return the line on which the text given to `load` begins."""
     world = load("\n<nonsense/>")
     (warning,) = world.warnings
     return int(warning.split(":")[1]) - 1

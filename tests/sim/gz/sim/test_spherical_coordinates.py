@@ -1,4 +1,4 @@
-"""Metres to latitude and longitude and back, against radii of curvature and against itself; bad input."""
+"""Metres to latitude and longitude and back, against radii of curvature and the inverse; invalid input."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def test_the_origin_is_where_the_file_says(place: SphericalCoordinates) -> None:
 def test_a_metre_is_as_many_degrees_as_the_ellipsoid_says(
     latitude: float, elevation: float, heading: float, direction: float
 ) -> None:
-    """One metre away: north by the meridian's radius of curvature, east by the parallel's."""
+    """One metre away: north by the radius of curvature of the meridian, east by that of the parallel."""
     place = SphericalCoordinates(latitude_deg=latitude, elevation=elevation, heading_deg=heading)
     east, north = math.cos(direction), math.sin(direction)
     # The world's x axis points `heading` to the left of east.

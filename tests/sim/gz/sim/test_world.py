@@ -1,4 +1,4 @@
-"""The world as a library: time, truth, geometry."""
+"""The world as a library: time, true state, geometry."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def test_pose_and_velocity_are_those_of_the_model_frame_not_of_its_link(load_tex
     assert world.truth.pose("m").yaw() == pytest.approx(0.3)
     world.data.qvel[:] = (0, 0, 0, 0, 0, 2.0)
     world.step(100)
-    # The link turns about itself at 2 rad/s, so the model frame circles round it at 0.5 m.
+    # The link rotates about itself at 2 rad/s, so the model frame moves around it at 0.5 m.
     velocity = world.truth.velocity("m")
     assert tuple(velocity.angular) == pytest.approx((0, 0, 2))
     assert np.linalg.norm(velocity.linear) == pytest.approx(1.0, rel=1e-6)

@@ -1,4 +1,4 @@
-"""The services of a server: control with all it can say, the world as SDF, names, paths, stop; also while paused."""
+"""The services of a server: control with all its fields, the world as SDF, names, paths, stop; also while paused."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def nanoseconds(time: Any) -> int:
 
 
 class Running:
-    """A server that runs in a thread of its own, and what its statistics say."""
+    """A server that runs in its own thread, and its statistics."""
 
     def __init__(self, world: World, node: Node) -> None:
         self.world = world

@@ -62,7 +62,7 @@ class Peer:
         self.process.wait(DEADLINE_S)
 
     def finish(self):
-        """Lets the process end by itself; (exit code, what it wrote on stderr)."""
+        """Let the process end by itself; return (exit code, stderr)."""
         with contextlib.suppress(BrokenPipeError):
             self.process.stdin.close()
         code = self.process.wait(DEADLINE_S)
@@ -81,7 +81,7 @@ class Peer:
 
 
 class Eavesdropper:
-    """Listens to the discovery port, and can speak on it as a process of its own."""
+    """Receives and sends datagrams on the discovery port as a process of its own."""
 
     def __init__(self):
         self.process_uuid = str(uuid.uuid4())
@@ -95,7 +95,7 @@ class Eavesdropper:
         self._socket.bind(("0.0.0.0", 10317))
 
     def until(self, condition):
-        """The messages up to the first that fulfils the condition."""
+        """Return the messages up to the first one that fulfils the condition."""
         deadline = time.monotonic() + DEADLINE_S
         seen = []
         while True:
@@ -156,7 +156,7 @@ def eavesdropper():
 
 
 class Inbox:
-    """A callback that keeps what it is given, and can be waited for."""
+    """A callback that stores its arguments and can be waited for."""
 
     def __init__(self):
         self._queue = queue.Queue()

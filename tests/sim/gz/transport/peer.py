@@ -1,4 +1,4 @@
-"""Another process for the tests: does what it is told on stdin, in JSON lines, and answers on stdout."""
+"""Another process for the tests: executes JSON lines from stdin and answers on stdout."""
 
 import json
 import os
@@ -23,7 +23,7 @@ def say(**answer):
 
 
 def ask_back(request):
-    """Asks the process that asks, by a service of its own, before it answers."""
+    """Call a service of the requester before answering."""
     return node.request("/back", request, StringMsg, StringMsg, 10_000)
 
 

@@ -1,4 +1,4 @@
-"""Topics between processes: the wire, seen from both sides."""
+"""Topics between processes, as seen from both sides."""
 
 import threading
 
@@ -234,7 +234,7 @@ def test_what_is_published_right_before_the_end_arrives(node, start_peer, inbox)
 
 @pytest.fixture
 def foreign_publisher(partition, eavesdropper):
-    """A publisher made of bare sockets, so it can also send what ours never would."""
+    """Return a publisher made of plain sockets, which can also send invalid messages."""
     context = zmq.Context()
     with context.socket(zmq.XPUB) as publisher:
         publisher.setsockopt(zmq.LINGER, 0)
@@ -255,7 +255,7 @@ def test_only_well_formed_messages_of_the_exact_topic_and_type_are_delivered(
     topic, address = name.encode(), endpoint.encode()
     data, kind = StringMsg(data="bad").SerializeToString(), b"gz.msgs.StringMsg"
     for frames in (
-        [topic + b"bar", address, data, kind],  # ZeroMQ's filter lets longer names through
+        [topic + b"bar", address, data, kind],  # ZeroMQ's filter passes longer names
         [topic],
         [topic, address],
         [topic, address, data],

@@ -1,4 +1,4 @@
-"""One discovery channel, told what arrives and what time it is."""
+"""One discovery channel with given datagrams and times."""
 
 import contextlib
 
@@ -102,7 +102,7 @@ def test_bye_forgets_the_whole_process(channel, told):
 
 
 def hear(channel, monkeypatch, message):
-    """Lets the channel read one datagram from its socket."""
+    """Let the channel read one datagram from its socket."""
     from gz_course.sim.gz.transport import datagram
 
     waiting = [datagram.encode(message)]

@@ -1,4 +1,4 @@
-"""Everything that can be sent to a process, sent to a real one: it goes on, says nothing and does not grow."""
+"""Arbitrary data sent to a real process: it continues, prints nothing and does not grow."""
 
 import contextlib
 import random
@@ -24,7 +24,7 @@ KINDS = list(Discovery.Type.values())
 
 
 class Attacker:
-    """Knows the addresses of a process and sends it whatever it likes."""
+    """Knows the addresses of a process and sends arbitrary data to it."""
 
     def __init__(self, peer, node, partition):
         self.peer, self.node, self.sent = peer, node, 0
@@ -48,7 +48,7 @@ class Attacker:
             each.setsockopt(zmq.LINGER, 0)
 
     def discovery(self, source):
-        """A datagram: random bytes, or a message of the protocol, whole or damaged."""
+        """Return a datagram: random bytes, or a valid or damaged message of the protocol."""
         if source.random() < 0.3:
             return source.randbytes(int(source.paretovariate(0.7)) % 65000)
         message = Discovery(version=source.choice([10, 10, 10, 9, 110, 0]), process_uuid=self.text(source))
@@ -115,11 +115,11 @@ class Attacker:
 
 
 def is_alive_and_well(node, talker, peer):
-    """Everything that goes through every socket under attack still works."""
+    """Return whether communication through every attacked socket still works."""
     done, response = node.request("/echo", StringMsg(data="ping"), StringMsg, StringMsg, 20_000)
     assert (done, response.data) == (True, "PING")
     talker.publish(StringMsg(data="ping"))
-    while peer.heard() != [("/control", "ping")]:  # what a random message managed to say on /chat
+    while peer.heard() != [("/control", "ping")]:  # the effect of a random message on /chat
         pass
 
 
@@ -141,7 +141,7 @@ def under_attack(start_peer, partition):
 
 
 def advertise_the_rogue(attacker):
-    """Makes the process connect to the attacker's publisher."""
+    """Make the process connect to the attacker's publisher."""
     message = Discovery(version=10, process_uuid=attacker.process, type=Discovery.ADVERTISE)
     message.pub.topic, message.pub.address = attacker.name, attacker.address
     message.pub.process_uuid, message.pub.node_uuid, message.pub.scope = attacker.process, str(uuid.uuid4()), 2
@@ -180,7 +180,7 @@ def test_a_hundred_thousand_hostile_messages(under_attack):
 
 
 def test_datagrams_that_were_taken_are_followed_by_silence(start_peer, eavesdropper):
-    """A process that only ever sends rubbish is not remembered."""
+    """A process that only sends invalid data is not remembered."""
     peer = start_peer()
     peer.ask("subscribe", topic="/chat")
     for size in (0, 1, 2, 3, 100, 65507):

@@ -1,4 +1,4 @@
-"""Which network interfaces a process touches, and what it says when there is none it can use."""
+"""The network interfaces that a process uses, and its messages if none can be used."""
 
 import os
 import shutil
@@ -28,7 +28,7 @@ SECOND_INTERFACE = (
     "ip link set a0 up && ip link set a1 up && ip route add 224.0.0.0/4 dev a0"
 )
 COUNT = "echo sent $(awk '$1 == \"a0:\" {print $11}' /proc/net/dev)"
-# IPv6 announces itself on a new interface at moments of its own.
+# IPv6 sends packets on a new interface at arbitrary times.
 QUIET = "for all in /proc/sys/net/ipv6/conf/all/disable_ipv6; do [ ! -e $all ] || echo 1 >$all; done"
 
 
@@ -39,7 +39,7 @@ def run(command, **environment):
 
 
 def in_namespace(script, **environment):
-    """Runs a shell script in a network of its own, where only what it sets up exists."""
+    """Run a shell script in a network namespace of its own."""
     if shutil.which("unshare") is None or run(["unshare", "-rn", "true"]).returncode != 0:
         pytest.skip("NOT TESTED: which interfaces are used; `unshare -rn` is not possible on this machine")
     return run(["unshare", "-rn", "sh", "-c", script], **environment)

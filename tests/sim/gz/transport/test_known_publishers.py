@@ -1,4 +1,4 @@
-"""Node.known_publishers: who publishes, without waiting for anybody."""
+"""Node.known_publishers returns the publishers without waiting."""
 
 import uuid
 

@@ -1,4 +1,4 @@
-"""Options: the accessors of the official binding, copies, limits; and what Fortress's names do on a topic."""
+"""Options: the accessors of the official binding, copies, limits; the effect of the names of Fortress on a topic."""
 
 import copy
 

@@ -1,4 +1,4 @@
-"""The sending socket alone, with subscribers made of bare sockets."""
+"""The sending socket alone, with subscribers made of plain sockets."""
 
 import time
 
@@ -49,7 +49,7 @@ def subscribe(context, outlet):
 
 
 def until(condition, outlet):
-    """Does what the I/O thread does, until the condition holds."""
+    """Do the work of the I/O thread until the condition holds."""
     poller = zmq.Poller()
     poller.register(outlet.fileno(), zmq.POLLIN)
     deadline = time.monotonic() + 120
@@ -83,7 +83,7 @@ def test_the_four_frames_of_a_message(outlet, subscribe):
 
 
 def test_a_busy_publisher_notices_new_listeners_by_itself(outlet, subscribe, changes):
-    """Sending takes the signal away for which the I/O thread waits, so it must do the thread's work too."""
+    """Sending consumes the signal for which the I/O thread waits, so it must also do the work of that thread."""
     with subscribe() as first:
         until(lambda: outlet.listeners(TOPIC) == 1, outlet)
         before = changes.count

@@ -1,4 +1,4 @@
-"""A node with scope PROCESS: no socket, no thread, and nothing from outside."""
+"""A node with scope PROCESS: no socket, no thread, no external messages."""
 
 import subprocess
 import sys
@@ -88,6 +88,6 @@ def test_nobody_outside_learns_of_it(start_peer, eavesdropper, partition):
         public.advertise("/public", StringMsg)
         names = {fully_qualified(partition, "", topic) for topic in ("/secret", "/public")}
         eavesdropper.until(lambda message: message.pub.topic in names)
-        # the next one is repeated with the heartbeat, together with everything else that may be known
+        # the next one is repeated with the heartbeat, together with all other public records
         seen = eavesdropper.until(lambda message: message.pub.topic in names)
         assert {message.pub.topic for message in seen} & names == {fully_qualified(partition, "", "/public")}

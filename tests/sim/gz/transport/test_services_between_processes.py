@@ -1,4 +1,4 @@
-"""Services between processes: the wire, seen from both sides."""
+"""Services between processes, as seen from both sides."""
 
 import threading
 import time
@@ -24,7 +24,7 @@ def ask(node, service, text="hello", timeout_ms=PATIENCE_MS, response=StringMsg)
 
 
 def ask_until_answered(node, service):
-    """One request may still have gone to a provider that was killed a moment ago."""
+    """Repeat the request, because the first one may be sent to a provider that was just killed."""
     deadline = time.monotonic() + PATIENCE_MS / 1000
     while time.monotonic() < deadline:
         answered, response = ask(node, service, timeout_ms=1000)
@@ -120,7 +120,7 @@ def test_lists(node, start_peer):
     assert (provider.req_type_name, provider.rep_type_name) == ("gz.msgs.StringMsg", "gz.msgs.Empty")
     assert peer.ask("unserve", service="/a")
     peer.ask("serve", service="/c", answer="upper")
-    assert ask(node, "/c")[0]  # what was said after the farewell to /a is known
+    assert ask(node, "/c")[0]  # messages after the farewell of /a are processed
     assert node.service_list() == ["/b", "/c"]
 
 

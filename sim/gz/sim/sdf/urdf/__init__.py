@@ -1,3 +1,3 @@
-"""Reader of URDF: `<robot>` (`robot`), xacro (`xacro_file`), lumping of fixed joints (`lumping`), `<gazebo>` tags
-(`gazebo_tags`), and the conversion to an SDF model (`convert`).
+"""Reader of URDF: `robot` reads `<robot>`, `xacro_file` expands xacro, `lumping` lumps fixed joints, `gazebo_tags`
+reads `<gazebo>`, `convert` makes the SDF model.
 """

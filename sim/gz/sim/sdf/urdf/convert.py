@@ -15,12 +15,12 @@ from gz_course.sim.gz.sim.sdf.element import Element
 from gz_course.sim.gz.sim.sdf.urdf.gazebo_tags import (
     LUMP,
     GazeboTags,
+    add_to_collision,
+    add_to_joint,
+    add_to_link,
+    add_to_model,
+    add_to_visual,
     read_gazebo_tags,
-    tell_collision,
-    tell_joint,
-    tell_link,
-    tell_model,
-    tell_visual,
 )
 from gz_course.sim.gz.sim.sdf.urdf.lumping import Body, lump
 from gz_course.sim.gz.sim.sdf.urdf.making import make, place, set_value, write
@@ -36,11 +36,11 @@ def sdf_of_robot(element: Element, diagnostics: Diagnostics) -> Element:
     tags = read_gazebo_tags(robot, diagnostics)
     bodies = lump(robot, tags.preserved())
     kept = _with_mass(robot, bodies, diagnostics)
-    _name_what_is_not_run(robot, diagnostics)
+    _warn_of_ros2_control(robot, diagnostics)
     model = make(element, "model", attributes={"name": robot.name})
     if element.find("origin") is not None:
         model.children.append(place(element, origin_of(element)))
-    hinges = tags.joints_that("disableFixedJointLumping") - tags.joints_that("preserveFixedJoint")
+    hinges = tags.references_with("disableFixedJointLumping") - tags.references_with("preserveFixedJoint")
     for body in kept:
         link = _link(body, tags, diagnostics)
         if body.joint is not None:
@@ -49,12 +49,12 @@ def sdf_of_robot(element: Element, diagnostics: Diagnostics) -> Element:
         model.children.append(link)
         _add_frames(model, body, robot, tags, diagnostics)
     lumped = {link.name: body.name for body in kept for link, _ in body.members[1:]}
-    tell_model(model, tags, lumped)
+    add_to_model(model, tags, lumped)
     return make(element, "sdf", attributes={"version": SDF_VERSION}, children=[model])
 
 
 def _with_mass(robot: Robot, bodies: list[Body], diagnostics: Diagnostics) -> list[Body]:
-    """Return the bodies that Gazebo keeps; it drops a body without mass together with its descendants."""
+    """Return the bodies that Gazebo keeps, which are those with mass whose parents are kept."""
     gone: dict[str, str] = {}
     kept: list[Body] = []
     for body in bodies:
@@ -80,7 +80,7 @@ def _with_mass(robot: Robot, bodies: list[Body], diagnostics: Diagnostics) -> li
     return kept
 
 
-def _name_what_is_not_run(robot: Robot, diagnostics: Diagnostics) -> None:
+def _warn_of_ros2_control(robot: Robot, diagnostics: Diagnostics) -> None:
     found = list(robot.element.all("ros2_control", "transmission"))
     if found:
         kinds = " and ".join(f"<{tag}>" for tag in dict.fromkeys(each.tag for each in found))
@@ -117,7 +117,7 @@ def _link(body: Body, tags: GazeboTags, diagnostics: Diagnostics) -> Element:
         for shape in link.collisions:
             name = _shape_name(body.name, shape.name or link.name, "collision", number)
             made = _shape(shape, name, pose)
-            tell_collision(made, tags, link.name, link is not body.head, diagnostics)
+            add_to_collision(made, tags, link.name, link is not body.head, diagnostics)
             element.children.append(made)
             number += 1
     number = 0
@@ -125,12 +125,12 @@ def _link(body: Body, tags: GazeboTags, diagnostics: Diagnostics) -> Element:
         for shape in link.visuals:
             name = _shape_name(body.name, shape.name or link.name, "visual", number)
             made = _shape(shape, name, pose)
-            tell_visual(made, tags, link.name, link is not body.head, diagnostics)
+            add_to_visual(made, tags, link.name, link is not body.head, diagnostics)
             _colour(made, shape)
             element.children.append(made)
             number += 1
     for link, pose in body.members:
-        tell_link(element, tags, link.name, None if link is body.head else pose)
+        add_to_link(element, tags, link.name, None if link is body.head else pose)
     return element
 
 
@@ -207,7 +207,7 @@ def _add_joint(
         set_value(made, "axis/limit/upper", "0", source)
     elif kind != "fixed":
         made.children.append(_axis(joint, robot, diagnostics))
-    tell_joint(made, tags, joint.name)
+    add_to_joint(made, tags, joint.name)
     model.children.append(made)
 
 
@@ -259,7 +259,7 @@ def _axis(joint: UrdfJoint, robot: Robot, diagnostics: Diagnostics) -> Element:
 
 
 def _add_frames(model: Element, body: Body, robot: Robot, tags: GazeboTags, diagnostics: Diagnostics) -> None:
-    """Keep the names of lumped links and their joints as frames; warn if a tag about such a joint is lost."""
+    """Keep the names of lumped links and their joints as frames; warn if a tag of such a joint is lost."""
     for link, pose in body.members[1:]:
         joint = link.joint
         assert joint is not None
@@ -270,9 +270,9 @@ def _add_frames(model: Element, body: Body, robot: Robot, tags: GazeboTags, diag
                 make(link.element, "frame", attributes={"name": link.name, "attached_to": joint.name})
             )
         for tag in tags.of(joint.name) if joint.name not in robot.links else ():
-            if tag.foreign:
+            if tag.sdf_children:
                 diagnostics.warn(
                     tag.element.where,
-                    f"joint '{joint.name}' is fixed and lumped, so <{tag.foreign[0].tag}> of "
+                    f"joint '{joint.name}' is fixed and lumped, so <{tag.sdf_children[0].tag}> of "
                     f"<gazebo reference='{joint.name}'> is lost; add <preserveFixedJoint>true</preserveFixedJoint>",
                 )

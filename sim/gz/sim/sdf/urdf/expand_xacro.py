@@ -28,7 +28,7 @@ _MOST_ELEMENTS = 100_000
 
 
 class _Places:
-    """The opened files and the element that xacro processed last."""
+    """The opened files, and the element that xacro processed last."""
 
     def __init__(self) -> None:
         self.files: list[str] = []
@@ -36,7 +36,7 @@ class _Places:
         self.count = 0
 
     def handle(self, _operation: int, key: str, data: Any, _source: Any, copy: Any) -> None:
-        """Copy the place of the original to a copied element (called by the DOM)."""
+        """Copy the place of an element to its copy (called by the DOM)."""
         if copy is not None:
             self.count += 1
             if self.count > _MOST_ELEMENTS:
@@ -44,19 +44,19 @@ class _Places:
             copy.setUserData(key, data, self)
 
     def seen(self, node: Any) -> None:
-        """Record an element as the place of the next error."""
+        """Record the element that an error would concern."""
         place = node.getUserData(PLACE)
         if place is not None:
             self.last = place
 
     def where(self) -> str:
-        """Return `file:line` of the element seen last."""
+        """Return `file:line` of the last recorded element."""
         return f"{self.files[self.last[0]]}:{self.last[1]}" if self.last else ""
 
 
 def _builder(places: _Places, number: int) -> Any:
     class Builder(xml.dom.expatbuilder.ExpatBuilderNS):
-        """Builder of a DOM whose elements have their line number."""
+        """A DOM builder that records the line number of each element."""
 
         def start_element_handler(self, name: str, attributes: list[str]) -> None:
             super().start_element_handler(name, attributes)
@@ -66,7 +66,7 @@ def _builder(places: _Places, number: int) -> Any:
 
 
 def expand(file: str, arguments: dict[str, str]) -> str:
-    """Return the expanded XML text. Raises xacro's own errors with a note of file and line."""
+    """Return the expanded XML text. Raises the errors of xacro, with file and line as a note."""
     import xacro
 
     places = _Places()
@@ -143,7 +143,7 @@ def _sentence(error: BaseException, file: str) -> str:
 
 
 def main(argv: list[str]) -> int:
-    """Expand the file given first; return the exit code."""
+    """Expand the file that the first argument names; return the exit code."""
     file, *pairs = argv
     resource.setrlimit(resource.RLIMIT_CPU, (_CPU_SECONDS, _CPU_SECONDS + 1))
     resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))

@@ -19,7 +19,7 @@ from gz_course.sim.gz.sim.sdf.urdf.making import make, place, set_value
 from gz_course.sim.gz.sim.sdf.urdf.robot import Robot
 
 LUMP = "_fixed_joint_lump__"
-"""What stands in the name of a lumped shape, between the body's name and its own."""
+"""The text in the name of a lumped shape between the name of the body and its own name."""
 
 _TRUE = ("true", "yes", "1")
 _COLLISION = {
@@ -33,7 +33,7 @@ _COLLISION = {
     "laserRetro": "laser_retro",
     "maxContacts": "max_contacts",
 }
-"""Where the value of a word goes in `<collision>`."""
+"""The path in `<collision>` that the value of each word is written to."""
 _JOINT = {
     "springReference": "axis/dynamics/spring_reference",
     "springStiffness": "axis/dynamics/spring_stiffness",
@@ -62,23 +62,23 @@ class GazeboTag:
     element: Element
 
     @property
-    def foreign(self) -> list[Element]:
-        """Return the children that are already SDF."""
+    def sdf_children(self) -> list[Element]:
+        """Return the children that are SDF elements and need no translation."""
         return [child for child in self.element.children if child.tag not in _TRANSLATED]
 
 
 @dataclass(eq=False)
 class GazeboTags:
-    """All `<gazebo>` tags of a robot by reference."""
+    """The `<gazebo>` tags of a robot by reference."""
 
     by_reference: dict[str, list[GazeboTag]] = field(default_factory=dict)
 
     def of(self, reference: str) -> list[GazeboTag]:
-        """Return the tags about that link or joint (empty text: about the robot), in file order."""
+        """Return the tags of a link or joint (empty text: of the robot), in file order."""
         return self.by_reference.get(reference, [])
 
-    def joints_that(self, *words: str) -> set[str]:
-        """Return the references for which one of `words` is true."""
+    def references_with(self, *words: str) -> set[str]:
+        """Return the references whose tags set one of the elements `words` to true."""
         return {
             tag.reference
             for tags in self.by_reference.values()
@@ -89,7 +89,7 @@ class GazeboTags:
 
     def preserved(self) -> set[str]:
         """Return the names of the fixed joints to preserve."""
-        return self.joints_that(*_PRESERVING)
+        return self.references_with(*_PRESERVING)
 
 
 def read_gazebo_tags(robot: Robot, diagnostics: Diagnostics) -> GazeboTags:
@@ -123,12 +123,12 @@ def _yes(element: Element) -> bool:
     return value_of(element).lower() in _TRUE
 
 
-def tell_model(model: Element, tags: GazeboTags, lumped: dict[str, str]) -> None:
+def add_to_model(model: Element, tags: GazeboTags, lumped: dict[str, str]) -> None:
     """Add the tags without reference to `<model>`: plugins, `static`, and joints, with lumped links renamed."""
     for tag in tags.of(""):
         for child in tag.element.all("static"):
             set_value(model, "static", "true" if _yes(child) else "false", child)
-        for child in tag.foreign:
+        for child in tag.sdf_children:
             if child.tag == "joint":
                 ends = ("parent", "child")
                 renamed = [
@@ -141,7 +141,7 @@ def tell_model(model: Element, tags: GazeboTags, lumped: dict[str, str]) -> None
             model.children.append(child)
 
 
-def tell_link(link: Element, tags: GazeboTags, reference: str, pose: Pose | None) -> None:
+def add_to_link(link: Element, tags: GazeboTags, reference: str, pose: Pose | None) -> None:
     """Add the tags of a URDF link to the SDF `<link>`; `pose` is that of a lumped link in it, else None."""
     for tag in tags.of(reference):
         for child in tag.element.all("turnGravityOff"):
@@ -152,7 +152,7 @@ def tell_link(link: Element, tags: GazeboTags, reference: str, pose: Pose | None
         for child in tag.element.all("dampingFactor"):
             parts = [make(child, word, value_of(child)) for word in ("linear", "angular")]
             link.children.append(make(child, "velocity_decay", children=parts))
-        for child in tag.foreign:
+        for child in tag.sdf_children:
             link.children.append(_moved(child, pose) if pose is not None and child.tag in _PLACED else child)
 
 
@@ -168,7 +168,7 @@ def _moved(element: Element, pose: Pose) -> Element:
     )
 
 
-def tell_collision(
+def add_to_collision(
     collision: Element, tags: GazeboTags, reference: str, lumped: bool, diagnostics: Diagnostics
 ) -> None:
     """Add the tags of a URDF link to one of its `<collision>` elements: surface, contacts, blocks."""
@@ -188,7 +188,7 @@ def tell_collision(
             set_value(collision, _COLLISION[word.tag], value_of(word), word)
 
 
-def tell_visual(visual: Element, tags: GazeboTags, reference: str, lumped: bool, diagnostics: Diagnostics) -> None:
+def add_to_visual(visual: Element, tags: GazeboTags, reference: str, lumped: bool, diagnostics: Diagnostics) -> None:
     """Add the tags of a URDF link to one of its `<visual>` elements: material, `<visual>` blocks."""
     for tag in tags.of(reference):
         blocks = [child for block in tag.element.all("visual") for child in block.children]
@@ -229,7 +229,7 @@ def _warn_of_name(shape: Element, reference: str, word: Element, diagnostics: Di
     )
 
 
-def tell_joint(joint: Element, tags: GazeboTags, reference: str) -> None:
+def add_to_joint(joint: Element, tags: GazeboTags, reference: str) -> None:
     """Add the tags of a joint to the SDF `<joint>`: springs, stops, sensors and other SDF elements."""
     for tag in tags.of(reference):
         for child in tag.element.children:
@@ -237,7 +237,7 @@ def tell_joint(joint: Element, tags: GazeboTags, reference: str) -> None:
                 set_value(joint, _JOINT[child.tag], value_of(child), child)
             elif child.tag in _JOINT_FLAGS:
                 set_value(joint, _JOINT_FLAGS[child.tag], "true" if _yes(child) else "false", child)
-        joint.children.extend(tag.foreign)
+        joint.children.extend(tag.sdf_children)
 
 
 def _copy(element: Element) -> Element:

@@ -21,14 +21,16 @@ from gz_course.sim.gz.sim.sdf.urdf.robot import WORLD, Robot, UrdfInertial, Urdf
 
 @dataclass(eq=False)
 class Body:
-    """One link of the SDF model: the URDF link `head` and, in `members`, head and all links lumped into it, each with
-    its pose in head's frame, in Gazebo's order (a link, then its descendants by the names of the joints).
+    """One link of the SDF model: the URDF link `head` and the links lumped into it.
+
+    `members` holds the head and these links with their poses in the head's frame, in Gazebo's order (a link, then its
+    descendants by the names of the joints).
     """
 
     head: UrdfLink
     members: list[tuple[UrdfLink, Pose]] = field(default_factory=list)
     joint: UrdfJoint | None = None
-    """The joint that carries the head; `origin` is its pose in the frame of `parent`."""
+    """The joint between `parent` and the head; `origin` is its pose in the frame of `parent`."""
     parent: str = ""
     origin: Pose = field(default_factory=Pose)
     inertial: UrdfInertial | None = None
@@ -42,7 +44,7 @@ class Body:
 def lump(robot: Robot, preserved: Collection[str]) -> list[Body]:
     """Return the bodies of a robot, parents first; `preserved` names the fixed joints to preserve.
 
-    A root called `world` stands for the world and is no body.
+    A root link called `world` is the world itself and not a body.
     """
     bodies: dict[str, Body] = {}
     placed: dict[str, tuple[Body, Pose]] = {}

@@ -1,4 +1,4 @@
-"""Makes SDF elements with the file and line of their URDF, which messages refer to."""
+"""Makes SDF elements that keep the file and line of their URDF elements, for messages."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ def make(
     attributes: Mapping[str, str] | None = None,
     children: Sequence[Element] = (),
 ) -> Element:
-    """Make an element at the file and line of `source`."""
+    """Return a new element with the file and line of `source`."""
     return Element(tag, dict(attributes or {}), text, list(children), source.file, source.line)
 
 
 def write(values: Sequence[float]) -> str:
-    """Return the shortest text of floats that reads back as the same floats."""
+    """Return floats as the shortest text from which the same floats are read."""
     return " ".join(repr(float(value)) for value in values)
 
 
 def place(source: Element, pose: Pose, relative_to: str = "") -> Element:
-    """Make a `<pose>` with a quaternion, because roll, pitch and yaw would be rounded."""
+    """Return a `<pose>` with a quaternion, because roll, pitch and yaw would be rounded."""
     w, x, y, z = pose.quaternion
     attributes = {"relative_to": relative_to} if relative_to else {}
     attributes["rotation_format"] = "quat_xyzw"
@@ -33,7 +33,7 @@ def place(source: Element, pose: Pose, relative_to: str = "") -> Element:
 
 
 def set_value(element: Element, path: str, text: str, source: Element) -> None:
-    """Set the text at `path` below `element` (`surface/friction/ode/mu`), replacing what was there."""
+    """Set the text of the element at `path` (`surface/friction/ode/mu`) below `element`."""
     *above, last = path.split("/")
     for tag in above:
         below = element.find(tag)

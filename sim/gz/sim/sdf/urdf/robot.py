@@ -1,6 +1,7 @@
-"""Plain data of a URDF `<robot>`: links and joints as a tree, with every number read and checked.
+"""Plain data of a URDF `<robot>`: links and joints as a tree; every number is checked.
 
-Whatever the parser of ROS rejects (a joint without limits, two roots, a cycle) raises an error with file and line.
+Everything that the URDF parser of ROS rejects (a joint without limits, two roots, a cycle) raises an error with file
+and line.
 
 Source: http://wiki.ros.org/urdf/XML
 """
@@ -47,7 +48,8 @@ class UrdfInertial:
 
 @dataclass(eq=False)
 class UrdfShape:
-    """A `<visual>` or `<collision>`: its `name` (often empty), pose in the frame of the link, shape in `<geometry>`.
+    """A `<visual>` or `<collision>`: its `name` (often empty), pose in the frame of the link, and the shape in
+    `<geometry>`.
 
     `colour` (r, g, b, a; each 0..1) is that of the material of a visual, or None.
     """
@@ -97,7 +99,7 @@ class Robot:
     joints: dict[str, UrdfJoint] = field(default_factory=dict)
 
     def below(self, name: str) -> Iterator[UrdfLink]:
-        """Yield that link and all links below it, parents before children, siblings by the names of their joints."""
+        """Yield a link and all links below it, parents before children, siblings by the names of their joints."""
         waiting = [name]
         while waiting:
             link = self.links[waiting.pop()]
@@ -106,7 +108,7 @@ class Robot:
 
 
 def read_robot(element: Element, diagnostics: Diagnostics) -> Robot:
-    """Read `<robot>`. Raises SdfError with the line of the fault."""
+    """Read a `<robot>`. Raises SdfError with the line of the fault."""
     if not element.name:
         raise element.error("<robot> needs a name attribute")
     leftover = next((child for child in element.children if child.tag.startswith("xacro:")), None)
@@ -183,7 +185,7 @@ Colour = tuple[float, float, float, float]
 
 
 def _colours(element: Element, diagnostics: Diagnostics) -> dict[str, Colour | None]:
-    """Return the materials of the robot by name; None for those with only a texture."""
+    """Return the colours of the robot's materials by name; None for a material with only a texture."""
     colours: dict[str, Colour | None] = {}
     for material in element.all("material"):
         if not material.name:
@@ -283,7 +285,7 @@ def _end(joint: Element, role: str, robot: Robot) -> str:
 
 
 def _make_tree(robot: Robot) -> None:
-    """Give every link its parent joint and its child joints. Raises SdfError if they form no tree."""
+    """Set the parent joint and the child joints of every link. Raises SdfError if the links form no tree."""
     # The parser of ROS sorts joints by name; lumped parts are numbered in this order.
     for joint in sorted(robot.joints.values(), key=lambda each: each.name.encode()):
         child = robot.links[joint.child]

@@ -1,7 +1,7 @@
-"""Expands a `.xacro` file, keeping the file and line of every element.
+"""Expands a `.xacro` file and keeps the file and line of every element.
 
-xacro can loop without end, so it runs in a separate process (`expand_xacro`) with limits of time and memory. The result
-is plain XML in which every element has an attribute `PLACE`; `restore_places` removes it after parsing.
+xacro can loop without end, so it runs in a separate process (`expand_xacro`) with limits of time and memory. In the
+expanded XML every element has an attribute `PLACE`; `restore_places` removes it after parsing.
 
 Source: https://wiki.ros.org/xacro
 """
@@ -22,9 +22,9 @@ if TYPE_CHECKING:  # the child process imports this module too, without numpy
     from gz_course.sim.gz.sim.sdf.element import Element
 
 PLACE = "_place_"
-"""Attribute of every element of an expanded text: `FILE:LINE`, with the index of the file in `FILES`."""
+"""The attribute of every element in an expanded text: `INDEX:LINE`, with the index of the file in `FILES`."""
 FILES = "_files_"
-"""Attribute of the root: JSON list of the files."""
+"""The attribute of the root element: a JSON list of the files."""
 
 _SECONDS = 20.0
 _PLACE = re.compile("([0-9]{1,6}):([0-9]{1,9})")
@@ -32,7 +32,7 @@ _COLOURS = re.compile("\x1b\\[[0-9;]*m")
 
 
 def expand(path: Path, arguments: dict[str, str] | None = None) -> str:
-    """Return the expanded text of a file for `arguments` (xacro's `name:=value`). Raises SdfError in one sentence."""
+    """Return the expanded text of a file; `arguments` are xacro's `name:=value`. Raises SdfError with one sentence."""
     pairs = [f"{name}:={value}" for name, value in (arguments or {}).items()]
     command = [sys.executable, "-m", "gz_course.sim.gz.sim.sdf.urdf.expand_xacro", str(path), *pairs]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path)), "PYTHONIOENCODING": "utf-8"}
@@ -63,12 +63,12 @@ def expand(path: Path, arguments: dict[str, str] | None = None) -> str:
 
 
 def restore_places(root: Element) -> None:
-    """Give every element of an expanded text its original file and line."""
+    """Set the original file and line of every element of an expanded text."""
     if FILES not in root.attributes:
         return
     try:
         files = [str(file) for file in json.loads(root.attributes.pop(FILES))]
-    except (ValueError, TypeError, RecursionError):  # an attribute of that name in the file itself
+    except (ValueError, TypeError, RecursionError):  # the file itself uses an attribute of this name
         files = []
     waiting = [(root, root.file, root.line)]
     while waiting:

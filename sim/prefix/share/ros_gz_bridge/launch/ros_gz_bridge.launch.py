@@ -1,4 +1,4 @@
-"""The bridge between Gazebo and ROS 2 with a configuration file.
+"""Starts the bridge between Gazebo and ROS 2 with a configuration file.
 
 `ros2 launch ros_gz_bridge ros_gz_bridge.launch.py bridge_name:=my_bridge config_file:=bridge.yaml`
 """
@@ -19,7 +19,7 @@ def generate_launch_description() -> LaunchDescription:
     return LaunchDescription(
         [
             DeclareLaunchArgument("bridge_name", description="Name of the bridge's node"),
-            DeclareLaunchArgument("config_file", description="YAML file that lists what is bridged"),
+            DeclareLaunchArgument("config_file", description="YAML file that lists the bridges"),
             DeclareLaunchArgument(
                 "container_name", default_value="ros_gz_container", description="Name of the container, if composed"
             ),
@@ -30,10 +30,10 @@ def generate_launch_description() -> LaunchDescription:
             DeclareLaunchArgument(
                 "use_composition",
                 default_value="False",
-                description="Whether it runs in a container (not possible here)",
+                description="Whether the bridge runs in a container (not available here)",
             ),
             DeclareLaunchArgument(
-                "use_respawn", default_value="False", description="Whether it is started again when it ends"
+                "use_respawn", default_value="False", description="Whether the bridge is restarted after it has ended"
             ),
             DeclareLaunchArgument("log_level", default_value="info", description="Log level of the bridge"),
             Node(

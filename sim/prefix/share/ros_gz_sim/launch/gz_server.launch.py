@@ -1,4 +1,4 @@
-"""Gazebo's server with a world, running: `world_sdf_file:=empty.sdf`, or its text as `world_sdf_string`."""
+"""Starts Gazebo's server with a running world: `world_sdf_file:=empty.sdf`, or its SDF text as `world_sdf_string`."""
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
@@ -15,8 +15,8 @@ def generate_launch_description() -> LaunchDescription:
     server = ComposableNode(package="ros_gz_sim", plugin="ros_gz_sim::GzServer")
     return LaunchDescription(
         [
-            DeclareLaunchArgument("world_sdf_file", default_value="", description="World to be simulated"),
-            DeclareLaunchArgument("world_sdf_string", default_value="", description="SDF text of that world"),
+            DeclareLaunchArgument("world_sdf_file", default_value="", description="World to simulate"),
+            DeclareLaunchArgument("world_sdf_string", default_value="", description="SDF text of the world"),
             DeclareLaunchArgument(
                 "container_name", default_value="ros_gz_container", description="Name of the container, if composed"
             ),
@@ -26,10 +26,10 @@ def generate_launch_description() -> LaunchDescription:
             DeclareLaunchArgument(
                 "use_composition",
                 default_value="False",
-                description="Whether it runs in a container (not possible here)",
+                description="Whether the server runs in a container (not available here)",
             ),
-            DeclareLaunchArgument("initial_sim_time", default_value="0.0", description="Time the world starts at, s"),
-            DeclareLaunchArgument("verbosity_level", default_value="1", description="How much is said: 0 to 4"),
+            DeclareLaunchArgument("initial_sim_time", default_value="0.0", description="Initial simulation time, s"),
+            DeclareLaunchArgument("verbosity_level", default_value="1", description="Verbosity: 0 to 4"),
             Node(
                 condition=UnlessCondition(composed),
                 package="ros_gz_sim",

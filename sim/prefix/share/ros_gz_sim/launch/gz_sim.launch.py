@@ -1,4 +1,4 @@
-"""Gazebo with the arguments `gz_args`, as `gz sim <gz_args>` starts it: `gz_args:="-r -s empty.sdf"`."""
+"""Starts Gazebo with the arguments `gz_args`, as `gz sim <gz_args>`: `gz_args:="-r -s empty.sdf"`."""
 
 import os
 import shlex
@@ -12,7 +12,7 @@ from launch.substitutions import IfElseSubstitution, LaunchConfiguration
 
 
 def generate_launch_description() -> LaunchDescription:
-    # The `gz` of the Python that runs this launch file, whatever PATH says.
+    # The `gz` beside the Python that runs this launch file takes precedence over PATH.
     beside = Path(sys.executable).with_name("gz")
     gz = shlex.quote(str(beside)) if os.access(beside, os.X_OK) else "gz"
     words = [LaunchConfiguration("gz_args"), " ", LaunchConfiguration("ign_args"), " --force-version "]
@@ -32,7 +32,7 @@ def generate_launch_description() -> LaunchDescription:
             _deprecated("ign_args", "gz_args"),
             _deprecated("ign_version", "gz_version"),
             ExecuteProcess(
-                # The shell splits gz_args and replaces itself by Gazebo, so the exit code is Gazebo's.
+                # The shell splits gz_args and executes Gazebo in its place, so that the exit code is that of Gazebo.
                 cmd=["/bin/sh", "-c", ["exec ", gz, " sim ", *words]],
                 name="gazebo",
                 output="screen",

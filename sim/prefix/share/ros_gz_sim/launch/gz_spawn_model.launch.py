@@ -1,4 +1,4 @@
-"""A model created in a running world, as `ros2 run ros_gz_sim create` does.
+"""Creates a model in a running world, like `ros2 run ros_gz_sim create`.
 
 `ros2 launch ros_gz_sim gz_spawn_model.launch.py world:=empty file:=box.sdf entity_name:=box x:=1.0 z:=0.5`
 """
@@ -27,7 +27,7 @@ def generate_launch_description() -> LaunchDescription:
         [
             *(DeclareLaunchArgument(name, default_value="", description=text) for name, text in TEXTS.items()),
             DeclareLaunchArgument(
-                "allow_renaming", default_value="False", description="Whether a number is put behind a taken name"
+                "allow_renaming", default_value="False", description="Whether a number is appended to a taken name"
             ),
             *(DeclareLaunchArgument(name, default_value="0.0", description=text) for name, text in POSE.items()),
             Node(

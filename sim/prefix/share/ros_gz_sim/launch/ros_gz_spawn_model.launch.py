@@ -1,4 +1,4 @@
-"""A model created in a running world, and the bridge with a configuration file for its topics."""
+"""Creates a model in a running world, and starts the bridge with a configuration file for its topics."""
 
 from pathlib import Path
 
@@ -20,6 +20,6 @@ def generate_launch_description() -> LaunchDescription:
 
 
 def _include(package: str, file: str, **arguments: object) -> IncludeLaunchDescription:
-    # A plain path: `ros2 launch --show-args` can look into the file.
+    # A path without substitutions, so that `ros2 launch --show-args` can load the file.
     path = Path(get_package_share_directory(package), "launch", file)
     return IncludeLaunchDescription(PythonLaunchDescriptionSource(str(path)), launch_arguments=arguments.items())

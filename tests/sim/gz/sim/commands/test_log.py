@@ -1,4 +1,4 @@
-"""`gz log` shows what a recording holds, and says so when there is none."""
+"""`gz log` prints the content of a recording, and an error if there is none."""
 
 from __future__ import annotations
 

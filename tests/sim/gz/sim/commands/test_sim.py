@@ -1,4 +1,4 @@
-"""`gz sim` as a real process: it runs a world, obeys commands from another process, and ends cleanly."""
+"""`gz sim` as a process: it runs a world, accepts commands from another process, and ends cleanly."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def partition(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def start() -> Iterator[Callable[..., subprocess.Popen[str]]]:
-    """Starts `gz sim` in a process group of its own; nothing of it outlives the test."""
+    """Start `gz sim` in a process group of its own, which is ended with the test."""
     started: list[subprocess.Popen[str]] = []
 
     def run(*arguments: str) -> subprocess.Popen[str]:
@@ -57,7 +57,7 @@ def start() -> Iterator[Callable[..., subprocess.Popen[str]]]:
 
 
 class Heard:
-    """Counts messages of one topic and lets a test wait for one that fulfils a condition."""
+    """Counts the messages of one topic and waits for a message that fulfils a condition."""
 
     def __init__(self, node: Node, kind: type, topic: str) -> None:
         self._changed = threading.Condition()
@@ -210,7 +210,7 @@ def test_strict_refuses_what_would_be_warned_about(start: Callable[..., subproce
 
 
 def test_a_paused_world_serves_another_process(start: Callable[..., subprocess.Popen[str]]) -> None:
-    """As `ros_gz_sim create` and `gz service` do it: create, look, let go, stop the server."""
+    """Like `ros_gz_sim create` and `gz service`: create, read the scene, run, stop the server."""
     from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
     from gz_course.sim.gz.msgs.empty_pb2 import Empty
     from gz_course.sim.gz.msgs.entity_factory_pb2 import EntityFactory

@@ -1,4 +1,4 @@
-"""PID: terms, limits and what makes no sense."""
+"""PID: terms, limits and invalid values."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Spawn, remove and set_pose in a running world: the rest goes on bit for bit, and nonsense changes nothing."""
+"""Spawn, remove and set_pose in a running world: other entities continue exactly, and invalid input changes nothing."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def box(name: str = "box", x: float = 5.0, z: float = 3.0, *, static: bool = Fal
 
 
 def state(world: World) -> np.ndarray:
-    """Everything MuJoCo's future depends on."""
+    """Return everything on which MuJoCo's future states depend."""
     kind = int(mujoco.mjtState.mjSTATE_INTEGRATION)
     values = np.zeros(mujoco.mj_stateSize(world.model, kind))
     mujoco.mj_getState(world.model, world.data, values, kind)

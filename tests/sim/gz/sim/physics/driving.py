@@ -1,4 +1,4 @@
-"""Measures how well a wheeled robot does what it is told; the proofs and the benchmark ask the same questions."""
+"""Measures how well a wheeled robot follows its commands; used by the proofs and the benchmark."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ SPEED, TURN = 0.5, 0.1
 
 @dataclass(frozen=True)
 class Driving:
-    """Errors as fractions, times in s, lengths in m, angles in rad."""
+    """Errors as fractions, times [s], lengths [m], angles [rad]."""
 
     speed_error: float
     """Largest error of 0.5 m/s from half a second after the command on."""
@@ -41,7 +41,7 @@ def forward_speed(world: World) -> float:
 
 
 def measure(robot: WheeledRobot, step: float) -> Driving:
-    """Drive a robot from standing still; commands come as steps, without limits of acceleration."""
+    """Drive a robot from rest with step commands, without limits of acceleration."""
     world = robot.world(step)
     drive = drive_of(world)
     world.step(steps(world, 0.5))
@@ -73,8 +73,10 @@ def measure(robot: WheeledRobot, step: float) -> Driving:
 
 @dataclass(frozen=True)
 class Endurance:
-    """What was seen during a long drive: `distance` (m), largest `tilt` (rad) and `bounce` (m, of the height), how far
-    wheel odometry was off at the end as a fraction of the distance, and how many warnings MuJoCo gave.
+    """The results of a long drive.
+
+    `distance` [m], the largest `tilt` [rad] and `bounce` [m] of the height, the final error of the wheel odometry as a
+    fraction of the distance, and the number of MuJoCo's warnings.
     """
 
     distance: float
@@ -91,7 +93,7 @@ LIMITS += (
 
 
 def endure(robot: WheeledRobot, step: float, seconds: float, seed: int = 1) -> Endurance:
-    """Drive with random commands, a new one every second, within limits of acceleration as real robots have them."""
+    """Drive with random commands, a new one every second, within the acceleration limits of real robots."""
     world = robot.world(step, drive=LIMITS)
     drive, random = drive_of(world), np.random.default_rng(seed)
     world.step(steps(world, 0.5))

@@ -1,4 +1,4 @@
-"""SDF to MuJoCo: masses, joints, friction, servos behave as the file says."""
+"""SDF to MuJoCo: masses, joints, friction and servos have the values of the file."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def test_a_pendulum_swings_with_its_period(load_text: Load) -> None:
     for _ in range(1400):
         world.step()
         speed_at.append(world.data.qvel[0])
-    # Released level, a quarter swing of a 1 m pendulum takes 1.8541 sqrt(L/g).
+    # The quarter period of a 1 m pendulum released horizontally is 1.8541 sqrt(L/g).
     assert int(np.argmax(speed_at)) * 1e-3 == pytest.approx(1.8541 * math.sqrt(1 / 9.8), rel=0.01)
     assert max(speed_at) == pytest.approx(math.sqrt(2 * 9.8), rel=0.01)
 

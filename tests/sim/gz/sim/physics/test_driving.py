@@ -1,4 +1,4 @@
-"""Robots of 1 to 140 kg do what DiffDrive is told, at steps of 1, 2 and 4 ms."""
+"""Robots of 1 to 140 kg follow the commands of DiffDrive at steps of 1, 2 and 4 ms."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ each_robot = pytest.mark.parametrize("robot", ROBOTS, ids=lambda robot: robot.na
 @pytest.mark.parametrize("step", [0.001, 0.002, 0.004])
 def test_speed_and_rate_are_those_commanded(robot: WheeledRobot, step: float) -> None:
     seen = measure(robot, step)
-    assert seen.speed_error < 0.0035 and seen.turn_error < 0.0035  # a promise of 0.5 %, and what the recipe keeps
+    assert seen.speed_error < 0.0035 and seen.turn_error < 0.0035  # the promised 0.5 %, and the accuracy of the recipe
     assert seen.settled <= 0.5
     assert seen.stop < 0.02
     assert seen.drift < 0.005
@@ -28,7 +28,7 @@ def test_a_minute_of_random_commands(robot: WheeledRobot) -> None:
     seen = endure(robot, 0.004, 60.0)
     assert seen.warnings == 0
     assert seen.tilt < math.radians(2) and seen.bounce < 0.005
-    # Real wheels slip a little: odometry is near the truth, never the truth.
+    # Wheels slip a little: the odometry is close to the true pose, but not equal.
     assert 1e-6 < seen.odometry_error < 0.05
 
 
@@ -42,7 +42,7 @@ def test_a_parked_robot_stays(robot: WheeledRobot) -> None:
 
 
 def test_wheel_odometry_slips_where_the_truth_does_not() -> None:
-    """A step from standing to 1 m/s spins the wheels: odometry over-reads, the truth is behind."""
+    """A step command from rest to 1 m/s makes the wheels slip: the odometry is ahead of the true position."""
     world = ROBOTS[1].world()
     world.step(500)
     drive_of(world).command(1.0, 0.0)

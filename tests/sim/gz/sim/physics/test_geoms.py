@@ -1,4 +1,4 @@
-"""Shapes touch where their files say: meshes, cones, polylines, heightmaps, rooms; lights of links move along."""
+"""Shapes collide where their files place them: meshes, cones, polylines, heightmaps, rooms; lights move with links."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def test_the_surface_that_is_seen_is_exact(load_text: Load, tmp_path: Path) -> N
 
     assert height_at(1.5, 1.5) == pytest.approx(1.0)
     assert height_at(2.5, 0.5) == pytest.approx(1.0)
-    assert height_at(2.5, 1.5) > 5.0  # beside the notch of the L there is nothing
+    assert height_at(2.5, 1.5) > 5.0  # there is no surface in the notch of the L
 
 
 def test_a_ball_rolls_to_the_bottom_of_a_heightmap(load_text: Load, tmp_path: Path) -> None:
@@ -99,7 +99,7 @@ def test_a_ball_rolls_to_the_bottom_of_a_heightmap(load_text: Load, tmp_path: Pa
     for _ in range(60):
         world.step(50)
         lowest = min(lowest, float(world.truth.pose("ball").position[2]))
-    # Between slopes of 45 degrees a ball's centre comes to rest r sqrt(2) above the valley, which is at 3 m.
+    # Between slopes of 45 degrees the centre of a ball rests r sqrt(2) above the valley, which is at 3 m.
     assert lowest == pytest.approx(3 + 0.3 * 2**0.5, abs=0.1)
     assert world.truth.pose("ball").position[1] == pytest.approx(4.0, abs=0.05)
 

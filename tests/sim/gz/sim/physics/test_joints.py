@@ -1,4 +1,4 @@
-"""Every kind of joint moves as SDF says: alone, coupled, closing loops, between models, and from where it starts."""
+"""Every kind of joint moves as specified in SDF: single, coupled, in loops, between models, from initial positions."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def test_two_axes_turn_one_after_the_other(load_text: Load, kind: str) -> None:
     world.data.qpos[world.model.joint("m::j#2").qposadr[0]] = 0.3
     world.step()
     turn = matrix(world.truth.link_pose("m", "l").quaternion)
-    # About z first: the second axis has become y.
+    # After the rotation about z the second axis is y.
     assert turn[:, 0] == pytest.approx((0, 1, 0), abs=1e-6)
     assert turn[:, 2] == pytest.approx((math.sin(0.3), 0, math.cos(0.3)), abs=1e-6)
 

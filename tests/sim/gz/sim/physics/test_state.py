@@ -1,4 +1,4 @@
-"""The state of a model is carried into another one by name, whatever kinds of joints there are and in which order."""
+"""The state of a model is copied to another model by name, for all kinds and orders of joints."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def build(names: list[str]) -> tuple[mujoco.MjModel, mujoco.MjData]:
 
 
 def of(model: mujoco.MjModel, data: mujoco.MjData, name: str) -> dict[str, list[float]]:
-    """Everything the future of one body depends on."""
+    """Return everything on which the future of one body depends."""
     joint = model.joint(name)
     q, v = int(joint.qposadr[0]), int(joint.dofadr[0])
     dofs = slice(v, v + DOFS[name])

@@ -1,4 +1,4 @@
-"""Four robots with two driven wheels, from 1 to 140 kg, each alone on the ground: what the proofs of driving drive."""
+"""Four robots with two driven wheels, from 1 to 140 kg, for the proofs of driving."""
 
 from __future__ import annotations
 
@@ -10,8 +10,10 @@ from gz_course.sim.gz.sim.world import World
 
 @dataclass(frozen=True)
 class WheeledRobot:
-    """Size of a robot: masses in kg, lengths in m. The body is a box whose middle is above the wheels, as far back as
-    `back`; a ball without friction carries the rear.
+    """Dimensions of a robot: masses [kg], lengths [m].
+
+    The body is a box whose centre is above the wheels, shifted backwards by `back`; a ball without friction supports
+    the rear.
     """
 
     name: str
@@ -28,7 +30,7 @@ class WheeledRobot:
         return self.body + 2 * self.wheel
 
     def sdf(self, plugins: str = "", drive: str = "") -> str:
-        """The robot as a <model>; `plugins` go into it, `drive` into its DiffDrive."""
+        """Return the robot as a <model> with `plugins`; `drive` is the content of its DiffDrive."""
         r, width = self.radius, 0.8 * self.separation
         tyre = 0.4 * r
         middle = r + self.height / 2
@@ -62,7 +64,7 @@ class WheeledRobot:
           </plugin>{plugins}</model>"""
 
     def world(self, step: float = 0.001, plugins: str = "", drive: str = "") -> World:
-        """The robot alone on an endless ground, standing still."""
+        """Return a world with only the robot at rest on a ground plane."""
         return World.from_string(
             f"""<sdf version='1.10'><world name='w'><physics type='x'><max_step_size>{step}</max_step_size></physics>
             <plugin filename='gz-sim-physics-system' name='gz::sim::systems::Physics'/>
@@ -79,5 +81,5 @@ ROBOTS = (
 
 
 def drive_of(world: World) -> DiffDrive:
-    """The DiffDrive of the robot."""
+    """Return the DiffDrive of the robot."""
     return next(system for system in world.systems if isinstance(system, DiffDrive))

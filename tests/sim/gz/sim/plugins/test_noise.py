@@ -1,4 +1,4 @@
-"""Sensor noise: parameters, statistics, bias, wandering bias, precision, channels."""
+"""Sensor noise: parameters, statistics, bias, drifting bias, precision, channels."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def test_a_bias_without_deviation_keeps_its_size() -> None:
 def test_precision_rounds_halves_away_from_zero() -> None:
     values = np.array((0.3, -0.3, 0.375, -0.375, 0.125, 1e9))
     assert Noise(precision=0.25).quantized(values).tolist() == [0.25, -0.25, 0.5, -0.5, 0.25, 1e9]
-    # Gazebo takes a precision of a millionth and less for none.
+    # Gazebo ignores a precision of 1e-6 and less.
     assert Noise(precision=1e-6).quantized(values) is values
 
 
@@ -67,7 +67,7 @@ def test_rounded_values_are_multiples_and_near(value: float, precision: float) -
 
 
 def test_a_wandering_bias_has_the_spread_and_the_memory_of_its_process() -> None:
-    # First order Gauss-Markov process: variance sigma^2 tau / 2, correlation exp(-t / tau), whatever the time step.
+    # First order Gauss-Markov process: variance sigma^2 tau / 2, correlation exp(-t / tau), for any time step.
     sigma, tau = 0.3, 2.0
     noise = Noise(dynamic_bias_stddev=sigma, dynamic_bias_correlation_time=tau)
     for dt in (0.5, 0.05):
@@ -87,12 +87,12 @@ def test_a_bias_does_not_wander_without_time_or_correlation_time() -> None:
     assert Noise(dynamic_bias_stddev=1.0).wandered(0.5, 0.1, 1.0) == 0.5
     noise = Noise(dynamic_bias_stddev=1.0, dynamic_bias_correlation_time=1.0)
     assert noise.wandered(0.5, 0.0, 1.0) == 0.5
-    # Without anything drawn it only fades.
+    # Without random samples it only decays.
     assert noise.wandered(0.5, 1.0, 0.0) == pytest.approx(0.5 * math.exp(-1))
 
 
 class Source:
-    """Stands for a sensor: its generators, by purpose and update."""
+    """A substitute for a sensor: its random generators by purpose and update."""
 
     updates = 0
 

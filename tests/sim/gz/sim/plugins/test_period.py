@@ -1,4 +1,4 @@
-"""Periods of topics: whatever frequency is stated, a system knows when its next message is due."""
+"""Periods of topics for all frequencies, including invalid ones."""
 
 from __future__ import annotations
 

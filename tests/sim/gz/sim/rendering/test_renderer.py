@@ -1,4 +1,4 @@
-"""Render engines: which names are understood, and that OpenGL, where there is any, shows what the rays show."""
+"""Render engines: accepted names, and agreement of the OpenGL images, if available, with the ray-cast ones."""
 
 from __future__ import annotations
 

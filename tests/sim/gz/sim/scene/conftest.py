@@ -1,4 +1,4 @@
-"""A world with some of everything a scene can hold."""
+"""A world with every kind of entity in a scene."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The scene graph: what stands below what, and where everything is."""
+"""The scene graph: parents, order and poses of the vertices."""
 
 from __future__ import annotations
 

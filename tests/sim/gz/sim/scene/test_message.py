@@ -1,4 +1,4 @@
-"""gz.msgs.Scene: what a world looks like to somebody who only has the message."""
+"""gz.msgs.Scene: the content of a world in a message."""
 
 from __future__ import annotations
 

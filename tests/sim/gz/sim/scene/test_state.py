@@ -1,4 +1,4 @@
-"""The serialized state: entities and components as Gazebo's own tools look for them."""
+"""The serialized state: entities and components as Gazebo's own tools read them."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def component(state: Any, entity: int, name: str) -> bytes:
 
 
 def test_types_are_fnv_1a_hashes_of_the_registered_names() -> None:
-    # The reference values of the hash: of the empty text, and of "a", from the authors of FNV.
+    # Reference values of the hash by the authors of FNV: of the empty text and of "a".
     from gz_course.sim.gz.sim.scene import state
 
     assert state.fnv_1a("") == 0xCBF29CE484222325

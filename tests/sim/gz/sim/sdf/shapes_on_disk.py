@@ -1,4 +1,4 @@
-"""Small mesh and image files that tests write where they need them."""
+"""Small mesh and image files for tests."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ ELL = ((0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2))
 
 
 def write_obj(path: Path, outline: Sequence[tuple[float, float]] = ELL, height: float = 1.0) -> None:
-    """Write the prism over an outline as a Wavefront OBJ with one object `ell`; faces are polygons."""
+    """Write a prism over an outline as a Wavefront OBJ with one object `ell` and polygonal faces."""
     count = len(outline)
     lines = ["o ell"]
     lines += [f"v {x} {y} {z}" for z in (0.0, height) for x, y in outline]

@@ -1,6 +1,6 @@
-"""Worlds that are damaged, huge or hostile: refused with one sentence in good time, never a crash.
+"""Damaged, huge and hostile worlds: rejected with one sentence in limited time, without a crash.
 
-Two hundred damaged worlds here; `python -m tests.fuzz.load_worlds` runs as many thousands as one likes.
+It loads two hundred damaged worlds; `python -m tests.fuzz.load_worlds` loads any number of them.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ def test_a_world_of_thousands_of_models_loads_in_time() -> None:
     began = time.process_time()
     world = World.from_string(f"<sdf version='1.9'><world name='w'>{models}</world></sdf>")
     assert len(world.truth.model_names()) == MANY and time.process_time() - began < 10.0
-    assert world.model.narena < 2 * 1024**3  # what MuJoCo would take by itself is 6 GB
+    assert world.model.narena < 2 * 1024**3  # MuJoCo's default would be 6 GB
 
 
 def test_a_long_chain_of_frames_is_no_recursion(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""XML as Gazebo reads it: lenient where tinyxml2 is, exact about lines, one sentence when it is broken."""
+"""XML as Gazebo reads it: as lenient as tinyxml2, with exact line numbers and one sentence for an error."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""SDF's frame rules: relative_to, attached_to, scoped names, placement frames, old spellings, circles."""
+"""The frame rules of SDF: relative_to, attached_to, scoped names, placement frames, old notations, cycles."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Shapes: what their files and numbers say is what is built, what cannot be built is left out with a sentence."""
+"""Shapes are built as specified; a shape that cannot be built is left out with a warning."""
 
 from __future__ import annotations
 
@@ -194,7 +194,7 @@ def test_a_concave_body_that_moves_is_its_hull_and_a_room_stays_hollow(tmp_path:
     assert len(collisions[0].geometry.mesh.pieces) == 20 and warnings == []  # type: ignore[union-attr]
     pieces, fuller = convex_pieces(CUBE, FACES[:, ::-1], moving=False)
     assert len(pieces) == 12 and not fuller
-    for piece in pieces:  # the wedges lie outside of the room
+    for piece in pieces:  # the wedges are outside of the room
         assert np.any((piece < -1e-4) | (piece > 1 + 1e-4))
     assert len(convex_pieces(CUBE, FACES[:, ::-1], moving=True)[0]) == 1
 
@@ -213,7 +213,7 @@ def test_by_how_much_a_hull_is_larger() -> None:
     deep = CUBE.copy()
     deep[deep[:, 2] == 1, :2] = 0.5 + 3.0 * (deep[deep[:, 2] == 1, :2] - 0.5)
     assert convex_pieces(CUBE, FACES, moving=True)[1] == convex_pieces(deep, FACES, moving=True)[1] == 0.0
-    # A cube with a pyramid of a quarter of its volume taken out of its top.
+    # A cube without a pyramid of a quarter of its volume at the top.
     middle = np.concatenate([CUBE, [(0.5, 0.5, 0.25)]])
     top = [face for face in FACES.tolist() if (CUBE[face][:, 2] == 1).all()]
     rest = [face for face in FACES.tolist() if face not in top]

@@ -1,4 +1,4 @@
-"""Includes: overrides, merging, placement, lights, worlds; files that include each other; what is missing."""
+"""Includes: overrides, merging, placement, lights, worlds, files that include each other, missing files."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def test_a_merged_include_puts_its_parts_beside_it(shelf: Path) -> None:
         "whole": ("world", "upper"),
         "j": ("base", "upper"),
     }
-    # The file's y axis, in the frame of its link: that link is turned with the whole.
+    # The y axis of the file in the frame of its link, which is rotated with the model.
     assert next(j for j in model.joints if j.name == "elbow").axis.direction == pytest.approx((0, 1, 0))  # type: ignore[union-attr]
     assert [plugin.name for plugin in model.plugins] == ["own", "added"]
     assert model.canonical_link == "base"

@@ -1,4 +1,4 @@
-"""Masses and inertias, stated or taken from the collisions."""
+"""Masses and inertias, as stated or computed from the collisions."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def test_automatic_inertia_of_nothing_is_the_default_with_a_warning() -> None:
 
 
 def surface(kind: str, size: tuple[float, float, float]) -> TriangleMesh:
-    """A fine mesh of a round shape, as a stack of rings."""
+    """Return a fine mesh of a round shape, as a stack of rings."""
     around = np.linspace(0, 2 * math.pi, 200, endpoint=False)
     up = np.linspace(-1, 1, 201)
     if kind == "cylinder":

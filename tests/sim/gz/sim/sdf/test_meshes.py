@@ -1,6 +1,4 @@
-"""Mesh files: what is read from STL and OBJ (and COLLADA, where its reader is installed), and what is said about
-damaged ones.
-"""
+"""Mesh files: STL, OBJ and, if its reader is installed, COLLADA; messages about damaged files."""
 
 from __future__ import annotations
 
@@ -40,7 +38,7 @@ f 2 3 \\
 
 
 def volume6(mesh: Mesh) -> float:
-    """Six times the signed volume: positive when all triangles look outwards."""
+    """Return six times the signed volume, positive if all normals point outwards."""
     a, b, c = (mesh.vertices[mesh.triangles[:, i]] for i in range(3))
     return float(np.einsum("ij,ij->", a, np.cross(b, c)))
 

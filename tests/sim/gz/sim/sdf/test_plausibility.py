@@ -1,4 +1,4 @@
-"""What SDF allows but hardly anybody means: one sentence each with file and line; ordinary files stay silent."""
+"""Valid but implausible SDF causes one warning with file and line; ordinary files cause none."""
 
 from __future__ import annotations
 
@@ -182,5 +182,5 @@ def test_strict_loading_refuses_what_is_lost_but_no_doubt(caplog: pytest.LogCapt
             with pytest.raises(SdfError, match="strict loading refuses"):
                 diagnostics.refuse()
         else:
-            assert "<sphere>" in caplog.text  # said at once all the same
+            assert "<sphere>" in caplog.text  # logged at once nevertheless
             diagnostics.refuse()

@@ -1,6 +1,4 @@
-"""Worlds from SDF: includes, unknown words, wrong values; every message names file, line and the nearest
-valid name.
-"""
+"""Worlds from SDF: includes, unknown words, invalid values; messages have file, line and the nearest valid name."""
 
 from __future__ import annotations
 

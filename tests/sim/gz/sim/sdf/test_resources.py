@@ -1,4 +1,4 @@
-"""Where models, meshes and worlds are found, and what is said when they are not."""
+"""The search for models, meshes and worlds, and the messages if they are not found."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def _no_paths(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def shelf(folder: Path, name: str, *versions: str) -> Path:
-    """Make a model folder whose model.config names one file a version."""
+    """Make a model folder whose model.config names one file for each version."""
     (folder / name / "meshes").mkdir(parents=True)
     (folder / name / "meshes" / "a b.obj").touch()
     lines = "".join(f"<sdf version='{version}'>v{version}.sdf</sdf>" for version in versions)
@@ -80,7 +80,7 @@ def test_packages_of_an_ament_prefix(tmp_path: Path, monkeypatch: pytest.MonkeyP
     (package / "urdf" / "cart.urdf").touch()
     monkeypatch.setenv("AMENT_PREFIX_PATH", f"/nowhere:{tmp_path}")
     assert find_model("package://cart_description/urdf/cart.urdf", None) == package / "urdf" / "cart.urdf"
-    # What a URDF calls package:// is model:// once Gazebo has read it.
+    # Gazebo converts package:// in a URDF to model://.
     assert find_file("model://cart_description/meshes/a b.obj", None) == package / "meshes" / "a b.obj"
     own = shelf(tmp_path / "own", "cart_description", "1.9")
     monkeypatch.setenv("GZ_SIM_RESOURCE_PATH", str(own.parent))

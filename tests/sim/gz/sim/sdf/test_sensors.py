@@ -1,4 +1,4 @@
-"""Sensors of joints as the reader keeps them: pose, names in nested models, what is refused."""
+"""Sensors of joints after reading: pose, names in nested models, rejected input."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def test_the_pose_is_in_the_joints_frame() -> None:
 
 def test_the_pose_may_be_given_in_another_frame() -> None:
     (found,) = sensors("<sensor name='s' type='force_torque'><pose relative_to='f'>0 0 0 0 0 0</pose></sensor>")
-    # The joint stands at (1, 0, 2) of the model, the frame at (0, 5, 0).
+    # The joint is at (1, 0, 2) in the model, the frame at (0, 5, 0).
     assert found.pose.is_close(Pose((-1, 5, -2)))
 
 

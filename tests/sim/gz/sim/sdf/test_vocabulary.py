@@ -1,4 +1,4 @@
-"""The words of SDF: none that is valid is called unknown, typos in elements and attributes find the right word."""
+"""The words of SDF: no valid word is reported, and typos in elements and attributes get the right hint."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A camera on a stand, things to look at, and light, for the tests of all cameras."""
+"""A camera on a stand, objects and lights, for the tests of all cameras."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the tests of sensors share: worlds with the systems they name, and listening to a topic for some steps."""
+"""Fixtures for tests of sensors: worlds with the required systems, and the messages of a topic."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ INERTIAL = (
 
 
 def inertial(mass: float = 1.0, moment: float = 0.1) -> str:
-    """A mass (kg) with the same moment of inertia (kg m^2) about every axis."""
+    """Return an <inertial> with a mass [kg] and the same moment of inertia [kg m^2] about every axis."""
     return INERTIAL.format(mass=mass, i=moment)
 
 
@@ -39,13 +39,13 @@ def sensor_world(inside: str, *names: str, version: str = "1.10", step: float = 
 
 
 def sensors_of(world: World) -> list[SensorBase]:
-    """Every sensor that runs in a world."""
+    """Return all running sensors of a world."""
     return [sensor for each in world.systems if isinstance(each, SensorSystem) for sensor in each.sensors]
 
 
 @pytest.fixture
 def listen() -> Iterator[Callable[..., list[Any]]]:
-    """`listen(world, topic, "gz.msgs.IMU")`: the list that fills with what is heard while the world steps."""
+    """Return `listen(world, topic, "gz.msgs.IMU")`, which returns the list of messages received during steps."""
     with Node(NodeOptions(scope=Scope.PROCESS)) as own, contextlib.ExitStack() as worlds:
 
         def hear(world: World, topic: str, kind: str) -> list[Any]:

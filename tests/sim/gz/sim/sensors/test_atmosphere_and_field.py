@@ -1,4 +1,4 @@
-"""Altimeter, air pressure, air speed, magnetometer: against tables of the standard atmosphere and plain geometry."""
+"""Altimeter, air pressure, air speed and magnetometer against tables of the standard atmosphere and geometry."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def topic(kind: str) -> str:
 def test_altimeter_counts_from_where_it_began(listen: Listen) -> None:
     world = sensor_world(model("altimeter"), "Altimeter")
     heard = listen(world, topic("altimeter"), "gz.msgs.Altimeter")
-    # Thrown upwards, and rolling about y: the sensor, half a metre ahead, goes down with it.
+    # Thrown upwards and rotating about y: the sensor, half a metre ahead, moves down with the rotation.
     world.data.qvel[:] = (0, 0, 2, 0, 1, 0)
     world.step(100)
     last = heard[-1]
@@ -87,7 +87,7 @@ def test_air_pressure_message(listen: Listen) -> None:
     world.step(2000)
     values = np.array([message.pressure for message in heard])
     assert values.mean() == pytest.approx(89876, abs=1) and values.std() == pytest.approx(4, rel=0.06)
-    # Gazebo's variance is the root of the deviation.
+    # Gazebo's variance is the square root of the deviation.
     assert heard[0].variance == 2.0 and heard[0].header.data[0].value[0] == "m::l::s"
 
 
@@ -146,7 +146,7 @@ def test_magnetometer_message_and_noise(listen: Listen) -> None:
     heard = listen(world, topic("magnetometer"), "gz.msgs.Magnetometer")
     world.step(2000)
     values = np.array([(m.field_tesla.x, m.field_tesla.y, m.field_tesla.z) for m in heard])
-    # SDF's default field.
+    # The default field of SDF.
     assert values.mean(axis=0) == pytest.approx((5.5645e-6, 22.8758e-6, -42.3884e-6), abs=1e-7)
     assert values.std(axis=0) == pytest.approx((1e-6, 0, 0), rel=0.06, abs=1e-12)
 

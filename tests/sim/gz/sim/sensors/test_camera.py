@@ -1,4 +1,4 @@
-"""Cameras against geometry and against Lambert's law, written down again here without the product's code."""
+"""Cameras against geometry and Lambert's law, computed here independently of the simulator."""
 
 from __future__ import annotations
 
@@ -33,13 +33,13 @@ def test_a_ball_is_where_the_pinhole_puts_it(x: float, left: float, up: float) -
     rows, columns = np.divmod(np.flatnonzero(hits.geom >= 0), 320)
     focal = 160 / math.tan(0.6)
     assert len(rows) > 0
-    # A ball off the axis is seen as an ellipse whose middle is a little further out.
+    # The image of a ball off the axis is an ellipse whose centre is slightly further out.
     assert columns.mean() + 0.5 == pytest.approx(160 - focal * left, abs=0.8)
     assert rows.mean() + 0.5 == pytest.approx(120 - focal * up, abs=0.8)
 
 
 def test_a_lit_wall_has_lamberts_colour_and_the_sky_its_own(load_text: Load) -> None:
-    # The wall's face looks back along -x; light falls on it at 60 degrees.
+    # The wall faces -x; light reaches it at 60 degrees.
     light = sun(f"{math.cos(math.pi / 3)} 0 {-math.sin(math.pi / 3)}", shadows=False)
     wall = thing("wall", "3.1 0 1 0 0 0", "<box><size>0.2 1 1</size></box>", "0.8 0.4 0.2 1")
     image = sensor_of(load_text(SCENE + light + wall + eye())).image()
@@ -65,7 +65,7 @@ def test_shadows_fall_where_the_light_does_not(load_text: Load) -> None:
     focal = 80 / math.tan(0.6)
 
     def at(x: float, y: float) -> list[int]:
-        """The pixel that shows a point of the floor."""
+        """Return the pixel that shows a point of the floor."""
         return image[int(60 + focal * 1 / x), int(80 - focal * y / x)].tolist()
 
     lit, shaded = round(255 * 0.9), round(255 * 0.3)

@@ -1,4 +1,4 @@
-"""Contact sensors: who touches whom, where, how hard; what is published and what is not."""
+"""Contact sensors: the pairs that touch, positions and forces; when messages are published."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def test_a_box_stands_on_four_corners_that_carry_its_weight(listen: Listen) -> N
 
 
 def test_the_other_side_feels_the_opposite(listen: Listen) -> None:
-    """A static plate under the box: normal and force point down into it."""
+    """A static plate below the box: normal and force point down into it."""
     plate = model(box("p", "3 3 0.1") + sensor("p"), "0 0 0 0 0 0").replace("<link", "<static>1</static><link")
     world = sensor_world(plate + model(box("c"), "0 0 0.55 0 0 0", name="n"), "Contact")
     heard = listen(world, TOPIC, "gz.msgs.Contacts")
@@ -105,7 +105,7 @@ def test_nothing_is_published_while_nothing_touches(listen: Listen) -> None:
     world.step(100)
     assert heard == []
     world.step(200)
-    # It falls 0.1 m: sqrt(2 * 0.1 / 9.8) = 0.143 s; from then on every step tells.
+    # It falls 0.1 m: sqrt(2 * 0.1 / 9.8) = 0.143 s; afterwards every step has a message.
     assert 142_000_000 <= heard[0].header.stamp.nsec <= 146_000_000
     assert len(heard) > 100
 

@@ -1,4 +1,4 @@
-"""Cameras that measure depth or show labels, against geometry; the formats of images."""
+"""Cameras that measure depth or show labels, against geometry; image formats."""
 
 from __future__ import annotations
 

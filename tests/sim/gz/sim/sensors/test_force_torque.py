@@ -1,4 +1,4 @@
-"""Force-torque sensors against statics and dynamics: weights, levers, frames, a pendulum, contacts; bad input."""
+"""Force-torque sensors against statics and dynamics: weights, levers, frames, a pendulum, contacts; invalid input."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def model(
     joint: str = "",
     pose: str = "0 0 0.5 0 0 0",
 ) -> str:
-    """Link b of 10 kg on link a of 2 kg, which the world holds."""
+    """Return a model with link b of 10 kg on link a of 2 kg, which is fixed to the world."""
     return (
         f"<model name='m'><pose>0 0 1 0 0 0</pose>{hold}<link name='a'>{inertial(2)}</link><link name='b'><pose>{pose}"
         f"</pose>{inertial(10)}</link><joint name='j' type='{kind}'>{joint}<parent>a</parent><child>b</child>"
@@ -62,12 +62,12 @@ def test_the_parent_carries_the_weight_of_the_child(listen: Listen) -> None:
 def test_by_default_it_is_what_the_child_does_to_the_parent_along_the_childs_axes(listen: Listen) -> None:
     plain = "<sensor name='s' type='force_torque'/>"
     force, _ = measured(listen, model(plain, pose="0 0 0.5 1.5707963267948966 0 0"))
-    # The child lies on its side: its y axis points up.
+    # The child is rotated so that its y axis points up.
     assert force == pytest.approx((0, -98, 0), abs=1e-9)
 
 
 def test_torque_is_about_the_sensor(listen: Listen) -> None:
-    # The weight hangs 0.1 m behind the sensor: it is held by a torque about y.
+    # The weight is 0.1 m behind the sensor, which requires a torque about y.
     _, torque = measured(listen, model(sensor(at="0.1 0 0 0 0 0")))
     assert torque == pytest.approx((0, 0.1 * 98, 0))
     _, torque = measured(listen, model(sensor(at="0 0.1 0.7 0 0 0")))
@@ -83,14 +83,14 @@ def test_frames(listen: Listen, frame: str, rpy: tuple[float, float, float]) -> 
     tilted = model(sensor(frame, at="0.1 0 0 0 0.3 0"), pose="0 0 0.5 0.4 0 0")
     force, torque = measured(listen, tilted)
     assert force == pytest.approx(turn.T @ (0, 0, 98), abs=1e-9)
-    # The sensor stands 0.1 m along the child's x axis, which the tilt about x leaves alone.
+    # The sensor is at 0.1 m on the child's x axis, about which the child is tilted.
     assert torque == pytest.approx(turn.T @ (0, 9.8, 0), abs=1e-9)
 
 
 def test_the_point_of_measurement_may_be_moved_with_the_joint(listen: Listen) -> None:
     shifted = model(sensor(at="0 0.2 0 0 0 0"), joint="<pose>0.1 0 0 0 0 1.5707963267948966</pose>")
     _, torque = measured(listen, shifted)
-    # Joint 0.1 ahead and turned left, sensor 0.2 to its left: at (-0.1, 0) of the child; seen along turned axes.
+    # Joint 0.1 ahead and rotated to the left, sensor 0.2 to its left: at (-0.1, 0) of the child, with rotated axes.
     assert torque == pytest.approx((-0.1 * 98, 0, 0), abs=1e-9)
 
 
@@ -108,7 +108,7 @@ def test_a_swinging_pendulum_pulls_with_its_weight_and_its_speed(listen: Listen)
         angle, rate = float(world.data.qpos[0]), float(world.data.qvel[0])
         world.step(1)
         force, torque = read(heard[-1])
-        # Rod: m (g cos + w^2 r); across it: what gives the bob its own turning, I alpha / r.
+        # Along the rod: m (g cos + w^2 r); across it: the force for the rotation of the bob, I alpha / r.
         alpha = -10 * GRAVITY * radius * math.sin(angle) / (0.1 + 10 * radius**2)
         across = -0.1 * alpha / radius
         assert force == pytest.approx((-across, 0, 10 * (GRAVITY * math.cos(angle) + rate**2 * radius)), abs=1e-6)
@@ -137,7 +137,7 @@ def test_scales_weigh_what_lies_on_them(listen: Listen) -> None:
 
 
 def test_models_inside_one_model_lie_on_each_other(listen: Listen) -> None:
-    """A scale and a weight, both nested: no joint connects them, so they touch; links of one of them do not."""
+    """A scale and a weight, both nested: no joint connects them, so they touch; links of each of them do not."""
     ground, scale, weight = SCALE.replace("<model", "\0<model").split("\0")
     inside = scale.replace("'m'", "'scale'") + weight
     world = sensor_world(f"{ground}<model name='m'>{inside}</model>", "ForceTorque")
@@ -220,7 +220,7 @@ def test_a_sensor_on_a_link_is_warned_about() -> None:
 
 
 def test_a_joint_that_closes_a_loop_is_warned_about() -> None:
-    """Links a - b and a - c - b."""
+    """The links are connected as a - b and a - c - b."""
     c = f"<link name='c'>{inertial()}</link><joint name='to_c' type='fixed'><parent>a</parent><child>c</child></joint>"
     loop = f"<joint name='k' type='fixed'><parent>c</parent><child>b</child>{sensor()}</joint></model>"
     world = sensor_world(model("").replace("</model>", c + loop), "ForceTorque")

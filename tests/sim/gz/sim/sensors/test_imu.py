@@ -1,4 +1,4 @@
-"""The IMU against mechanics: rest, free fall, circles, reference frames; its message, its noise."""
+"""The IMU against mechanics: rest, free fall, circles, reference frames; its message and noise."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def vector(message: Any) -> np.ndarray[Any, Any]:
 
 
 def turn(message: Any) -> np.ndarray[Any, Any]:
-    """The matrix that turns the sensor's coordinates into those of the reference frame."""
+    """Return the matrix that rotates the sensor's coordinates into those of the reference frame."""
     return matrix(np.array((message.w, message.x, message.y, message.z)))
 
 
@@ -59,7 +59,7 @@ def test_in_free_fall_nothing_is_felt_but_the_spin(listen: Listen) -> None:
     world.data.qvel[:] = (1, 2, 3, 0, 0, 2.5)
     world.step(300)
     for message in heard:
-        # The sensor's y axis points back to the centre of the circle it runs round.
+        # The sensor's y axis points to the centre of its circular path.
         assert vector(message.linear_acceleration) == pytest.approx((0, 2.5**2 * 0.3, 0), abs=1e-6)
         assert vector(message.angular_velocity) == pytest.approx((0, 0, 2.5), abs=1e-9)
     assert len(heard) == 300
@@ -86,7 +86,7 @@ def test_on_a_turntable_it_feels_the_centripetal_acceleration(rate: float, radiu
 
 
 def test_on_a_pendulum_it_feels_what_the_pendulum_equation_says() -> None:
-    # Point at distance r under the hinge: along the rod g cos(a) + w^2 r, across g sin(a) - |alpha| r.
+    # At the distance r below the hinge: g cos(a) + w^2 r along the rod, g sin(a) - |alpha| r across it.
     mass, moment, radius = 1.0, 0.1, 0.8
     hang = f"""<model name='m'><link name='base'>{inertial()}</link>
       <link name='l'><inertial><pose>0 0 -{radius} 0 0 0</pose><mass>{mass}</mass><inertia><ixx>{moment}</ixx>
@@ -105,7 +105,7 @@ def test_on_a_pendulum_it_feels_what_the_pendulum_equation_says() -> None:
         linear, angular = sensor.motion.velocity(local=True)
         assert angular == pytest.approx((0, rate, 0), abs=1e-12)
         assert linear == pytest.approx((-rate * radius, 0, 0), abs=1e-12)
-        # The bob at (0, 0, -r) moves towards -x as the angle grows; gravity is felt as (-g sin, 0, g cos).
+        # The bob at (0, 0, -r) moves towards -x for a growing angle; at rest it measures (-g sin, 0, g cos).
         expected = (-radius * slowing - GRAVITY * math.sin(angle), 0, GRAVITY * math.cos(angle) + rate**2 * radius)
         assert sensor.motion.specific_force() == pytest.approx(expected, abs=0.01)
 
@@ -139,7 +139,7 @@ WHEEL = f"""<link name='{{side}}_wheel'><pose>0.1 {{y}} 0 -1.5707963267948966 0 
 
 def test_driving_a_circle_pushes_to_the_side(listen: Listen) -> None:
     wheels = WHEEL.format(side="left", y=0.2) + WHEEL.format(side="right", y=-0.2)
-    # The sensor stands over the axle, where the speed is exactly ahead.
+    # The sensor is above the axle, where the velocity is exactly forward.
     world = sensor_world(ROBOT.format(sensor=imu(pose="0.1 0 0.2 0 0 0"), wheels=wheels), "Imu")
     drive = next(each for each in world.systems if each.name == "DiffDrive")
     drive.command(0.5, 0.8)  # type: ignore[attr-defined]
@@ -158,7 +158,7 @@ def test_orientation_starts_at_zero_and_turns_with_the_body(listen: Listen) -> N
     world.data.qvel[5] = 1.0
     world.step(500)
     assert turn(heard[0].orientation) == pytest.approx(np.eye(3), abs=2e-3)
-    # The body turned by half a radian about its own z axis, seen from the tilted sensor.
+    # The rotation of the body by 0.5 rad about its z axis, in the frame of the tilted sensor.
     tilt = matrix(quaternion_from_rpy(0.3, 0.2, 0.1))
     yaw = matrix(quaternion_from_rpy(0, 0, 0.5))
     assert turn(heard[-1].orientation) == pytest.approx(tilt.T @ yaw @ tilt, abs=1e-6)
@@ -185,7 +185,7 @@ def test_named_frames(name: str) -> None:
 
 
 def test_the_heading_of_the_world_turns_the_named_frames() -> None:
-    """By +heading, as Gazebo does."""
+    """The rotation is by +heading, as in Gazebo."""
     place = "<spherical_coordinates><heading_deg>30</heading_deg></spherical_coordinates>"
     world = sensor_world(place + model(reference("<localization>ENU</localization>")), "Imu")
     (sensor,) = sensors_of(world)

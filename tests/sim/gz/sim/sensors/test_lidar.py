@@ -1,6 +1,4 @@
-"""The lidar against plane geometry: every beam of the built-in room, near and far limits, clipping,
-noise, rates.
-"""
+"""The lidar against plane geometry: every ray of the built-in room, near and far limits, clipping, noise, rates."""
 
 from __future__ import annotations
 
@@ -34,7 +32,7 @@ def lidar_of(world: World) -> Lidar:
 
 
 def circle(x: float, y: float, radius: float, angle: float) -> float:
-    """Distance from the origin along `angle` to a circle, inf when missed."""
+    """Return the distance from the origin along `angle` to a circle, inf without a hit."""
     along = x * math.cos(angle) + y * math.sin(angle)
     across = x * math.sin(angle) - y * math.cos(angle)
     if abs(across) > radius or along < 0:
@@ -43,7 +41,7 @@ def circle(x: float, y: float, radius: float, angle: float) -> float:
 
 
 def rectangle(x: float, y: float, width: float, depth: float, turn: float, angle: float) -> float:
-    """Distance from the origin along `angle` to a turned rectangle, by clipping against its two slabs."""
+    """Return the distance from the origin along `angle` to a rotated rectangle, by clipping against its two slabs."""
     c, s = math.cos(turn), math.sin(turn)
     start = (-(x * c + y * s), -(-x * s + y * c))
     ray = (math.cos(angle - turn), math.sin(angle - turn))
@@ -68,9 +66,7 @@ def ellipse(x: float, y: float, a: float, b: float, turn: float, angle: float) -
 
 
 def room_at(x: float, y: float, z: float, angle: float) -> float:
-    """What the built-in room looks like from (x, y, z) towards `angle`, written down independently of
-    the SDF reader.
-    """
+    """Return the distance to the built-in room from (x, y, z) along `angle`, independently of the SDF reader."""
     ball = math.sqrt(0.35**2 - (0.35 - z) ** 2)
     boulder = math.sqrt(1 - ((z - 0.3) / 0.4) ** 2)
     return min(
@@ -115,7 +111,7 @@ def test_the_scan_follows_the_robot() -> None:
     expected = np.array([room_at(*pose.position, pose.yaw() + angle) for angle in lidar.horizontal.angles])
     both = np.isfinite(measured) & (expected < 6.0)
     assert both.sum() > 250
-    # A pose that is one step old would be wrong by 0.5 mm ahead and behind.
+    # A pose one step old would be wrong by 0.5 mm ahead and behind.
     assert np.median(np.abs(measured[both] - expected[both])) < 5e-5
 
 
@@ -192,7 +188,7 @@ def test_rows_come_lowest_first(load_text: Load) -> None:
     assert ranges.shape == (15,)
     assert ranges[:5] == pytest.approx([1 / math.sin(0.5)] * 5)
     assert np.isposinf(ranges[5:]).all()
-    # A wall ahead is met by the middle beam of every row, and by no other.
+    # The middle ray of every row hits the wall ahead, and no other ray does.
     ahead = lidar_of(load_text(rig(vertical=vertical, samples=5) + wall("visual", 0.9))).ranges()
     assert np.isfinite(ahead).tolist() == [False, False, True, False, False] * 3
 

@@ -1,4 +1,4 @@
-"""Logical camera: what is inside the frustum, from where it is seen, the two topics; bad input."""
+"""Logical camera: the models in the frustum, relative poses, the two topics; invalid input."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""NavSat: where it says it is, how fast, in which fields; its noise."""
+"""NavSat: position, velocity, message fields, noise."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def test_position_and_velocity(listen: Listen, kind: str) -> None:
     expected = SphericalCoordinates(latitude_deg=48.1, longitude_deg=11.6, elevation=520).spherical(at)
     assert (fix.latitude_deg, fix.longitude_deg) == pytest.approx(expected[:2], abs=1e-11)
     assert fix.altitude == pytest.approx(expected[2], abs=1e-4)
-    # The sensor sits 0.5 m ahead of a body that turns with 2 rad/s.
+    # The sensor is 0.5 m ahead of the centre of a body that rotates with 2 rad/s.
     assert fix.velocity_east == pytest.approx(3 - np.sin(1.002), abs=1e-3)
     assert fix.velocity_north == pytest.approx(4 + np.cos(1.002), abs=1e-3)
     assert fix.velocity_up == pytest.approx(0, abs=1e-6)
@@ -44,7 +44,7 @@ def test_position_and_velocity(listen: Listen, kind: str) -> None:
 
 
 def test_the_heading_of_the_world_turns_positions_but_not_velocities(listen: Listen) -> None:
-    """As Gazebo does: with a heading of 90 degrees the world's x axis points north."""
+    """As in Gazebo: with a heading of 90 degrees the world's x axis points north."""
     world = sensor_world(PLACE.format(90) + model(pose="99.5 0 0 0 0 0"), "NavSat")
     heard = listen(world, TOPIC, "gz.msgs.NavSat")
     world.data.qvel[0] = 3

@@ -1,4 +1,4 @@
-"""All sensors of one place together: same world and seed, same bytes, again after a reset, in any process."""
+"""All sensors together: the same world and seed give the same bytes, also after a reset and in other processes."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ TOPICS = [*SENSORS, "force_torque"]
 
 
 def world(node: Node, seed: int) -> World:
-    """A box with every sensor and a second link on it falls on its edge."""
+    """Return a world in which a box with all sensors and a second link falls on its edge."""
     place = "<spherical_coordinates><latitude_deg>40</latitude_deg></spherical_coordinates>"
     ground = "<include><uri>model://ground_plane</uri></include>"
     parts = "".join(
@@ -50,7 +50,7 @@ def world(node: Node, seed: int) -> World:
 
 
 def digests(seed: int, steps: int = 400) -> tuple[str, str]:
-    """What all topics carried in a run, and in the run after a reset."""
+    """Return the digests of all topics in a run, and in the run after a reset."""
     found: list[str] = []
     with Node(NodeOptions(scope=Scope.PROCESS)) as node:
         loaded = world(node, seed)

@@ -1,4 +1,4 @@
-"""What all sensors share: topics, frames, the schedule, the service that changes the rate, sensors that come late."""
+"""Common properties of sensors: topics, frames, schedule, the service that sets the rate, sensors created later."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def rated(rate: float) -> str:
 
 
 def times(heard: list[Any]) -> list[int]:
-    """Milliseconds of the stamps."""
+    """Return the stamps in milliseconds."""
     return [message.header.stamp.sec * 1000 + message.header.stamp.nsec // 1_000_000 for message in heard]
 
 
@@ -54,7 +54,7 @@ def test_topic_and_frame_can_be_given(listen: Listen) -> None:
     ("rate", "step", "expected"),
     [
         (0, 0.001, list(range(1, 41))),
-        (30, 0.001, [1, 33]),  # the period is cut to whole milliseconds
+        (30, 0.001, [1, 33]),  # the period is truncated to whole milliseconds
         (100, 0.004, [4, 12, 20, 32, 40]),
         (400, 0.004, list(range(4, 41, 4))),
         (5000, 0.001, list(range(1, 41))),
@@ -97,7 +97,7 @@ def test_set_rate_makes_updates_rarer(listen: Listen) -> None:
     world.step(20)
     assert set_rate(world, 25)
     world.step(80)
-    # The update that was planned comes, then one every 40 ms.
+    # The scheduled update is published, then one every 40 ms.
     assert times(heard) == [1, 10, 20, 30, 70]
     assert world.warnings == []
 
@@ -136,7 +136,7 @@ def test_models_that_come_and_go_take_their_sensors_along(listen: Listen) -> Non
     world.step(105)
     world.editor.spawn(LATE.format(""))
     world.step(25)
-    # Due at once, then on the same grid as the others.
+    # Due at once, then at the same times as the others.
     assert times(heard) == [106, 110, 120, 130]
     assert heard[0].vertical_reference == 7.0
     world.editor.remove("n")

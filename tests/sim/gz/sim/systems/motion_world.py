@@ -1,4 +1,4 @@
-"""Worlds in which joints and models are driven: an arm held by the world, a box afloat, plugins in short form."""
+"""Worlds in which joints and models are driven: a fixed arm, a floating box, plugins in short form."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from gz_course.sim.gz.sim.world import World
 
 
 def plugin(name: str, inside: str = "") -> str:
-    """A <plugin> of one of our systems."""
+    """Return a <plugin> of one of our systems."""
     filename = "gz-sim-physics-system" if name == "Physics" else systems()[name].filename
     return f"<plugin filename='{filename}' name='gz::sim::systems::{name}'>{inside}</plugin>"
 
@@ -23,7 +23,7 @@ def joint(name: str, kind: str, parent: str, child: str, axis: str = "<xyz>0 1 0
 
 
 def arm(plugins: str = "", shoulder: str = "", elbow: str = "", name: str = "arm") -> str:
-    """Two levers of 1 m about y, stretched along x from (0, 0, 1), under gravity."""
+    """Return two levers of 1 m about y, stretched along x from (0, 0, 1), under gravity."""
     return f"""<model name='{name}'>{link("base", "0 0 0 0 0 0")}{joint("fix", "fixed", "world", "base")}
       {link("upper", "0 0 1 0 0 0", "0.5 0 0")}
       {joint("shoulder", "revolute", "base", "upper", "<xyz>0 1 0</xyz>" + shoulder)}
@@ -32,7 +32,7 @@ def arm(plugins: str = "", shoulder: str = "", elbow: str = "", name: str = "arm
 
 
 def world(inside: str, *, step: float = 0.001, seed: int = 0, gravity: str = "0 0 -9.8") -> World:
-    """A world of models only, with the Physics system."""
+    """Return a world of models, with the Physics system."""
     text = f"""<sdf version='1.10'><world name='w'><gravity>{gravity}</gravity>
       <physics type='x'><max_step_size>{step}</max_step_size></physics>{plugin("Physics")}{inside}</world></sdf>"""
     return World.from_string(text, seed=seed, file_name="motion.sdf")

@@ -1,4 +1,4 @@
-"""AckermannSteering: a car drives along the circle it was told, its odometry follows."""
+"""AckermannSteering: a car follows the commanded circle, and its odometry agrees."""
 
 from __future__ import annotations
 
@@ -125,7 +125,7 @@ def test_steering_only_by_angle_or_by_actuators(node: Node) -> None:
     made.step(1000)
     left, right = steering(made)
     assert right < 0.3 < left
-    # Both wheels' axles meet on the line of the rear axle.
+    # The axles of both wheels intersect on the line of the rear axle.
     assert BASE / math.tan(left) + TRACK / 2 == pytest.approx(BASE / math.tan(right) - TRACK / 2, rel=0.01)
     numbered = only + "<use_actuator_msg>1</use_actuator_msg><actuator_number>1</actuator_number>"
     other = world(car(numbered), step=0.002)

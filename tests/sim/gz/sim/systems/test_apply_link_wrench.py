@@ -1,4 +1,4 @@
-"""ApplyLinkWrench and KineticEnergyMonitor: pushes from outside, and what a crash costs."""
+"""ApplyLinkWrench and KineticEnergyMonitor: external forces, and the energy lost in a crash."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ def test_a_crash_is_told_with_the_energy_it_took(node: Node) -> None:
     made.step(440)
     assert heard == []
     made.step(500)
-    # It falls 1 m: 2 kg * 9.8 m/s^2 * 1 m, most of which goes in a few steps.
+    # It falls 1 m: 2 kg * 9.8 m/s^2 * 1 m, most of which is lost in a few steps.
     assert 10.0 < sum(heard) <= 19.7
 
 

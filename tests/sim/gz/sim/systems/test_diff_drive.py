@@ -1,4 +1,4 @@
-"""DiffDrive: the robot drives as told, odometry follows, bad commands never reach the physics."""
+"""DiffDrive: the robot follows its commands, the odometry agrees, invalid commands do not reach the physics."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def twist(linear: float, angular: float) -> Any:
 
 
 def robot_world(change: Callable[[str], str] = lambda text: text) -> World:
-    """The built-in robot alone on the ground, its file changed by `change`."""
+    """Return a world with only the built-in robot, whose file is changed by `change`."""
     model = change(ROBOT[ROBOT.index("<model") : ROBOT.index("</sdf>")])
     return World.from_string(
         "<sdf version='1.10'><world name='w'><plugin filename='gz-sim-physics-system' "
@@ -61,7 +61,7 @@ def test_steady_speed_is_what_was_commanded(linear: float, angular: float) -> No
     heading = after.yaw()
     ahead = velocity.linear[0] * math.cos(heading) + velocity.linear[1] * math.sin(heading)
     assert ahead == pytest.approx(linear, rel=0.005, abs=2e-3)
-    # The truth velocity is that of the truth pose: over one second the chord of the circle fits.
+    # The true velocity agrees with the true pose: the chord of the circle over one second.
     chord = np.linalg.norm(after.position - before.position)
     expected = abs(linear) if angular == 0 else abs(2 * linear / angular * math.sin(angular / 2))
     assert chord == pytest.approx(expected, rel=0.005, abs=2e-3)
@@ -121,7 +121,7 @@ def test_odometry_on_the_wire(node: Node) -> None:
     assert last.twist.linear.x == pytest.approx(0.5, rel=0.005)
     assert last.twist.angular.z == pytest.approx(0.1, rel=0.01)
     moved = start.inverse() * world.truth.pose("robot")
-    # Odometry starts at zero wherever the robot does, and over-reads by the slip of the start (30 to 35 mm).
+    # Odometry starts at zero at any start pose, and is ahead by the slip at the start (30 to 35 mm).
     assert math.hypot(last.pose.position.x - moved.position[0], last.pose.position.y - moved.position[1]) < 0.05
     assert last.pose.position.x > moved.position[0]
     assert frames[-1].pose[0].position == last.pose.position
@@ -267,7 +267,7 @@ def test_a_static_robot_cannot_be_driven_and_says_so() -> None:
 
 
 def test_the_room_leaves_way_for_the_first_drive() -> None:
-    """0.5 m/s with 0.1 rad/s for 5 s, then 1.5 m more, without touching anything but the ground."""
+    """0.5 m/s with 0.1 rad/s for 5 s, then 1.5 m more, touching nothing but the ground."""
     world = World.load(BUILT_IN_WORLDS / "lidar_room.sdf")
     drive_of(world).command(0.5, 0.1)
     ground = {world.model.geom(name).id for name in ("ground_plane::link::collision",)}

@@ -68,7 +68,7 @@ def test_initial_position_is_gone_to_again_after_a_reset() -> None:
 
 
 def test_the_default_gains_are_those_of_gazebo() -> None:
-    """With 1, 0.1, 0.01 an arm of 1 kg falls: only the first push can be told."""
+    """With 1, 0.1, 0.01 an arm of 1 kg falls, so only the first force can be predicted."""
     made = world(arm(position(inside="")))
     command(made, 2.0)
     made.step(1)

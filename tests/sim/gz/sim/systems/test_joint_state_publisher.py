@@ -1,4 +1,4 @@
-"""JointStatePublisher: what it says is what MuJoCo has, for every kind of joint."""
+"""JointStatePublisher: the values are those of MuJoCo, for every kind of joint."""
 
 from __future__ import annotations
 
@@ -119,5 +119,5 @@ def test_nothing_is_made_while_nobody_listens(node: Node) -> None:
     made = world(arm(publisher()))
     made.attach(node)
     system = list(made.systems)[-1]
-    system._message = None  # type: ignore[attr-defined]  # whoever makes a message now fails
+    system._message = None  # type: ignore[attr-defined]  # creating a message now fails
     made.step(10)

@@ -1,4 +1,4 @@
-"""LogRecord: what is in the file is what was published; folders are not overwritten unasked; tlog keeps its schema."""
+"""LogRecord: the file contains the published messages; folders are not overwritten unless requested; schema of tlog."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ def test_nonsense(node: Node, parameters: str, sentence: str) -> None:
 
 
 def test_the_schema_is_gazebos(tmp_path: Path) -> None:
-    """Read with plain SQL, as Gazebo's own tools do."""
+    """Read with plain SQL, like Gazebo's own tools."""
     writer = LogWriter(tmp_path / "state.tlog")
     for number in range(1200):
         writer.write(Entry(f"/t{number % 3}", "gz.msgs.Empty" if number % 3 else "gz.msgs.Time", number, b"x" * number))

@@ -1,4 +1,4 @@
-"""All systems that drive and report, in one world: same bytes again, after a reset, and whatever comes and goes."""
+"""All driving and reporting systems in one world: same bytes again, after a reset and with other models present."""
 
 from __future__ import annotations
 
@@ -51,12 +51,12 @@ SPAWNED = "<sdf version='1.10'><model name='{}'><pose>20 {} 5 0 0 0</pose><link 
 
 
 def apart(partition: str) -> NodeOptions:
-    """Options of nodes that do not hear those of other worlds in this process."""
+    """Return options of nodes that are isolated from the other worlds of this process."""
     return NodeOptions(partition, scope=Scope.PROCESS)
 
 
 class Session:
-    """A world on a node, and all it said, in order."""
+    """A world on a node, and all its messages in order."""
 
     def __init__(self, node: Node, made: World) -> None:
         self.world = made
@@ -116,7 +116,7 @@ def test_what_comes_and_goes_in_between_changes_nothing() -> None:
         disturbed.world.step = step_and_change  # type: ignore[method-assign]
         also_said = disturbed.run()
     assert [topic for topic, _ in also_said] == [topic for topic, _ in said]
-    # The solver looks at all contacts together, so a visitor shows in the last digits.
+    # The solver computes all contacts together, so another model changes the last digits.
     for (topic, calm_bytes), (_, bytes_) in zip(said, also_said, strict=True):
         assert numbers(TOPICS[topic].FromString(bytes_)) == pytest.approx(
             numbers(TOPICS[topic].FromString(calm_bytes)), rel=1e-4, abs=1e-5
@@ -124,7 +124,7 @@ def test_what_comes_and_goes_in_between_changes_nothing() -> None:
 
 
 def numbers(message: Any) -> list[float]:
-    """All numbers of a message in their order, but forces, which are differences of large ones."""
+    """Return all numbers of a message in order, except forces, which are differences of large numbers."""
     found: list[float] = []
     for field, value in message.ListFields():
         many = value if field.is_repeated else [value]

@@ -1,4 +1,4 @@
-"""OdometryPublisher: the truth, in the form of odometry."""
+"""OdometryPublisher: the true pose as odometry."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def test_pose_is_that_of_the_world_and_twist_that_of_the_model(node: Node) -> No
     assert keys(last.header) == {"frame_id": "box/odom", "child_frame_id": "box/base_footprint"}
     assert (last.twist.linear.x, last.twist.linear.y) == pytest.approx((0.5, 0.2), rel=1e-2)
     assert last.twist.angular.z == pytest.approx(0.8, rel=1e-6)
-    # From the first message on, though the model does not start at the origin.
+    # From the first message on, although the model does not start at the origin.
     assert heard[0].twist.linear.x == pytest.approx(0.5, rel=1e-2)
 
 
@@ -60,7 +60,7 @@ def test_speed_is_the_mean_of_ten_steps(node: Node) -> None:
     made = world(box("<odom_publish_frequency>0</odom_publish_frequency><dimensions>3</dimensions>"))
     heard = listen(node, made)
     made.step(100)
-    assert len(heard) == 99  # the first step only starts it
+    assert len(heard) == 99  # the first step only initializes it
     # Falling: v(n) = -g n dt, the mean of the last ten is that of 4.5 steps ago.
     assert heard[-1].twist.linear.z == pytest.approx(-9.8 * 0.001 * (100 - 4.5), rel=1e-6)
     assert heard[0].twist.linear.z == pytest.approx(-9.8 * 0.001 * 2, rel=1e-6)
@@ -93,7 +93,7 @@ def test_two_dimensions_leave_out_what_is_not_in_the_plane(node: Node) -> None:
 
 
 def test_a_held_model_is_right_also_for_who_comes_back() -> None:
-    """It is not looked at while nobody listens; what was seen before must not count as the step before."""
+    """Without a subscriber the pose is not stored; an old pose must not be used as that of the previous step."""
     hinge = joint("turn", "revolute", "world", "l", "<xyz>0 0 1</xyz>")
     reports = plugin("OdometryPublisher", "<xyz_offset>1 0 0</xyz_offset>")
     table = f"<model name='box'>{link('l', '0 0 1 0 0 0')}{hinge}{reports}</model>"

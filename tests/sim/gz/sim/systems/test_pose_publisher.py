@@ -1,4 +1,4 @@
-"""PosePublisher: which poses, in whose frame, how often, and what is static."""
+"""PosePublisher: the published poses, their frames, rates and static poses."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ VECTOR = "<use_pose_vector_msg>true</use_pose_vector_msg>"
 
 @pytest.fixture
 def publish(load_text: Callable[..., World], node: Node) -> Callable[..., Any]:
-    """Runs the robot for some steps with a PosePublisher; (world, topic -> messages)."""
+    """Run the robot with a PosePublisher for some steps; return the world and the messages by topic."""
 
     def run(
         parameters: str = "",
@@ -67,7 +67,7 @@ def header(pose: Any) -> dict[str, str]:
 
 
 def frames(poses: list[Any]) -> dict[str, str]:
-    """child frame -> frame"""
+    """Return the frame of each child frame."""
     return {header(pose)["child_frame_id"]: header(pose)["frame_id"] for pose in poses}
 
 
@@ -190,7 +190,7 @@ def test_it_goes_on_after_the_world_was_built_anew(load_text: Callable[..., Worl
     world.attach(node)
     world.data.qvel[:] = 1.0
     world.step(10)
-    world.editor.remove("other")  # every body has another number now
+    world.editor.remove("other")  # every body has another id now
     world.step(1)
     wheel = (world.truth.pose("robot").inverse() * world.truth.link_pose("robot", "wheel")).quaternion
     pose = next(each for each in heard[-1].pose if each.name == "robot::wheel")

@@ -1,4 +1,4 @@
-"""SceneBroadcaster: poses at their rate, the scene and its changes, the services, from any thread."""
+"""SceneBroadcaster: rates of the poses, the scene and its changes, services from any thread."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ TOPICS = {
 
 
 class Ear:
-    """A world with a SceneBroadcaster, and all that is heard from it: topic -> messages."""
+    """A world with a SceneBroadcaster, and all its messages by topic."""
 
     def __init__(self, world: World, node: Node, topics: dict[str, Any]) -> None:
         self.world, self.node = world, node

@@ -1,4 +1,4 @@
-"""TouchPlugin: a touch that lasts is told once; breaks, targets, the service, bad parameters."""
+"""TouchPlugin: a lasting touch is reported once; interruptions, targets, the service, invalid parameters."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def text(parameters: str = PARAMETERS, sensor: str = SENSOR, systems: str = CONT
 
 @pytest.fixture
 def run() -> Iterator[Run]:
-    """Loads a world and returns it with the list of the times (s) at which a touch was told."""
+    """Load a world; return it with the list of the times [s] at which a touch was reported."""
     with Node(NodeOptions(scope=Scope.PROCESS)) as node:
         worlds = []
 

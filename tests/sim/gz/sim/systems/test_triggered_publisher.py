@@ -1,4 +1,4 @@
-"""TriggeredPublisher: which messages it answers, with what, and when."""
+"""TriggeredPublisher: which messages trigger outputs, which outputs, and when."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def answering(match: str = "", kind: str = "gz.msgs.Twist", more: str = OUTPUT) 
 
 
 def answers(node: Node, made: World, messages: list[Any]) -> list[bool]:
-    """Which of the messages were answered at once."""
+    """Return which of the messages were answered at once."""
     made.attach(node)
     heard: list[Any] = []
     node.subscribe(Boolean, "/out", heard.append)

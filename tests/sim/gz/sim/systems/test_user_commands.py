@@ -1,4 +1,4 @@
-"""The services of UserCommands, called as clients do: from the stepping thread, from another one, and badly."""
+"""The services of UserCommands: called from the stepping thread, from another thread, and with invalid requests."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ Ask = Callable[..., bool]
 
 @pytest.fixture
 def world(node: Node) -> Iterator[World]:
-    """A world without plugins has UserCommands, as in Gazebo."""
+    """Return a world without plugins, which has UserCommands as in Gazebo."""
     made = World.from_string(WORLD, node=node)
     yield made
     made.close()

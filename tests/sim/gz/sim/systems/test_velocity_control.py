@@ -1,4 +1,4 @@
-"""VelocityControl: a model moves as told, in its own axes."""
+"""VelocityControl: a model moves with the commanded velocity in its own axes."""
 
 from __future__ import annotations
 

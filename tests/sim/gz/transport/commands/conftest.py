@@ -14,7 +14,7 @@ DEADLINE_S = 120.0
 
 
 class Command:
-    """`gz` as a child process: its lines as they come, its end."""
+    """`gz` as a child process, with its lines as they arrive and its end."""
 
     def __init__(self, *arguments):
         environment = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
@@ -37,14 +37,14 @@ class Command:
             self._lines[name].put(line)
 
     def line(self, stream="out"):
-        """The next line, waited for."""
+        """Wait for the next line and return it."""
         return self._lines[stream].get(timeout=DEADLINE_S)
 
     def signal(self, number):
         os.killpg(self.process.pid, number)
 
     def end(self):
-        """Waits for the end; (exit code, the rest of stdout, the rest of stderr)."""
+        """Wait for the end; return (exit code, remaining stdout, remaining stderr)."""
         code = self.process.wait(DEADLINE_S)
         for reader in self._readers:
             reader.join(DEADLINE_S)
@@ -66,7 +66,7 @@ def iter_queue(lines):
 
 @pytest.fixture
 def gz(partition):
-    """Starts `gz` in the partition of the test."""
+    """Start `gz` in the partition of the test."""
     started = []
 
     def start(*arguments):

@@ -85,7 +85,7 @@ def test_signals_end_well_and_lines_come_at_once(gz, cmd_vel, verb, number):
     heard_by(cmd_vel)
     for _ in range(12):
         cmd_vel.publish(Twist())
-    assert echo.line() == "\n"  # although it is a pipe and the program goes on
+    assert echo.line() == "\n"  # although it is a pipe and the program continues
     echo.signal(number)
     code, _, error = echo.end()
     assert (code, error) == (0, "")

@@ -1,4 +1,4 @@
-"""URDF robots: what Gazebo makes of links, joints and `<gazebo>` tags, and what is said about wrong ones."""
+"""URDF robots: the SDF of links, joints and `<gazebo>` tags, and the messages about invalid ones."""
 
 from __future__ import annotations
 

@@ -1,6 +1,4 @@
-"""A URDF robot in a running world: it drives, and its topics and frames are named by the body its links were lumped
-into.
-"""
+"""A URDF robot in a running world: it drives, and topics and frames have the names of the bodies after lumping."""
 
 from __future__ import annotations
 
@@ -79,7 +77,7 @@ def test_a_urdf_robot_drives_and_scans(
     pose = world.truth.pose("cart")
     assert pose.position[0] - before == pytest.approx(0.3, rel=0.005)
     assert abs(pose.yaw()) < 0.002 and abs(pose.position[2]) < 0.002
-    # The lidar looks back, from 0.1 m before the middle, at a wall whose near side is at x = -2.9.
+    # The lidar, 0.1 m ahead of the middle, looks backwards at a wall whose near side is at x = -2.9.
     assert scans[-1].ranges[0] == pytest.approx(pose.position[0] + 0.1 + 2.9, abs=0.05)
     header = {entry.key: list(entry.value) for entry in odometry[-1].header.data}
     assert (header["frame_id"], header["child_frame_id"]) == (["cart/odom"], ["cart/base_footprint"])

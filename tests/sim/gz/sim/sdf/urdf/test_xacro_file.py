@@ -1,4 +1,4 @@
-"""xacro files: expanded, with every message naming the file and line that was written, and never without end."""
+"""xacro files: expansion, messages with the original file and line, and limits of time and memory."""
 
 from __future__ import annotations
 
