@@ -16,13 +16,15 @@ class Finding:
     """An error or a warning. `place` is `file:line`, or the argument or parameter it was found in.
 
     `tolerated` marks an error in spite of which the original ros_gz_bridge bridges the entry; with `--compat` it is
-    only a warning.
+    only a warning. `advice` marks what is no mistake of the author: a key that changes nothing, or a ROS package that
+    is not installed here; `course grade` takes no points for it.
     """
 
     place: str
     sentence: str
     warning: bool = False
     tolerated: bool = False
+    advice: bool = False
 
     def __str__(self) -> str:
         return f"{one_line(self.place)}: {one_line(self.sentence)}" if self.place else one_line(self.sentence)
