@@ -11,6 +11,7 @@ import pytest
 from .conftest import ORDINARY, ROOT
 
 pytestmark = [pytest.mark.proof, pytest.mark.skipif(os.getuid() != 0, reason="only root can become an ordinary user")]
+NO_ATTACKS = True
 HERE = Path(__file__).parent
 PYTHON = [sys.executable, "-I", "-S"]
 
@@ -38,6 +39,30 @@ def run():
             )
 
         yield call
+
+
+# The rights of root in a container of Docker, by the bits of capabilities(7).
+DOCKER = {0, 1, 3, 4, 5, 6, 7, 8, 10, 13, 18, 27, 29, 31}
+SYS_ADMIN, NET_ADMIN = 21, 12
+AS_IN_DOCKER = """
+import ctypes, os, sys
+for number in set(range(41)) - set(map(int, sys.argv[1].split(","))):
+    ctypes.CDLL(None).prctl(24, number, 0, 0, 0)  # PR_CAPBSET_DROP
+os.execv(sys.argv[2], sys.argv[2:])
+"""
+
+
+@pytest.mark.parametrize(
+    ("more", "works"),
+    [(set(), "C"), ({SYS_ADMIN}, "C"), ({SYS_ADMIN, NET_ADMIN}, "ABC")],
+    ids=["as it is", "SYS_ADMIN", "SYS_ADMIN and NET_ADMIN"],
+)
+def test_what_root_needs_in_a_container_of_docker(more, works):
+    kept = ",".join(map(str, DOCKER | more))
+    for level in "ABC":
+        probe = [sys.executable, "-m", "gz_course.grader.run.sandbox.probe", level, "120"]
+        done = subprocess.run([*PYTHON, "-c", AS_IN_DOCKER, kept, *probe], capture_output=True, text=True, check=False)
+        assert (done.returncode == 0) is (level in works), (level, done.stdout)
 
 
 @pytest.mark.parametrize(("lacks", "best"), [("landlock", "A"), ("namespaces", "C"), ("namespaces,landlock", "D")])
