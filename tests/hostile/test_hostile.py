@@ -6,7 +6,8 @@ that are right, `points`, `words` of the diagnosis, and `tried`: how many `held`
 attack that never took place is no success. Afterwards the same worker must give full marks to an honest submission.
 
 A table `[C]` or `[D]` in `expected.toml` replaces those keys at that level. `documented` in it quotes the row of the
-table in `docs/instructors.md` that says the level does not hold this; at D, which stops nothing, it need not be there.
+table in `docs/instructors.md` that says what the level does not hold, and `escapes` has words of the lines with ESCAPED
+that this excuses. At D, which stops no hostile code, neither is needed.
 """
 
 import os
@@ -25,7 +26,6 @@ NAMES = sorted(path.parent.name for path in CASES.glob("*/expected.toml"))
 DURATION = 8.0  # [s] of the exercise
 LIMIT = START_UP + WALL_FACTOR * DURATION + WALL_GRACE + 2.0
 ROOT_ONLY = pytest.mark.skipif(os.getuid() != 0, reason="only root can become an ordinary user")
-ANYTHING = "code that means harm"  # what level D does not hold
 KINDS = [
     pytest.param(("A", None), id="A"),
     pytest.param(("A", ORDINARY), id="A-ordinary-user", marks=[ROOT_ONLY, pytest.mark.proof]),
@@ -57,18 +57,18 @@ def test_an_attack_comes_to_nothing(case, worker, solution, tell):
     want = tomllib.loads((CASES / case / "expected.toml").read_text())
     want |= want.get(worker.level, {})
     attack = (CASES / case / "attack.py").read_text()
-    documented = want.get("documented", ANYTHING if worker.level == "D" else None)
     try:
         told = worker.grade({"teleop_node.py": f"import attack\n{solution}", "attack.py": attack})
-        faults = list(faults_of(told, want, worker.level, weak=documented is not None))
+        faults = list(faults_of(told, want, worker.level))
     except WorkerGoneError:
-        if documented is None:
+        if worker.level != "D":
             raise
         tell(verdict="documented")
         return
-    assert not faults or documented is not None, "\n".join(faults)
+    excused = [each for each in faults if worker.level == "D" or any(word in each for word in want.get("escapes", ()))]
+    assert faults == excused, "\n".join(faults)
     tell(verdict="documented" if faults else "contained", left=worker.counted())
-    if documented is not None:  # what was held all the same is no promise
+    if worker.level == "D":  # what was held all the same is no promise
         return
 
     honest = worker.grade({"teleop_node.py": solution})
@@ -79,13 +79,13 @@ def test_an_attack_comes_to_nothing(case, worker, solution, tell):
     assert (honest["network"], honest["mounts"]) == (told["network"], told["mounts"])
 
 
-def faults_of(told, want, level, weak):
+def faults_of(told, want, level):
     """Sentences on what an attack has achieved. Raises AssertionError if it did not take place."""
     report, log = told["report"], told["log"]
     escaped = [line for line in log if "ESCAPED" in line]
     held = sum(line.startswith("held") for line in log)
     ended = report["outcome"] not in want["outcomes"]
-    assert held + len(escaped) >= want.get("tried", 0) or (weak and ended), f"it did not take place: {log}"
+    assert held + len(escaped) >= want.get("tried", 0) or (level == "D" and ended), f"it did not take place: {log}"
     yield from escaped
     if ended or report["score"] != want["points"]:
         yield f"{report['outcome']}, {report['score']} points: {report['diagnosis']} {log[-20:]}"
@@ -94,8 +94,6 @@ def faults_of(told, want, level, weak):
     )
     if report["sandbox"] != level:
         yield f"graded at level {report['sandbox']}"
-    if held < want.get("tried", 0):
-        yield f"only {held} attempts were held: {log}"
     if told["seconds"] > LIMIT:
         yield f"it took {told['seconds']:.0f} s"
     if told["children"]:

@@ -8,14 +8,14 @@ import pytest
 from gz_course.grader.run.sandbox.probe import try_level
 
 from .conftest import ORDINARY, ROOT
-from .test_hostile import ANYTHING, CASES, NAMES
+from .test_hostile import CASES, NAMES
 
 NO_ATTACKS = True
 
 
 def test_what_a_level_does_not_hold_is_documented():
     guide = " ".join((ROOT / "docs/instructors.md").read_text().split())
-    assert ANYTHING in guide
+    assert "does not stop code that means harm" in guide
     for case in NAMES:
         want = tomllib.loads((CASES / case / "expected.toml").read_text())
         for level in ("A", "B", "C", "D"):

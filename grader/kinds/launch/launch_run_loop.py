@@ -132,8 +132,8 @@ class LaunchRunLoop(RunLoop):
 
         What an action starts gets a process group of its own.
         """
-        launch, *others = self._processes.participants or [None]
-        return sorted({each.program for each in others if launch is not None and each.group == launch.group})
+        programs = self._processes.participants  # the launch itself comes first
+        return sorted({each.program for each in programs[1:] if each.group == programs[0].group})
 
     def _ended(self) -> list[dict[str, Any]]:
         """Programs that have ended, with their exit codes."""
