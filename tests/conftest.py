@@ -19,3 +19,11 @@ settings.load_profile("repeatable")
 
 def pytest_configure():
     watch_over_this_process()
+
+
+def pytest_terminal_summary(terminalreporter):
+    """Print the table of attacks, if tests of `hostile/` have run at several levels."""
+    from gz_course.tests.hostile.attack_table import print_table
+
+    reports = [each for kind in ("passed", "failed", "error", "skipped") for each in terminalreporter.getreports(kind)]
+    print_table(terminalreporter.write_line, reports)

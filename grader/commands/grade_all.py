@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections import Counter
 from contextlib import ExitStack
 from pathlib import Path
@@ -28,23 +27,31 @@ def command(
         Path, typer.Argument(metavar="DIR_OR_ZIP", help="A folder, file or archive for each student, or a zip of them.")
     ],
     out: Annotated[Path, typer.Option(help="Folder for the gradebook, and a folder with reports for each student.")],
-    jobs: Annotated[int | None, typer.Option(min=1, help="Gradings at the same time. Default: one a core.")] = None,
+    jobs: Annotated[
+        int | None, typer.Option(min=1, help="Gradings at the same time. Default: one a core, at level C and D one.")
+    ] = None,
     dask: Annotated[
         str | None, typer.Option(help="Grade on Dask's workers: tcp://HOST:PORT of a scheduler, or local:N.")
     ] = None,
     seed: Annotated[int, typer.Option(help="As for course grade.")] = 0,
     trials: Annotated[str, typer.Option(help="As for course grade: public, hidden, all, or a file.")] = "public",
     sandbox: Annotated[str, typer.Option(help="As for course grade: auto, A, B, C or D.")] = "auto",
-    demand: Annotated[str | None, typer.Option(help="As for course grade: the least level, such as B.")] = None,
+    demand: Annotated[
+        str | None,
+        typer.Option(help="As for course grade: the least level. Default: B, unless --sandbox names a level."),
+    ] = None,
     *,
     reports: dict[str, bool],
 ) -> None:
     """Grade a class. Exit code 0: all are graded, 2: usage, 3: some could not be, which is not the students' fault."""
+    from gz_course.grader.run.sandbox import AUTO, OFFICIAL
     from gz_course.grader.whole_class.class_run import ClassRun
     from gz_course.grader.whole_class.found import find_submissions
 
     if jobs is not None and dask is not None:
         raise UsageError("--jobs is for this machine and --dask for Dask's workers; give one of them")
+    if demand is None and sandbox == AUTO:
+        demand = OFFICIAL
     chosen = find_exercise(exercise)
     _check_places(submissions, out)
     console = Console(stderr=True)
@@ -89,7 +96,7 @@ def _graded(
 
     try:
         with progress:
-            return run.grade(found, told, jobs=jobs or len(os.sched_getaffinity(0)), dask=dask)
+            return run.grade(found, told, jobs=jobs, dask=dask)
     except (KeyboardInterrupt, SystemExit):
         console.print(f"stopped: {count} of {len(found)} are done; the same command goes on from there")
         raise

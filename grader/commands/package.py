@@ -9,6 +9,7 @@ import typer
 
 from gz_course.grader.exercise import find_exercise
 from gz_course.grader.package.gradescope import package
+from gz_course.grader.run.sandbox import OFFICIAL
 
 
 def command(
@@ -17,7 +18,9 @@ def command(
     trials: Annotated[
         str | None, typer.Option(help="As for course grade: public, hidden, all, or a file. Default: all there are.")
     ] = None,
-    demand: Annotated[str | None, typer.Option(help="The least sandbox level, as for course grade.")] = None,
+    demand: Annotated[
+        str, typer.Option(help="The least sandbox level. C where the platform cannot do B (docs/instructors.md).")
+    ] = OFFICIAL,
 ) -> None:
     """Package an exercise as a Gradescope autograder: setup.sh, run_autograder, the course, the hidden trials."""
     names = package(find_exercise(exercise), out, trials, demand)

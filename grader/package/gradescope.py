@@ -18,7 +18,7 @@ from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import Exercise
 from gz_course.grader.exercise.bundle import bundle
 from gz_course.grader.exercise.trial import TRIALS, chosen_trials
-from gz_course.grader.run.sandbox import level_module
+from gz_course.grader.run.sandbox import OFFICIAL, level_module
 from gz_course.grader.submission.intake import is_junk
 
 HERE = Path(__file__).parent
@@ -31,20 +31,24 @@ START_UP, PER_TRIAL, WALL_FACTOR = 60.0, 30.0, 2.0  # [s], [s] and wall seconds 
 WHEN = (1980, 1, 1, 0, 0, 0)  # date of every file in the zip, so that the same exercise gives the same bytes
 
 
-def package(exercise: Exercise, target: Path, trials: str | None = None, demand: str | None = None) -> list[str]:
+def package(exercise: Exercise, target: Path, trials: str | None = None, demand: str = OFFICIAL) -> list[str]:
     """Write the zip; return the names in it. `trials` is as for `course grade`; None: all, including hidden ones.
 
     Raises UsageError if the zip cannot be written, if there are no such trials, or without a checkout of the course.
     """
-    if demand is not None:
-        level_module(demand)
+    level_module(demand)
     if trials is None:
         trials = "all" if (exercise.twin / TRIALS).is_file() else "public"
     asked = chosen_trials(exercise, trials)
     seconds = START_UP + sum(PER_TRIAL + WALL_FACTOR * (trial.duration or exercise.duration) for trial in asked)
     files, choice = bundle(exercise, trials)
-    options = ["--trials", choice, *(["--demand", demand] if demand else [])]
-    values = {"DEADLINE": f"{seconds:.0f}", "EXERCISE": shlex.quote(exercise.name), "OPTIONS": shlex.join(options)}
+    options = ["--trials", choice, "--demand", demand]
+    values = {
+        "DEADLINE": f"{seconds:.0f}",
+        "DEMAND": demand,
+        "EXERCISE": shlex.quote(exercise.name),
+        "OPTIONS": shlex.join(options),
+    }
     contents = {f"course/{name}": data for name, data in (_programs() | files).items()}
     contents["course/README.md"] = f"Autograder of {exercise.name}: {exercise.title}\n".encode()
     for name in PROGRAMS:

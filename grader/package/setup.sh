@@ -17,10 +17,12 @@ if ! python="$(find_python)"; then
     apt-get install -y python3.12 python3.12-venv || apt-get install -y python3.11 python3.11-venv
     python="$(find_python)"
 fi
-# With it submissions are locked in more firmly. Without it the course does what it can, and says so in each report.
+# With it submissions are locked in more firmly.
 command -v bwrap >/dev/null || apt-get install -y bubblewrap || true
 
 "$python" -m venv "$root/venv"
 "$root/venv/bin/pip" install --disable-pip-version-check --constraint "$root/source/course/constraints.txt" "$root/source/course"
 chmod -R go-rwx "$root/source"  # submissions that run as another user do not read it
 COURSE_ROOT="$root/source/course" "$root/venv/bin/course" doctor || true
+echo "Submissions are graded in a sandbox of level @DEMAND@ or better. If the course doctor names a lower one for this"
+echo "machine, every grading is refused: then package the exercise again with --demand and that level."

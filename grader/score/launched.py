@@ -48,6 +48,13 @@ def argument(recording: Recording, name: str, default: str) -> tuple[str, str]:
     return given.get(name, default), f"called with {words}" if words else "called without arguments"
 
 
+def by_python(recording: Recording, program: str) -> str:
+    """Return that the launch file's Python has started a program instead of an action; empty if it has not."""
+    if program not in launch_facts(recording).get("by_python", []):
+        return ""
+    return f"{program} was started by Python (subprocess or os.system), not by an action of the launch"
+
+
 def ran(recording: Recording) -> list[dict[str, Any]]:
     """Return the simulators that ran."""
     return [each for each in launch_facts(recording).get("simulators", []) if each["ran"]]

@@ -26,7 +26,7 @@ from gz_course.grader.exercise import Exercise, bundle
 from gz_course.grader.exercise.trial import chosen_trials
 from gz_course.grader.printable import shown
 from gz_course.grader.process.temporary_folder import TemporaryFolder, sweep
-from gz_course.grader.run.sandbox import choose
+from gz_course.grader.run.sandbox import AUTO, LEVELS, check_jobs, choose, level_module
 from gz_course.grader.submission.intake import Selection
 from gz_course.grader.whole_class.dask_cluster import dask_executor
 from gz_course.grader.whole_class.found import Found
@@ -72,12 +72,13 @@ class ClassRun:
         found: Iterable[Found],
         told: Callable[[Result, bool], None],
         *,
-        jobs: int = 1,
+        jobs: int | None = 1,
         dask: str | None = None,
     ) -> list[Result]:
         """Grade all submissions and write the gradebook; return the results in the order of `found`.
 
-        `jobs` gradings run at a time, or as many as there are workers at the Dask address. `told(result, anew)` is
+        `jobs` gradings run at a time (None: one a core, or one where they are not kept apart), or as many as there are
+        workers at the Dask address. `told(result, anew)` is
         called after each; `anew` is False if an earlier run had graded it. Raises UsageError if the folder cannot be
         used, InfrastructureError if nothing can be graded here.
         """
@@ -85,7 +86,10 @@ class ClassRun:
             journal = stack.enter_context(self._open())
             sweep()  # removes what a killed run left
             local = dask is None
-            executor, slots, gone = self._here(jobs, stack) if local else stack.enter_context(dask_executor(dask or ""))
+            if local:
+                executor, slots, gone = self._here(jobs, stack)
+            else:
+                executor, slots, gone = stack.enter_context(dask_executor(dask or "", self._check_slots))
             results: dict[str, Result] = {}
             todo = deque((each, 1) for each in found)
             order = [each.student for each, _ in todo]
@@ -139,9 +143,17 @@ class ClassRun:
             shutil.rmtree(part, ignore_errors=True)
         return journal
 
-    def _here(self, jobs: int, stack: ExitStack) -> tuple[Executor, int, Callable[[], bool]]:
+    def _check_slots(self, most: int) -> None:
+        """Raise UsageError if a machine with Dask's workers runs more gradings at a time than its level allows."""
+        weakest = self.sandbox if self.sandbox != AUTO else self.demand or LEVELS[-1]
+        check_jobs(weakest, most)
+
+    def _here(self, jobs: int | None, stack: ExitStack) -> tuple[Executor, int, Callable[[], bool]]:
         """Return threads of this process, each of which waits for one grading."""
         level = choose(self.sandbox, self.demand)  # once, so that all submissions get the same
+        if jobs is None:
+            jobs = len(os.sched_getaffinity(0)) if level_module(level).PRIVATE_NETWORK else 1
+        check_jobs(level, jobs)
         try:
             folder = stack.enter_context(TemporaryFolder("course-class-"))
         except OSError as error:

@@ -7,6 +7,7 @@ bytes. Used by `class_run.py` for `--dask`.
 from __future__ import annotations
 
 import contextlib
+from collections import Counter
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
 
@@ -19,11 +20,14 @@ CONNECT = 15.0  # [s] to connect to a scheduler
 
 
 @contextlib.contextmanager
-def dask_executor(address: str) -> Iterator[tuple[Executor, int, Callable[[], bool]]]:
+def dask_executor(
+    address: str, check_slots: Callable[[int], None]
+) -> Iterator[tuple[Executor, int, Callable[[], bool]]]:
     """Connect to a scheduler (`tcp://host:port`) or start workers here (`local:N`).
 
     Yields an executor, how many gradings it runs at a time, and a function that returns whether the scheduler is lost.
-    Raises UsageError if Dask is not installed, the scheduler does not answer, or a worker has other versions.
+    `check_slots` gets the largest number of gradings that one machine runs at a time. Raises UsageError if Dask is not
+    installed, the scheduler does not answer, or a worker has other versions.
     """
     try:
         import dask
@@ -59,7 +63,12 @@ def dask_executor(address: str) -> Iterator[tuple[Executor, int, Callable[[], bo
             raise UsageError(
                 f"the Dask scheduler at {shown(address)} has no workers; start some with dask worker"
             ) from None
-        slots = sum(client.nthreads().values())
+        threads = client.nthreads()
+        slots = sum(threads.values())
+        machines: Counter[str] = Counter()
+        for worker, number in threads.items():
+            machines[worker.rpartition(":")[0]] += number
+        check_slots(max(machines.values()))
         _check_versions(client.run(_worker_versions, on_error="return"))
         # Not closed by its own context manager, which would wait for gradings that a lost scheduler never reports.
         yield client.get_executor(pure=False, retries=0), slots, lambda: client.status not in ("running", "connecting")

@@ -44,6 +44,10 @@ def _warning(entry: BridgeEntry, sentence: str) -> Finding:
     return Finding(entry.source, sentence, warning=True)
 
 
+def _advice(entry: BridgeEntry, sentence: str) -> Finding:
+    return Finding(entry.source, sentence, warning=True, advice=True)
+
+
 def _never(entry: BridgeEntry, sentence: str) -> Finding:
     """Return an error about a bridge that never carries a useful message; the original ros_gz_bridge makes it."""
     return Finding(entry.source, sentence, tolerated=True)
@@ -188,13 +192,13 @@ def _lazy_commands(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntr
     """Report lazy bridges to Gazebo: they save no computation and lose the first command."""
     for entry in topics:
         if entry.lazy and entry.direction is Direction.ROS_TO_GZ:
-            yield _warning(
+            yield _advice(
                 entry,
                 "a lazy bridge to Gazebo saves nothing and loses the commands sent before it connects; "
                 "leave lazy out here",
             )
         elif entry.lazy and entry.direction is Direction.BIDIRECTIONAL:
-            yield _warning(
+            yield _advice(
                 entry,
                 "a lazy bridge that goes both ways counts itself as a listener in the original and never disconnects; "
                 "give it one direction",
@@ -208,7 +212,7 @@ def _frame_id_without_header(topics: Sequence[BridgeEntry], services: Sequence[S
         of_package = entry.ros_type.split("/")[0] in _WITHOUT_HEADER and entry.ros_type != "std_msgs/msg/Header"
         headerless = entry.ros_type in _HEADERLESS or of_package
         if entry.frame_id and entry.direction.to_ros and headerless:
-            yield _warning(entry, f"'frame_id' changes nothing here: {entry.ros_type} has no header")
+            yield _advice(entry, f"'frame_id' changes nothing here: {entry.ros_type} has no header")
 
 
 def private_gz_names(topics: Iterable[BridgeEntry], services: Iterable[ServiceEntry]) -> Iterator[Finding]:

@@ -17,7 +17,13 @@ from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction, ServiceEnt
 from gz_course.sim.ros_gz_bridge.finding import Finding
 from gz_course.sim.ros_gz_bridge.names import gz_name_fault, ros_name_fault
 from gz_course.sim.ros_gz_bridge.qos_profile import QOS_PROFILES, depth_of
-from gz_course.sim.ros_gz_bridge.type_pairs import UnknownPairError, canonical_gz_type, find_pair, find_service
+from gz_course.sim.ros_gz_bridge.type_pairs import (
+    UnknownPairError,
+    canonical_gz_type,
+    find_pair,
+    find_service,
+    missing_packages,
+)
 
 _NAMES = ("topic_name", "ros_topic_name", "gz_topic_name", "ros_type_name", "gz_type_name")
 KEYS = (*_NAMES, "direction", "publisher_queue", "subscriber_queue", "lazy", "qos_profile", "frame_id")
@@ -109,14 +115,14 @@ class EntryReader:
         if not (name and ros_type and request and reply):
             return None
         for fault in service_type_faults(ros_type, request, reply):
-            self._wrong("ros_type_name", fault)
+            self._wrong("ros_type_name", fault, advice=_not_installed(ros_type))
         return ServiceEntry(name, ros_type, canonical_gz_type(request), canonical_gz_type(reply), self._place)
 
     def _types(self, ros_type: str, gz_type: str) -> None:
         for fault in type_faults(ros_type, gz_type):
-            self._wrong("ros_type_name", fault)
+            self._wrong("ros_type_name", fault, advice=_not_installed(ros_type))
         if warning := old_type_warning(gz_type):
-            self._findings.append(Finding(self._values["gz_type_name"].place, warning, warning=True))
+            self._advise("gz_type_name", warning)
 
     def _topics(self) -> tuple[str | None, str | None]:
         both = "topic_name" in self._values
@@ -201,19 +207,28 @@ class EntryReader:
 
     def _without_effect(self, direction: Direction, frame_id: str | None) -> None:
         if "publisher_queue" in self._values and not direction.to_ros:
-            self._warn("publisher_queue", "'publisher_queue' changes nothing here: this bridge does not publish to ROS")
+            self._advise(
+                "publisher_queue", "'publisher_queue' changes nothing here: this bridge does not publish to ROS"
+            )
         if "subscriber_queue" in self._values and not direction.to_gz:
-            self._warn(
+            self._advise(
                 "subscriber_queue", "'subscriber_queue' changes nothing here: this bridge does not subscribe in ROS"
             )
         if frame_id and not direction.to_ros:
-            self._warn("frame_id", "'frame_id' changes nothing here: it is for messages that go to ROS")
+            self._advise("frame_id", "'frame_id' changes nothing here: it is for messages that go to ROS")
 
-    def _wrong(self, key: str | None, sentence: str) -> None:
-        self._findings.append(Finding(self._values[key].place if key else self._place, sentence))
+    def _wrong(self, key: str | None, sentence: str, *, advice: bool = False) -> None:
+        self._findings.append(Finding(self._values[key].place if key else self._place, sentence, advice=advice))
 
     def _warn(self, key: str, sentence: str) -> None:
         self._findings.append(Finding(self._values[key].place, sentence, warning=True))
+
+    def _advise(self, key: str, sentence: str) -> None:
+        self._findings.append(Finding(self._values[key].place, sentence, warning=True, advice=True))
+
+
+def _not_installed(ros_type: str) -> bool:
+    return ros_type.partition("/")[0] in missing_packages()
 
 
 def unknown_key(key: str | None) -> str:

@@ -15,13 +15,16 @@ _LONGEST = 600
 class Finding:
     """An error or a warning. `place` is `file:line`, or the name of the argument or parameter.
 
-    `tolerated` marks an error that the original ros_gz_bridge ignores; with `--compat` it is only a warning.
+    `tolerated` marks an error that the original ros_gz_bridge ignores; with `--compat` it is only a warning. `advice`
+    marks what is no mistake of the author: a key that changes nothing, or a ROS package that is not installed here;
+    `course grade` takes no points for it.
     """
 
     place: str
     sentence: str
     warning: bool = False
     tolerated: bool = False
+    advice: bool = False
 
     def __str__(self) -> str:
         return f"{one_line(self.place)}: {one_line(self.sentence)}" if self.place else one_line(self.sentence)

@@ -15,6 +15,10 @@ from pathlib import Path
 import psutil
 import pytest
 
+from gz_course.grader.run.sandbox.levels.a import program as bubblewrap
+
+from .attack_table import place_of
+
 ROOT = Path(__file__).parents[2]
 SOLUTION = ROOT / "solutions/03_teleop/teleop_node.py"
 # From here on: users nobody is, ten for each worker of the test run.
@@ -36,6 +40,8 @@ class Worker:
         for path in (self.folder, self.tmp):
             path.chmod(0o777)
         command = [sys.executable, str(Path(__file__).with_name("worker.py")), self.level]
+        if self.user is None and self.level in "CD":
+            command = [*self._container(), *command]
         if self.user is not None:
             become = Path(__file__).with_name("ordinary_user.py")
             command = [sys.executable, "-I", "-S", str(become), str(self.user), str(self.tmp), *command]
@@ -52,6 +58,20 @@ class Worker:
             start_new_session=True,
         )
         self.numbers = iter(range(10_000))
+
+    def _container(self):
+        """Return the start of a command in a container like one of Docker: root, but without capabilities.
+
+        Below level B an attack by root would hit this machine.
+        """
+        words = [str(bubblewrap()), "--die-with-parent", "--unshare-pid", "--unshare-ipc", "--unshare-uts"]
+        words += ["--cap-drop", "ALL", "--ro-bind", "/", "/", "--dev", "/dev", "--proc", "/proc", "--tmpfs", "/tmp"]
+        return [*words, "--bind", str(self.folder), str(self.folder), "--chdir", str(self.folder), "--"]
+
+    @property
+    def lives(self):
+        """Whether it can grade; an attack at a weak level may have ended it."""
+        return self.process.poll() is None
 
     def grade(self, files):
         """Grade a submission of some files (name -> text); what the worker tells about it."""
@@ -77,7 +97,7 @@ class Worker:
                         return line
                     if not line:
                         break
-        raise AssertionError(f"the worker is gone: {(self.folder / 'errors').read_text()[-2000:]}")
+        raise WorkerGoneError(f"the worker is gone: {(self.folder / 'errors').read_text()[-2000:]}")
 
     def left(self):
         """What is left of its boxes: processes and shared memory of their users, temporary files."""
@@ -89,6 +109,13 @@ class Worker:
         memory = [p for p in Path("/dev/shm").iterdir() if owner(p) in users and "lttng" not in p.name]
         return [*processes, *memory, *(p for p in self.tmp.iterdir() if p.name not in (".cache", ".config", "out"))]
 
+    def counted(self):
+        """How many processes, files and pieces of shared memory are left, for the table."""
+        left = self.left()
+        memory = sum(getattr(each, "parent", None) == Path("/dev/shm") for each in left)
+        processes = sum(isinstance(each, psutil.Process) for each in left)
+        return f" {processes}/{len(left) - processes - memory}/{memory}"
+
     def close(self):
         self.process.stdin.close()
         try:
@@ -98,6 +125,10 @@ class Worker:
             self.process.wait()
         self.process.stdout.close()
         self.errors.close()
+
+
+class WorkerGoneError(AssertionError):
+    """The process that grades has ended, or does not answer."""
 
 
 def owner(path):
@@ -125,6 +156,10 @@ def workers():
     running = {}
 
     def call(level, user):
+        if (level, user) in running and not running[level, user].lives:
+            gone = running.pop((level, user))
+            gone.close()
+            shutil.rmtree(gone.folder, ignore_errors=True)
         if (level, user) not in running:
             folder = Path(tempfile.mkdtemp(prefix="hostile-"))  # pytest's own folders are closed to other users
             running[level, user] = Worker(level, user, folder)
@@ -134,3 +169,10 @@ def workers():
     for worker in running.values():
         worker.close()
         shutil.rmtree(worker.folder)
+
+
+@pytest.fixture(autouse=True)
+def _in_the_table(request):
+    """Give each test its place in the table of attacks, unless its file says `NO_ATTACKS`."""
+    if not getattr(request.module, "NO_ATTACKS", False):
+        request.node.user_properties.append(("attack", place_of(request.node)))

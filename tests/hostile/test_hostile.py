@@ -4,11 +4,14 @@
 have been able to do, and one beginning with `held` for what it has tried in vain. `expected.toml` has the `outcomes`
 that are right, `points`, `words` of the diagnosis, and `tried`: how many `held` there must be at least, so that an
 attack that never took place is no success. Afterwards the same worker must give full marks to an honest submission.
+
+A table `[C]` or `[D]` in `expected.toml` replaces those keys at that level. `documented` in it quotes the row of the
+table in `docs/instructors.md` that says what the level does not hold, and `escapes` has words of the lines with ESCAPED
+that this excuses. At D, which stops no hostile code, neither is needed.
 """
 
 import os
 import tomllib
-from pathlib import Path
 
 import pytest
 
@@ -16,9 +19,9 @@ from gz_course.grader.run.processes.process_tree import START_UP
 from gz_course.grader.run.run_loop import WALL_FACTOR, WALL_GRACE
 from gz_course.grader.run.sandbox.probe import try_level
 
-from .conftest import ORDINARY
+from .conftest import ORDINARY, ROOT, WorkerGoneError
 
-CASES = Path(__file__).parent / "cases"
+CASES = ROOT / "tests/hostile/cases"
 NAMES = sorted(path.parent.name for path in CASES.glob("*/expected.toml"))
 QUICK = {"reads_what_is_not_for_it", "talks_nonsense_to_the_grader"}  # the others belong to `make verify`
 DURATION = 8.0  # [s] of the exercise
@@ -27,32 +30,47 @@ ROOT_ONLY = pytest.mark.skipif(os.getuid() != 0, reason="only root can become an
 KINDS = [
     pytest.param(("A", None), id="A"),
     pytest.param(("A", ORDINARY), id="A-ordinary-user", marks=[ROOT_ONLY, pytest.mark.proof]),
+    pytest.param(("B", None), id="B", marks=[pytest.mark.proof]),
     pytest.param(("B", ORDINARY + 1), id="B-ordinary-user", marks=[ROOT_ONLY, pytest.mark.proof]),
+    pytest.param(("C", None), id="C", marks=[ROOT_ONLY, pytest.mark.proof]),
+    pytest.param(("C", ORDINARY + 3), id="C-ordinary-user", marks=[ROOT_ONLY, pytest.mark.proof]),
+    pytest.param(("D", None), id="D", marks=[ROOT_ONLY, pytest.mark.proof]),
+    pytest.param(("D", ORDINARY + 4), id="D-ordinary-user", marks=[ROOT_ONLY, pytest.mark.proof]),
 ]
 
 
-@pytest.fixture(scope="session", params=KINDS)
+@pytest.fixture(params=KINDS)
 def worker(request, workers):
     level, user = request.param
-    if user is None and (lack := try_level(level)):
+    if user is None and level != "D" and (lack := try_level(level)):
         pytest.skip(f"no level {level} here: {lack}")
     return workers(level, user)
 
 
+@pytest.fixture
+def tell(request):
+    """Tell the table of attacks what a test has found."""
+    return lambda **found: request.node.user_properties.extend(found.items())
+
+
 @pytest.mark.parametrize("case", [pytest.param(n, marks=() if n in QUICK else pytest.mark.proof) for n in NAMES])
-def test_an_attack_comes_to_nothing(case, worker, solution):
+def test_an_attack_comes_to_nothing(case, worker, solution, tell):
     want = tomllib.loads((CASES / case / "expected.toml").read_text())
+    want |= want.get(worker.level, {})
     attack = (CASES / case / "attack.py").read_text()
-    told = worker.grade({"teleop_node.py": f"import attack\n{solution}", "attack.py": attack})
-    report, log = told["report"], told["log"]
-    assert [line for line in log if "ESCAPED" in line] == []
-    assert report["outcome"] in want["outcomes"], (report["diagnosis"], log[-20:])
-    assert report["score"] == want["points"], (report["diagnosis"], log[-20:])
-    assert report["sandbox"] == worker.level
-    assert all(word in report["diagnosis"] for word in want.get("words", [])), report["diagnosis"]
-    assert sum(line.startswith("held") for line in log) >= want.get("tried", 0), log
-    assert told["seconds"] <= LIMIT
-    assert told["children"] == []
+    try:
+        told = worker.grade({"teleop_node.py": f"import attack\n{solution}", "attack.py": attack})
+        faults = list(faults_of(told, want, worker.level))
+    except WorkerGoneError:
+        if worker.level != "D":
+            raise
+        tell(verdict="documented")
+        return
+    excused = [each for each in faults if worker.level == "D" or any(word in each for word in want.get("escapes", ()))]
+    assert faults == excused, "\n".join(faults)
+    tell(verdict="documented" if faults else "contained", left=worker.counted())
+    if worker.level == "D":  # what was held all the same is no promise
+        return
 
     honest = worker.grade({"teleop_node.py": solution})
     assert (honest["report"]["score"], honest["report"]["pace"]) == (100, "lockstep"), honest["report"]["diagnosis"]
@@ -62,14 +80,22 @@ def test_an_attack_comes_to_nothing(case, worker, solution):
     assert (honest["network"], honest["mounts"]) == (told["network"], told["mounts"])
 
 
-@pytest.mark.proof
-def test_the_truth_is_the_same_at_every_level(workers, solution):
-    """The same submission moves the robot in the same way, however it is locked in."""
-    levels = ["A", "B", "C", "D"]
-    kinds = [(level, None) for level in levels if level == "D" or not try_level(level)]
-    if os.getuid() == 0:
-        kinds.append(("A", ORDINARY))
-    told = {kind: workers(*kind).grade({"teleop_node.py": solution}) for kind in kinds}
-    assert {t["report"]["score"] for t in told.values()} == {100}
-    assert len({t["report"]["truth_sha256"] for t in told.values()}) == 1
-    assert len({"\n".join(t["log"]) for t in told.values()}) == 1
+def faults_of(told, want, level):
+    """Sentences on what an attack has achieved. Raises AssertionError if it did not take place."""
+    report, log = told["report"], told["log"]
+    escaped = [line for line in log if "ESCAPED" in line]
+    held = sum(line.startswith("held") for line in log)
+    ended = report["outcome"] not in want["outcomes"]
+    assert held + len(escaped) >= want.get("tried", 0) or (level == "D" and ended), f"it did not take place: {log}"
+    yield from escaped
+    if ended or report["score"] != want["points"]:
+        yield f"{report['outcome']}, {report['score']} points: {report['diagnosis']} {log[-20:]}"
+    yield from (
+        f"no {word!r} in: {report['diagnosis']}" for word in want.get("words", []) if word not in report["diagnosis"]
+    )
+    if report["sandbox"] != level:
+        yield f"graded at level {report['sandbox']}"
+    if told["seconds"] > LIMIT:
+        yield f"it took {told['seconds']:.0f} s"
+    if told["children"]:
+        yield f"processes are left: {told['children']}"

@@ -67,7 +67,12 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     """Run the exercise's own node beside the submission's bridges; record what lint reports about them as a fact."""
     config = read(submission.main, submission.files[submission.main])
     found = [
-        {"place": finding.place, "sentence": shown(finding.sentence), "warning": finding.warning}
+        {
+            "place": finding.place,
+            "sentence": shown(finding.sentence),
+            "warning": finding.warning,
+            "advice": finding.advice,
+        }
         for finding in config.findings
     ]
     return RunPlan(EXERCISE_NODE, exercise_node(exercise), usable(config), {"lint": found})

@@ -124,7 +124,16 @@ class LaunchRunLoop(RunLoop):
             "simulator_at_end": simulator.world if simulator else "",
             "bridges_at_end": sum(not (b.stopped or b.who.gone or b.errors) for b in self._programs.bridges),
             "ended_early": self._ended(),
+            "by_python": self._by_python(),
         }
+
+    def _by_python(self) -> list[str]:
+        """Programs that no action of the launch has started, but the launch file's own Python: `subprocess`, say.
+
+        What an action starts gets a process group of its own.
+        """
+        programs = self._processes.participants  # the launch itself comes first
+        return sorted({each.program for each in programs[1:] if each.group == programs[0].group})
 
     def _ended(self) -> list[dict[str, Any]]:
         """Programs that have ended, with their exit codes."""

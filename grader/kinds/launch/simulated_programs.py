@@ -38,6 +38,7 @@ class SimulatorProgram:
     world: str = ""  # the built-in file, or the file that was handed in
     error: str = ""
     paused: bool = False
+    started_paused: bool = False
     iterations: int = 0  # 0: without end
     running: bool = False
     stopped: bool = False  # it was ended by a signal, and has noticed
@@ -106,7 +107,12 @@ class SimulatedPrograms:
             for simulator in self.simulators:
                 if simulator.who is who:
                     simulator.paused, simulator.iterations = bool(run["paused"]), max(0, int(run["iterations"]))
+                    simulator.started_paused = simulator.paused
                     simulator.running = True
+        elif control := message.get("control"):
+            for simulator in self.simulators:
+                if simulator.who is who:
+                    simulator.paused = bool(control["pause"])
         elif asked := message.get("bridge"):
             who.tell({"answer": self._bridge(who, asked)})
         elif "worlds" in message:
@@ -213,7 +219,7 @@ class SimulatedPrograms:
                     "given": s.argument,
                     "world": s.world,
                     "error": s.error,
-                    "paused": s.paused,
+                    "paused": s.started_paused,
                     "iterations": s.iterations,
                     "ran": s.running,
                 }

@@ -80,7 +80,7 @@ def _row(node: yaml.Node) -> dict[str, Any]:
     for key, value in node.value:
         column = key.value if isinstance(key, yaml.ScalarNode) else ""
         if column not in COLUMNS:
-            hint = did_you_mean(str(column), COLUMNS, listing="known")
+            hint = did_you_mean(str(column), COLUMNS) or "; a note of your own stands behind a #, not in a column"
             raise TableError(_line(key), f"there is no column {shown(str(column), 60)!r}{hint}")
         if column in first:
             raise TableError(_line(key), f"{column} stands twice in one row (first in line {first[column]})")

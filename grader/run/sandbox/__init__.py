@@ -6,7 +6,7 @@ each; `view.py` lists the files visible in a sandbox, `network.py` gives a gradi
 """
 
 from gz_course.grader.run.sandbox.environment import WHEEL_VARIABLES, ros_environment
-from gz_course.grader.run.sandbox.level import AUTO, LEVELS, choose, level_module
+from gz_course.grader.run.sandbox.level import AUTO, LEVELS, OFFICIAL, check_jobs, choose, level_module
 from gz_course.grader.run.sandbox.sandbox import Sandbox, enter_early
 from gz_course.grader.run.sandbox.spec import LIMITS
 
@@ -14,8 +14,10 @@ __all__ = [
     "AUTO",
     "LEVELS",
     "LIMITS",
+    "OFFICIAL",
     "WHEEL_VARIABLES",
     "Sandbox",
+    "check_jobs",
     "choose",
     "enter_early",
     "level_module",

@@ -24,9 +24,11 @@ from gz_course.grader.run.sandbox.spec import SandboxSpec
 from gz_course.sim.did_you_mean import did_you_mean
 
 AUTO = "auto"
+OFFICIAL = "B"  # the least level for a grade that counts: at it, hostile code and other gradings are kept out
 # The firmest first; each file of `levels/` is a level.
 LEVELS = tuple(sorted(p.stem.upper() for p in Path(__file__).with_name("levels").glob("[a-z].py")))
 KEPT = 8  # answers; one process may be root, another in a user namespace
+GUIDE = 'docs/instructors.md, "A firm sandbox",'
 CACHE = "gz-ros2-course/sandbox.json"  # below XDG_CACHE_HOME
 
 
@@ -67,9 +69,19 @@ def choose(wanted: str = AUTO, demand: str | None = None) -> str:
         reason = why.get(demand) or next(iter(why.values()), "it was not tried")
         raise InfrastructureError(
             f"a sandbox of level {demand} or better is demanded, but the best here is {best}: {reason}; "
-            "`course doctor` shows more"
+            f"{GUIDE} says how to get it, `course doctor` shows more, and `--sandbox {best}` grades all the same"
         )
     return best
+
+
+def check_jobs(level: str, jobs: int) -> None:
+    """Raise UsageError if so many gradings must not run beside each other on one machine at this level."""
+    if jobs > 1 and not level_module(level).PRIVATE_NETWORK:
+        raise UsageError(
+            f"{jobs} gradings at a time need a sandbox of level {OFFICIAL} or better, because at level {level} they "
+            "share a network and one submission can spoil another's grade; give --jobs 1 (with Dask: one worker with "
+            f"one thread a machine), or get level {OFFICIAL} ({GUIDE} says how)"
+        )
 
 
 @cache

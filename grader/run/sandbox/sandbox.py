@@ -31,7 +31,7 @@ from gz_course.grader.run.sandbox.spec import (
     SandboxSpec,
     init_command,
 )
-from gz_course.grader.run.sandbox.view import HOME, SOCKETS, SUBMISSION, TMP_FILES, TMP_SIZE, view
+from gz_course.grader.run.sandbox.view import HOME, SOCKETS, SUBMISSION, TMP_FILES, TMP_SIZE, readable, view
 
 PR_SET_CHILD_SUBREAPER = 36
 FIRST_USER = 61_000  # + the ROS domain: unused by others, and different for simultaneous runs
@@ -149,7 +149,6 @@ class Sandbox:
         places = (
             tuple(view(self.folder / "submission", self.folder / "door", self._etc(user))) if walls or landlock else ()
         )
-        shown = [place.source for place in places if place.kind == "bind"]
         writable = [place.path for place in places if place.kind == "tmpfs"] if walls else [str(self.home)]
         limits = {int(kind): most for kind, most in LIMITS.items()}
         if walls:  # without namespaces the limit counts all processes of the user
@@ -165,7 +164,7 @@ class Sandbox:
             tcp=self._module.PRIVATE_NETWORK,
             seccomp=(landlock or bool(walls)) and seccomp.supported(),
             limits=limits,
-            readable=("/",) if walls else (*shown, *OPEN_FOLDERS),
+            readable=("/",) if walls else (*readable(places), *OPEN_FOLDERS),
             writable=(*writable, *OPEN_DEVICES),
             folder=str(self.home),
             command=command,

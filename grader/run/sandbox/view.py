@@ -2,18 +2,20 @@
 
 They are the system's programs and libraries, Python with what is installed for it, `sim/`, `public/`, and of the grader
 only what runs in the submission's own process; all read-only. Exercises, solutions, tests, homes and other submissions
-are not mounted at all.
+are not mounted at all; where a course lies below a folder that is shown (as in /usr/src), it is masked.
 """
 
 from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Iterable
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
 
 import gz_course
+from gz_course.grader.exercise import course_root
 
 SUBMISSION = Path("/submission")
 SOCKETS = Path("/grader")  # the grader's sockets
@@ -22,6 +24,7 @@ SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
 SETTINGS = ("ld.so.cache", "alternatives", "localtime")  # of /etc
 DEVICES = ("null", "zero", "full", "random", "urandom")
 LINKS = {"/dev/fd": "/proc/self/fd", "/dev/stdin": "fd/0", "/dev/stdout": "fd/1", "/dev/stderr": "fd/2"}
+HALVES = ("exercises", "solutions")  # of a course: they may lie below one of the places shown
 # Folders of the package `grader` that are needed inside.
 OF_THE_GRADER = ("run/agent", "run/sandbox/init")
 TMP_SIZE, TMP_FILES = 64 << 20, 20_000  # [bytes] and files of /tmp
@@ -51,10 +54,12 @@ def view(submission: Path, door: Path, etc: Path) -> list[Place]:
     places = [_system(name) for name in SYSTEM if os.path.lexists(name)]
     places += [_bind(f"/etc/{name}", f"/etc/{name}") for name in SETTINGS if Path("/etc", name).exists()]
     places += [_bind(f"/etc/{path.name}", path) for path in etc.iterdir()]
-    places += [_bind(prefix, prefix) for prefix in _python()]
+    homes = _python()
+    places += [_bind(home, home) for home in homes if not any(home.is_relative_to(name) for name in SYSTEM)]
     package = _package("gz_course.grader")
-    if _within(package, places):
-        places.append(Place("mask", str(package)))
+    masks = [path for path in (*_courses(package), package) if _within(path, places)]
+    places += [Place("mask", str(path)) for path in masks]
+    places += [_bind(home, home) for home in homes if any(home.is_relative_to(mask) for mask in masks)]
     places += [_bind(path, path) for path in (_package("gz_course.sim"), Path(gz_course.__file__).parents[1])]
     places += [_bind(path, path) for pattern in OF_THE_GRADER for path in package.glob(pattern)]
     places += [_bind(SUBMISSION, submission), _bind(SOCKETS, door), Place("proc", "/proc")]
@@ -65,10 +70,34 @@ def view(submission: Path, door: Path, etc: Path) -> list[Place]:
     by_path = {place.path: place for place in places}
     for path in list(by_path):
         for parent in Path(path).parents[:-1]:
-            masked = str(package) in by_path and parent.is_relative_to(package) and parent != package
+            masked = any(parent.is_relative_to(mask) and parent != mask for mask in masks)
             if masked or not _within(parent, places):
                 by_path.setdefault(str(parent), Place("folder", str(parent)))
     return sorted(by_path.values(), key=lambda place: Path(place.path).parts)
+
+
+def readable(places: Iterable[Place]) -> list[str]:
+    """Return the files and folders that may be read where nothing can be masked: of a place with a mask, all else."""
+    masks = [Path(place.path) for place in places if place.kind == "mask"]
+    found: list[str] = []
+
+    def take(path: Path) -> None:
+        if any(mask.is_relative_to(path) for mask in masks):
+            if path not in masks:
+                for inside in path.iterdir():
+                    take(inside)
+        else:
+            found.append(str(path))
+
+    for place in places:
+        if place.kind == "bind":
+            take(Path(place.source))
+    return found
+
+
+def _courses(package: Path) -> list[Path]:
+    """Return the folders of courses: that of the exercises, and a checkout around the package `grader`."""
+    return [root for root in {course_root().resolve(), package.parent} if any((root / h).is_dir() for h in HALVES)]
 
 
 def _bind(path: str | Path, source: str | Path) -> Place:
@@ -88,8 +117,7 @@ def _python() -> list[Path]:
     """Return the folders of the interpreter and its packages, under each name by which they are reached."""
     homes = {Path(p) for p in (sys.prefix, sys.exec_prefix, sys.base_prefix, sys.base_exec_prefix)}
     # `home` in pyvenv.cfg may be a link to the real place; both names are used at a start.
-    homes |= {path.resolve() for path in homes}
-    return [home for home in homes if not any(home.is_relative_to(name) for name in SYSTEM)]
+    return list(homes | {path.resolve() for path in homes})
 
 
 def _package(name: str) -> Path:

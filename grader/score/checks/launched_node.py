@@ -10,7 +10,7 @@ from __future__ import annotations
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
-from gz_course.grader.score.launched import deaths, launch_facts
+from gz_course.grader.score.launched import by_python, deaths, launch_facts
 from gz_course.sim.did_you_mean import nearest_name
 
 _OTHERS = ("gz", "parameter_bridge", "create")  # processes that are not nodes of the student's
@@ -34,6 +34,8 @@ def launched_node(recording: Recording, parameters: Table) -> Finding:
     if node not in nodes:
         near = nearest_name(node, nodes)
         return Finding(False, expected, f"the node {node} never ran" + (f"; {near} did" if near else ""))
+    if measured := by_python(recording, program):
+        return Finding(False, expected, measured)
     if not any(each["node"] == node and each["topic"] == "/clock" for each in endpoints):
         return Finding(False, expected, f"{node} ran without use_sim_time: it does not follow /clock")
     return Finding(True, expected, "so it was")

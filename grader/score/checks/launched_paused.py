@@ -1,8 +1,10 @@
-"""`launched_paused`: is simulated time paused if, and only if, an argument of the launch says so?
+"""`launched_paused`: does simulated time stand still if, and only if, an argument of the launch says so?
 
 kind = "launched_paused"
 argument = "paused"
 default = false
+
+It is judged by the time that passed. Whether `gz sim` had -r, or the control service was asked later, is the same.
 """
 
 from __future__ import annotations
@@ -15,7 +17,7 @@ from gz_course.grader.score.launched import argument, ran
 
 @check_kind("launched_paused")
 def launched_paused(recording: Recording, parameters: Table) -> Finding:
-    """Pass if the first simulator that ran was started paused when asked to, and running when not."""
+    """Pass if no simulated time passed when a paused world was asked for, and some did when not."""
     default = "true" if parameters.flag("default") else "false"
     wanted, called = argument(recording, parameters.text("argument"), default)
     pause = wanted.strip().lower() in ("true", "1")
@@ -23,6 +25,8 @@ def launched_paused(recording: Recording, parameters: Table) -> Finding:
     expected = f"{called}: the world {'is paused' if pause else 'runs'}"
     if not running:
         return Finding(False, expected, "no simulator ran")
-    found = running[0]["paused"]
-    state = "was paused: gz sim had no -r" if found else "ran: gz sim had -r"
+    found = not recording.facts().get("sim_seconds")
+    state = "was paused" if found else "ran"
+    if found == running[0]["paused"]:
+        state += ": gz sim had no -r" if found else ": gz sim had -r"
     return Finding(found == pause, expected, f"{called} it {state}")

@@ -8,12 +8,12 @@ from __future__ import annotations
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
-from gz_course.grader.score.launched import complaint, launch_facts, ran
+from gz_course.grader.score.launched import by_python, complaint, launch_facts, ran
 
 
 @check_kind("launched_simulator")
 def launched_simulator(recording: Recording, parameters: Table) -> Finding:
-    """Pass if exactly one `gz sim` had a world and was still running when the launch was interrupted."""
+    """Pass if an action started the only `gz sim`, and it was still running when the launch was interrupted."""
     expected = "one gz sim with a world, from the start to the end"
     facts, running = launch_facts(recording), ran(recording)
     if not running:
@@ -25,6 +25,8 @@ def launched_simulator(recording: Recording, parameters: Table) -> Finding:
         return Finding(
             False, expected, f"{len(running)} simulators were started ({worlds}); each publishes its own time"
         )
+    if measured := by_python(recording, "gz"):
+        return Finding(False, expected, measured)
     if not facts["simulator_at_end"]:
         return Finding(False, expected, "gz sim had ended before the launch was interrupted")
     return Finding(True, expected, f"it ran {running[0]['world']}")

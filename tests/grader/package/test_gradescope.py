@@ -125,6 +125,14 @@ def test_the_command(course, tmp_path, root):
     assert not (tmp_path / "a.zip").exists()
 
 
+def test_it_demands_level_b_unless_another_is_named(root, tmp_path):
+    for options, level in (({}, "B"), ({"demand": "C"}, "C")):
+        package(find_exercise("03_teleop", root), tmp_path / "a.zip", **options)
+        with zipfile.ZipFile(tmp_path / "a.zip") as archive:
+            assert f"--demand {level}" in archive.read("run_autograder").decode()
+            assert f"a sandbox of level {level} or better" in archive.read("setup.sh").decode()
+
+
 def test_a_sandbox_level_that_does_not_exist(root, tmp_path):
     with pytest.raises(UsageError, match="no sandbox level"):
         package(find_exercise("03_teleop", root), tmp_path / "a.zip", demand="Z")

@@ -215,6 +215,8 @@ def test_a_fault_of_the_exercise_costs_nobody_anything(course, hand_in, solved, 
         (["class", "--out", "out", "--dask", "here"], "tcp://HOST:PORT"),
         (["class", "--out", "out", "--trials", "gone.toml"], "gone.toml"),
         (["class", "--out", "out", "--sandbox", "Z"], "no sandbox level"),
+        (["class", "--out", "out", "--sandbox", "D", "--jobs", "2"], "2 gradings at a time need a sandbox of level B"),
+        (["class", "--out", "out", "--sandbox", "C", "--demand", "B"], "C is asked for, but at least B"),
         (["class/jane.py", "--out", "out"], "cannot be read as an archive"),
     ],
 )
@@ -225,6 +227,28 @@ def test_usage(course, hand_in, tmp_path, arguments, words):
     assert outcome.code == 2, outcome.output
     assert words in outcome.words
     assert (tmp_path / "full/thesis.tex").exists()
+
+
+def test_on_dask_a_machine_runs_one_grading_at_a_time_where_they_are_not_kept_apart(course, hand_in):
+    pytest.importorskip("distributed")
+    hand_in({"jane.py": b"x = 1"})
+    outcome = course("grade-all", "03", "class", "--out", "out", "--sandbox", "C", "--dask", "local:2")
+    assert outcome.code == 2 and "2 gradings at a time" in outcome.words and "one worker" in outcome.words
+
+
+def test_without_level_b_nobody_is_graded_unless_another_level_is_named(course, hand_in, tmp_path):
+    hand_in({"jane.py": b"x = ("})
+    lacking = {
+        "prelude": "from gz_course.grader.run.sandbox import probe; probe.try_level = lambda level: 'not today'",
+        "XDG_CACHE_HOME": str(tmp_path / "cache"),
+    }
+    outcome = course("grade-all", "03", "class", "--out", "out", **lacking)
+    assert outcome.code == 3, outcome.output
+    for words in ("level B or better is demanded", "best here is D: not today", "A firm sandbox", "--sandbox D"):
+        assert words in outcome.words
+    outcome = course("grade-all", "03", "class", "--out", "out", "--sandbox", "D", **lacking)
+    assert outcome.code == 0, outcome.output
+    assert rows_of(tmp_path / "out/gradebook.csv")[0]["outcome"] == "student_error"
 
 
 def test_on_dask_it_is_the_same_gradebook(begin, reference, tmp_path, running_in):

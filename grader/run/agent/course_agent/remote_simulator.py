@@ -76,6 +76,7 @@ class RemoteServer:
     def __init__(self, world: RemoteWorld, node: Any) -> None:
         self.world = world
         self.paused = False
+        self._node = node
 
     def run(
         self, *, stop: threading.Event, update_rate: float | None = None, iterations: int = 0, **options: Any
@@ -83,8 +84,22 @@ class RemoteServer:
         """Let it run until `stop` is set or the grader ends it."""
         when_ended(stop.set)
         channel().send({"run": {"paused": self.paused, "iterations": iterations}, "waiting": True})
+        self._offer_control()
         stop.wait()
         channel().send({"stopped": True})
+
+    def _offer_control(self) -> None:
+        """Offer the service that pauses the world and lets it run; nothing else can be asked of it here."""
+        from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
+        from gz_course.sim.gz.msgs.world_control_pb2 import WorldControl
+
+        def control(request: Any) -> Any:
+            others = [field.name for field, _ in request.ListFields() if field.name not in ("header", "pause")]
+            if not others:
+                channel().send({"control": {"pause": request.pause}, "waiting": True})
+            return Boolean(data=not others)
+
+        self._node.advertise_service(f"/world/{self.world.name}/control", WorldControl, Boolean, control)
 
 
 World, Server = RemoteWorld, RemoteServer  # the names under which `gz sim` imports them

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from gz_course.grader.run.sandbox import view as module
-from gz_course.grader.run.sandbox.view import SOCKETS, SUBMISSION, Place, view
+from gz_course.grader.run.sandbox.view import SOCKETS, SUBMISSION, Place, readable, view
 
 ROOT = Path(__file__).parents[4]
 
@@ -51,6 +51,17 @@ def test_what_is_to_stay_hidden_is_not(places):
         assert shown(found, ROOT / name) is None, name
     for path in ("/etc/shadow", "/root/.ssh", "/home", "/var", "/run", "/sys"):
         assert shown(found, Path(path)) is None or str(sys.prefix).startswith(path), path
+
+
+def test_a_course_below_a_folder_of_the_system_is_masked(places, monkeypatch):
+    monkeypatch.setattr(module, "SYSTEM", (*module.SYSTEM, str(ROOT.parent)))  # as /usr for a course in /usr/src
+    found = places()
+    for name in ("solutions/02_launch/trials.toml", "exercises", "tests", ".git", "grader/score", "grader/grade.py"):
+        assert shown(found, ROOT / name) is None, name
+        assert not any((ROOT / name).is_relative_to(path) for path in readable(found.values())), name
+    for path in (Path(sys.prefix), ROOT / "sim/gz", ROOT / "public", ROOT / "grader/run/agent"):
+        assert shown(found, path), path
+        assert any(path.is_relative_to(each) for each in readable(found.values())), path
 
 
 def test_parents_come_first_and_every_place_has_them(places):

@@ -37,9 +37,9 @@ CLOCKED = [{"node": "/stopwatch", "topic": topic} for topic in ("/clock", "/stop
 def find(record):
     """What a kind finds in a run that was good but for `changes`, called with some launch arguments."""
 
-    def call(kind, arguments=None, endpoints=CLOCKED, lines=(), **changes):
+    def call(kind, arguments=None, endpoints=CLOCKED, lines=(), seconds=2.0, **changes):
         trial = json.dumps({"poses": {}, "parameters": arguments or {}})
-        facts = {"launch": GOOD | changes, "endpoints": endpoints}
+        facts = {"launch": GOOD | changes, "endpoints": endpoints, "sim_seconds": seconds}
         recording = record(facts=facts, lines=[(0.0, line) for line in lines], trial_parameters=trial)
         return check_kinds()[f"launched_{kind}"](recording, Table(PARAMETERS[kind], "check 'it'", "parameter"))
 
@@ -82,9 +82,24 @@ def test_the_world_is_that_of_the_argument_or_the_default(find, arguments, passe
 @pytest.mark.parametrize("given", ["true", "True", "1", "false", "", None])
 def test_paused_exactly_when_asked(find, given, paused):
     arguments = {} if given is None else {"paused": given}
-    finding = find("paused", arguments, simulators=[SIMULATOR | {"paused": paused}])
+    finding = find("paused", arguments, seconds=0.0 if paused else 2.0, simulators=[SIMULATOR | {"paused": paused}])
     assert finding.passed == (paused == (given in ("true", "True", "1")))
     assert ("had no -r" if paused else "had -r") in finding.measured
+
+
+@pytest.mark.parametrize("seconds", [0.0, 2.0])
+def test_it_is_the_time_that_passed_which_counts_not_the_command_line(find, seconds):
+    finding = find("paused", {"paused": "true"}, seconds=seconds, simulators=[SIMULATOR | {"paused": bool(seconds)}])
+    assert finding.passed == (not seconds)
+    assert finding.measured == f"called with paused:=true it {'ran' if seconds else 'was paused'}"
+
+
+def test_what_no_action_has_started_does_not_count(find):
+    by_python = ["gz", "stopwatch.py"]
+    measured = "was started by Python (subprocess or os.system), not by an action of the launch"
+    assert find("simulator", by_python=by_python).measured == f"gz {measured}"
+    assert find("node", by_python=by_python).measured == f"stopwatch.py {measured}"
+    assert not find("simulator", by_python=by_python).passed and not find("node", by_python=by_python).passed
 
 
 @pytest.mark.parametrize(

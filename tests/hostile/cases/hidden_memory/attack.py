@@ -16,4 +16,5 @@ with contextlib.suppress(OSError), open("/dev/shm/hoard", "wb") as file:
     while written < 1 << 30:
         written += file.write(b"x" * (1 << 20))
 print("held" if written <= 16 << 20 else "ESCAPED", "/dev/shm", written, flush=True)
-os.unlink("/dev/shm/hoard")
+with contextlib.suppress(OSError):
+    os.unlink("/dev/shm/hoard")

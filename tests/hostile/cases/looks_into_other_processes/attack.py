@@ -18,6 +18,9 @@ for pid in {1, os.getppid(), *others}:
     buffer = ctypes.create_string_buffer(8)
     got = libc.process_vm_readv(pid, buffer, 0, buffer, 0, 0)
     print("ESCAPED" if got >= 0 else "held", "process_vm_readv", pid, flush=True)
-    print("ESCAPED" if libc.syscall(438, os.pidfd_open(pid), 0, 0) >= 0 else "held", "pidfd_getfd", pid, flush=True)
+    try:
+        print("ESCAPED" if libc.syscall(438, os.pidfd_open(pid), 0, 0) >= 0 else "held", "pidfd_getfd", pid, flush=True)
+    except OSError:
+        print("held", "pidfd_open", pid, flush=True)
 secrets = [word for word in open("/proc/self/mountinfo") if "solutions" in word or "exercises" in word]
 print("ESCAPED" if secrets else "held", "mounts", secrets, flush=True)

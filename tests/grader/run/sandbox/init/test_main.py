@@ -49,6 +49,28 @@ def test_the_filter_refuses_every_call_it_names_and_says_how():
     assert answers == dict.fromkeys(seccomp.REFUSED, 1) | dict.fromkeys(seccomp.MISSING, 38)
 
 
+def test_priority_scheduling_and_limits_are_changed_of_oneself_only():
+    calls = {
+        "setpriority": "libc.setpriority({kind}, {who}, 1)",
+        "ioprio_set": "libc.syscall(251, 1 + {kind}, {who}, 0x4000)",
+        "sched_setaffinity": "libc.syscall(203, {who}, 8, bytes([1] + [0] * 7))",
+        "sched_setscheduler": "libc.syscall(144, {who}, 0, bytes(8))",
+        "sched_setattr": "libc.syscall(314, {who}, 0, 0)",
+        "prlimit": "libc.prlimit({who}, 7, 0, 0)",
+    }
+
+    def answers(**what):
+        code = ", ".join(f"{name!r}: error(lambda: {call.format(**what)})" for name, call in calls.items())
+        return filtered(f"{{{code}}}")
+
+    assert set(answers(kind=0, who="os.getppid()").values()) == {1}
+    itself = answers(kind=0, who=0)
+    assert itself.pop("sched_setattr") == 22  # no attributes
+    assert set(itself.values()) == {0}
+    others = answers(kind=2, who=0)  # setpriority: of a user; ioprio_set: of a user
+    assert (others["setpriority"], others["ioprio_set"]) == (1, 1)
+
+
 def test_the_filter_lets_ordinary_work_through():
     assert filtered("[os.getpid() > 0, os.waitpid(os.fork() or os._exit(7), 0)[1], len(os.listdir('/'))][0]") is True
     families = "[error(lambda: libc.socket(family, 1, 0)) for family in (1, 2, 10, 17, 38, 40)]"

@@ -1,0 +1,34 @@
+import ctypes
+import os
+import resource
+from pathlib import Path
+
+LIBC = ctypes.CDLL(None, use_errno=True)
+
+
+def attempt(what, call):
+    try:
+        done = call()
+    except OSError as error:
+        return print("held", what, type(error).__name__, flush=True)
+    print("held" if done else "ESCAPED", what, done and os.strerror(ctypes.get_errno()), flush=True)
+
+
+def parents():
+    pid = os.getppid()
+    while pid > 0:
+        yield pid
+        try:
+            pid = int(Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[1])
+        except OSError:
+            return
+
+
+for pid in parents():
+    attempt(f"priority of {pid}", lambda: os.setpriority(os.PRIO_PROCESS, pid, 19))
+    attempt(f"cores of {pid}", lambda: os.sched_setaffinity(pid, {min(os.sched_getaffinity(0))}))
+    attempt(f"scheduler of {pid}", lambda: os.sched_setscheduler(pid, os.SCHED_IDLE, os.sched_param(0)))
+    attempt(f"ioprio of {pid}", lambda: LIBC.syscall(251, 1, pid, 3 << 13))
+    attempt(f"limits of {pid}", lambda: resource.prlimit(pid, resource.RLIMIT_NOFILE, (16, 16)) and None)
+attempt("everybody of this user", lambda: os.setpriority(os.PRIO_USER, os.getuid(), 19))
+attempt("io of everybody of this user", lambda: LIBC.syscall(251, 3, os.getuid(), 3 << 13))
