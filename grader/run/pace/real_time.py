@@ -9,6 +9,7 @@ import time
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
+from gz_course.grader.run.agent.course_agent.rosout_counter import ROSOUT
 from gz_course.grader.run.pace.matching import can_match
 from gz_course.grader.run.processes.process_tree import START_UP
 from gz_course.grader.run.processes.submission_processes import SubmissionProcesses
@@ -78,7 +79,7 @@ class RealTime:
             return all(
                 received[topic] + self._lost[topic] >= count
                 for topic, count in self._total("published").items()
-                if self.ros.listens(topic)
+                if self.ros.listens(topic) or topic == ROSOUT
             )
 
         if not arrived():
