@@ -117,8 +117,8 @@ class SimulatedPrograms:
             who.tell({"answer": self._load(who, world)})
         elif "run" in message:
             arguments = self._arguments(who)
-            for simulator in self.simulators if arguments else ():
-                if simulator.who is who and not simulator.error:
+            for simulator in self.simulators:
+                if simulator.who is who and not simulator.error and arguments is not None:
                     simulator.paused, simulator.iterations = arguments.paused, arguments.iterations
                     simulator.running = True
         elif asked := message.get("bridge"):

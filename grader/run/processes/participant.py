@@ -44,6 +44,8 @@ class Participant:
         self.follows = True  # False: no reports are expected of it
         self.uses_ros = False  # whether it has imported rclpy
         self.waits = False  # whether it only waits, for its children or for events
+        self.waits_for_log = False  # whether it logs on when told that what it has logged has arrived
+        self._logged = 0
         self._asked = asked
         self._answered = 0
         self._released = 0
@@ -84,6 +86,16 @@ class Participant:
     def wants_answer(self) -> bool:
         """Whether it waits for the confirmation that everything it published has arrived."""
         return self.progress is not None and self.progress.flushes > self._answered
+
+    @property
+    def logged(self) -> int:
+        """How many messages it has sent to /rosout."""
+        return max(self._logged, self.progress.logged if self.progress else 0)
+
+    def confirm_log(self) -> None:
+        """Confirm that what it has logged has arrived."""
+        self.waits_for_log = False
+        self.tell({"logs_arrived": True})
 
     def answer(self) -> None:
         """Confirm that everything it published has arrived."""
@@ -126,6 +138,8 @@ class Participant:
             message = json.loads(data)
             if hello := message.get("hello"):
                 self._meet(hello)
+            if "logged" in message:
+                self._logged, self.waits_for_log = int(message["logged"]), True
             self.uses_ros |= "ros" in message
             self.waits = "waiting" in message
             self._asked(self, message)

@@ -42,7 +42,6 @@ RELIED_UPON: dict[str, Reliance] = {
     "rclpy.node:Node.__init__": ("", "_publishers _subscriptions _time_source"),
     "rclpy.node:Node.destroy_node": EXISTS,
     "rclpy.node:Node.get_publishers_info_by_topic": EXISTS,
-    "rclpy.node:Node.count_subscribers": ("self topic_name", ""),
     "rclpy.node:Node.destroy_publisher": EXISTS,
     "rclpy.node:Node.get_fully_qualified_name": ("self", ""),
     "rclpy.context:Context.shutdown": EXISTS,

@@ -6,15 +6,12 @@ wrote it: a node may have switched it off, and what is logged after the shutdown
 
 from __future__ import annotations
 
-import threading
-import time
 from collections import Counter
 from typing import Any
 
-from .executor_monitor import MATCH_PATIENCE, UNMATCHED_SLICE, ExecutorMonitor
+from .executor_monitor import ExecutorMonitor
 
 ROSOUT = "/rosout"
-KEPT = 500  # messages; /rosout keeps the last 1000 for a subscription that has not been found yet
 
 
 def watch_logging(monitor: ExecutorMonitor) -> None:
@@ -24,7 +21,6 @@ def watch_logging(monitor: ExecutorMonitor) -> None:
     from rclpy.node import Node
 
     loggers: Counter[str] = Counter()  # names of those that publish on /rosout
-    nodes: list[Any] = []  # one of them, until the grader's subscription was seen
     make, destroy, shutdown = Node.__init__, Node.destroy_node, Context.shutdown
     log, add, remove = (
         rcl.rclpy_logging_rcutils_log,
@@ -37,18 +33,15 @@ def watch_logging(monitor: ExecutorMonitor) -> None:
         name = (node.get_name(), node.get_namespace())
         if name in {(e.node_name, e.node_namespace) for e in node.get_publishers_info_by_topic(ROSOUT)}:
             loggers[node.get_logger().name] = 1
-            nodes[:] = [node]
 
     def noted_destroy(node: Any) -> Any:
         done = destroy(node)
         loggers.pop(node.get_logger().name, None)
-        nodes[:] = [each for each in nodes if each is not node]
         return done
 
     def noted_shutdown(context: Any) -> None:
         shutdown(context)
         loggers.clear()
-        nodes.clear()
 
     def noted_add(parent: str, child: str) -> bool:
         added: bool = add(parent, child)
@@ -63,9 +56,7 @@ def watch_logging(monitor: ExecutorMonitor) -> None:
     def noted_log(severity: Any, name: str, *args: Any) -> None:
         log(severity, name, *args)
         if loggers[name] > 0:
-            monitor.count(monitor.published, ROSOUT)
-            if monitor.published[ROSOUT] >= KEPT and nodes:
-                _await_reader(nodes.pop())
+            monitor.count_log()
 
     rcl.rclpy_logging_rcutils_log = noted_log
     rcl.rclpy_logging_rosout_add_sublogger = noted_add
@@ -73,10 +64,3 @@ def watch_logging(monitor: ExecutorMonitor) -> None:
     Node.__init__ = noted_make
     Node.destroy_node = noted_destroy
     Context.shutdown = noted_shutdown
-
-
-def _await_reader(node: Any) -> None:
-    """Wait until the grader's subscription was found: whoever logs more before loses the oldest."""
-    deadline = time.monotonic() + MATCH_PATIENCE
-    while not node.count_subscribers(ROSOUT) and time.monotonic() < deadline:
-        threading.Event().wait(UNMATCHED_SLICE)
