@@ -49,8 +49,10 @@ def command(
     reports: dict[str, Path],
 ) -> None:
     """Grade one submission. Exit code 0: full marks, 1: less, 2: nothing to grade, 3: the grader's fault."""
+    from gz_course.grader.process.command_line import blot_out
     from gz_course.grader.run.sandbox import choose, enter_early
 
+    blot_out()
     level = choose(sandbox, demand)
     enter_early(level)  # before any thread exists
 

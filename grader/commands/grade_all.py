@@ -44,10 +44,12 @@ def command(
     reports: dict[str, bool],
 ) -> None:
     """Grade a class. Exit code 0: all are graded, 2: usage, 3: some could not be, which is not the students' fault."""
+    from gz_course.grader.process.command_line import blot_out
     from gz_course.grader.run.sandbox import AUTO, OFFICIAL
     from gz_course.grader.whole_class.class_run import ClassRun
     from gz_course.grader.whole_class.found import find_submissions
 
+    blot_out()
     if jobs is not None and dask is not None:
         raise UsageError("--jobs is for this machine and --dask for Dask's workers; give one of them")
     if demand is None and sandbox == AUTO:

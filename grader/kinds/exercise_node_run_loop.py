@@ -17,6 +17,7 @@ class ExerciseNodeRunLoop(RunLoop):
     """A run whose submission, a bridge's file or a table of topics, is judged by both graphs."""
 
     log = GIVEN_LOG
+    watches = False
 
     def run(self, recorder: Recorder) -> dict[str, Any]:
         """Run the exercise's own node. Raises ManifestError if it ended or never spun."""

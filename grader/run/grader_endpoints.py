@@ -14,21 +14,25 @@ from importlib import import_module
 from typing import Any
 
 import rclpy
+from rcl_interfaces.msg import Log
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.logging import LoggingSeverity, set_logger_level
-from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.serialization import serialize_message
 from rclpy.signals import SignalHandlerOptions
 
 from gz_course.grader.errors import ManifestError
+from gz_course.grader.run.agent.course_agent.executor_monitor import HOUSEKEEPING
+from gz_course.grader.run.agent.course_agent.rosout_counter import ROSOUT
+from gz_course.grader.run.discovery import UNKNOWN, Discovery
 from gz_course.sim.gz.transport import Node as GzNode
 from gz_course.sim.ros_gz_bridge.bridge import Bridge, BridgeEntry, HeaderOverrides
 
-HOUSEKEEPING = ("/parameter_events", "/rosout")  # topics of every node
-UNKNOWN = "_NODE_NAME_UNKNOWN_"  # rcl's name for the node of an endpoint whose node name is not known yet
 NAMES, LOOK_AGAIN = 5.0, 0.02  # [s] of wall time for the names of nodes to arrive, and between two looks
 TAP_DEPTH = 1000
+# Also what was logged before the grader's subscription was found; more than one node may be about to be found.
+ROSOUT_QOS = QoSProfile(depth=5000, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 LARGE = 60_000  # [bytes] in one UDP packet; fragments of a larger message may be lost
 MOST_AT_ONCE = 1000  # messages taken in one call, so that a flood does not stop the grader
 NODE = "ros_gz_bridge"
@@ -46,7 +50,8 @@ def message_class(ros_type: str) -> Any:
 class GraderEndpoints:
     """Owns an rclpy context in `domain`, the bridge for `entries`, and a subscription to each topic in `observe`.
 
-    `heard(topic, message)` is called for every message that arrives from the student.
+    `heard(topic, message)` is called for every message that arrives from the student, `logged(message)` for every one
+    on /rosout. `discovery` shows the endpoints of others; with `watch` it notes who publishes on the bridge's topics.
     """
 
     def __init__(
@@ -56,6 +61,8 @@ class GraderEndpoints:
         entries: list[BridgeEntry],
         observe: dict[str, str],
         heard: Callable[[str, Any], None],
+        logged: Callable[[Any], None] = lambda message: None,
+        watch: bool = False,
     ) -> None:
         kinds = {topic: message_class(kind) for topic, kind in observe.items()}
         self.held: list[tuple[str, Any, Any]] = []
@@ -71,7 +78,9 @@ class GraderEndpoints:
         with contextlib.ExitStack() as stack:  # an executor that is not shut down complains when Python exits
             stack.callback(rclpy.shutdown, context=self._context)
             set_logger_level(NODE, LoggingSeverity.ERROR)  # the report contains what it would log
-            self._node = rclpy.create_node(NODE, context=self._context, start_parameter_services=False)
+            self._node = rclpy.create_node(
+                NODE, context=self._context, start_parameter_services=False, enable_rosout=False
+            )
             stack.callback(self._node.destroy_node)
             self._executor = SingleThreadedExecutor(context=self._context)
             stack.callback(self._executor.shutdown)
@@ -80,7 +89,12 @@ class GraderEndpoints:
             stack.callback(lambda: self.bridge.close())
             for topic, kind in kinds.items():
                 self._node.create_subscription(kind, topic, self._tap(topic), QoSProfile(depth=TAP_DEPTH))
+            self._node.create_subscription(Log, ROSOUT, lambda message: self._take_log(logged, message), ROSOUT_QOS)
             self._look_at_own()
+            self.discovery = Discovery(self._node)
+            stack.callback(self.discovery.close)
+            for topic, kind in self.offered.items() if watch else ():
+                self.discovery.watch(topic, message_class(kind))
             self._open = stack.pop_all()
 
     def set_bridges(self, entries: list[BridgeEntry], overrides: HeaderOverrides | None = None) -> None:
@@ -114,6 +128,10 @@ class GraderEndpoints:
     def _count(self, topic: str, message: Any) -> None:
         self.received[topic] += 1
         self._heard(topic, message)
+
+    def _take_log(self, logged: Callable[[Any], None], message: Any) -> None:
+        self.received[ROSOUT] += 1
+        logged(message)
 
     def take_held(self) -> list[tuple[str, Any, Any]]:
         """Return what the simulator published since the last call: /clock first, then by topic name.
@@ -193,7 +211,7 @@ class GraderEndpoints:
             unknown = any(UNKNOWN in ends["publishers"] + ends["subscribers"] for ends in graph.values())
             if not unknown or time.monotonic() > deadline:
                 return graph
-            self._executor.spin_once(timeout_sec=LOOK_AGAIN)
+            self.look_again()
 
     def _graph(self) -> dict[str, dict[str, list[str]]]:
         node = self._node
@@ -206,6 +224,10 @@ class GraderEndpoints:
             for topic, types in sorted(node.get_topic_names_and_types())
             if topic not in HOUSEKEEPING
         }
+
+    def look_again(self) -> None:
+        """Let discovery go on for a moment."""
+        self._executor.spin_once(timeout_sec=LOOK_AGAIN)
 
     def close(self) -> None:
         """Leave the ROS graph."""

@@ -9,7 +9,6 @@ from __future__ import annotations
 import time
 from collections import Counter
 from contextlib import ExitStack
-from dataclasses import asdict
 from typing import Any
 
 from gz_course.grader.errors import InfrastructureError
@@ -21,11 +20,13 @@ from gz_course.grader.record.reading import STUDENT_LOG
 from gz_course.grader.record.recorder import Recorder
 from gz_course.grader.record.scene import Scene
 from gz_course.grader.run.compatibility import check_compatibility
+from gz_course.grader.run.console_log import ConsoleLog
+from gz_course.grader.run.endpoint_facts import EndpointFacts
 from gz_course.grader.run.grader_endpoints import GraderEndpoints
 from gz_course.grader.run.pace.lockstep import LockStep
-from gz_course.grader.run.pace.real_time import RealTime
+from gz_course.grader.run.pace.real_time import LOOK_ROUND, MATCHING, PATIENCE, RealTime
 from gz_course.grader.run.processes.progress import Endpoint
-from gz_course.grader.run.processes.submission_processes import SubmissionProcesses
+from gz_course.grader.run.processes.submission_processes import LONGEST_LINE, SHOWN_FOLDER, SubmissionProcesses
 from gz_course.grader.run.supervision import Heartbeat
 from gz_course.grader.run.trial_world import load_trial_world
 from gz_course.sim.gz.msgs.twist_pb2 import Twist
@@ -47,6 +48,7 @@ class RunLoop:
     """Everything set up for one run of `processes`; `run` runs it. `stack` closes what was opened here."""
 
     log = STUDENT_LOG  # where the lines of the program go
+    watches = True  # whether it is noted who else publishes what only the simulator may
 
     def __init__(
         self,
@@ -69,7 +71,10 @@ class RunLoop:
             stack.callback(node.close)
         self._world: World | None = None
         self._begin(plan, domain)
-        self._ros = GraderEndpoints(domain, self._gz_nodes[1], plan.entries, exercise.observe, self._record)
+        self._console = ConsoleLog(processes.folder, LONGEST_LINE, SHOWN_FOLDER.decode())
+        self._ros = GraderEndpoints(
+            domain, self._gz_nodes[1], plan.entries, exercise.observe, self._record, self._console.message, self.watches
+        )
         stack.callback(self._ros.close)
         self._pace = self._paced(pace)
         self._scans = {e.ros_topic: e.gz_topic for e in plan.entries if e.ros_type == "sensor_msgs/msg/LaserScan"}
@@ -80,7 +85,9 @@ class RunLoop:
         self._out_of_time = False
         self._look_at = 0.0  # of the wall clock [s]: when to ask whose fault a slow run is
         self._tampered = False  # it publishes what only the simulator may: nothing that follows would count
-        self._endpoints: dict[tuple[str, str, str, str], dict[str, Any]] = {}
+        self._suspected: set[str] = set()  # topics of the simulator on which it says that it publishes
+        self._endpoints = EndpointFacts(self._ros.discovery, lambda topic: self._ros.reliable(topic))
+        self._graph_facts: dict[str, Any] = {}
         self._layout: tuple[int, ...] = ()
         self._messages: Counter[str] = Counter()
         self.heartbeat = Heartbeat()
@@ -124,6 +131,7 @@ class RunLoop:
             self._tick()
             self._watch_wall(started)
         self.wall_seconds = time.monotonic() - started
+        self._look_at_graph()
         more = self._last_look()
         self._processes.stop()
         self._scene.finish()
@@ -205,14 +213,39 @@ class RunLoop:
             self._take(line)
         if self._processes.layout != self._layout:
             self._layout = self._processes.layout
+            self._endpoints.report(self._processes.endpoints)
             for e in self._processes.endpoints:
-                self._tampered |= self._is_reserved(e)
-                # Whether it had matched yet when it was first seen differs between equal runs.
-                self._endpoints.setdefault((e.kind, e.topic, e.type, e.node), asdict(e) | {"matched": None})
+                if self._is_reserved(e) and e.topic not in self._suspected:
+                    self._suspected.add(e.topic)
+                    self._tampered |= self._is_published(e.topic)
         if not self._processes.running and self._exit_at is None:
             self._exit_at = self._now_ns / 1e9
             code = self._processes.exit_code
             self._recorder.text("log/grader", f"the node's process ended with exit code {code}")
+
+    def _is_published(self, topic: str) -> bool:
+        """Wait until DDS shows what a process reports, that others publish on a topic; False if it does not."""
+        deadline = time.monotonic() + MATCHING
+        while not (published := self._ros.discovery.publishers_seen(topic)) and time.monotonic() < deadline:
+            if not self._processes.wait(LOOK_ROUND):
+                self._ros.pump()
+        return published
+
+    def _look_at_graph(self) -> None:
+        """Ask DDS, before the processes are ended, what they are in the ROS graph."""
+        deadline = time.monotonic() + PATIENCE
+        while self._processes.running and not self._pace.everything_arrived() and time.monotonic() < deadline:
+            self._processes.wait(LOOK_ROUND)
+        self._collect()
+        self._endpoints.close(self._processes.endpoints, self._ros.look_again)
+        discovery, not_logged = self._ros.discovery, self._console.not_logged()
+        self._graph_facts = {
+            "endpoints": self._endpoints.as_facts(),
+            "reserved": sorted(t for t in self._ros.offered if self.watches and discovery.publishers_seen(t)),
+            "nodes": discovery.nodes(),
+            "not_logged": not_logged,
+            "rosout_off": sorted(set(discovery.nodes()) - set(discovery.loggers())) if not_logged else [],
+        }
 
     def _last_look(self) -> dict[str, Any]:
         """Return more facts about the run, before its processes are ended."""
@@ -226,6 +259,7 @@ class RunLoop:
         """Record a line that the program wrote."""
         level = LEVELS.get(line.partition(" ")[0], "INFO")
         self._recorder.text(self.log, line, level)
+        self._console.line(line)
 
     def _facts(self, ready: bool) -> dict[str, Any]:
         """Return what scoring and diagnosis need to know beside the signals; the same for equal runs."""
@@ -238,7 +272,7 @@ class RunLoop:
             "ready": ready,
             "exit_at": self._exit_at,
             "exit_code": self._processes.exit_code if self._exit_at is not None else None,
-            "endpoints": [self._endpoints[key] for key in sorted(self._endpoints)],
+            **self._graph_facts,
             "offered": self._ros.offered,
             "listened": self._ros.listened,
             "dropped": dropped,

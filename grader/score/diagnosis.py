@@ -262,9 +262,8 @@ def unstable(recording: Recording, facts: dict[str, Any]) -> str:
 
 
 def _reserved(facts: dict[str, Any]) -> list[str]:
-    """Return the simulator's own topics on which the node published as well."""
-    offered = facts.get("offered", {})
-    return sorted({e["topic"] for e in facts.get("endpoints", []) if e["kind"] == "publisher"} & set(offered))
+    """Return the simulator's own topics on which the node published as well, as DDS discovery has shown."""
+    return list(facts.get("reserved", []))
 
 
 def tampered(recording: Recording, facts: dict[str, Any]) -> str:

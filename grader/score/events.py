@@ -21,7 +21,7 @@ from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.steps import Condition
 
 # The prefix that the sandbox's console format puts before a logger's message; a printed line lacks it.
-LOGGED = re.compile(r"^\[[A-Z]+\] \[[^\]]*\]: ")
+LOGGED = re.compile(r"^\[[A-Z]+\] \[([^\]]*)\]: ")
 
 
 @dataclass(frozen=True)
@@ -79,10 +79,34 @@ class Event:
 
 
 def log_lines(recording: Recording) -> Iterator[tuple[float, str, bool]]:
-    """Yield (time [s], text, whether it came from a logger) of every line the node wrote."""
-    for line in recording.lines(recording.node_log):
+    """Yield (time [s], text, whether it was logged) of every line the node wrote.
+
+    A line was logged if it looks so and its message came on /rosout: the fact `not_logged` numbers those without one.
+    """
+    forged = set(recording.facts().get("not_logged", []))
+    for number, line in enumerate(recording.lines(recording.node_log)):
         text, logged = LOGGED.subn("", line.text)
-        yield line.time_ns / 1e9, text, bool(logged)
+        yield line.time_ns / 1e9, text, bool(logged) and number not in forged
+
+
+def not_logged(recording: Recording, pattern: re.Pattern[str]) -> str:
+    """Return how many lines match that were not logged, why, and what to do; empty if there are none."""
+    facts = recording.facts()
+    lines = [line.text for line in recording.lines(recording.node_log)]
+    logged = [each for _, _, each in log_lines(recording)]
+    found = [
+        line for line, each in zip(lines, logged, strict=True) if not each and pattern.search(LOGGED.sub("", line))
+    ]
+    if not found:
+        return ""
+    silent = {name.strip("/").replace("/", "."): name for name in facts.get("rosout_off", [])}
+    names = {match.group(1) for line in found if (match := LOGGED.match(line))}
+    if off := sorted(names & silent.keys()):
+        return (
+            f"{len(found)} such lines came to the console only: the node {silent[off[0]]} has its log to /rosout "
+            "switched off, so nobody else hears it: leave out enable_rosout=False and --disable-rosout-logs"
+        )
+    return f"{len(found)} such lines were printed, not logged: use the node's logger, self.get_logger().info(...)"
 
 
 def texts(recording: Recording, topic: str, field: str) -> Iterator[tuple[float, str | None]]:

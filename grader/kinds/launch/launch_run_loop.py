@@ -38,6 +38,8 @@ FAILED = re.compile(r"^\[ERROR\] \[launch\]: (?:Caught exception in launch \(see
 class LaunchRunLoop(RunLoop):
     """Everything set up for one run of a launch file."""
 
+    watches = False
+
     def _begin(self, plan: RunPlan, domain: int) -> None:
         shown = Path(self._processes.folder)
         self._programs = SimulatedPrograms(
@@ -64,6 +66,7 @@ class LaunchRunLoop(RunLoop):
         if self._world is not None and self._programs.simulator is not None:
             self._run()
         self.wall_seconds = time.monotonic() - started
+        self._look_at_graph()
         facts = self._facts(True) | {"offered": {}, "listened": {}, "bridges": self._ros.bridged()}
         facts["launch"] = self._state() | self._end()
         if self._world is not None:

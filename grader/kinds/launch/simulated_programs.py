@@ -1,9 +1,9 @@
 """Gazebo's programs that a submission starts, done here: one world, the bridges to it, and `create` and its like.
 
 The programs in the box are the real ones up to the point where they would begin to simulate or to carry messages
-(`agent/course_agent/remote_*.py`); from there on they ask. What they say is not trusted: a world is a built-in one, or
-it is read from what they have handed over (`submitted_world.py`). No file is opened here because of what they name, and
-no truth goes back to them.
+(`agent/course_agent/remote_*.py`); from there on they ask. Nobody else is served (`claims.py`), and what they say is
+not trusted: a world is a built-in one, or it is read from what they have handed over (`submitted_world.py`); whether it
+is paused stands on the command line. No file is opened here because of what they name, and no truth goes back to them.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from pathlib import Path, PurePath
 from typing import Any
 
+from gz_course.grader.kinds.launch import claims
 from gz_course.grader.kinds.launch.submitted_world import SubmittedWorld
 from gz_course.grader.run.grader_endpoints import GraderEndpoints
 from gz_course.grader.run.processes.participant import Participant
@@ -66,8 +67,14 @@ class SimulatedPrograms:
         gz_node: Node,
         opened: Callable[[World], None],
         ros: Callable[[], GraderEndpoints],
+        entitled: Callable[[Participant, dict[str, Any]], bool] = claims.is_entitled,
+        arguments: Callable[[Participant], claims.SimulatorArguments | None] = claims.simulator_arguments,
     ) -> None:
-        """`files` are the names of what was handed in, which lies in the folder `shown` of the box."""
+        """Serve whoever is `entitled`. What was handed in has the names `files` in the folder `shown` of the box.
+
+        `arguments(participant)` are those of a `gz sim`.
+        """
+        self._entitled, self._arguments = entitled, arguments
         self._files = files
         self._shown = shown
         self._seed = seed
@@ -82,6 +89,7 @@ class SimulatedPrograms:
         self.simulators: list[SimulatorProgram] = []
         self.bridges: list[BridgeProgram] = []
         self.calls: list[str] = []
+        self.refused: set[str] = set()  # what others than the programs themselves have asked for
         self._loading: list[Participant] = []
 
     @property
@@ -92,21 +100,27 @@ class SimulatedPrograms:
     @property
     def simulator(self) -> SimulatorProgram | None:
         """The first `gz sim` that runs; others stand still beside it."""
-        return next((s for s in self.simulators if s.running and not s.who.gone and not s.stopped), None)
+        return next((s for s in self.simulators if s.running and s.who.alive and not s.stopped), None)
 
     def asked(self, who: Participant, message: dict[str, Any]) -> None:
         """Answer a message of one of the programs; others are none of ours."""
-        if part := message.get("asset"):
+        if not self._entitled(who, message):
+            if what := claims.asked_for(message):
+                self.refused.add(what)
+            if message.keys() & {"world", "bridge", "worlds", "call"}:
+                who.tell({"answer": {"error": "only Gazebo's own programs are served"}})
+        elif part := message.get("asset"):
             self._submitted.take(who.number, part)
         elif "loading" in message:
             self._loading.append(who)
         elif world := message.get("world"):
             self._loading = [each for each in self._loading if each is not who]
             who.tell({"answer": self._load(who, world)})
-        elif run := message.get("run"):
+        elif "run" in message:
+            arguments = self._arguments(who)
             for simulator in self.simulators:
-                if simulator.who is who:
-                    simulator.paused, simulator.iterations = bool(run["paused"]), max(0, int(run["iterations"]))
+                if simulator.who is who and not simulator.error and arguments is not None:
+                    simulator.paused, simulator.iterations = arguments.paused, arguments.iterations
                     simulator.started_paused = simulator.paused
                     simulator.running = True
         elif control := message.get("control"):
@@ -128,7 +142,11 @@ class SimulatedPrograms:
                 bridge.stopped |= bridge.who is who
 
     def _load(self, who: Participant, asked: dict[str, Any]) -> dict[str, Any]:
-        argument, built_in, path = str(asked["given"]), str(asked["built_in"]), PurePath(str(asked["path"]))
+        arguments = self._arguments(who)
+        argument = arguments.world if arguments else str(asked["given"])
+        built_in, path = str(asked["built_in"]), PurePath(str(asked["path"]))
+        if arguments and built_in and not claims.names(argument, built_in):
+            built_in = ""
         simulator = SimulatorProgram(who, argument, error=str(asked.get("error", "")))
         self.simulators.append(simulator)
         if built_in in BUILT_IN:
@@ -244,4 +262,5 @@ class SimulatedPrograms:
                 for b in sorted(self.bridges, key=lambda b: (b.node, [e.ros_topic for e in b.entries]))
             ],
             "calls": sorted(self.calls),
+            "refused": sorted(self.refused),
         }

@@ -15,6 +15,7 @@ from collections import Counter
 from typing import TYPE_CHECKING, Any
 
 from gz_course.grader.run.agent.course_agent.executor_monitor import HOUSEKEEPING
+from gz_course.grader.run.agent.course_agent.rosout_counter import ROSOUT
 from gz_course.grader.run.pace.matching import can_match, will_match
 from gz_course.grader.run.pace.real_time import LOOK_ROUND, MATCHING, PATIENCE, RealTime
 from gz_course.grader.run.processes.participant import Participant
@@ -252,7 +253,7 @@ class LockStep(RealTime):
             return self._sent
         due = self._sent + self._total("delivered")
         for topic, count in self._total("published").items():
-            if self.ros.listens(topic):
+            if self.ros.listens(topic) or topic == ROSOUT:
                 due[topic] -= count  # one of the readers is the grader
         return due
 

@@ -9,6 +9,7 @@ import time
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
+from gz_course.grader.run.pace.log_arrival import LogArrival
 from gz_course.grader.run.pace.matching import can_match
 from gz_course.grader.run.processes.process_tree import START_UP
 from gz_course.grader.run.processes.submission_processes import SubmissionProcesses
@@ -33,6 +34,7 @@ class RealTime:
         self.held_seconds = 0.0  # [s] of wall time spent in long waits for the student
         self._due: float | None = None
         self._lost: Counter[str] = Counter()  # published by the student, never arrived
+        self._logs = LogArrival(processes, ros)
 
     def await_ready(self) -> bool:
         """Wait until every node spins and DDS has matched its endpoints; False if none does within `START_UP`."""
@@ -75,7 +77,7 @@ class RealTime:
 
         def arrived() -> bool:
             received = self.ros.received
-            return all(
+            return self._logs.complete() and all(
                 received[topic] + self._lost[topic] >= count
                 for topic, count in self._total("published").items()
                 if self.ros.listens(topic)

@@ -11,11 +11,16 @@ import json
 import socket
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
+from gz_course.grader.run.processes.peer import Peer
 from gz_course.grader.run.processes.progress import Progress
 
 LARGEST = 1 << 20  # [bytes] of one message
+# A message that nobody receives leaves unseen. Whoever claims to hold messages, and does not send a single one when
+# ordered to so often, holds none.
+MOST_IN_VAIN = 10_000
 MOST_AT_ONCE = 1_000  # messages taken in one call, so that an endless sender does not stop the grader
 
 
@@ -31,6 +36,7 @@ class Participant:
         self.channel = channel
         self.number = number  # in the order of connecting, from 0
         self.since = time.monotonic()
+        self.peer = Peer.of(channel)
         self.command: tuple[str, ...] = ()
         self.pid = self.group = 0  # as seen in the sandbox
         self.progress: Progress | None = None
@@ -38,11 +44,20 @@ class Participant:
         self.follows = True  # False: no reports are expected of it
         self.uses_ros = False  # whether it has imported rclpy
         self.waits = False  # whether it only waits, for its children or for events
+        self.waits_for_log = False  # whether it logs on when told that what it has logged has arrived
+        self._logged = 0
         self._asked = asked
         self._answered = 0
         self._released = 0
+        self._sent = 0  # messages it had sent when it was last ordered to release one
+        self._vain = 0  # orders in a row to which no message left
         channel.setblocking(False)
         channel.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, LARGEST)
+
+    @property
+    def alive(self) -> bool:
+        """Whether its process runs and keeps the connection."""
+        return not self.gone and self.peer.alive
 
     @property
     def name(self) -> tuple[str, int]:
@@ -72,6 +87,16 @@ class Participant:
         """Whether it waits for the confirmation that everything it published has arrived."""
         return self.progress is not None and self.progress.flushes > self._answered
 
+    @property
+    def logged(self) -> int:
+        """How many messages it has sent to /rosout."""
+        return max(self._logged, self.progress.logged if self.progress else 0)
+
+    def confirm_log(self) -> None:
+        """Confirm that what it has logged has arrived."""
+        self.waits_for_log = False
+        self.tell({"logs_arrived": True})
+
     def answer(self) -> None:
         """Confirm that everything it published has arrived."""
         if self.progress is not None:
@@ -81,6 +106,8 @@ class Participant:
     def release(self) -> None:
         """Order it to send one of the messages it holds."""
         if self.progress is not None:
+            sent = sum(self.progress.published.values()) + sum(self.progress.delivered.values())
+            self._vain, self._sent = (self._vain + 1 if sent == self._sent else 0), sent
             self._released = self.progress.released + 1
             self.tell({"release": 1})
 
@@ -105,18 +132,28 @@ class Participant:
     def _take(self, data: bytes) -> None:
         progress = Progress.parse(data, self.progress)
         if progress is not None:
-            self.progress = progress
+            self.progress = replace(progress, held=0) if self._vain > MOST_IN_VAIN else progress
             return
         try:
             message = json.loads(data)
             if hello := message.get("hello"):
-                self.pid, self.group = int(hello["pid"]), int(hello["group"])
-                self.command = tuple(str(word) for word in hello["command"])
+                self._meet(hello)
+            if "logged" in message:
+                self._logged, self.waits_for_log = int(message["logged"]), True
             self.uses_ros |= "ros" in message
             self.waits = "waiting" in message
             self._asked(self, message)
         except (ValueError, KeyError, TypeError, AttributeError, RecursionError, OverflowError, OSError):
             return  # not from our agent: an infinite number, or a name that cannot be a file's
+
+    def _meet(self, hello: dict[str, Any]) -> None:
+        """Note who it is: as the kernel shows it, or as it says itself if it has ended meanwhile."""
+        self.pid, self.group = int(hello["pid"]), int(hello["group"])
+        self.command = tuple(str(word) for word in hello["command"])
+        pid, group = self.peer.inner
+        if self.peer.alive:
+            self.pid, self.group, self.command = pid, group, self.peer.command
+        hello |= {"pid": self.pid, "group": self.group}
 
     def close(self) -> None:
         self.channel.close()

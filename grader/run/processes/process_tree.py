@@ -7,13 +7,15 @@ process starts up, which cannot report anything yet, and while a parent reacts t
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from typing import Any
 
 START_UP = 10.0  # [s] of wall time for a process to say hello, and then to have a node that spins
 # [s] for each state: until it says hello (a shell may become a Python), and until its parent notices that it has ended
 PATIENCE = {"starting": START_UP, "shell": 3.0, "left": 1.0}
 MOST_CHILDREN = 1_000
+SAME = 0.05  # [s] by which the start of a process is known
 SHELLS = ("sh", "dash", "bash", "env")
 
 
@@ -25,29 +27,49 @@ class StartedProcess:
     state: str
     since: float  # [s] of the monotonic clock
     code: int | None = None
+    started: float = field(init=False)  # the first `since`
+
+    def __post_init__(self) -> None:
+        self.started = self.since
 
 
 class ProcessTree:
-    """All processes that the submission has reported, by their process id in the sandbox."""
+    """All processes that the submission has reported, by their process id in the sandbox.
 
-    def __init__(self) -> None:
+    `age(pid)` [s] is that of a process in the box, None if there is none: a report alone holds nobody up.
+    """
+
+    def __init__(self, age: Callable[[int], float | None]) -> None:
+        self._age = age
         self._processes: dict[int, StartedProcess] = {}
 
     def hear(self, message: dict[str, Any]) -> None:
         """Update from a message. Raises TypeError, KeyError or ValueError if it is malformed."""
         now = time.monotonic()
         if (started := message.get("started")) and len(self._processes) < MOST_CHILDREN:
-            program = str(started["program"])
-            state = "shell" if program in SHELLS else "starting" if program.startswith("python") else "silent"
-            self._processes[int(started["pid"])] = StartedProcess(int(started["pid"]), state, now)
+            self._start(int(started["pid"]), str(started["program"]), now)
         elif ended := message.get("ended"):
             child = self._processes.get(int(ended["pid"]))
-            if child is not None:
+            if child is not None and not self._lives(child, now):
                 child.state, child.code = "ended", int(ended["code"])
         elif hello := message.get("hello"):
             for pid in (int(hello["pid"]), int(hello["group"])):
                 if (child := self._processes.get(pid)) and child.state in PATIENCE:
                     child.state = "here"
+
+    def _start(self, pid: int, program: str, now: float) -> None:
+        """Note a process that was started; wait for one that exists, from its own start on, and only once."""
+        state = "shell" if program in SHELLS else "starting" if program.startswith("python") else "silent"
+        age, before = self._age(pid), self._processes.get(pid)
+        if before is not None and self._lives(before, now):
+            return
+        since = now if age is None else now - age
+        self._processes[pid] = StartedProcess(pid, "silent" if age is None else state, since)
+
+    def _lives(self, child: StartedProcess, now: float) -> bool:
+        """Whether a process of the tree still exists; a younger one may have got its number."""
+        age = self._age(child.pid) if child.state != "ended" else None
+        return age is not None and age > now - child.started - SAME
 
     def leave(self, pid: int) -> None:
         """Note that a process has closed its socket: it ends, or executes another program."""

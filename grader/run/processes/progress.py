@@ -33,6 +33,7 @@ class Progress:
     held: int = 0  # messages that wait to be released
     released: int = 0
     flushes: int = 0  # how often it has asked for the confirmation that everything arrived
+    logged: int = 0  # messages its nodes have sent to /rosout
     again: frozenset[str] = frozenset()  # topics on which it expects that a message may come twice
     endpoints: tuple[Endpoint, ...] = ()
 
@@ -52,6 +53,7 @@ class Progress:
                 held=_count(raw["held"]),
                 released=_count(raw["released"]),
                 flushes=_count(raw["flushes"]),
+                logged=_count(raw.get("logged", 0)),
                 again=frozenset(map(str, raw.get("again", ()))),
                 endpoints=tuple(_endpoint(e) for e in raw["endpoints"])
                 if "endpoints" in raw

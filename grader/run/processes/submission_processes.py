@@ -21,6 +21,7 @@ import psutil
 
 from gz_course.grader.run.agent.course_agent import channel, executor_monitor
 from gz_course.grader.run.processes.participant import Participant
+from gz_course.grader.run.processes.peer import BoxProcesses, Peer
 from gz_course.grader.run.processes.process_tree import ProcessTree
 from gz_course.grader.run.processes.progress import Endpoint
 from gz_course.grader.run.sandbox import Sandbox
@@ -81,7 +82,9 @@ class SubmissionProcesses:
             self._selector.register(pipe, selectors.EVENT_READ)
         self._selector.register(self._listener, selectors.EVENT_READ)
         self.participants: list[Participant] = []
-        self._tree = ProcessTree()
+        before = frozenset(child.pid for child in self._children_before)
+        self._box = BoxProcesses(self._process.pid, self._process.walled, before)
+        self._tree = ProcessTree(self._box.age)
         self._lines: list[str] = []
         self._line_count = 0
         self._last = b""  # end of what was written beyond the limit
@@ -187,17 +190,29 @@ class SubmissionProcesses:
                 accepted, _ = self._listener.accept()
             except OSError:
                 break
-            if len(self.participants) >= MOST_PARTICIPANTS:
+            if len(self.participants) >= MOST_PARTICIPANTS or not self._is_new(Peer.of(accepted)):
                 accepted.close()
                 continue
             self.participants.append(Participant(accepted, len(self.participants), self._hear))
             self._selector.register(accepted, selectors.EVENT_READ)
         for each in self.participants:
             if not each.gone:
-                each.read()
-                if each.gone:
-                    self._selector.unregister(each.channel)
-                    self._tree.leave(each.pid)
+                self._read(each)
+
+    def _is_new(self, peer: Peer) -> bool:
+        """Whether a process of the box has connected, and has no connection yet."""
+        for each in self.participants:
+            if each.peer.pid == peer.pid and not each.gone:  # it may have closed the one it had, to execute a program
+                self._read(each)
+                if not each.gone and each.peer == peer:
+                    return False
+        return self._box.holds(peer)
+
+    def _read(self, each: Participant) -> None:
+        each.read()
+        if each.gone:
+            self._selector.unregister(each.channel)
+            self._tree.leave(each.pid)
 
     def _hear(self, who: Participant, message: dict[str, Any]) -> None:
         self._tree.hear(message)

@@ -43,6 +43,11 @@ class SandboxedProcess:
         return self._process.pid
 
     @property
+    def walled(self) -> bool:
+        """Whether all its processes stay below the outermost one."""
+        return self._walled
+
+    @property
     def stdout(self) -> IO[bytes]:
         assert self._process.stdout is not None
         return self._process.stdout

@@ -36,6 +36,8 @@ def launched_node(recording: Recording, parameters: Table) -> Finding:
         return Finding(False, expected, f"the node {node} never ran" + (f"; {near} did" if near else ""))
     if measured := by_python(recording, program):
         return Finding(False, expected, measured)
+    if node not in recording.facts().get("nodes", [node]):
+        return Finding(False, expected, f"{node} was no longer in the ROS graph when the launch was interrupted")
     if not any(each["node"] == node and each["topic"] == "/clock" for each in endpoints):
         return Finding(False, expected, f"{node} ran without use_sim_time: it does not follow /clock")
     return Finding(True, expected, "so it was")

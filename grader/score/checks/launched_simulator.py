@@ -19,6 +19,8 @@ def launched_simulator(recording: Recording, parameters: Table) -> Finding:
     if not running:
         error = next((each["error"] for each in facts.get("simulators", []) if each["error"]), "")
         said = error or complaint(recording, "gz sim")
+        if not said and "a simulator" in facts.get("refused", []):
+            return Finding(False, expected, "a process that is not gz sim said that it is one; nothing was simulated")
         return Finding(False, expected, f"gz sim said: {said}" if said else "no simulator was started")
     if len(running) > 1:
         worlds = ", ".join(each["world"] for each in running)

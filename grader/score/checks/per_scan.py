@@ -24,7 +24,7 @@ from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
-from gz_course.grader.score.events import log_lines
+from gz_course.grader.score.events import log_lines, not_logged
 
 LONGEST_LINE = 120  # [characters] of a line that is quoted
 
@@ -70,11 +70,12 @@ def per_scan(recording: Recording, parameters: Table) -> Finding:
     asked = scans(recording, parameters.text("scan"), what)
     if parameters.has("signal"):
         signal = parameters.text("signal")
-        given, printed, other = _messages(recording, signal), 0, ""
+        given, printed, other = _messages(recording, signal), "", ""
         not_finite = len(recording.signal(f"{signal}/not_finite"))
         where = f"on {signal}"
     else:
-        given, printed, other = _log_answers(recording, parameters.pattern("log"))
+        given, other = _log_answers(recording, parameters.pattern("log"))
+        printed = not_logged(recording, parameters.pattern("log"))
         not_finite = 0
         where = "in the node's log"
     expected = f"{what.replace('_', ' ')} of every scan {where}, within {tolerance:g}"
@@ -91,7 +92,7 @@ def per_scan(recording: Recording, parameters: Table) -> Finding:
         if at is None:
             at = round(scan.start, 3)
     if printed and not given:
-        wrong = f"; {printed} such lines were printed, not logged: use the node's logger, self.get_logger().info(...)"
+        wrong = f"; {printed}"
     elif parameters.has("log") and not given and not other:
         wrong = "; nothing was logged: self.get_logger().info(...) logs a line, .debug(...) stays silent"
     elif other and not given:
@@ -109,17 +110,17 @@ def _messages(recording: Recording, name: str) -> list[tuple[float, float]]:
     return list(zip((signal.times / 1e9).tolist(), signal.values.tolist(), strict=True))
 
 
-def _log_answers(recording: Recording, pattern: re.Pattern[str]) -> tuple[list[tuple[float, float]], int, str]:
-    """Return all answers in the log, how many were printed instead of logged, and the first line without an answer."""
-    answers, printed, other = [], 0, ""
+def _log_answers(recording: Recording, pattern: re.Pattern[str]) -> tuple[list[tuple[float, float]], str]:
+    """Return all answers in the log, and the first line without an answer."""
+    answers, other = [], ""
     for at, text, logged in log_lines(recording):
+        if not logged:
+            continue
         if match := pattern.search(text):
-            printed += not logged
-            if logged:
-                answers.append((at, _number(match.group(1))))
-        elif logged:
+            answers.append((at, _number(match.group(1))))
+        else:
             other = other or text
-    return answers, printed, other
+    return answers, other
 
 
 def _number(text: str) -> float:

@@ -19,7 +19,7 @@ from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
-from gz_course.grader.score.events import log_lines, texts
+from gz_course.grader.score.events import log_lines, not_logged, texts
 from gz_course.grader.score.steps import how_many, told, window_of
 
 LONGEST_QUOTE = 80  # characters of a text that are quoted
@@ -31,14 +31,11 @@ def text(recording: Recording, parameters: Table) -> Finding:
     if parameters.has("log") == parameters.has("topic"):
         parameters.refuse("log", "given, or topic instead of it, but not both")
     pattern: re.Pattern[str]
-    printed = 0
+    printed = ""
     if parameters.has("log"):
         pattern, where = parameters.regex("log"), "lines in the node's log"
-        said = []
-        for at, line, logged in log_lines(recording):
-            printed += not logged and bool(pattern.search(line))
-            if logged:
-                said.append((at, line))
+        said = [(at, line) for at, line, logged in log_lines(recording) if logged]
+        printed = not_logged(recording, pattern)
     else:
         topic, field = parameters.text("topic").strip("/"), parameters.text("field", "data")
         pattern, where = parameters.regex("says"), f"messages on /{topic}"
@@ -56,9 +53,7 @@ def text(recording: Recording, parameters: Table) -> Finding:
     elif matching:
         measured += f"; one at {told(matching[0][0])} s, not between {start:g} and {end:g} s"
     elif printed:
-        measured += (
-            f"; {printed} such lines were printed, not logged: use the node's logger, self.get_logger().info(...)"
-        )
+        measured += f"; {printed}"
     elif said:
         measured += f"; the last was {shown(said[-1][1], LONGEST_QUOTE)!r}"
     moments = [at for at, _ in due or matching]

@@ -1,5 +1,6 @@
 """A ROS domain belongs to one run at a time, over all processes of the machine, and comes back with its process."""
 
+import socket
 import subprocess
 import sys
 
@@ -56,6 +57,15 @@ def only_two(monkeypatch):
     with Domain() as one, Domain() as two:
         pair = sorted({one.id, two.id})
     monkeypatch.setattr(module, "DOMAINS", range(pair[0], pair[1] + 1, pair[1] - pair[0]))
+
+
+def test_a_domain_in_which_somebody_speaks_comes_last(only_two):
+    with Domain() as one:
+        number = one.id
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as listening:
+        listening.bind(("", 7400 + 250 * number))
+        with Domain() as quiet, Domain() as loud:
+            assert quiet.id != number == loud.id
 
 
 def test_when_all_are_taken_it_says_so(only_two):

@@ -3,14 +3,14 @@
 The patches in `rclpy_7_1.py` call it. Each time an executor is about to go idle it sends a report:
 
     {"clock": ns, "idle": true, "taken": {topic: n}, "published": {topic: n}, "delivered": {topic: n},
-     "holding": true, "held": n, "released": n, "flushes": n, "endpoints": [...]}
+     "holding": true, "held": n, "released": n, "flushes": n, "logged": n, "endpoints": [...]}
 
 `endpoints` is included only when it changed; `clock` is the smallest simulated time [ns] of all spinning nodes; `taken`
 and `published` count messages since the start, the latter only while there were subscribers, and `delivered` the number
-of readers they had. Requests and responses count as messages on "request NAME" and "response NAME". When `flushes`
-grows, the process waits for an answer before it destroys a publisher. `again` names the topics on which the grader has
-announced to send a message once more; copies are dropped (`rclpy_7_1.py`). The grader advances simulated time only when
-these numbers show that every message was taken.
+of readers they had; `logged` counts messages on /rosout. Requests and responses count as messages on "request NAME" and
+"response NAME". When `flushes` grows, the process waits for an answer before it destroys a publisher. `again` names the
+topics on which the grader has announced to send a message once more; copies are dropped (`rclpy_7_1.py`). The grader
+advances simulated time only when these numbers show that every message was taken.
 
 Messages between several processes would be a race. After the order `hold` a process therefore queues what it sends, and
 each order `release` lets one message leave: at any moment one message is in transit in the whole system. The order
@@ -35,6 +35,8 @@ RELIABLE = "reliable"  # kind in TOPICS: what the grader publishes reliably
 HOLD = "COURSE_HOLD"
 UNMATCHED_SLICE = 0.005  # [s] between two looks at an unmatched publisher; DDS gives no event we could wait for
 POOL_SLICE = 0.001  # [s] between two looks at a running pool callback, in case its end does not wake us
+MOST_LOGGED = 50  # messages on /rosout that are under way
+LOG_PATIENCE = 30.0  # [s] for the grader to receive them; it may be starting up
 FLUSH_PATIENCE = 1.0  # [s] for the grader to receive the last messages before a publisher is destroyed
 MATCH_PATIENCE = 5.0  # [s] after which a publisher counts as unmatched
 SERVICE_PATIENCE = 1.0  # [s] for a service to be found before a request is sent
@@ -50,6 +52,9 @@ class ExecutorMonitor:
         self.taken: Counter[str] = Counter()
         self.published: Counter[str] = Counter()
         self.delivered: Counter[str] = Counter()
+        self.logged = 0  # messages sent to /rosout
+        self._confirmed = 0  # of those: known to have arrived, or waited for in vain
+        self._log_confirmed = threading.Event()
         self._held: deque[Callable[[], None]] = deque()
         self._holding = holding
         self._released = 0
@@ -93,6 +98,21 @@ class ExecutorMonitor:
         if all(self.waiting.values()):  # sent by a thread of its own, so no executor will report it
             self.report()
 
+    def count_log(self) -> None:
+        """Count a message that was sent to /rosout. After `MOST_LOGGED`, wait until they have arrived.
+
+        /rosout keeps the last 100 messages only, for a reader that is not found yet or has missed some.
+        """
+        with self._lock:
+            self.logged += 1
+            full = self.logged - self._confirmed >= MOST_LOGGED
+            if full:
+                self._confirmed = self.logged
+        if full and self._channel.open:
+            self._log_confirmed.clear()
+            self._channel.send({"logged": self.logged})
+            self._log_confirmed.wait(LOG_PATIENCE)
+
     @contextlib.contextmanager
     def blocked(self) -> Iterator[None]:
         """Count a thread that waits for a response, and so the callback it runs, as idle."""
@@ -117,8 +137,11 @@ class ExecutorMonitor:
         if order is None:
             self._let_go()
             self._answered.set()
+            self._log_confirmed.set()
         elif "arrived" in order:
             self._answered.set()
+        elif "logs_arrived" in order:
+            self._log_confirmed.set()
         elif "hold" in order:
             self._holding = True
             self.report()
@@ -230,16 +253,19 @@ class ExecutorMonitor:
 
     def flush(self) -> None:
         """Wait until the grader has received everything published so far, or for `FLUSH_PATIENCE`."""
-        sent = self._released + self.published.total() + self.delivered.total()
+        sent = self._sent()
         if not self._channel.open or (sent == self._flushed and not self._held):
             return
         self._answered.clear()
         self._flushes += 1
         self.report(flushing=True)
         if self._answered.wait(FLUSH_PATIENCE):
-            self._flushed = self._released + self.published.total() + self.delivered.total()
+            self._flushed = self._sent()
         while self._held:  # not released by the grader in time
             self._send_next()
+
+    def _sent(self) -> int:
+        return self._released + self.published.total() + self.delivered.total() + self.logged
 
     def report(self, flushing: bool = False) -> None:
         """Send the counts if they changed since the last report."""
@@ -255,6 +281,7 @@ class ExecutorMonitor:
                 "held": len(self._held),
                 "released": self._released,
                 "flushes": self._flushes,
+                "logged": self.logged,
             }
             if self.again:
                 report["again"] = sorted(self.again)

@@ -20,6 +20,7 @@ from typing import Any
 
 from .channel import channel
 from .executor_monitor import HOLD, HOUSEKEEPING, POOL_SLICE, TOPICS, ExecutorMonitor, type_name
+from .rosout_counter import watch_logging
 from .self_check import Reliance, misfits
 from .tracebacks import print_traceback
 
@@ -40,6 +41,7 @@ RELIED_UPON: dict[str, Reliance] = {
     "rclpy.time_source:TimeSource.ros_time_is_active": EXISTS,
     "rclpy.node:Node.__init__": ("", "_publishers _subscriptions _time_source"),
     "rclpy.node:Node.destroy_node": EXISTS,
+    "rclpy.node:Node.get_publishers_info_by_topic": EXISTS,
     "rclpy.node:Node.destroy_publisher": EXISTS,
     "rclpy.node:Node.get_fully_qualified_name": ("self", ""),
     "rclpy.context:Context.shutdown": EXISTS,
@@ -54,6 +56,9 @@ RELIED_UPON: dict[str, Reliance] = {
     "rclpy.impl.implementation_singleton:rclpy_implementation.rmw_qos_profile_t.to_dict": EXISTS,
     "rclpy.qos:QoSProfile.get_c_qos_profile": ("self", ""),
     "rclpy.impl.implementation_singleton:rclpy_implementation.Subscription": EXISTS,
+    "rclpy.impl.rcutils_logger:RcutilsLogger.log": ("self message severity", "_rclpy rclpy_logging_rcutils_log"),
+    "rclpy.impl.rcutils_logger:RcutilsLogger.get_child": ("self name", "rclpy_logging_rosout_add_sublogger"),
+    "rclpy.impl.rcutils_logger:RcutilsLogger.__del__": ("self", "rclpy_logging_rosout_remove_sublogger"),
     "rclpy.impl.implementation_singleton:rclpy_implementation.rclpy_resolve_name": EXISTS,
 }
 CLOCK = "/clock"  # the grader sends it again until it is seen
@@ -79,6 +84,7 @@ def install() -> None:
     _watch_messages(_monitor)
     _make_subscriptions_reliable(_monitor)
     _watch_services(_monitor)
+    watch_logging(_monitor)
     channel().send({"ros": True})
     _monitor.listen()
     atexit.register(_monitor.flush)

@@ -36,7 +36,7 @@ WORDS = (
 class Asking:
     """A process that asks."""
 
-    gone, number = False, 0
+    gone, alive, number = False, True, 0
 
     def __init__(self):
         self.answers = []
@@ -51,7 +51,11 @@ def served(tmp_path):
     (tmp_path / "theirs.sdf").write_text(WORLD.format("theirs"))
     opened = []
     with Node(NodeOptions(scope=Scope.PROCESS, partition=f"served-{os.getpid()}")) as node:
-        yield SimulatedPrograms({"mine.sdf"}, tmp_path / "shown", 0, node, opened.append, lambda: None)
+        ros = lambda: None  # noqa: E731
+        anybody = lambda who, message: True  # noqa: E731
+        yield SimulatedPrograms(
+            {"mine.sdf"}, tmp_path / "shown", 0, node, opened.append, ros, anybody, lambda who: None
+        )
     for world in opened:
         world.close()
 

@@ -1,0 +1,45 @@
+"""Arrival of log messages: simulated time waits for them as for other messages, but a lost one disturbs nothing else.
+
+`real_time.py` and `lockstep.py` ask whether all that the processes have logged has arrived on /rosout.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING
+
+from gz_course.grader.run.agent.course_agent.rosout_counter import ROSOUT
+from gz_course.grader.run.processes.submission_processes import SubmissionProcesses
+
+if TYPE_CHECKING:
+    from gz_course.grader.run.grader_endpoints import GraderEndpoints
+
+PATIENCE = 2.0  # [s] of wall time without a log message after which those that are missing count as lost
+GIVING_UP = 3  # losses after which log messages are not waited for any more
+
+
+class LogArrival:
+    """Compares what the processes say that they logged with what has come."""
+
+    def __init__(self, processes: SubmissionProcesses, ros: GraderEndpoints) -> None:
+        self._processes = processes
+        self._ros = ros
+        self._lost = 0
+        self._losses = 0
+        self._short = (0, 0)  # logged and arrived, when something was missing last
+        self._since = 0.0  # [s] of the monotonic clock
+
+    def complete(self) -> bool:
+        """Return whether everything has arrived, or will never; then confirm it to those that wait for that."""
+        logged, arrived = sum(each.logged for each in self._processes.participants), self._ros.received[ROSOUT]
+        if arrived + self._lost < logged and self._losses < GIVING_UP:
+            now = time.monotonic()
+            if (logged, arrived) != self._short:
+                self._short, self._since = (logged, arrived), now
+            if now < self._since + PATIENCE:
+                return False
+            self._lost, self._losses = logged - arrived, self._losses + 1
+        for each in self._processes.participants:
+            if each.waits_for_log and not each.gone:
+                each.confirm_log()
+        return True
