@@ -10,7 +10,7 @@ import psutil
 import pytest
 
 from gz_course.grader.errors import InfrastructureError, UsageError
-from gz_course.grader.run import supervision
+from gz_course.grader.run import supervision, watchdog
 from gz_course.grader.run.supervision import Supervised
 from gz_course.tests.descriptors import left_open, own_descriptors
 from gz_course.tests.grader.run.supervised_jobs import (
@@ -49,8 +49,8 @@ def nothing_is_left():
 @pytest.fixture
 def impatient(monkeypatch):
     for name in ("CPU_SECONDS", "CPU_FACTOR", "BOX_CPU_SECONDS", "BOX_CPU_FACTOR", "LONGEST_WAIT"):
-        monkeypatch.setattr(supervision, name, 1.0)
-    monkeypatch.setattr(supervision, "MOST_MEMORY", 400 << 20)
+        monkeypatch.setattr(watchdog, name, 1.0)
+    monkeypatch.setattr(watchdog, "MOST_MEMORY", 400 << 20)
 
 
 @pytest.fixture(params=["fork", "new Python"])
