@@ -27,6 +27,7 @@ class FairClock:
         self._processes = processes
         self._now = 0.0
         self._idle = 0.0
+        self._delayed = 0.0
         self._credit = 0.0
         self._looked = time.monotonic()
         self._threads: dict[tuple[int, int], tuple[int, int]] | None = None  # (process, thread) -> ran, waited [ns]
@@ -41,6 +42,11 @@ class FairClock:
         """Return the part of the time in which nobody computed."""
         self.now()
         return self._idle
+
+    def delayed(self) -> float:
+        """Return for how long it has stood still [s]."""
+        self.now()
+        return self._delayed
 
     def _look(self) -> None:
         threads = dict(_threads(self._processes()))
@@ -60,7 +66,9 @@ class FairClock:
         self._credit = min(self._credit + waited, passed + MOST_CREDIT)
         delayed = min(self._credit, passed)
         self._credit -= delayed
-        self._now += max(passed - delayed, min(ran, passed))
+        advance = max(passed - delayed, min(ran, passed))
+        self._now += advance
+        self._delayed += passed - advance
         self._idle += max(0.0, passed - delayed - ran)
 
 

@@ -1,4 +1,4 @@
-"""What the watchdog beside a grading looks at: processor time, memory and progress, nothing that a busy machine changes.
+"""What the watchdog beside a grading looks at: processor time, memory and progress; a busy machine changes none.
 
 `supervision.py` runs a grading in a child process and asks `Look.at` every now and then whether to end it. The child
 tells how far it has come (`Heartbeat` there); everything else is read from /proc, from outside.

@@ -16,14 +16,15 @@ from gz_course.grader.kinds.kind import RunPlan
 from gz_course.grader.kinds.launch.simulated_programs import SimulatedPrograms
 from gz_course.grader.record.recorder import Recorder
 from gz_course.grader.record.scene import Scene
+from gz_course.grader.run.fair_clock import Patience
 from gz_course.grader.run.pace.lockstep import LockStep
 from gz_course.grader.run.pace.real_time import RealTime
 from gz_course.grader.run.run_loop import RunLoop
 
-SIMULATOR_PATIENCE = 5.0  # [s] of wall time, once nobody is starting up, for a simulator to be started
-START_UP = 20.0  # [s] of wall time more than a single node gets
+SIMULATOR_PATIENCE = 5.0  # [s], once nobody is starting up, for a simulator to be started
+START_UP = 20.0  # [s] more than a single node gets
 BEATS = 10  # how often a paused world tells its time, in a run
-END_PATIENCE = 13.0  # [s] of wall time after Ctrl-C; launch itself escalates after 5 s and after 10 s
+END_PATIENCE = 13.0  # [s] after Ctrl-C; launch itself escalates after 5 s and after 10 s
 MASKED = (  # what differs between equal runs
     (re.compile(r"pid \[?\d+\]?"), "pid [...]"),
     (re.compile(r"(log files can be found below ).*"), r"\1..."),
@@ -74,15 +75,15 @@ class LaunchRunLoop(RunLoop):
     def _gather(self) -> None:
         """Wait until whatever the launch starts is there: the simulator above all."""
         self._pace.await_ready()
-        deadline = time.monotonic() + SIMULATOR_PATIENCE
-        while self._processes.running and self._programs.simulator is None and time.monotonic() < deadline:
+        patience = Patience(self._processes.clock, SIMULATOR_PATIENCE)
+        while self._processes.running and self._programs.simulator is None and not patience.over():
             self._processes.wait(0.05)
             self._ros.pump()
             if self._programs.loading:
-                deadline = time.monotonic() + SIMULATOR_PATIENCE
+                patience = Patience(self._processes.clock, SIMULATOR_PATIENCE)
             elif self._processes.starting:
                 self._pace.await_ready()
-                deadline = time.monotonic() + SIMULATOR_PATIENCE
+                patience = Patience(self._processes.clock, SIMULATOR_PATIENCE)
         if self._processes.running:
             self._pace.await_ready()
         self._collect()
@@ -90,8 +91,7 @@ class LaunchRunLoop(RunLoop):
     def _run(self) -> None:
         assert self._world is not None
         duration_ns = round(self._exercise.duration * 1e9)
-        started = time.monotonic()
-        self._look_at = started + self._wall_limit
+        self._begin_to_watch()
         beats = 0
         while (simulator := self._programs.simulator) is not None and not (self._unstable or self._out_of_time):
             if simulator.paused:
@@ -109,12 +109,12 @@ class LaunchRunLoop(RunLoop):
             if simulator.iterations and self._world.iterations >= simulator.iterations:
                 simulator.who.tell({"end": True})
                 simulator.running = False
-            self._watch_wall(started)
+            self._watch()
 
     @property
-    def _wall_limit(self) -> float:
+    def _time_limit(self) -> float:
         """More than for one node: several processes come up."""
-        return super()._wall_limit + START_UP
+        return super()._time_limit + START_UP
 
     def _state(self) -> dict[str, Any]:
         """Return the facts about what runs at the end, before the launch gets Ctrl-C."""
@@ -139,8 +139,8 @@ class LaunchRunLoop(RunLoop):
             each.tell({"free": True})
         if was_running:
             self._processes.signal(signal.SIGINT)
-        deadline = time.monotonic() + END_PATIENCE
-        while self._processes.running and time.monotonic() < deadline:
+        patience = Patience(self._processes.clock, END_PATIENCE)
+        while self._processes.running and not patience.over():
             self._processes.wait(0.02)
             self._pace.everything_arrived()
             self._ros.pump()

@@ -7,10 +7,11 @@ process starts up, which cannot report anything yet, and while a parent reacts t
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-START_UP = 10.0  # [s] of wall time for a process to say hello, and then to have a node that spins
+START_UP = 10.0  # [s] for a process to say hello, and then to have a node that spins
 # [s] for each state: until it says hello (a shell may become a Python), and until its parent notices that it has ended
 PATIENCE = {"starting": START_UP, "shell": 3.0, "left": 1.0}
 MOST_CHILDREN = 1_000
@@ -23,26 +24,28 @@ class StartedProcess:
 
     pid: int  # as seen in the sandbox
     state: str
-    since: float  # [s] of the monotonic clock
+    since: float  # [s]
     code: int | None = None
+    in_vain: bool = False  # whether it was waited for, and never said hello
 
 
 class ProcessTree:
-    """All processes that the submission has reported, by their process id in the sandbox."""
+    """All processes that the submission has reported, by their process id in the sandbox; `now()` is the time [s]."""
 
-    def __init__(self) -> None:
+    def __init__(self, now: Callable[[], float] = time.monotonic) -> None:
+        self._now = now
         self._processes: dict[int, StartedProcess] = {}
 
     def hear(self, message: dict[str, Any]) -> None:
         """Update from a message. Raises TypeError, KeyError or ValueError if it is malformed."""
-        now = time.monotonic()
         if (started := message.get("started")) and len(self._processes) < MOST_CHILDREN:
             program = str(started["program"])
             state = "shell" if program in SHELLS else "starting" if program.startswith("python") else "silent"
-            self._processes[int(started["pid"])] = StartedProcess(int(started["pid"]), state, now)
+            self._processes[int(started["pid"])] = StartedProcess(int(started["pid"]), state, self._now())
         elif ended := message.get("ended"):
             child = self._processes.get(int(ended["pid"]))
             if child is not None:
+                child.in_vain |= child.state in ("starting", "shell")
                 child.state, child.code = "ended", int(ended["code"])
         elif hello := message.get("hello"):
             for pid in (int(hello["pid"]), int(hello["group"])):
@@ -53,7 +56,7 @@ class ProcessTree:
         """Note that a process has closed its socket: it ends, or executes another program."""
         child = self._processes.get(pid)
         if child is not None and child.state == "here":
-            child.state, child.since = "left", time.monotonic()
+            child.state, child.since = "left", self._now()
 
     def codes(self) -> dict[int, int]:
         """Return the exit codes of the processes that have ended, by process id."""
@@ -62,5 +65,13 @@ class ProcessTree:
     @property
     def changing(self) -> bool:
         """Whether a process is about to say hello, or its parent about to notice its end."""
-        now = time.monotonic()
-        return any(now < child.since + PATIENCE.get(child.state, 0.0) for child in self._processes.values())
+        waiting = [child for child in self._processes.values() if child.state in PATIENCE and not child.in_vain]
+        now = self._now() if waiting else 0.0
+        for child in waiting:
+            child.in_vain |= child.state != "left" and now >= child.since + PATIENCE[child.state]
+        return any(now < child.since + PATIENCE[child.state] for child in waiting)
+
+    @property
+    def in_vain(self) -> int:
+        """How many processes were waited for that never said hello."""
+        return sum(child.in_vain for child in self._processes.values())

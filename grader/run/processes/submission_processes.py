@@ -20,10 +20,13 @@ from typing import Any
 import psutil
 
 from gz_course.grader.run.agent.course_agent import channel, executor_monitor
+from gz_course.grader.run.fair_clock import FairClock, Patience
 from gz_course.grader.run.processes.participant import Participant
 from gz_course.grader.run.processes.process_tree import ProcessTree
 from gz_course.grader.run.processes.progress import Endpoint
 from gz_course.grader.run.sandbox import Sandbox
+from gz_course.grader.run.sandbox.resource_monitor import descendants
+from gz_course.grader.run.watchdog import cpu_seconds
 
 LONGEST_LINE = 2_000  # [characters] kept of one line
 MOST_LINES = 20_000  # kept per run
@@ -31,9 +34,11 @@ MOST_LINES = 20_000  # kept per run
 LAST_BYTES = 64 << 10
 MOST_READ = 1 << 20  # [bytes] read from a pipe in one call, so that an endless writer does not stop the grader
 MOST_OUTPUT = 64 << 20  # [bytes] of output; more ends the submission
+LOOK_AGAIN = 0.1  # [s] between two looks at the clock while the end is awaited
 SOCKET = "participants"  # file name
 MOST_PARTICIPANTS = 100  # processes that are followed
 SHOWN_FOLDER = b"/submission"  # name of the submission's folder in its log
+MOST_IN_VAIN = 30  # processes that are waited for and never take part
 GRACE = 1.5  # [s] between SIGINT, SIGTERM and SIGKILL
 AGENT = Path(__file__).parents[1] / "agent"  # runs in the submission's processes; has the same path in the sandbox
 
@@ -70,6 +75,7 @@ class SubmissionProcesses:
         }
         self.asked = asked or _unasked
         self._children_before = _children()
+        self._apart = frozenset(each.pid for each in self._children_before)
         self.folder = shown
         self._process = sandbox.start(list(command), variables)
         self._selector = selectors.DefaultSelector()
@@ -81,7 +87,8 @@ class SubmissionProcesses:
             self._selector.register(pipe, selectors.EVENT_READ)
         self._selector.register(self._listener, selectors.EVENT_READ)
         self.participants: list[Participant] = []
-        self._tree = ProcessTree()
+        self.clock = FairClock(lambda: [os.getpid(), *self._members()])
+        self._tree = ProcessTree(self.clock.now)
         self._lines: list[str] = []
         self._line_count = 0
         self._last = b""  # end of what was written beyond the limit
@@ -129,8 +136,13 @@ class SubmissionProcesses:
 
     @property
     def starting(self) -> bool:
-        """Whether a process is about to become one that is followed."""
-        return not self.participants or self._tree.changing or any(p.starting for p in self.participants)
+        """Whether a process is about to become one that is followed. After `MOST_IN_VAIN` that never did, none is."""
+        if not self.participants:
+            return True
+        others = sum(_has_come_in_vain(each) for each in self.participants)
+        if others + self._tree.in_vain >= MOST_IN_VAIN:
+            return False
+        return self._tree.changing or any(p.starting for p in self.participants)
 
     @property
     def endpoints(self) -> tuple[Endpoint, ...]:
@@ -205,9 +217,7 @@ class SubmissionProcesses:
 
     def _reap(self) -> None:
         """Take the exit code of a process that has exited; end one that only closed its end of the socket."""
-        try:
-            self._process.wait(GRACE)
-        except subprocess.TimeoutExpired:
+        if not self._ends_within(GRACE):
             self.hid = True
             self.stop()
         for pipe in self._pipes:
@@ -238,23 +248,27 @@ class SubmissionProcesses:
         if self._process.poll() is None:
             for escalation in (signal.SIGINT, signal.SIGTERM):
                 self._process.signal(escalation)
-                try:
-                    self._process.wait(GRACE)
+                if self._ends_within(GRACE):
                     break
-                except subprocess.TimeoutExpired:
-                    continue
         self._process.kill()
         self.exit_code = self._process.wait()
         self._sweep()
 
+    def _ends_within(self, seconds: float) -> bool:
+        """Wait for the end of the first process; return whether it came in time."""
+        patience = Patience(self.clock, seconds)
+        while not patience.over():
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                self._process.wait(LOOK_AGAIN)
+                return True
+        return False
+
     def cpu_seconds(self) -> float:
         """Return the processor time [s] of all running processes, and of the ended ones they have waited for."""
-        total = 0.0
-        for process in _children() - self._children_before:
-            with contextlib.suppress(psutil.Error):
-                used = process.cpu_times()
-                total += used.user + used.system + used.children_user + used.children_system
-        return total
+        return sum(cpu_seconds(each, with_ended=True) for each in self._members())
+
+    def _members(self) -> list[int]:
+        return descendants(os.getpid(), self._apart)
 
     def _sweep(self) -> None:
         """Kill what has left the process group: as subreaper the grader inherits every orphan."""
@@ -288,6 +302,12 @@ def _listener(folder: Path) -> socket.socket:
     listener.listen(MOST_PARTICIPANTS)
     listener.setblocking(False)
     return listener
+
+
+def _has_come_in_vain(participant: Participant) -> bool:
+    """Return whether a process with rclpy has ended, or was waited for long enough, and never had a node that spins."""
+    joined = participant.progress is not None and participant.progress.endpoints
+    return participant.uses_ros and not joined and (participant.gone or not participant.follows)
 
 
 def _unasked(asking: Participant, message: dict[str, Any]) -> None: ...
