@@ -213,6 +213,8 @@ def make_report(
     notes: Sequence[str] = (),
 ) -> Report:
     """Put the scores of all trials, and what their recordings say about the runs, together."""
+    if any(each.recording.facts().get("lines_dropped") for each in results):
+        notes = [*notes, "The log was too long to be recorded as a whole; it was cut, and that costs no points."]
     return Report(
         exercise=exercise.name,
         title=exercise.title,

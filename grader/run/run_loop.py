@@ -122,7 +122,7 @@ class RunLoop:
             self._tick()
             self._watch()
         self.wall_seconds = time.monotonic() - self._started
-        more = self._last_look()
+        more = self._last_look() | {"stopped": self._processes.stopped}
         self._processes.stop()
         self._scene.finish()
         return self._facts(ready) | more

@@ -85,6 +85,14 @@ def cpu_seconds(pid: int, with_ended: bool = False) -> float:
     return sum(map(int, words[11 : 15 if with_ended else 13])) / _TICKS
 
 
+def is_stopped(pid: int) -> bool:
+    """Return whether a process was stopped by a signal."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_bytes().rpartition(b")")[2].split()[0] == b"T"
+    except OSError:
+        return False
+
+
 def _resident(pid: int) -> int:
     with contextlib.suppress(OSError):
         for line in Path(f"/proc/{pid}/status").read_text().splitlines():

@@ -26,14 +26,13 @@ from gz_course.grader.run.processes.process_tree import ProcessTree
 from gz_course.grader.run.processes.progress import Endpoint
 from gz_course.grader.run.sandbox import Sandbox
 from gz_course.grader.run.sandbox.resource_monitor import descendants
-from gz_course.grader.run.watchdog import cpu_seconds
+from gz_course.grader.run.watchdog import cpu_seconds, is_stopped
 
 LONGEST_LINE = 2_000  # [characters] kept of one line
 MOST_LINES = 20_000  # kept per run
 # kept of the rest if the submission ends by itself, because the reason stands there; lines in between are counted
 LAST_BYTES = 64 << 10
 MOST_READ = 1 << 20  # [bytes] read from a pipe in one call, so that an endless writer does not stop the grader
-MOST_OUTPUT = 64 << 20  # [bytes] of output; more ends the submission
 LOOK_AGAIN = 0.1  # [s] between two looks at the clock while the end is awaited
 SOCKET = "participants"  # file name
 MOST_PARTICIPANTS = 100  # processes that are followed
@@ -93,7 +92,6 @@ class SubmissionProcesses:
         self._line_count = 0
         self._last = b""  # end of what was written beyond the limit
         self._last_taken = 0  # lines
-        self._written = 0  # [bytes]
         self.exit_code: int | None = None
         self.hid = False  # whether it closed its end of the socket and lived on
 
@@ -104,8 +102,13 @@ class SubmissionProcesses:
 
     @property
     def limit(self) -> str | None:
-        """The limit for which it was ended (memory, processes, disk or output), or None."""
-        return "output" if self._written > MOST_OUTPUT else self._process.broken_limit
+        """The limit for which it was ended (memory, processes or disk), or None."""
+        return self._process.broken_limit
+
+    @property
+    def stopped(self) -> bool:
+        """Whether one of its processes was stopped (SIGSTOP) and not continued."""
+        return any(is_stopped(each) for each in self._members())
 
     @property
     def dropped_lines(self) -> int:
@@ -162,9 +165,6 @@ class SubmissionProcesses:
             except BlockingIOError:
                 return
             left -= len(data)
-            self._written += len(data)
-            if self._written > MOST_OUTPUT:
-                self._process.kill()
             if not data:
                 self._selector.unregister(fd)
                 rest = self._partial.pop(fd)
