@@ -2,7 +2,7 @@
 import json
 import os
 import socket
-import time
+import threading
 
 some = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
 some.connect(os.environ["COURSE_SOCKET"])
@@ -16,15 +16,17 @@ ENDPOINT = {"node": "/liar", "kind": "publisher", "topic": "/x", "type": "std_ms
 QOS = {"reliability": "RELIABLE", "durability": "VOLATILE", "matched": 0}
 say(hello={"pid": os.getpid(), "group": os.getpgid(0), "command": ["python", "liar"]})
 say(ros=True)
-released = 0
-report = {
-    "clock": None, "idle": True, "taken": {}, "published": {}, "delivered": {}, "holding": True, "flushes": 0,
-    "endpoints": [ENDPOINT | QOS],
-}
-say(**report, held=1, released=released)
-while True:
-    order = json.loads(some.recv(1 << 20) or b'{"end": 1}')
-    if "end" in order:
-        time.sleep(1000)
-    released += "release" in order
-    say(**report, held=1, released=released)
+report = {"clock": None, "idle": True, "taken": {}, "published": {}, "delivered": {}, "holding": True, "flushes": 0}
+report["endpoints"] = [ENDPOINT | QOS]
+say(**report, held=1, released=0)
+
+
+def obey():
+    released = 0
+    while True:
+        order = json.loads(some.recv(1 << 20) or b"{}")
+        released += "release" in order
+        say(**report, held=1, released=released)
+
+
+threading.Thread(target=obey, daemon=True).start()
