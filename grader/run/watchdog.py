@@ -16,7 +16,10 @@ from gz_course.grader.run.fair_clock import FairClock
 from gz_course.grader.run.sandbox.resource_monitor import descendants
 
 MOST_MEMORY = 2 << 30  # [bytes] in use by the grader's process
-CPU_SECONDS, CPU_FACTOR = 25.0, 8.0  # processor time of the grader's process [s], and more for each simulated second
+# Processor time of the grader's process [s], and more for each simulated second: ten times what honest runs take, and
+# where it simulates a world that was handed in.
+OWN_CPU_SECONDS, OWN_CPU_FACTOR = 15.0, 3.0
+CPU_SECONDS, CPU_FACTOR = 25.0, 8.0
 BOX_CPU_SECONDS, BOX_CPU_FACTOR = 45.0, 15.0  # the same for all processes of a submission together
 STILL_CPU_SECONDS = 45.0  # processor time of both together [s] while simulated time stands still
 LONGEST_WAIT = 60.0  # [s] in which nobody computes and simulated time stands still
@@ -51,12 +54,12 @@ class Look:
         if _resident(self._pid) > MOST_MEMORY:
             what = "Simulating your world" if handed_in else "What your program sent"
             return "memory", f"{what} took more than {MOST_MEMORY >> 30} GiB of memory {when}."
+        if not handed_in and own_spent > OWN_CPU_SECONDS + OWN_CPU_FACTOR * self._duration:
+            return "timeout", (
+                f"Dealing with what your program sent took {own_spent:.0f} s of processor time {when}; it was ended: "
+                "it sends far more than is needed."
+            )
         if own_spent > CPU_SECONDS + CPU_FACTOR * self._duration:
-            if not handed_in:
-                return "timeout", (
-                    f"Dealing with what your program sent took {own_spent:.0f} s of processor time {when}; it was "
-                    "ended: it sends far more than is needed."
-                )
             return "timeout", (
                 f"Simulating your world took {own_spent:.0f} s of processor time and had come no further than "
                 f"{sim_time_ns / 1e9:.2f} s of simulated time: it has too many bodies, contacts or rays."

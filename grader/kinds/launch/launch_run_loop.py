@@ -12,6 +12,7 @@ import time
 from pathlib import Path
 from typing import Any
 
+from gz_course.grader.errors import InfrastructureError
 from gz_course.grader.kinds.kind import RunPlan
 from gz_course.grader.kinds.launch.simulated_programs import SimulatedPrograms
 from gz_course.grader.record.recorder import Recorder
@@ -32,7 +33,8 @@ MASKED = (  # what differs between equal runs
     (re.compile(r"launch_params_\w+"), "launch_params_..."),
 )
 LABEL = re.compile(r"^(?:\[[A-Z]+\] )?\[(.+?)\]")
-ESCALATED = re.compile(r"\[ERROR\] \[(.+?)\]: process\[.*escalating to 'SIGTERM'")
+ESCALATED = re.compile(r"\[ERROR\] \[(.+?)\]: process\[.* '([\d.]+)' seconds after .*escalating to 'SIGTERM'")
+FAIR_SHARE = 0.7  # of the time a program was given to end: if it had less, others have used the processor
 FAILED = re.compile(r"^\[ERROR\] \[launch\]: (?:Caught exception in launch \(see debug for traceback\): )?(.*)")
 
 
@@ -46,7 +48,7 @@ class LaunchRunLoop(RunLoop):
         )
         self._processes.asked = self._programs.asked
         self._lines: list[str] = []
-        self._interrupted = False
+        self._interrupted_at: float | None = None  # by the clock of the processes
 
     def _paced(self, pace: str) -> RealTime:
         if pace == "lockstep":
@@ -133,7 +135,7 @@ class LaunchRunLoop(RunLoop):
     def _end(self) -> dict[str, Any]:
         """Interrupt the launch as Ctrl-C does, and look at what becomes of it."""
         was_running = self._processes.running
-        self._interrupted = True
+        self._interrupted_at = self._processes.clock.now()
         seen = len(self._lines)
         for each in self._processes.participants:
             each.tell({"free": True})
@@ -144,6 +146,7 @@ class LaunchRunLoop(RunLoop):
             self._processes.wait(0.02)
             self._pace.everything_arrived()
             self._ros.pump()
+            self._collect()
         self._collect()
         ended_itself = not self._processes.running
         left = [s.argument for s in self._programs.simulators if s.running and not s.stopped]
@@ -160,6 +163,14 @@ class LaunchRunLoop(RunLoop):
         }
 
     def _take(self, line: str) -> None:
+        """Keep a line. Raises InfrastructureError if the launch had no time to end on a busy machine."""
+        if self._interrupted_at is not None and (match := ESCALATED.match(line)):
+            had = self._processes.clock.now() - self._interrupted_at
+            if had < FAIR_SHARE * float(match.group(2)):
+                raise InfrastructureError(
+                    f"this machine is too busy: {match.group(1)} could use {had:.1f} of the {match.group(2)} s it is "
+                    "given after Ctrl-C; grade again"
+                )
         for pattern, text in MASKED:
             line = pattern.sub(text, line)
         self._lines.append(line)
