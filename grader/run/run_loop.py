@@ -36,7 +36,8 @@ from gz_course.sim.gz.transport import Node, NodeOptions, Scope
 
 MOST_MESSAGES = 20_000  # of one topic that are recorded; the rest is counted
 # A run may take 2 x its simulated time + 10 s: of processor time in the student's processes, and of their clock beside
-# what the grader itself computes. A machine so busy that it takes 20 times as long by the wall clock is given up.
+# what the grader itself computes. A machine that does not give it so much processor time in 20 times as much wall time
+# is given up.
 TIME_FACTOR, TIME_GRACE = 2.0, 10.0
 MACHINES_FACTOR = 20.0
 LOOK_AGAIN = 1.0  # [s] of wall time between two looks at that
@@ -143,16 +144,17 @@ class RunLoop:
         if (now := time.monotonic()) > self._look_at:
             own = time.process_time() - self._own_before
             self._out_of_time |= self._is_slow(self._processes.clock.now() - self._clock_before - own)
-            self._give_up_after(now - self._started)
+            self._give_up_after(now - self._started, own)
             self._look_at = now + LOOK_AGAIN
 
     def _is_slow(self, waited: float) -> bool:
         """Return whether the processes take too long: `waited` [s] is for how long they were waited for."""
         return waited > self._time_limit or self._processes.cpu_seconds() > self._time_limit
 
-    def _give_up_after(self, wall: float) -> None:
-        """Raise InfrastructureError if a run that is not slow itself has taken so much wall time [s]."""
-        if not self._out_of_time and wall > MACHINES_FACTOR * self._time_limit:
+    def _give_up_after(self, wall: float, own: float) -> None:
+        """Raise InfrastructureError if a run got hardly any processor time; `own` [s] is the grader's share."""
+        spent = own + self._processes.cpu_seconds()
+        if wall > MACHINES_FACTOR * self._time_limit and spent < self._time_limit:
             raise InfrastructureError(
                 f"this machine is too busy: {self._now_ns / 1e9:.2f} s of simulated time took {wall:.0f} s; grade again"
             )

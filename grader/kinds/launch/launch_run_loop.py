@@ -83,7 +83,7 @@ class LaunchRunLoop(RunLoop):
             self._ros.pump()
             if self._programs.loading:
                 patience = Patience(self._processes.clock, SIMULATOR_PATIENCE)
-            elif self._processes.starting:
+            elif self._pace.somebody_starts:
                 self._pace.await_ready()
                 patience = Patience(self._processes.clock, SIMULATOR_PATIENCE)
         if self._processes.running:

@@ -66,7 +66,7 @@ class LockStep(RealTime):
 
     def welcome(self) -> None:
         """Hold simulated time while a process that has joined starts up."""
-        if self.processes.running and self.processes.starting and not self._free:
+        if self.processes.running and self.somebody_starts and not self._free:
             RealTime.await_ready(self)
         if not self._free and self._look_around():
             self.await_matches()

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 PATIENCE = 3.0  # [s] a node may need for one message before it is paced
 MATCHING = 5.0  # [s] for DDS to match the endpoints of a new node; a lost announcement costs 3 s
+MOST_HELD = 45.0  # [s] in which simulated time is held for processes that start up, all of a run together
 LOOK_ROUND = 0.002  # [s] to wait for the student's processes between two looks at ROS
 
 
@@ -37,27 +38,37 @@ class RealTime:
         self._due: float | None = None
         self._delayed = 0.0  # [s] by which the clock of the processes had stood still when the last tick was paced
         self._starting: dict[Participant, Patience] = {}
+        self._held = 0.0  # [s] for processes that start up
         self._lost: Counter[str] = Counter()  # published by the student, never arrived
 
     def await_ready(self) -> bool:
         """Wait until every node spins and DDS has matched its endpoints; False if none does within `START_UP`."""
-        patience = Patience(self.processes.clock, START_UP)
+        clock, began = self.processes.clock, self.processes.clock.now()
+        patience, whole = Patience(clock, START_UP), Patience(clock, MOST_HELD - self._held)
         while self.processes.running and (not self.processes.participants or self.processes.starting):
             for each in self.processes.participants:
                 if each.starting:
                     each.tell({"ping": True})  # reveals that a process has closed its socket
-                    its_own = self._starting.setdefault(each, Patience(self.processes.clock, START_UP))
+                    its_own = self._starting.setdefault(each, Patience(clock, START_UP))
                     each.follows = not its_own.over()
             if not self.processes.participants and patience.over():
                 return False
+            if whole.over():
+                break
             self.processes.wait(LOOK_ROUND * 10)
             self.ros.pump()
             self.everything_arrived()
+        self._held += clock.now() - began
         self.await_matches()
-        patience = Patience(self.processes.clock, PATIENCE)
+        patience = Patience(clock, PATIENCE)
         while self.processes.running and not self.everything_arrived() and not patience.over():
             self.processes.wait(LOOK_ROUND)  # receive everything sent before simulated time begins
         return self.processes.running and bool(self.processes.endpoints)
+
+    @property
+    def somebody_starts(self) -> bool:
+        """Whether a process starts up for which simulated time is still held."""
+        return self.processes.starting and self._held < MOST_HELD
 
     def welcome(self) -> None:
         """Let a process that has joined take part; in real time it is not waited for."""

@@ -33,9 +33,13 @@ def test_who_computes_or_is_waited_for_is_slow(loop):
 
 def test_who_waits_for_a_busy_machine_is_not(loop):
     assert not loop(cpu=LIMIT - 0.1)._is_slow(LIMIT - 0.1)
-    loop()._give_up_after(0.9 * MACHINES_FACTOR * LIMIT)
+    loop()._give_up_after(0.9 * MACHINES_FACTOR * LIMIT, 0.0)
 
 
 def test_a_machine_that_gets_nowhere_is_our_fault(loop):
     with pytest.raises(InfrastructureError, match=r"too busy: 1\.50 s of simulated time took \d+ s; grade again"):
-        loop()._give_up_after(MACHINES_FACTOR * LIMIT + 1)
+        loop(cpu=0.5 * LIMIT)._give_up_after(MACHINES_FACTOR * LIMIT + 1, 0.4 * LIMIT)
+
+
+def test_who_had_processor_time_enough_is_left_to_the_watchdog(loop):
+    loop(cpu=0.6 * LIMIT)._give_up_after(MACHINES_FACTOR * LIMIT + 1, 0.6 * LIMIT)
