@@ -12,16 +12,12 @@ from pathlib import Path
 
 import pytest
 
-from gz_course.grader.run.processes.process_tree import START_UP
-from gz_course.grader.run.run_loop import WALL_FACTOR, WALL_GRACE
 from gz_course.grader.run.sandbox.probe import try_level
 
 from .conftest import ORDINARY
 
 CASES = Path(__file__).parent / "cases"
 NAMES = sorted(path.parent.name for path in CASES.glob("*/expected.toml"))
-DURATION = 8.0  # [s] of the exercise
-LIMIT = START_UP + WALL_FACTOR * DURATION + WALL_GRACE + 2.0
 ROOT_ONLY = pytest.mark.skipif(os.getuid() != 0, reason="only root can become an ordinary user")
 KINDS = [
     pytest.param(("A", None), id="A"),
@@ -50,7 +46,6 @@ def test_an_attack_comes_to_nothing(case, worker, solution):
     assert report["sandbox"] == worker.level
     assert all(word in report["diagnosis"] for word in want.get("words", [])), report["diagnosis"]
     assert sum(line.startswith("held") for line in log) >= want.get("tried", 0), log
-    assert told["seconds"] <= LIMIT
     assert told["children"] == []
 
     honest = worker.grade({"teleop_node.py": solution})
