@@ -11,7 +11,6 @@ from typing import Any
 from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import Exercise, find_exercise
 from gz_course.grader.exercise.trial import Trial, numbered
-from gz_course.grader.kinds.kind import find_kind
 from gz_course.grader.printable import shown
 from gz_course.grader.process.output_lock import sole_writer
 from gz_course.grader.record.reading import Recording
@@ -63,9 +62,8 @@ def grade(
     submission = take_in(exercise, submission_path)
     asked = numbered(trials or exercise.trials, seed)
     with sole_writer(out, exercise.name):
-        supervised = find_kind(exercise.kind).brings_world and submission.fault is None
         runs = [_TrialRun(exercise, submission, trial, pace, out, sandbox) for trial in asked]
-        results = _run_supervised(runs) if supervised else [each(Heartbeat()) for each in runs]
+        results = _run_supervised(runs) if submission.fault is None else [each(Heartbeat()) for each in runs]
     facts = [each.host for each in results if each.host is not None]
     host = HostFacts(
         "; ".join(dict.fromkeys(each.sandbox for each in facts)),
@@ -215,6 +213,8 @@ def make_report(
     notes: Sequence[str] = (),
 ) -> Report:
     """Put the scores of all trials, and what their recordings say about the runs, together."""
+    if any(each.recording.facts().get("lines_dropped") for each in results):
+        notes = [*notes, "The log was too long to be recorded as a whole; it was cut, and that costs no points."]
     return Report(
         exercise=exercise.name,
         title=exercise.title,

@@ -50,8 +50,7 @@ class Kind:
     file can never run, else None. `plan(exercise, submission)` raises ManifestError if the exercise's own files are
     wrong. `command(program, trial)` starts the program in the sandbox with the variables `environment(pace)`.
     `run_loop()` returns the class that simulates the run, `diagnosis()` the explanations of its recording; they import
-    what they need when called (the former rclpy and MuJoCo). `brings_world`: the submission may bring worlds and
-    models, which are simulated in a supervised child process. `brings_bridge`: the submission, not the exercise,
+    what they need when called (the former rclpy and MuJoCo). `brings_bridge`: the submission, not the exercise,
     connects simulator and ROS.
     """
 
@@ -63,7 +62,6 @@ class Kind:
     diagnosis: Callable[[], Diagnosis]
     environment: Callable[[str], dict[str, str]] = no_variables
     brings_bridge: bool = False
-    brings_world: bool = False
 
 
 def kind_names() -> list[str]:

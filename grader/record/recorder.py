@@ -2,7 +2,8 @@
 
 Rows are collected and sent in blocks at fixed simulated times; everything else is flushed at once. No flush depends on
 the wall clock: the same run gives the same chunks in the same order, and `rerun rrd compare` finds two recordings of it
-equal. A crash loses at most one block. The file is called `NAME.rrd.part` until `close()`.
+equal. Their bytes differ, because the SDK numbers recordings, chunks and rows by the time of the day. A crash loses at
+most one block. The file is called `NAME.rrd.part` until `close()`.
 
 Entities (checks in a manifest name them without the leading slash):
 

@@ -18,7 +18,7 @@ FIRST, LAST = 40, 80  # lines kept from the beginning and from the end
 class NodeLog:
     """Printable lines as (simulated time [s], level, text); `left_out` lines are missing between the two parts.
 
-    `dropped` further lines came too fast to be recorded. `who` names the writer in words.
+    `dropped` further lines of a very long log were not recorded. `who` names the writer in words.
     """
 
     first: tuple[tuple[float, str, str], ...]
@@ -34,7 +34,7 @@ class NodeLog:
             lines.append(f"({self.left_out} lines are left out here)")
         lines += [_told(line) for line in self.last]
         if self.dropped:
-            lines.append(f"({self.dropped} more lines came too fast to be recorded)")
+            lines.append(f"({self.dropped} more lines are not recorded: the log is too long)")
         return "\n".join(lines)
 
 

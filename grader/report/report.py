@@ -21,7 +21,6 @@ OUTCOMES = {
     "student_error": "The submission could not run, or ended with an error.",
     "timeout": "The submission never became ready, or delayed the run too long.",
     "memory": "The submission ran out of memory.",
-    "output": "The submission printed too much, and was ended.",
     "protocol": "The submission closed its connection to the grader.",
     "tamper": "The submission published what only the simulator may; nothing counts.",
     "infra": "The machine or the grader failed; this is no verdict on the program.",

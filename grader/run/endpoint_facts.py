@@ -6,15 +6,15 @@ reported (a node that nobody spins, a process without the agent) is a fact as we
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterable
 from dataclasses import asdict, replace
 from typing import Any
 
 from gz_course.grader.run.discovery import UNKNOWN, Discovery
+from gz_course.grader.run.fair_clock import FairClock, Patience
 from gz_course.grader.run.processes.progress import Endpoint
 
-NAMES = 5.0  # [s] of wall time for reported endpoints, and for the names of nodes, to be discovered
+NAMES = 5.0  # [s] for reported endpoints, and for the names of nodes, to be discovered
 MOST = 2_000  # endpoints that are kept of what was reported
 
 Key = tuple[str, str, str, str]
@@ -38,15 +38,15 @@ class EndpointFacts:
         if self._reported.keys() - self._seen.keys():
             self._look()
 
-    def close(self, present: Iterable[Endpoint], wait: Callable[[], object]) -> None:
+    def close(self, present: Iterable[Endpoint], clock: FairClock, wait: Callable[[], object]) -> None:
         """Take the endpoints that exist at the end. Of those reported `present`, only what DDS has seen is kept.
 
         `wait()` is called between two looks.
         """
         expected = {_key(each) for each in present}
-        deadline = time.monotonic() + NAMES
+        patience = Patience(clock, NAMES)
         while self._look() or expected - self._seen.keys():
-            if time.monotonic() > deadline:
+            if patience.over():
                 break
             wait()
         self._refused = expected - self._seen.keys()

@@ -22,6 +22,7 @@ from gz_course.grader.record.scene import Scene
 from gz_course.grader.run.compatibility import check_compatibility
 from gz_course.grader.run.console_log import ConsoleLog
 from gz_course.grader.run.endpoint_facts import EndpointFacts
+from gz_course.grader.run.fair_clock import Patience
 from gz_course.grader.run.grader_endpoints import GraderEndpoints
 from gz_course.grader.run.pace.lockstep import LockStep
 from gz_course.grader.run.pace.real_time import LOOK_ROUND, MATCHING, PATIENCE, RealTime
@@ -36,11 +37,12 @@ from gz_course.sim.gz.sim.world import World
 from gz_course.sim.gz.transport import Node, NodeOptions, Scope
 
 MOST_MESSAGES = 20_000  # of one topic that are recorded; the rest is counted
-# A run may take 2 x its simulated time + 10 s of wall time. Then it is ended if the student's processes took half of
-# that time; else it is the machine that is busy, and the run may take 20 times as long before it is given up.
-WALL_FACTOR, WALL_GRACE = 2.0, 10.0
-STUDENTS_SHARE, MACHINES_FACTOR = 0.5, 20.0
-LOOK_AGAIN = 1.0  # [s] between two looks at whose time it is
+# A run may take 2 x its simulated time + 10 s: of processor time in the student's processes, and of their clock beside
+# what the grader itself computes. A machine that does not give it so much processor time in 20 times as much wall time
+# is given up.
+TIME_FACTOR, TIME_GRACE = 2.0, 10.0
+MACHINES_FACTOR = 20.0
+LOOK_AGAIN = 1.0  # [s] of wall time between two looks at that
 LEVELS = {"[WARN]": "WARN", "[ERROR]": "ERROR", "[FATAL]": "CRITICAL", "[DEBUG]": "DEBUG"}
 
 
@@ -83,7 +85,6 @@ class RunLoop:
         self._exit_at: float | None = None
         self._unstable: str | None = None
         self._out_of_time = False
-        self._look_at = 0.0  # of the wall clock [s]: when to ask whose fault a slow run is
         self._tampered = False  # it publishes what only the simulator may: nothing that follows would count
         self._suspected: set[str] = set()  # topics of the simulator on which it says that it publishes
         self._endpoints = EndpointFacts(self._ros.discovery, lambda topic: self._ros.reliable(topic))
@@ -124,40 +125,48 @@ class RunLoop:
         self._scene = Scene(recorder, self._world)
         ready = self._pace.await_ready()
         self._collect()
-        started = time.monotonic()
         end_ns = round(self._exercise.duration * 1e9)
-        self._look_at = started + self._wall_limit
+        self._begin_to_watch()
         while self._now_ns < end_ns and not (self._unstable or self._out_of_time or self._tampered):
             self._tick()
-            self._watch_wall(started)
-        self.wall_seconds = time.monotonic() - started
+            self._watch()
+        self.wall_seconds = time.monotonic() - self._started
         self._look_at_graph()
-        more = self._last_look()
+        more = self._last_look() | {"stopped": self._processes.stopped}
         self._processes.stop()
         self._scene.finish()
         return self._facts(ready) | more
 
     @property
-    def _wall_limit(self) -> float:
-        """Wall time [s] that a run may take on a machine that is not busy."""
-        return WALL_FACTOR * self._exercise.duration + WALL_GRACE
+    def _time_limit(self) -> float:
+        """Time [s] that a run may take."""
+        return TIME_FACTOR * self._exercise.duration + TIME_GRACE
 
-    def _watch_wall(self, started: float) -> None:
-        """End a run that takes too long because of the student; look at most every `LOOK_AGAIN` seconds."""
+    def _begin_to_watch(self) -> None:
+        self._started = time.monotonic()
+        self._look_at = self._started + LOOK_AGAIN
+        self._own_before, self._clock_before = time.process_time(), self._processes.clock.now()
+
+    def _watch(self) -> None:
+        """End a run that sends without end or takes too long; look at the time at most every `LOOK_AGAIN` seconds."""
+        self._out_of_time |= self._pace.flooded
         if (now := time.monotonic()) > self._look_at:
-            self._out_of_time = self._student_is_slow(now - started)
+            own = time.process_time() - self._own_before
+            self._out_of_time |= self._is_slow(self._processes.clock.now() - self._clock_before - own)
+            self._give_up_after(now - self._started, own)
             self._look_at = now + LOOK_AGAIN
 
-    def _student_is_slow(self, wall: float) -> bool:
-        """Return whether the processes are why a run takes long. Raises InfrastructureError if the machine is."""
-        share = STUDENTS_SHARE * self._wall_limit
-        if self._pace.held_seconds > share or self._processes.cpu_seconds() > share:
-            return True
-        if wall > MACHINES_FACTOR * self._wall_limit:
+    def _is_slow(self, waited: float) -> bool:
+        """Return whether the processes take too long: `waited` [s] is for how long they were waited for."""
+        return waited > self._time_limit or self._processes.cpu_seconds() > self._time_limit
+
+    def _give_up_after(self, wall: float, own: float) -> None:
+        """Raise InfrastructureError if a run got hardly any processor time; `own` [s] is the grader's share."""
+        spent = own + self._processes.cpu_seconds()
+        if wall > MACHINES_FACTOR * self._time_limit and spent < self._time_limit:
             raise InfrastructureError(
                 f"this machine is too busy: {self._now_ns / 1e9:.2f} s of simulated time took {wall:.0f} s; grade again"
             )
-        return False
 
     def _tick(self) -> None:
         """Live through one tick: simulated time goes on only when everybody has dealt with all that it brought."""
@@ -225,19 +234,19 @@ class RunLoop:
 
     def _is_published(self, topic: str) -> bool:
         """Wait until DDS shows what a process reports, that others publish on a topic; False if it does not."""
-        deadline = time.monotonic() + MATCHING
-        while not (published := self._ros.discovery.publishers_seen(topic)) and time.monotonic() < deadline:
+        patience = Patience(self._processes.clock, MATCHING)
+        while not (published := self._ros.discovery.publishers_seen(topic)) and not patience.over():
             if not self._processes.wait(LOOK_ROUND):
                 self._ros.pump()
         return published
 
     def _look_at_graph(self) -> None:
         """Ask DDS, before the processes are ended, what they are in the ROS graph."""
-        deadline = time.monotonic() + PATIENCE
-        while self._processes.running and not self._pace.everything_arrived() and time.monotonic() < deadline:
+        patience = Patience(self._processes.clock, PATIENCE)
+        while self._processes.running and not self._pace.everything_arrived() and not patience.over():
             self._processes.wait(LOOK_ROUND)
         self._collect()
-        self._endpoints.close(self._processes.endpoints, self._ros.look_again)
+        self._endpoints.close(self._processes.endpoints, self._processes.clock, self._ros.look_again)
         discovery, not_logged = self._ros.discovery, self._console.not_logged()
         self._graph_facts = {
             "endpoints": self._endpoints.as_facts(),
@@ -282,5 +291,6 @@ class RunLoop:
             "limit": self._processes.limit,
             "unstable": self._unstable,
             "out_of_time": self._out_of_time and self._now_ns < round(self._exercise.duration * 1e9),
+            "flooded": self._pace.flooded,
             "out_of_step": bool(self._pace.paced_ticks),
         }

@@ -1,10 +1,10 @@
 """A grading in a process of its own, and the watchdog beside it, in the process that waits.
 
-`Supervised` runs jobs one after the other in a child: there the simulator steps a world that a submission handed in.
-The parent has no world, no ROS and no threads. It looks every `PERIOD` at the processor time of the child and of the
-box's processes, at memory and at simulated time, none of which depends on how busy the machine is otherwise; whoever
-takes too much is ended, and `Broken` says what was too much. An interrupt ends the child within `GRACE`, wherever it
-is. Whatever the child leaves (processes, temporary folders) is removed here.
+`Supervised` runs jobs one after the other in a child: there the simulator steps its world, and the grader deals with
+whatever a submission sends. The parent has no world, no ROS and no threads. It looks every `PERIOD` (`watchdog.py`) at
+the processor time of the child and of the box's processes, at memory and at simulated time, none of which depends on
+how busy the machine is otherwise; whoever takes too much is ended, and `Broken` says what was too much. An interrupt
+ends the child within `GRACE`, wherever it is. Whatever the child leaves (processes, temporary folders) is removed here.
 """
 
 from __future__ import annotations
@@ -31,18 +31,14 @@ from typing import Any, NoReturn
 from gz_course.grader.errors import InfrastructureError
 from gz_course.grader.process.temporary_folder import sweep
 from gz_course.grader.run.sandbox.resource_monitor import descendants
+from gz_course.grader.run.watchdog import Look
 
 PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER = 1, 36
-PERIOD = 0.1  # [s] between two looks
+PERIOD = 0.2  # [s] between two looks
 GRACE = 1.0  # [s] after an interrupt for the child to clean up
-MOST_MEMORY = 2 << 30  # [bytes] in use by the simulator's process
 MOST_ADDRESSES = 12 << 30  # [bytes] of its address space: one request for more fails at once
 LARGEST_FILE = 1 << 30  # [bytes] it may write
-CPU_SECONDS, CPU_FACTOR = 25.0, 8.0  # processor time of the simulator [s], and more for each simulated second
-BOX_CPU_SECONDS, BOX_CPU_FACTOR = 45.0, 15.0  # the same for all processes of a submission together
-LONGEST_WAIT = 60.0  # [s] in which nobody computes and simulated time stands still
 WITH_THREADS = {"rerun", "rclpy"}  # modules that start threads and do not survive a fork
-_TICKS = os.sysconf("SC_CLK_TCK")
 _STATE = struct.Struct("qqq")  # job, simulated time [ns], whether a world that was handed in is in use
 
 
@@ -135,7 +131,7 @@ class Supervised:
     def _follow(self, pid: int, process: int, reading: int) -> tuple[list[Any], Broken | None]:
         poll = select.poll()
         poll.register(reading, select.POLLIN)
-        look = _Look(pid, self._before, self._duration)
+        look = Look(pid, self._before, self._duration)
         data = bytearray()
         while True:
             if poll.poll(PERIOD * 1000):
@@ -144,14 +140,14 @@ class Supervised:
                     break
                 data += part
             state = self._heartbeat.read()
-            if found := look.at(state[0], state[1]):
+            if found := look.at(state[0], state[1], bool(state[2])):
                 signal.pidfd_send_signal(process, signal.SIGKILL)
                 return _results(data)[0], Broken(state[0], *found)
         results, last = _results(data)
         if last == "end":
             return results, None
         if last == "memory":
-            return results, Broken(len(results), "memory", "Simulating what was handed in took too much memory.")
+            return results, Broken(len(results), "memory", "Dealing with what was handed in took too much memory.")
         return results, self._why(os.waitstatus_to_exitcode(self._wait(pid)), len(results))
 
     def _why(self, code: int, job: int) -> Broken:
@@ -174,7 +170,7 @@ class Supervised:
             for each in left:
                 with contextlib.suppress(OSError):
                     os.kill(each, signal.SIGKILL)
-            time.sleep(PERIOD / 10)  # until they are gone: they are not ours to wait for
+            time.sleep(PERIOD / 20)  # until they are gone: they are not ours to wait for
         for each in _zombies(self._before):
             with contextlib.suppress(ChildProcessError):
                 os.waitpid(each, os.WNOHANG)
@@ -185,50 +181,6 @@ class Supervised:
         if self._status is None:
             self._status = os.waitpid(pid, 0)[1]
         return self._status
-
-
-class _Look:
-    """What the watchdog sees of a child: `at` returns outcome and sentence when something is too much."""
-
-    def __init__(self, pid: int, apart: set[int], duration: float) -> None:
-        self._pid, self._apart, self._duration = pid, frozenset(apart), duration
-        self._job = self._sim_time = -1
-        self._now = time.monotonic()
-        self._waited = 0.0  # [s]
-        self._own = self._box = 0.0  # processor time [s] when the job began
-
-    def at(self, job: int, sim_time_ns: int) -> tuple[str, str] | None:
-        own, running = _cpu(self._pid)
-        box = 0.0
-        for each in descendants(self._pid, self._apart):
-            used, runs = _cpu(each, with_ended=True)
-            box, running = box + used, running or runs
-        now = time.monotonic()
-        if job != self._job:
-            self._job, self._own, self._box, self._sim_time = job, own, box, -1
-        if sim_time_ns != self._sim_time or running:
-            self._waited = 0.0 if sim_time_ns != self._sim_time else self._waited
-        else:
-            self._waited += min(now - self._now, 2 * PERIOD)
-        self._sim_time, self._now = sim_time_ns, now
-        when = f"at {sim_time_ns / 1e9:.2f} s of simulated time"
-        if _resident(self._pid) > MOST_MEMORY:
-            return "memory", f"Simulating your world took more than {MOST_MEMORY >> 30} GiB of memory {when}."
-        if own - self._own > CPU_SECONDS + CPU_FACTOR * self._duration:
-            spent = own - self._own
-            return "timeout", (
-                f"Simulating your world took {spent:.0f} s of processor time and had come no further than "
-                f"{sim_time_ns / 1e9:.2f} s of simulated time: it has too many bodies, contacts or rays."
-            )
-        if box - self._box > BOX_CPU_SECONDS + BOX_CPU_FACTOR * self._duration:
-            spent = box - self._box
-            return "timeout", f"What you started had used {spent:.0f} s of processor time {when}, and was ended."
-        if self._waited > LONGEST_WAIT:
-            return "timeout", (
-                f"Nothing was computed and simulated time stood still for {LONGEST_WAIT:.0f} s {when}: "
-                "something you started waits for what never comes."
-            )
-        return None
 
 
 def _start(jobs: list[Job], memory: int, writing: int) -> int:
@@ -333,23 +285,6 @@ def _gone(process: int, patience: float) -> bool:
 def _zombies(apart: set[int]) -> list[int]:
     own = Path(f"/proc/self/task/{os.getpid()}/children").read_text().split()
     return [int(pid) for pid in own if int(pid) not in apart]
-
-
-def _cpu(pid: int, with_ended: bool = False) -> tuple[float, bool]:
-    """Return the processor time [s] a process has used, on wish with that of its ended children; whether it runs."""
-    try:
-        words = Path(f"/proc/{pid}/stat").read_bytes().rpartition(b")")[2].split()
-    except OSError:
-        return 0.0, False
-    return sum(map(int, words[11 : 15 if with_ended else 13])) / _TICKS, words[0] in (b"R", b"D")
-
-
-def _resident(pid: int) -> int:
-    with contextlib.suppress(OSError):
-        for line in Path(f"/proc/{pid}/status").read_text().splitlines():
-            if line.startswith("RssAnon:"):
-                return int(line.split()[1]) << 10
-    return 0
 
 
 def _how(code: int) -> str:

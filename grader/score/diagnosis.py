@@ -25,7 +25,6 @@ LIMITS = {
     "memory": "and all it started used more than 2 GiB of memory together",
     "processes": "started more than 128 processes",
     "disk": "wrote more files, or larger ones, than its folder may hold (64 MiB)",
-    "output": "printed more than 64 MiB",
 }
 
 # Topics of every ROS 2 node, which say nothing about the exercise.
@@ -54,8 +53,8 @@ def outcome_of(recording: Recording) -> str:
     """Return the class of a run.
 
     `tamper`: it published what only the simulator may; `protocol`: it closed the descriptors it was given; `memory`: it
-    ran out of memory; `output`: it wrote too much; `student_error`: it could not run, or crashed; `timeout`: it never
-    spun, or delayed the run too long; `graded`: none of these.
+    ran out of memory; `student_error`: it could not run, or crashed; `timeout`: it never spun, or delayed the run too
+    long; `graded`: none of these.
     """
     facts = recording.facts()
     if _reserved(facts):
@@ -65,7 +64,7 @@ def outcome_of(recording: Recording) -> str:
     if facts.get("hid"):
         return "protocol"
     if limit := facts.get("limit"):
-        return limit if limit in ("memory", "output") else "student_error"
+        return "memory" if limit == "memory" else "student_error"
     if facts.get("exit_code") not in (None, 0):
         memory = any(line.text.startswith("MemoryError") for line in recording.lines("log/student"))
         return "memory" if memory else "student_error"
@@ -160,6 +159,8 @@ def never_spun(recording: Recording, facts: dict[str, Any]) -> str:
     """Report that the node was never spun."""
     if facts.get("ready", True):
         return ""
+    if facts.get("stopped"):
+        return "Your node's process was stopped by a signal (such as SIGSTOP) and never went on: nothing runs in it."
     return "Your node's process ran but never spun: no timer and no callback can run before rclpy.spin(node) is called."
 
 
@@ -280,6 +281,12 @@ def out_of_time(recording: Recording, facts: dict[str, Any]) -> str:
     """Report that the node delayed the simulation too long, and when it was ended."""
     if not facts.get("out_of_time"):
         return ""
+    if facts.get("flooded"):
+        return (
+            f"Your nodes sent more than 10000 messages at {facts['sim_seconds']:.2f} s of simulated time, which stands "
+            "still until they come to rest; the run was ended. Do two callbacks answer each other at once? Publish "
+            "from a timer, or only when something has changed."
+        )
     return (
         f"Your node held the simulation up so long that the run was ended at {facts['sim_seconds']:.2f} s of simulated "
         "time: its callbacks take far longer than the time between them."

@@ -56,6 +56,8 @@ def score(recording: Recording, exercise: Exercise) -> Score:
     if outcome == "tamper":
         checks = tuple(CheckResult(check.spec, replace(check.finding, **SPOILT)) for check in checks)
     failed = [check for check in checks if not check.finding.passed]
+    if outcome == "timeout" and not failed:
+        outcome = "graded"  # all that was asked for was seen, whatever could not be followed beside it
     diagnosis = diagnose(recording, explained.looks)
     if failed and not diagnosis:
         worst = max(failed, key=lambda check: (not check.finding.gated, check.spec.points))

@@ -15,8 +15,6 @@ import tomllib
 
 import pytest
 
-from gz_course.grader.run.processes.process_tree import START_UP
-from gz_course.grader.run.run_loop import WALL_FACTOR, WALL_GRACE
 from gz_course.grader.run.sandbox.probe import try_level
 
 from .conftest import ORDINARY, ROOT, WorkerGoneError
@@ -24,8 +22,6 @@ from .conftest import ORDINARY, ROOT, WorkerGoneError
 CASES = ROOT / "tests/hostile/cases"
 NAMES = sorted(path.parent.name for path in CASES.glob("*/expected.toml"))
 QUICK = {"reads_what_is_not_for_it", "talks_nonsense_to_the_grader"}  # the others belong to `make verify`
-DURATION = 8.0  # [s] of the exercise
-LIMIT = START_UP + WALL_FACTOR * DURATION + WALL_GRACE + 2.0
 ROOT_ONLY = pytest.mark.skipif(os.getuid() != 0, reason="only root can become an ordinary user")
 KINDS = [
     pytest.param(("A", None), id="A"),
@@ -95,7 +91,5 @@ def faults_of(told, want, level):
     )
     if report["sandbox"] != level:
         yield f"graded at level {report['sandbox']}"
-    if told["seconds"] > LIMIT:
-        yield f"it took {told['seconds']:.0f} s"
     if told["children"]:
         yield f"processes are left: {told['children']}"

@@ -11,7 +11,7 @@ import pytest
 from gz_course.grader.exercise import find_exercise
 from gz_course.grader.grade import grade
 from gz_course.grader.record.reading import Recording
-from gz_course.grader.run import supervision
+from gz_course.grader.run import watchdog
 from gz_course.grader.run.sandbox.probe import try_level
 
 ROOT = Path(__file__).parents[2]
@@ -124,8 +124,8 @@ def test_no_file_is_opened_and_no_code_is_run_outside_the_box(level, submission,
     ],
 )
 def test_a_world_that_is_too_much_is_the_submissions_loss(submission, tmp_path, monkeypatch, world, outcome, words):
-    monkeypatch.setattr(supervision, "CPU_SECONDS", 12.0)
-    monkeypatch.setattr(supervision, "CPU_FACTOR", 0.0)
+    monkeypatch.setattr(watchdog, "CPU_SECONDS", 12.0)
+    monkeypatch.setattr(watchdog, "CPU_FACTOR", 0.0)
     before = processes()
     folder = submission(mine_dot_sdf=world)
     exercise = find_exercise("02_launch", ROOT)

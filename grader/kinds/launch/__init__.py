@@ -63,4 +63,4 @@ def diagnosis() -> Diagnosis:
     )
 
 
-KIND = Kind((".py",), fault, plan, command, run_loop, diagnosis, environment, brings_bridge=True, brings_world=True)
+KIND = Kind((".py",), fault, plan, command, run_loop, diagnosis, environment, brings_bridge=True)

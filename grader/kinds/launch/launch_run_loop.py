@@ -12,18 +12,20 @@ import time
 from pathlib import Path
 from typing import Any
 
+from gz_course.grader.errors import InfrastructureError
 from gz_course.grader.kinds.kind import RunPlan
 from gz_course.grader.kinds.launch.simulated_programs import SimulatedPrograms
 from gz_course.grader.record.recorder import Recorder
 from gz_course.grader.record.scene import Scene
+from gz_course.grader.run.fair_clock import Patience
 from gz_course.grader.run.pace.lockstep import LockStep
 from gz_course.grader.run.pace.real_time import RealTime
 from gz_course.grader.run.run_loop import RunLoop
 
-SIMULATOR_PATIENCE = 5.0  # [s] of wall time, once nobody is starting up, for a simulator to be started
-START_UP = 20.0  # [s] of wall time more than a single node gets
+SIMULATOR_PATIENCE = 5.0  # [s], once nobody is starting up, for a simulator to be started
+START_UP = 20.0  # [s] more than a single node gets
 BEATS = 10  # how often a paused world tells its time, in a run
-END_PATIENCE = 13.0  # [s] of wall time after Ctrl-C; launch itself escalates after 5 s and after 10 s
+END_PATIENCE = 13.0  # [s] after Ctrl-C; launch itself escalates after 5 s and after 10 s
 MASKED = (  # what differs between equal runs
     (re.compile(r"pid \[?\d+\]?"), "pid [...]"),
     (re.compile(r"(log files can be found below ).*"), r"\1..."),
@@ -31,7 +33,8 @@ MASKED = (  # what differs between equal runs
     (re.compile(r"launch_params_\w+"), "launch_params_..."),
 )
 LABEL = re.compile(r"^(?:\[[A-Z]+\] )?\[(.+?)\]")
-ESCALATED = re.compile(r"\[ERROR\] \[(.+?)\]: process\[.*escalating to 'SIGTERM'")
+ESCALATED = re.compile(r"\[ERROR\] \[(.+?)\]: process\[.* '([\d.]+)' seconds after .*escalating to 'SIGTERM'")
+FAIR_SHARE = 0.7  # of the time a program was given to end: if it had less, others have used the processor
 FAILED = re.compile(r"^\[ERROR\] \[launch\]: (?:Caught exception in launch \(see debug for traceback\): )?(.*)")
 
 
@@ -47,7 +50,7 @@ class LaunchRunLoop(RunLoop):
         )
         self._processes.asked = self._programs.asked
         self._lines: list[str] = []
-        self._interrupted = False
+        self._interrupted_at: float | None = None  # by the clock of the processes
 
     def _paced(self, pace: str) -> RealTime:
         if pace == "lockstep":
@@ -77,15 +80,15 @@ class LaunchRunLoop(RunLoop):
     def _gather(self) -> None:
         """Wait until whatever the launch starts is there: the simulator above all."""
         self._pace.await_ready()
-        deadline = time.monotonic() + SIMULATOR_PATIENCE
-        while self._processes.running and self._programs.simulator is None and time.monotonic() < deadline:
+        patience = Patience(self._processes.clock, SIMULATOR_PATIENCE)
+        while self._processes.running and self._programs.simulator is None and not patience.over():
             self._processes.wait(0.05)
             self._ros.pump()
             if self._programs.loading:
-                deadline = time.monotonic() + SIMULATOR_PATIENCE
-            elif self._processes.starting:
+                patience = Patience(self._processes.clock, SIMULATOR_PATIENCE)
+            elif self._pace.somebody_starts:
                 self._pace.await_ready()
-                deadline = time.monotonic() + SIMULATOR_PATIENCE
+                patience = Patience(self._processes.clock, SIMULATOR_PATIENCE)
         if self._processes.running:
             self._pace.await_ready()
         self._collect()
@@ -93,8 +96,7 @@ class LaunchRunLoop(RunLoop):
     def _run(self) -> None:
         assert self._world is not None
         duration_ns = round(self._exercise.duration * 1e9)
-        started = time.monotonic()
-        self._look_at = started + self._wall_limit
+        self._begin_to_watch()
         beats = 0
         while (simulator := self._programs.simulator) is not None and not (self._unstable or self._out_of_time):
             if simulator.paused:
@@ -112,12 +114,12 @@ class LaunchRunLoop(RunLoop):
             if simulator.iterations and self._world.iterations >= simulator.iterations:
                 simulator.who.tell({"end": True})
                 simulator.running = False
-            self._watch_wall(started)
+            self._watch()
 
     @property
-    def _wall_limit(self) -> float:
+    def _time_limit(self) -> float:
         """More than for one node: several processes come up."""
-        return super()._wall_limit + START_UP
+        return super()._time_limit + START_UP
 
     def _state(self) -> dict[str, Any]:
         """Return the facts about what runs at the end, before the launch gets Ctrl-C."""
@@ -145,17 +147,18 @@ class LaunchRunLoop(RunLoop):
     def _end(self) -> dict[str, Any]:
         """Interrupt the launch as Ctrl-C does, and look at what becomes of it."""
         was_running = self._processes.running
-        self._interrupted = True
+        self._interrupted_at = self._processes.clock.now()
         seen = len(self._lines)
         for each in self._processes.participants:
             each.tell({"free": True})
         if was_running:
             self._processes.signal(signal.SIGINT)
-        deadline = time.monotonic() + END_PATIENCE
-        while self._processes.running and time.monotonic() < deadline:
+        patience = Patience(self._processes.clock, END_PATIENCE)
+        while self._processes.running and not patience.over():
             self._processes.wait(0.02)
             self._pace.everything_arrived()
             self._ros.pump()
+            self._collect()
         self._collect()
         ended_itself = not self._processes.running
         left = [s.argument for s in self._programs.simulators if s.running and not s.stopped]
@@ -172,6 +175,14 @@ class LaunchRunLoop(RunLoop):
         }
 
     def _take(self, line: str) -> None:
+        """Keep a line. Raises InfrastructureError if the launch had no time to end on a busy machine."""
+        if self._interrupted_at is not None and (match := ESCALATED.match(line)):
+            had = self._processes.clock.now() - self._interrupted_at
+            if had < FAIR_SHARE * float(match.group(2)):
+                raise InfrastructureError(
+                    f"this machine is too busy: {match.group(1)} could use {had:.1f} of the {match.group(2)} s it is "
+                    "given after Ctrl-C; grade again"
+                )
         for pattern, text in MASKED:
             line = pattern.sub(text, line)
         self._lines.append(line)

@@ -132,7 +132,8 @@ class SimulatedPrograms:
         elif "worlds" in message:
             runs = self.world if self.simulator else None
             models = runs.model_names(static=True) if runs else []
-            who.tell({"answer": {"worlds": [runs.name] if runs else [], "models": models}})
+            coming = runs is None and not self.over
+            who.tell({"answer": {"worlds": [runs.name] if runs else [], "models": models, "coming": coming}})
         elif call := message.get("call"):
             who.tell({"answer": self._call(call)})
         elif "stopped" in message:

@@ -4,8 +4,8 @@ The simulator publishes one message at a time and waits until the student's proc
 until everything they published has arrived. Messages between several processes, or from several processes to the
 simulator at the same time, would be a race: the processes hold them back and release one at a time on order, always in
 the same sequence. Nothing depends on the speed of the machine. While a node cannot be followed (it blocks, or never
-spins), simulated time is paced to the wall clock; waiting for one message takes `PATIENCE` at most. `real_time.py` has
-the same interface without the waiting.
+spins), simulated time is paced to the wall clock; waiting for one message takes `PATIENCE` at most, and at one
+simulated time at most `MOST_AT_ONCE` messages are sent. `real_time.py` has the same interface without the waiting.
 """
 
 from __future__ import annotations
@@ -16,19 +16,20 @@ from typing import TYPE_CHECKING, Any
 
 from gz_course.grader.run.agent.course_agent.executor_monitor import HOUSEKEEPING
 from gz_course.grader.run.agent.course_agent.rosout_counter import ROSOUT
+from gz_course.grader.run.fair_clock import Patience
 from gz_course.grader.run.pace.matching import can_match, will_match
-from gz_course.grader.run.pace.real_time import LOOK_ROUND, MATCHING, PATIENCE, RealTime
+from gz_course.grader.run.pace.real_time import LOOK_ROUND, PATIENCE, RealTime
 from gz_course.grader.run.processes.participant import Participant
 from gz_course.grader.run.processes.submission_processes import SubmissionProcesses
 
 if TYPE_CHECKING:
     from gz_course.grader.run.grader_endpoints import GraderEndpoints
 
-LONG_WAIT = 0.5  # [s] of wall time for one message: load alone hardly explains more
+MOST_AT_ONCE = 10_000  # messages that may be sent while simulated time stands still
 GIVING_UP = 3  # failures after which the rest of the run is paced
 CLOCK_AGAIN = 0.05  # [s] /clock is best effort on the student's side, so it is sent again until it is seen
 LOST = 0.1  # [s] if everybody is idle and a message was not taken for this time, it is sent again
-LOST_PATIENCE = 10.0  # [s] of wall time for a message that is lost repeatedly, unless waiting has failed before
+LOST_PATIENCE = 10.0  # [s] for a message that is lost repeatedly, unless waiting has failed before
 CLOCK = "/clock"
 
 
@@ -48,7 +49,9 @@ class LockStep(RealTime):
         self._layout: tuple[int, ...] = ()
         self._participants: list[Participant] = []
         self._pending: tuple[str, Any, Any] | None = None
-        self._now_ns = 0
+        self._now_ns = -1
+        self._sent_before = 0  # what the processes had sent when simulated time reached this value
+        self._released = 0  # messages since then that were held
         self._free = False  # paced at the moment
         self._failures = 0
         self._copies = 0  # copies of the message just sent, which was lost
@@ -58,16 +61,16 @@ class LockStep(RealTime):
         """Wait as in real time; a node that does not become ready is paced to the wall clock from the start."""
         ready = super().await_ready()
         if self._look_around():
-            self.await_matches(time.monotonic() + MATCHING)
+            self.await_matches()
         self._free = not ready
         return ready
 
     def welcome(self) -> None:
         """Hold simulated time while a process that has joined starts up."""
-        if self.processes.running and self.processes.starting and not self._free:
+        if self.processes.running and self.somebody_starts and not self._free:
             RealTime.await_ready(self)
         if not self._free and self._look_around():
-            self.await_matches(time.monotonic() + MATCHING)
+            self.await_matches()
 
     def _look_around(self) -> bool:
         """Return whether processes or endpoints have come or gone since the last call, and update what is followed."""
@@ -110,12 +113,14 @@ class LockStep(RealTime):
 
     def send(self, topic: str, publisher: Any, message: Any, now_ns: int) -> None:
         """Publish one message, unless nobody subscribes to it."""
-        self._now_ns = now_ns
+        if now_ns != self._now_ns:
+            self._now_ns, self._sent_before = now_ns, self._total("published").total()
+            self._released = 0
         self._pending = None
         if not self.processes.running:
             return
         if self._look_around():
-            self.await_matches(time.monotonic() + MATCHING)
+            self.await_matches()
         readers = self.ros.matched(topic, "subscription") or self._await_leaving(topic)
         if not readers:
             # No reader to wait for, but a node may come, go, or wait for an answer.
@@ -133,14 +138,14 @@ class LockStep(RealTime):
         Return how many subscriptions are matched on the topic. A process that lives on without its subscription is
         waited for once only.
         """
-        layout, deadline = self.processes.layout, time.monotonic() + PATIENCE
+        layout, patience = self.processes.layout, Patience(self.processes.clock, PATIENCE)
         mine = (e for e in self.processes.endpoints if e.kind == "subscription" and e.topic == topic)
         if self._free or layout == self._left or not any(can_match(e, self.ros) for e in mine):
             return 0
         while self.processes.running and self.processes.layout == layout:
             if readers := self.ros.matched(topic, "subscription"):
                 return readers
-            if time.monotonic() > deadline:
+            if patience.over():
                 self._left = layout
                 break
             self.processes.wait(LOOK_ROUND)
@@ -159,31 +164,29 @@ class LockStep(RealTime):
         self._pending = None
         while self._holding and (holder := next((p for p in self._participants if _holds(p)), None)) is not None:
             holder.release()
-            if not self._await_settled():
+            self._released += 1
+            if self._is_flooded() or not self._await_settled():
                 return
 
     def _await_settled(self) -> bool:
         """Wait until no message is in transit and every process is idle; return False on a timeout."""
-        began, self._copies = time.monotonic(), 0
-        settled = self._await_settled_until(began + PATIENCE)
-        waited = time.monotonic() - began
-        self.held_seconds += waited if waited > LONG_WAIT and not self._copies else 0.0
-        return settled
-
-    def _await_settled_until(self, deadline: float) -> bool:
+        self._copies = 0
         resend = time.monotonic() + CLOCK_AGAIN
         lost = time.monotonic() + LOST
-        give_up = time.monotonic() + (PATIENCE if self._failures else LOST_PATIENCE)
+        patience = Patience(self.processes.clock, PATIENCE)
+        give_up = Patience(self.processes.clock, PATIENCE if self._failures else LOST_PATIENCE)
         while not self._settled():
             if not self.processes.running:
                 self._take_last_words()
                 return False
             if not self.processes.wait(LOOK_ROUND):
                 self.ros.pump()
-            now = time.monotonic()
-            if now > deadline:
+            if self._is_flooded():
+                return False
+            if patience.over():
                 self._fall_out_of_step()
                 return False
+            now = time.monotonic()
             if self._pending and self._pending[0] == CLOCK and now > resend:
                 _, publisher, message = self._pending
                 publisher.publish(message)
@@ -191,8 +194,15 @@ class LockStep(RealTime):
             if now > lost and self._is_lost():
                 self._send_again()
                 lost = now + LOST
-                deadline = min(now + PATIENCE, give_up) if self._copies else deadline
+                if self._copies and not give_up.over():
+                    patience = Patience(self.processes.clock, PATIENCE)
         return True
+
+    def _is_flooded(self) -> bool:
+        """Return whether more was sent at this simulated time than is allowed; then the run is over."""
+        sent = self._total("published").total() - self._sent_before
+        self.flooded |= max(sent, self._released) > MOST_AT_ONCE
+        return self.flooded
 
     def _is_lost(self) -> bool:
         """Return whether every process is idle although one has not taken the message just sent."""
@@ -230,7 +240,7 @@ class LockStep(RealTime):
     def _settled(self) -> bool:
         """Return whether a tick may end: all arrived, all idle, the clock seen by all, every message taken."""
         if self._look_around():
-            self.await_matches(time.monotonic() + MATCHING)
+            self.await_matches()
         if not self._participants or not self.everything_arrived():
             return False
         for each in self._participants:
@@ -265,8 +275,8 @@ class LockStep(RealTime):
 
     def _take_last_words(self) -> None:
         """Wait for what the processes published just before they ended."""
-        deadline = time.monotonic() + PATIENCE
-        while time.monotonic() < deadline and not self.everything_arrived():
+        patience = Patience(self.processes.clock, PATIENCE)
+        while not self.everything_arrived() and not patience.over():
             pass
 
     def _fall_out_of_step(self) -> None:

@@ -5,16 +5,16 @@
 
 from __future__ import annotations
 
-import time
 from typing import TYPE_CHECKING
 
 from gz_course.grader.run.agent.course_agent.rosout_counter import ROSOUT
+from gz_course.grader.run.fair_clock import Patience
 from gz_course.grader.run.processes.submission_processes import SubmissionProcesses
 
 if TYPE_CHECKING:
     from gz_course.grader.run.grader_endpoints import GraderEndpoints
 
-PATIENCE = 2.0  # [s] of wall time without a log message after which those that are missing count as lost
+PATIENCE = 2.0  # [s] without a log message after which those that are missing count as lost
 GIVING_UP = 3  # losses after which log messages are not waited for any more
 
 
@@ -27,16 +27,15 @@ class LogArrival:
         self._lost = 0
         self._losses = 0
         self._short = (0, 0)  # logged and arrived, when something was missing last
-        self._since = 0.0  # [s] of the monotonic clock
+        self._patience = Patience(processes.clock, PATIENCE)
 
     def complete(self) -> bool:
         """Return whether everything has arrived, or will never; then confirm it to those that wait for that."""
         logged, arrived = sum(each.logged for each in self._processes.participants), self._ros.received[ROSOUT]
         if arrived + self._lost < logged and self._losses < GIVING_UP:
-            now = time.monotonic()
             if (logged, arrived) != self._short:
-                self._short, self._since = (logged, arrived), now
-            if now < self._since + PATIENCE:
+                self._short, self._patience = (logged, arrived), Patience(self._processes.clock, PATIENCE)
+            if not self._patience.over():
                 return False
             self._lost, self._losses = logged - arrived, self._losses + 1
         for each in self._processes.participants:

@@ -1,6 +1,7 @@
 """Simulated time at the pace of the wall clock, and what every pace needs: the processes and what has arrived.
 
-Used by `run_loop.py` for runs in real time; `lockstep.py` builds on it.
+Every patience is counted by the clock of the processes, which stands still while they wait for a processor. Used by
+`run_loop.py` for runs in real time; `lockstep.py` builds on it.
 """
 
 from __future__ import annotations
@@ -9,16 +10,19 @@ import time
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
+from gz_course.grader.run.fair_clock import Patience
 from gz_course.grader.run.pace.log_arrival import LogArrival
 from gz_course.grader.run.pace.matching import can_match
+from gz_course.grader.run.processes.participant import Participant
 from gz_course.grader.run.processes.process_tree import START_UP
 from gz_course.grader.run.processes.submission_processes import SubmissionProcesses
 
 if TYPE_CHECKING:
     from gz_course.grader.run.grader_endpoints import GraderEndpoints
 
-PATIENCE = 3.0  # [s] of wall time a node may need for one message before it is paced
-MATCHING = 5.0  # [s] of wall time for DDS to match the endpoints of a new node; a lost announcement costs 3 s
+PATIENCE = 3.0  # [s] a node may need for one message before it is paced
+MATCHING = 5.0  # [s] for DDS to match the endpoints of a new node; a lost announcement costs 3 s
+MOST_HELD = 45.0  # [s] in which simulated time is held for processes that start up, all of a run together
 LOOK_ROUND = 0.002  # [s] to wait for the student's processes between two looks at ROS
 
 
@@ -31,37 +35,50 @@ class RealTime:
         self.processes = processes
         self.ros = ros
         self.paced_ticks = 0
-        self.held_seconds = 0.0  # [s] of wall time spent in long waits for the student
+        self.flooded = False  # whether more was sent at one simulated time than is allowed
         self._due: float | None = None
+        self._delayed = 0.0  # [s] by which the clock of the processes had stood still when the last tick was paced
+        self._starting: dict[Participant, Patience] = {}
+        self._held = 0.0  # [s] for processes that start up
         self._lost: Counter[str] = Counter()  # published by the student, never arrived
         self._logs = LogArrival(processes, ros)
 
     def await_ready(self) -> bool:
         """Wait until every node spins and DDS has matched its endpoints; False if none does within `START_UP`."""
-        deadline = time.monotonic() + START_UP
+        clock, began = self.processes.clock, self.processes.clock.now()
+        patience, whole = Patience(clock, START_UP), Patience(clock, MOST_HELD - self._held)
         while self.processes.running and (not self.processes.participants or self.processes.starting):
-            now = time.monotonic()
             for each in self.processes.participants:
                 if each.starting:
                     each.tell({"ping": True})  # reveals that a process has closed its socket
-                    each.follows = now < each.since + START_UP
-            if now > deadline and not self.processes.participants:
+                    its_own = self._starting.setdefault(each, Patience(clock, START_UP))
+                    each.follows = not its_own.over()
+            if not self.processes.participants and patience.over():
                 return False
+            if whole.over():
+                break
             self.processes.wait(LOOK_ROUND * 10)
             self.ros.pump()
             self.everything_arrived()
-        self.await_matches(time.monotonic() + MATCHING)
-        deadline = time.monotonic() + PATIENCE
-        while self.processes.running and not self.everything_arrived() and time.monotonic() < deadline:
+        self._held += clock.now() - began
+        self.await_matches()
+        patience = Patience(clock, PATIENCE)
+        while self.processes.running and not self.everything_arrived() and not patience.over():
             self.processes.wait(LOOK_ROUND)  # receive everything sent before simulated time begins
         return self.processes.running and bool(self.processes.endpoints)
+
+    @property
+    def somebody_starts(self) -> bool:
+        """Whether a process starts up for which simulated time is still held."""
+        return self.processes.starting and self._held < MOST_HELD
 
     def welcome(self) -> None:
         """Let a process that has joined take part; in real time it is not waited for."""
 
-    def await_matches(self, deadline: float) -> None:
-        """Wait until every endpoint that can match has matched on both sides."""
-        while self.processes.running and time.monotonic() < deadline and not self._matched():
+    def await_matches(self) -> None:
+        """Wait until every endpoint that can match has matched on both sides, for `MATCHING` at most."""
+        patience = Patience(self.processes.clock, MATCHING)
+        while self.processes.running and not self._matched() and not patience.over():
             self.processes.wait(LOOK_ROUND)
             self.ros.pump()
 
@@ -111,9 +128,10 @@ class RealTime:
         """Wait for the consequences of the last message; in real time there is no waiting."""
 
     def close_tick(self, tick: float) -> None:
-        """Receive messages until the wall clock has advanced by `tick` [s]."""
-        now = time.monotonic()
+        """Receive messages until the wall clock has advanced by `tick` [s], and by what others took from the nodes."""
+        now, delayed = time.monotonic(), self.processes.clock.delayed()
         self._due = max(now - tick, self._due) + tick if self._due is not None else now + tick
+        self._due, self._delayed = self._due + delayed - self._delayed, delayed
         while True:
             left = self._due - time.monotonic()
             if left <= 0:

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-START_UP = 10.0  # [s] of wall time for a process to say hello, and then to have a node that spins
+START_UP = 10.0  # [s] for a process to say hello, and then to have a node that spins
 # [s] for each state: until it says hello (a shell may become a Python), and until its parent notices that it has ended
 PATIENCE = {"starting": START_UP, "shell": 3.0, "left": 1.0}
 MOST_CHILDREN = 1_000
@@ -25,57 +25,55 @@ class StartedProcess:
 
     pid: int  # as seen in the sandbox
     state: str
-    since: float  # [s] of the monotonic clock
+    since: float  # [s]
     code: int | None = None
-    started: float = field(init=False)  # the first `since`
-
-    def __post_init__(self) -> None:
-        self.started = self.since
+    in_vain: bool = False  # whether it was waited for, and never said hello
+    started: float = field(default_factory=time.monotonic)  # [s] of wall time
 
 
 class ProcessTree:
-    """All processes that the submission has reported, by their process id in the sandbox.
+    """All processes that the submission has reported, by their process id in the sandbox; `now()` is the time [s].
 
-    `age(pid)` [s] is that of a process in the box, None if there is none: a report alone holds nobody up.
+    `age(pid)` [s] of wall time is that of a process in the box, None if there is none: a report alone holds nobody up.
     """
 
-    def __init__(self, age: Callable[[int], float | None]) -> None:
+    def __init__(self, age: Callable[[int], float | None], now: Callable[[], float] = time.monotonic) -> None:
         self._age = age
+        self._now = now
         self._processes: dict[int, StartedProcess] = {}
 
     def hear(self, message: dict[str, Any]) -> None:
         """Update from a message. Raises TypeError, KeyError or ValueError if it is malformed."""
-        now = time.monotonic()
         if (started := message.get("started")) and len(self._processes) < MOST_CHILDREN:
-            self._start(int(started["pid"]), str(started["program"]), now)
+            self._start(int(started["pid"]), str(started["program"]))
         elif ended := message.get("ended"):
             child = self._processes.get(int(ended["pid"]))
-            if child is not None and not self._lives(child, now):
+            if child is not None and not self._lives(child):
+                child.in_vain |= child.state in ("starting", "shell")
                 child.state, child.code = "ended", int(ended["code"])
         elif hello := message.get("hello"):
             for pid in (int(hello["pid"]), int(hello["group"])):
                 if (child := self._processes.get(pid)) and child.state in PATIENCE:
                     child.state = "here"
 
-    def _start(self, pid: int, program: str, now: float) -> None:
-        """Note a process that was started; wait for one that exists, from its own start on, and only once."""
-        state = "shell" if program in SHELLS else "starting" if program.startswith("python") else "silent"
+    def _start(self, pid: int, program: str) -> None:
+        """Note a process that was started; wait for one that exists, and only once."""
         age, before = self._age(pid), self._processes.get(pid)
-        if before is not None and self._lives(before, now):
+        if before is not None and self._lives(before):
             return
-        since = now if age is None else now - age
-        self._processes[pid] = StartedProcess(pid, "silent" if age is None else state, since)
+        state = "shell" if program in SHELLS else "starting" if program.startswith("python") else "silent"
+        self._processes[pid] = StartedProcess(pid, "silent" if age is None else state, self._now())
 
-    def _lives(self, child: StartedProcess, now: float) -> bool:
+    def _lives(self, child: StartedProcess) -> bool:
         """Whether a process of the tree still exists; a younger one may have got its number."""
         age = self._age(child.pid) if child.state != "ended" else None
-        return age is not None and age > now - child.started - SAME
+        return age is not None and age > time.monotonic() - child.started - SAME
 
     def leave(self, pid: int) -> None:
         """Note that a process has closed its socket: it ends, or executes another program."""
         child = self._processes.get(pid)
         if child is not None and child.state == "here":
-            child.state, child.since = "left", time.monotonic()
+            child.state, child.since = "left", self._now()
 
     def codes(self) -> dict[int, int]:
         """Return the exit codes of the processes that have ended, by process id."""
@@ -84,5 +82,13 @@ class ProcessTree:
     @property
     def changing(self) -> bool:
         """Whether a process is about to say hello, or its parent about to notice its end."""
-        now = time.monotonic()
-        return any(now < child.since + PATIENCE.get(child.state, 0.0) for child in self._processes.values())
+        waiting = [child for child in self._processes.values() if child.state in PATIENCE and not child.in_vain]
+        now = self._now() if waiting else 0.0
+        for child in waiting:
+            child.in_vain |= child.state != "left" and now >= child.since + PATIENCE[child.state]
+        return any(now < child.since + PATIENCE[child.state] for child in waiting)
+
+    @property
+    def in_vain(self) -> int:
+        """How many processes were waited for that never said hello."""
+        return sum(child.in_vain for child in self._processes.values())

@@ -20,21 +20,25 @@ from typing import Any
 import psutil
 
 from gz_course.grader.run.agent.course_agent import channel, executor_monitor
+from gz_course.grader.run.fair_clock import FairClock, Patience
 from gz_course.grader.run.processes.participant import Participant
 from gz_course.grader.run.processes.peer import BoxProcesses, Peer
 from gz_course.grader.run.processes.process_tree import ProcessTree
 from gz_course.grader.run.processes.progress import Endpoint
 from gz_course.grader.run.sandbox import Sandbox
+from gz_course.grader.run.sandbox.resource_monitor import descendants
+from gz_course.grader.run.watchdog import cpu_seconds, is_stopped
 
 LONGEST_LINE = 2_000  # [characters] kept of one line
 MOST_LINES = 20_000  # kept per run
 # kept of the rest if the submission ends by itself, because the reason stands there; lines in between are counted
 LAST_BYTES = 64 << 10
 MOST_READ = 1 << 20  # [bytes] read from a pipe in one call, so that an endless writer does not stop the grader
-MOST_OUTPUT = 64 << 20  # [bytes] of output; more ends the submission
+LOOK_AGAIN = 0.1  # [s] between two looks at the clock while the end is awaited
 SOCKET = "participants"  # file name
 MOST_PARTICIPANTS = 100  # processes that are followed
 SHOWN_FOLDER = b"/submission"  # name of the submission's folder in its log
+MOST_IN_VAIN = 30  # processes that are waited for and never take part
 GRACE = 1.5  # [s] between SIGINT, SIGTERM and SIGKILL
 AGENT = Path(__file__).parents[1] / "agent"  # runs in the submission's processes; has the same path in the sandbox
 
@@ -71,6 +75,7 @@ class SubmissionProcesses:
         }
         self.asked = asked or _unasked
         self._children_before = _children()
+        self._apart = frozenset(each.pid for each in self._children_before)
         self.folder = shown
         self._process = sandbox.start(list(command), variables)
         self._selector = selectors.DefaultSelector()
@@ -84,12 +89,12 @@ class SubmissionProcesses:
         self.participants: list[Participant] = []
         before = frozenset(child.pid for child in self._children_before)
         self._box = BoxProcesses(self._process.pid, self._process.walled, before)
-        self._tree = ProcessTree(self._box.age)
+        self.clock = FairClock(lambda: [os.getpid(), *self._members()])
+        self._tree = ProcessTree(self._box.age, self.clock.now)
         self._lines: list[str] = []
         self._line_count = 0
         self._last = b""  # end of what was written beyond the limit
         self._last_taken = 0  # lines
-        self._written = 0  # [bytes]
         self.exit_code: int | None = None
         self.hid = False  # whether it closed its end of the socket and lived on
 
@@ -100,8 +105,13 @@ class SubmissionProcesses:
 
     @property
     def limit(self) -> str | None:
-        """The limit for which it was ended (memory, processes, disk or output), or None."""
-        return "output" if self._written > MOST_OUTPUT else self._process.broken_limit
+        """The limit for which it was ended (memory, processes or disk), or None."""
+        return self._process.broken_limit
+
+    @property
+    def stopped(self) -> bool:
+        """Whether one of its processes was stopped (SIGSTOP) and not continued."""
+        return any(is_stopped(each) for each in self._members())
 
     @property
     def dropped_lines(self) -> int:
@@ -132,8 +142,13 @@ class SubmissionProcesses:
 
     @property
     def starting(self) -> bool:
-        """Whether a process is about to become one that is followed."""
-        return not self.participants or self._tree.changing or any(p.starting for p in self.participants)
+        """Whether a process is about to become one that is followed. After `MOST_IN_VAIN` that never did, none is."""
+        if not self.participants:
+            return True
+        others = sum(_has_come_in_vain(each) for each in self.participants)
+        if others + self._tree.in_vain >= MOST_IN_VAIN:
+            return False
+        return self._tree.changing or any(p.starting for p in self.participants)
 
     @property
     def endpoints(self) -> tuple[Endpoint, ...]:
@@ -153,9 +168,6 @@ class SubmissionProcesses:
             except BlockingIOError:
                 return
             left -= len(data)
-            self._written += len(data)
-            if self._written > MOST_OUTPUT:
-                self._process.kill()
             if not data:
                 self._selector.unregister(fd)
                 rest = self._partial.pop(fd)
@@ -220,9 +232,7 @@ class SubmissionProcesses:
 
     def _reap(self) -> None:
         """Take the exit code of a process that has exited; end one that only closed its end of the socket."""
-        try:
-            self._process.wait(GRACE)
-        except subprocess.TimeoutExpired:
+        if not self._ends_within(GRACE):
             self.hid = True
             self.stop()
         for pipe in self._pipes:
@@ -253,23 +263,27 @@ class SubmissionProcesses:
         if self._process.poll() is None:
             for escalation in (signal.SIGINT, signal.SIGTERM):
                 self._process.signal(escalation)
-                try:
-                    self._process.wait(GRACE)
+                if self._ends_within(GRACE):
                     break
-                except subprocess.TimeoutExpired:
-                    continue
         self._process.kill()
         self.exit_code = self._process.wait()
         self._sweep()
 
+    def _ends_within(self, seconds: float) -> bool:
+        """Wait for the end of the first process; return whether it came in time."""
+        patience = Patience(self.clock, seconds)
+        while not patience.over():
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                self._process.wait(LOOK_AGAIN)
+                return True
+        return False
+
     def cpu_seconds(self) -> float:
         """Return the processor time [s] of all running processes, and of the ended ones they have waited for."""
-        total = 0.0
-        for process in _children() - self._children_before:
-            with contextlib.suppress(psutil.Error):
-                used = process.cpu_times()
-                total += used.user + used.system + used.children_user + used.children_system
-        return total
+        return sum(cpu_seconds(each, with_ended=True) for each in self._members())
+
+    def _members(self) -> list[int]:
+        return descendants(os.getpid(), self._apart)
 
     def _sweep(self) -> None:
         """Kill what has left the process group: as subreaper the grader inherits every orphan."""
@@ -303,6 +317,12 @@ def _listener(folder: Path) -> socket.socket:
     listener.listen(MOST_PARTICIPANTS)
     listener.setblocking(False)
     return listener
+
+
+def _has_come_in_vain(participant: Participant) -> bool:
+    """Return whether a process with rclpy has ended, or was waited for long enough, and never had a node that spins."""
+    joined = participant.progress is not None and participant.progress.endpoints
+    return participant.uses_ros and not joined and (participant.gone or not participant.follows)
 
 
 def _unasked(asking: Participant, message: dict[str, Any]) -> None: ...

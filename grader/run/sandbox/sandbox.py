@@ -139,7 +139,9 @@ class Sandbox:
         if self._module.NAMESPACES:  # the processes in the sandbox are below its outermost one
             boxed.monitor = ResourceMonitor(boxed.pid, boxed.kill)
         else:
-            boxed.monitor = ResourceMonitor(os.getpid(), boxed.kill, before, self.home, TMP_SIZE, TMP_FILES)
+            # Its log lies in its home, too, and may be as long as any file.
+            most = TMP_SIZE + LIMITS[resource.RLIMIT_FSIZE]
+            boxed.monitor = ResourceMonitor(os.getpid(), boxed.kill, before, self.home, most, TMP_FILES)
         return boxed
 
     def _spec(self, command: list[str], environment: dict[str, str], descriptors: tuple[int, ...]) -> SandboxSpec:

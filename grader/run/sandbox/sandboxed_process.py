@@ -31,6 +31,7 @@ class SandboxedProcess:
         self._channel = channel
         self._walled = walled
         self._told: int | None = None
+        self._begun = False  # from then on, what comes through the pipes is the submission's
         self._error = ""
         self._killed = False
         self.monitor: ResourceMonitor | None = None  # set by the caller of `Sandbox.start`
@@ -126,7 +127,7 @@ class SandboxedProcess:
             return self._told
         if not self._walled:
             return outermost
-        if self._killed or outermost < 0:
+        if self._killed or self._begun or outermost < 0:
             return -signal.SIGKILL
         raise InfrastructureError(
             f"a sandbox of level {self._level} could not be built: {self._last_words() or f'exit code {outermost}'}"
@@ -134,10 +135,12 @@ class SandboxedProcess:
 
     def _listen(self, channel: socket.socket) -> None:
         with contextlib.suppress(OSError, ValueError):
-            while data := channel.recv(LONGEST_MESSAGE):
+            while data := _received(channel):
                 what, _, value = data.decode(errors="replace").partition(" ")
                 if what == "exit":
                     self._told = int(value)
+                elif what == "begun":
+                    self._begun = True
                 else:
                     self._error = self._error or value
 
@@ -146,3 +149,13 @@ class SandboxedProcess:
             os.set_blocking(self.stderr.fileno(), False)
             return (self.stderr.read() or b"").decode(errors="replace").strip()[:300]
         return ""
+
+
+def _received(channel: socket.socket) -> bytes:
+    """Return the next message.
+
+    If the other end was closed before it had read our last signal, Linux reports a reset once, ahead of the messages.
+    """
+    with contextlib.suppress(ConnectionResetError):
+        return channel.recv(LONGEST_MESSAGE)
+    return channel.recv(LONGEST_MESSAGE)

@@ -23,7 +23,7 @@ def test_a_long_one_loses_its_middle(record, count):
     assert len(kept) + log.left_out == count
     assert (kept[0], kept[-1]) == ("line 0", f"line {count - 1}")
     assert ("left out" in log.as_text()) == (count > FIRST + LAST)
-    assert log.as_text().endswith("(5 more lines came too fast to be recorded)")
+    assert log.as_text().endswith("(5 more lines are not recorded: the log is too long)")
 
 
 def test_only_its_end(record):

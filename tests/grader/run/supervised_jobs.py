@@ -25,6 +25,11 @@ def computes(heartbeat):
         pass
 
 
+def hears(heartbeat):
+    while True:
+        pass
+
+
 def sleeps(heartbeat):
     while True:
         time.sleep(60)

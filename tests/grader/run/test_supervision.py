@@ -10,7 +10,7 @@ import psutil
 import pytest
 
 from gz_course.grader.errors import InfrastructureError, UsageError
-from gz_course.grader.run import supervision
+from gz_course.grader.run import supervision, watchdog
 from gz_course.grader.run.supervision import Supervised
 from gz_course.tests.descriptors import left_open, own_descriptors
 from gz_course.tests.grader.run.supervised_jobs import (
@@ -21,6 +21,7 @@ from gz_course.tests.grader.run.supervised_jobs import (
     daemon,
     doubled,
     fills_memory,
+    hears,
     sleeps,
     starts_one_that_computes,
 )
@@ -48,9 +49,17 @@ def nothing_is_left():
 
 @pytest.fixture
 def impatient(monkeypatch):
-    for name in ("CPU_SECONDS", "CPU_FACTOR", "BOX_CPU_SECONDS", "BOX_CPU_FACTOR", "LONGEST_WAIT"):
-        monkeypatch.setattr(supervision, name, 1.0)
-    monkeypatch.setattr(supervision, "MOST_MEMORY", 400 << 20)
+    for name in (
+        "OWN_CPU_SECONDS",
+        "OWN_CPU_FACTOR",
+        "CPU_SECONDS",
+        "CPU_FACTOR",
+        "BOX_CPU_SECONDS",
+        "BOX_CPU_FACTOR",
+        "LONGEST_WAIT",
+    ):
+        monkeypatch.setattr(watchdog, name, 1.0)
+    monkeypatch.setattr(watchdog, "MOST_MEMORY", 400 << 20)
 
 
 @pytest.fixture(params=["fork", "new Python"])
@@ -76,6 +85,7 @@ def test_what_a_job_raises_is_raised(either_way):
     ("job", "outcome", "words"),
     [
         (computes, "timeout", "processor time and had come no further than 0.00 s"),
+        (hears, "timeout", "Dealing with what your program sent took"),
         (starts_one_that_computes, "timeout", "What you started had used"),
         (sleeps, "timeout", "simulated time stood still"),
         (fills_memory, "memory", "of memory"),

@@ -28,7 +28,10 @@ class RemoteRunningWorld:
         end = (time.monotonic() if start is None else start) + timeout
         worlds: list[str] = []
         while not (worlds and (not name or name in worlds)):
-            worlds = ask({"worlds": True}).get("worlds", [])
+            answer = ask({"worlds": True})
+            worlds = answer.get("worlds", [])
+            if answer.get("coming"):  # it has not got up yet, perhaps on a busy machine
+                end = max(end, time.monotonic() + timeout)
             if time.monotonic() > end:
                 if worlds:
                     raise Failure(f"no world '{name}' appeared within {timeout:g} s; worlds that run are: {worlds[0]}")

@@ -41,7 +41,7 @@ class RemoteWorld:
                 asked["description"] = _handed_over(found, diagnostics)
             except SimError as error:
                 asked["error"] = str(error)
-        answer = ask({"world": asked}, patience=None)
+        answer = ask({"world": asked})
         if "error" in answer:
             raise SimError(answer["error"])
         for warning in answer.get("warnings", []):

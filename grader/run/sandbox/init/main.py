@@ -84,6 +84,7 @@ def _supervise(order: dict[str, Any], channel: socket) -> NoReturn:
             _tell(channel, "error", error)
         finally:
             os._exit(FAILED)
+    _tell(channel, "begun", child)
     kernel.drop_capabilities(order["user"], order["group"])
     kernel.prctl(kernel.PR_SET_PDEATHSIG, signal.SIGKILL)
     kernel.prctl(kernel.PR_SET_DUMPABLE, 0)  # nobody in the sandbox may trace this process
@@ -122,7 +123,7 @@ def _collect(child: int, channel: socket) -> None:
 
 
 def _tell(channel: socket, what: str, value: Any) -> None:
-    """Report the exit code of the submission, or why there is no sandbox."""
+    """Report that the submission was started, its exit code, or why there is no sandbox."""
     try:  # noqa: SIM105
         channel.send(f"{what} {value}".encode(errors="replace"))
     except OSError:

@@ -210,7 +210,7 @@ def test_a_flood_is_shortened(make_report):
     text = as_html(make_report(lines=lines, facts={"lines_dropped": 7}))
     parsed = read(text)
     assert "(2880 lines are left out here; the recording has them all)" in parsed.text
-    assert "(7 more lines came too fast to be recorded)" in parsed.text
+    assert "(7 more lines are not recorded: the log is too long)" in parsed.text
     assert "line 0 " in parsed.text and "line 2999" in parsed.text and "line 1500" not in parsed.text
     assert len(text) < 200_000
 

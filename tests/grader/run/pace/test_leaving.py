@@ -70,9 +70,8 @@ def tick(monkeypatch):
     """Send the clock of some ticks to whoever leaves."""
 
     def call(leaving, ticks=1):
-        now = SimpleNamespace(monotonic=lambda: leaving.waited / 10)
-        for module in ("lockstep", "real_time"):
-            monkeypatch.setattr(f"gz_course.grader.run.pace.{module}.time", now)
+        leaving.clock = SimpleNamespace(now=lambda: leaving.waited / 10)
+        monkeypatch.setattr("gz_course.grader.run.fair_clock.SAMPLE", 0.0)
         pace = LockStep(leaving, leaving)
         pace._layout = leaving.layout
         for number in range(ticks):

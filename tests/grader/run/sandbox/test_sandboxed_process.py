@@ -2,6 +2,7 @@
 
 import os
 import signal
+import socket
 import subprocess
 import sys
 from pathlib import Path
@@ -12,6 +13,7 @@ from gz_course.grader.errors import InfrastructureError
 from gz_course.grader.run.sandbox import LEVELS, Sandbox
 from gz_course.grader.run.sandbox import sandbox as module
 from gz_course.grader.run.sandbox.probe import try_level
+from gz_course.grader.run.sandbox.sandboxed_process import SandboxedProcess
 from gz_course.tests.descriptors import left_open, own_descriptors
 
 DEADLINE = 120.0
@@ -160,3 +162,39 @@ def test_two_processes_in_a_box_talk_over_tcp_on_loopback(sandbox):
         "c.send(b'hi'); print(l.accept()[0].recv(9))"
     )
     assert run(sandbox, code)[1] == "b'hi'\n"
+
+
+@pytest.fixture
+def outermost():
+    """A process of a box that has ended, after it told some messages and left a signal unread."""
+    made = []
+
+    def call(code, *messages, says=""):
+        ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        ours.send(bytes([signal.SIGTERM]))
+        for message in messages:
+            theirs.send(message)
+        theirs.close()
+        script = "import sys; sys.stderr.write(sys.argv[1]); sys.exit(int(sys.argv[2]))"
+        process = subprocess.Popen([*PYTHON, "-c", script, says, str(code)], stderr=subprocess.PIPE)
+        made.append(SandboxedProcess(process, "A", ours, True))
+        return made[-1]
+
+    yield call
+    for each in made:
+        each.close()
+        each.stderr.close()
+
+
+def test_the_end_is_told_although_a_signal_came_too_late(outermost):
+    assert outermost(0, b"begun 2", b"exit 7").wait(DEADLINE) == 7
+
+
+def test_what_a_submission_prints_is_no_reason_of_the_machine(outermost):
+    ended = outermost(1, b"begun 2", says="Traceback (most recent call last):\nKeyboardInterrupt\n")
+    assert ended.wait(DEADLINE) == -signal.SIGKILL
+
+
+def test_what_a_box_prints_before_it_begins_is(outermost):
+    with pytest.raises(InfrastructureError, match="bwrap: no"):
+        outermost(1, says="bwrap: no namespaces").wait(DEADLINE)

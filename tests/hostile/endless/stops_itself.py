@@ -1,0 +1,5 @@
+# Stops all it can reach, itself last.
+import os
+import signal
+
+os.kill(os.getpid(), signal.SIGSTOP)
