@@ -1,5 +1,6 @@
 """What the hostile tests share: workers that grade at one level, as root or as an ordinary user."""
 
+import contextlib
 import dataclasses
 import json
 import os
@@ -117,12 +118,18 @@ class Worker:
         return f" {processes}/{len(left) - processes - memory}/{memory}"
 
     def close(self):
-        self.process.stdin.close()
+        if self.errors.closed:
+            return
+        with contextlib.suppress(BrokenPipeError):
+            self.process.stdin.close()
         try:
             self.process.wait(120)
         except subprocess.TimeoutExpired:
             os.killpg(self.process.pid, signal.SIGKILL)
             self.process.wait()
+        for each in psutil.process_iter() if self.user is not None else ():
+            if is_of(each, {self.user}):
+                each.kill()
         self.process.stdout.close()
         self.errors.close()
 

@@ -15,16 +15,12 @@ import tomllib
 
 import pytest
 
-from gz_course.grader.run.processes.process_tree import START_UP
-from gz_course.grader.run.run_loop import WALL_FACTOR, WALL_GRACE
 from gz_course.grader.run.sandbox.probe import try_level
 
 from .conftest import ORDINARY, ROOT, WorkerGoneError
 
 CASES = ROOT / "tests/hostile/cases"
 NAMES = sorted(path.parent.name for path in CASES.glob("*/expected.toml"))
-DURATION = 8.0  # [s] of the exercise
-LIMIT = START_UP + WALL_FACTOR * DURATION + WALL_GRACE + 2.0
 ROOT_ONLY = pytest.mark.skipif(os.getuid() != 0, reason="only root can become an ordinary user")
 KINDS = [
     pytest.param(("A", None), id="A"),
@@ -53,10 +49,12 @@ def tell(request):
 
 
 @pytest.mark.parametrize("case", NAMES)
-def test_an_attack_comes_to_nothing(case, worker, solution, tell):
+def test_an_attack_comes_to_nothing(case, worker, solution, tell, request):
     want = tomllib.loads((CASES / case / "expected.toml").read_text())
     want |= want.get(worker.level, {})
     attack = (CASES / case / "attack.py").read_text()
+    if worker.level == "D":  # no other attack is to meet what this one does to its grader
+        request.addfinalizer(worker.close)
     try:
         told = worker.grade({"teleop_node.py": f"import attack\n{solution}", "attack.py": attack})
         faults = list(faults_of(told, want, worker.level))
@@ -94,7 +92,5 @@ def faults_of(told, want, level):
     )
     if report["sandbox"] != level:
         yield f"graded at level {report['sandbox']}"
-    if told["seconds"] > LIMIT:
-        yield f"it took {told['seconds']:.0f} s"
     if told["children"]:
         yield f"processes are left: {told['children']}"
