@@ -1,5 +1,6 @@
 """What the hostile tests share: workers that grade at one level, as root or as an ordinary user."""
 
+import contextlib
 import dataclasses
 import json
 import os
@@ -90,7 +91,7 @@ class Worker:
         end = time.monotonic() + LONGEST
         with selectors.DefaultSelector() as selector:
             selector.register(self.process.stdout, selectors.EVENT_READ)
-            while time.monotonic() < end:
+            while time.monotonic() < end and not self._frozen():
                 if selector.select(1.0):
                     line = self.process.stdout.readline()
                     if line.strip():
@@ -98,6 +99,17 @@ class Worker:
                     if not line:
                         break
         raise WorkerGoneError(f"the worker is gone: {(self.folder / 'errors').read_text()[-2000:]}")
+
+    def _frozen(self):
+        """Whether somebody has stopped the grader, as an attack can at level D; it is ended then."""
+        stopped = (psutil.STATUS_STOPPED, psutil.STATUS_TRACING_STOP)
+        with contextlib.suppress(psutil.Error):
+            tree = [psutil.Process(self.process.pid), *psutil.Process(self.process.pid).children(recursive=True)]
+            graders = [each for each in tree if str(Path(__file__).with_name("worker.py")) in each.cmdline()]
+            if any(each.status() in stopped for each in graders):
+                os.killpg(self.process.pid, signal.SIGKILL)
+                return True
+        return False
 
     def left(self):
         """What is left of its boxes: processes and shared memory of their users, temporary files."""
@@ -117,12 +129,18 @@ class Worker:
         return f" {processes}/{len(left) - processes - memory}/{memory}"
 
     def close(self):
-        self.process.stdin.close()
+        if self.errors.closed:
+            return
+        with contextlib.suppress(BrokenPipeError):
+            self.process.stdin.close()
         try:
             self.process.wait(120)
         except subprocess.TimeoutExpired:
             os.killpg(self.process.pid, signal.SIGKILL)
             self.process.wait()
+        for each in psutil.process_iter() if self.user is not None else ():
+            if is_of(each, {self.user}):
+                each.kill()
         self.process.stdout.close()
         self.errors.close()
 

@@ -69,7 +69,7 @@ def choose(wanted: str = AUTO, demand: str | None = None) -> str:
         reason = why.get(demand) or next(iter(why.values()), "it was not tried")
         raise InfrastructureError(
             f"a sandbox of level {demand} or better is demanded, but the best here is {best}: {reason}; "
-            f"{GUIDE} says how to get it, `course doctor` shows more, and `--sandbox {best}` grades all the same"
+            f"{GUIDE} says how to get it, `course doctor` shows more; `--sandbox {best}` without --demand takes {best}"
         )
     return best
 

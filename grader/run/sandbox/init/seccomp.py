@@ -40,15 +40,17 @@ MISSING = {
     29: "shmget", 64: "semget", 68: "msgget", 319: "memfd_create", 447: "memfd_secret",
     425: "io_uring_setup", 426: "io_uring_enter", 427: "io_uring_register", CLONE3: "clone3",
 }  # fmt: skip
-# Calls that change the priority, the scheduling or the limits of a process: of the calling one only. For each number
-# the arguments that are allowed, by position: which kind of id (a process), and which (0: the caller).
+# Calls that change the priority or the scheduling of a process: of the calling thread only. For each number the
+# arguments that are carried out, by position: which kind of id (a process), and which (0: the caller). With others the
+# call does nothing and returns 0, because Fast DDS and ZeroMQ name their own threads by number, and ZeroMQ aborts if
+# the call fails.
 OF_ITSELF_ONLY = {
     141: {0: 0, 1: 0},  # setpriority
     251: {0: 1, 1: 0},  # ioprio_set
     203: {0: 0},  # sched_setaffinity
     142: {0: 0}, 144: {0: 0}, 314: {0: 0},  # sched_setparam, sched_setscheduler, sched_setattr
-    302: {0: 0},  # prlimit64
 }  # fmt: skip
+LIMITS_OF_ITSELF_ONLY = {302: {0: 0}}  # prlimit64; refused with EPERM for others
 
 
 def _step(code: int, value: int, then: int = 0, otherwise: int = 0) -> bytes:
@@ -58,17 +60,18 @@ def _step(code: int, value: int, then: int = 0, otherwise: int = 0) -> bytes:
 def program() -> bytes:
     """Return the filter: an array of `struct sock_filter`."""
     no, none = _step(RETURN, REFUSE | errno.EPERM), _step(RETURN, REFUSE | errno.ENOSYS)
-    yes = _step(RETURN, ALLOW)
+    yes, nothing = _step(RETURN, ALLOW), _step(RETURN, REFUSE | 0)
     steps = [_step(LOAD, ARCHITECTURE), _step(JUMP_EQUAL, AUDIT_ARCH_X86_64, 1, 0), none]
     steps += [_step(LOAD, NUMBER), _step(JUMP_ABOVE, X32_BIT, 0, 1), none]
     for numbers, answer in ((REFUSED, no), (MISSING, none)):
         for number in numbers:
             steps += [_step(JUMP_EQUAL, number, 0, 1), answer]
-    for number, allowed in OF_ITSELF_ONLY.items():
-        steps += [_step(JUMP_EQUAL, number, 0, 3 * len(allowed) + 1)]
-        for position, value in allowed.items():
-            steps += [_step(LOAD, FIRST_ARGUMENT + 8 * position), _step(JUMP_EQUAL, value, 1, 0), no]
-        steps += [yes]
+    for calls, answer in ((OF_ITSELF_ONLY, nothing), (LIMITS_OF_ITSELF_ONLY, no)):
+        for number, allowed in calls.items():
+            steps += [_step(JUMP_EQUAL, number, 0, 3 * len(allowed) + 1)]
+            for position, value in allowed.items():
+                steps += [_step(LOAD, FIRST_ARGUMENT + 8 * position), _step(JUMP_EQUAL, value, 1, 0), answer]
+            steps += [yes]
     steps += [_step(JUMP_EQUAL, CLONE, 0, 4), _step(LOAD, FIRST_ARGUMENT)]
     steps += [_step(JUMP_ANY_BIT, NAMESPACES, 0, 1), no, yes]
     steps += [_step(JUMP_EQUAL, SOCKET, 1, 0), _step(JUMP_EQUAL, SOCKETPAIR, 0, len(FAMILIES) + 2)]

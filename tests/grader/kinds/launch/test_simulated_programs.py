@@ -169,6 +169,19 @@ def test_a_second_world_is_not_loaded_beside_the_first(served, tmp_path):
     assert load(served, tmp_path / "shown" / "mine.sdf")["name"] == "shapes"
 
 
+def test_the_simulator_alone_passes_on_that_its_world_is_to_run_or_to_pause(served):
+    simulator, other = Asking(), Asking()
+    description = hand_over(served, MINE.encode())
+    world = {"given": "w", "path": "", "built_in": "shapes.sdf", "description": description}
+    served.asked(simulator, {"world": world})
+    served.asked(simulator, {"run": {"paused": True, "iterations": 0}})
+    served.asked(other, {"control": {"pause": False}})
+    assert served.simulator.paused
+    served.asked(simulator, {"control": {"pause": False}})
+    assert not served.simulator.paused
+    assert served.facts()["simulators"][0]["paused"], "the recording says how it was started"
+
+
 @pytest.mark.parametrize("verb", ["control", "state", "scene/info", "../control"])
 def test_services_that_are_not_meant_for_it(served, verb):
     load(served, "/anywhere", built_in="shapes.sdf")

@@ -13,7 +13,7 @@ for pid in {1, os.getppid(), *others}:
         except OSError:
             print("held", path, flush=True)
         else:
-            print("ESCAPED", path, found, flush=True)
+            print("ESCAPED" if found else "held", path, found, flush=True)
     print("ESCAPED" if libc.ptrace(16, pid, 0, 0) == 0 else "held", "ptrace", pid, flush=True)
     buffer = ctypes.create_string_buffer(8)
     got = libc.process_vm_readv(pid, buffer, 0, buffer, 0, 0)

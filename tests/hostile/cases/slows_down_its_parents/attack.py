@@ -1,3 +1,5 @@
+"""Tries to slow down the processes above it. A call that returns without an error counts by its effect."""
+
 import ctypes
 import os
 import resource
@@ -6,12 +8,14 @@ from pathlib import Path
 LIBC = ctypes.CDLL(None, use_errno=True)
 
 
-def attempt(what, call):
+def attempt(what, call, seen=lambda: None):
+    before = seen()
     try:
         done = call()
     except OSError as error:
         return print("held", what, type(error).__name__, flush=True)
-    print("held" if done else "ESCAPED", what, done and os.strerror(ctypes.get_errno()), flush=True)
+    escaped = seen() != before if before is not None else not done
+    print("ESCAPED" if escaped else "held", what, flush=True)
 
 
 def parents():
@@ -24,11 +28,35 @@ def parents():
             return
 
 
+def io_priority(kind, who):
+    return LIBC.syscall(252, kind, who)
+
+
 for pid in parents():
-    attempt(f"priority of {pid}", lambda: os.setpriority(os.PRIO_PROCESS, pid, 19))
-    attempt(f"cores of {pid}", lambda: os.sched_setaffinity(pid, {min(os.sched_getaffinity(0))}))
-    attempt(f"scheduler of {pid}", lambda: os.sched_setscheduler(pid, os.SCHED_IDLE, os.sched_param(0)))
-    attempt(f"ioprio of {pid}", lambda: LIBC.syscall(251, 1, pid, 3 << 13))
+    attempt(
+        f"priority of {pid}",
+        lambda: os.setpriority(os.PRIO_PROCESS, pid, 19),
+        lambda: os.getpriority(os.PRIO_PROCESS, pid),
+    )
+    attempt(
+        f"cores of {pid}",
+        lambda: os.sched_setaffinity(pid, {min(os.sched_getaffinity(0))}),
+        lambda: os.sched_getaffinity(pid),
+    )
+    attempt(
+        f"scheduler of {pid}",
+        lambda: os.sched_setscheduler(pid, os.SCHED_IDLE, os.sched_param(0)),
+        lambda: os.sched_getscheduler(pid),
+    )
+    attempt(f"ioprio of {pid}", lambda: LIBC.syscall(251, 1, pid, 3 << 13), lambda: io_priority(1, pid))
     attempt(f"limits of {pid}", lambda: resource.prlimit(pid, resource.RLIMIT_NOFILE, (16, 16)) and None)
-attempt("everybody of this user", lambda: os.setpriority(os.PRIO_USER, os.getuid(), 19))
-attempt("io of everybody of this user", lambda: LIBC.syscall(251, 3, os.getuid(), 3 << 13))
+attempt(
+    "everybody of this user",
+    lambda: os.setpriority(os.PRIO_USER, os.getuid(), 19),
+    lambda: os.getpriority(os.PRIO_USER, os.getuid()),
+)
+attempt(
+    "io of everybody of this user",
+    lambda: LIBC.syscall(251, 3, os.getuid(), 3 << 13),
+    lambda: io_priority(3, os.getuid()),
+)
