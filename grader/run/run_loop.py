@@ -237,6 +237,7 @@ class RunLoop:
         while self._processes.running and not self._pace.everything_arrived() and time.monotonic() < deadline:
             self._processes.wait(LOOK_ROUND)
         self._collect()
+        self._ros.take_logs()
         self._endpoints.close(self._processes.endpoints, self._ros.look_again)
         discovery, not_logged = self._ros.discovery, self._console.not_logged()
         self._graph_facts = {
