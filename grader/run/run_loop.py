@@ -211,6 +211,7 @@ class RunLoop:
         """Take over what the submission's processes said and did since the last call."""
         for line in self._processes.take_lines():
             self._take(line)
+        self._endpoints.look()
         if self._processes.layout != self._layout:
             self._layout = self._processes.layout
             self._endpoints.report(self._processes.endpoints)

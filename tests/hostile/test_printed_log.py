@@ -33,9 +33,7 @@ TWO = (
     .replace("[sys.executable, __file__, *sys.argv[1:]]", '[sys.executable, __file__, "talker", *sys.argv[1:]]')
 )
 # Logs more lines than /rosout keeps before anybody can have found it.
-EAGER = SOLUTION.replace(
-    NODE, NODE + "\n        for i in range(300):\n            self.get_logger().info(f'line {i}')"
-)
+EAGER = SOLUTION.replace(NODE, NODE + "\n        for i in range(300):\n            self.get_logger().info(f'line {i}')")
 ENDS = SOLUTION.replace(
     "self.nearest.publish(Float32(data=min(valid)))",
     "self.nearest.publish(Float32(data=min(valid)))\n        self.count = getattr(self, 'count', 0) + 1\n"
