@@ -18,6 +18,7 @@ from rclpy.event_handler import QoSSubscriptionEventType
 from rclpy.impl.implementation_singleton import rclpy_implementation as rcl
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.type_support import check_is_valid_msg_type
 from std_msgs.msg import Empty
 
 from gz_course.grader.run.agent.course_agent.executor_monitor import HOUSEKEEPING
@@ -95,6 +96,7 @@ class _Watch:
 
     def __init__(self, node: Node, topic: str, kind: Any) -> None:
         profile = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT, deadline=KEPT_BY_NOBODY)
+        check_is_valid_msg_type(kind)  # loads it
         with node.handle:
             self._subscription = rcl.Subscription(node.handle, kind, topic, profile.get_c_qos_profile())
             self._events = [

@@ -15,6 +15,7 @@ from gz_course.grader.run.fair_clock import FairClock, Patience
 from gz_course.grader.run.processes.progress import Endpoint
 
 NAMES = 5.0  # [s] for reported endpoints, and for the names of nodes, to be discovered
+MOST_LOOKS = 200  # for what was reported
 MOST = 2_000  # endpoints that are kept of what was reported
 
 Key = tuple[str, str, str, str]
@@ -29,13 +30,20 @@ class EndpointFacts:
         self._reported: dict[Key, Endpoint] = {}
         self._seen: dict[Key, Endpoint] = {}
         self._refused: set[Key] = set()
+        self._looks = 0  # that are left until more is reported
 
     def report(self, endpoints: Iterable[Endpoint]) -> None:
         """Take what processes report, and look which of that DDS has seen already."""
         for each in endpoints:
             if len(self._reported) < MOST:
                 self._reported.setdefault(_key(each), each)
-        if self._reported.keys() - self._seen.keys():
+        self._looks = MOST_LOOKS
+        self.look()
+
+    def look(self) -> None:
+        """Look for what was reported and not seen; discovery takes a moment, and an endpoint may not stay long."""
+        if self._looks and self._reported.keys() - self._seen.keys():
+            self._looks -= 1
             self._look()
 
     def close(self, present: Iterable[Endpoint], clock: FairClock, wait: Callable[[], object]) -> None:

@@ -17,10 +17,12 @@ import rclpy
 from rcl_interfaces.msg import Log
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.impl.implementation_singleton import rclpy_implementation as rcl
 from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.serialization import serialize_message
 from rclpy.signals import SignalHandlerOptions
+from rclpy.type_support import check_is_valid_msg_type
 
 from gz_course.grader.errors import ManifestError
 from gz_course.grader.run.agent.course_agent.executor_monitor import HOUSEKEEPING
@@ -89,7 +91,12 @@ class GraderEndpoints:
             stack.callback(lambda: self.bridge.close())
             for topic, kind in kinds.items():
                 self._node.create_subscription(kind, topic, self._tap(topic), QoSProfile(depth=TAP_DEPTH))
-            self._node.create_subscription(Log, ROSOUT, lambda message: self._take_log(logged, message), ROSOUT_QOS)
+            self._logged = logged
+            # Outside the executor, which would look at it whenever it looks at anything.
+            check_is_valid_msg_type(Log)  # loads it
+            with self._node.handle:
+                self._log = rcl.Subscription(self._node.handle, Log, ROSOUT, ROSOUT_QOS.get_c_qos_profile())
+            stack.callback(self._log.destroy_when_not_in_use)
             self._look_at_own()
             self.discovery = Discovery(self._node)
             stack.callback(self.discovery.close)
@@ -129,9 +136,14 @@ class GraderEndpoints:
         self.received[topic] += 1
         self._heard(topic, message)
 
-    def _take_log(self, logged: Callable[[Any], None], message: Any) -> None:
-        self.received[ROSOUT] += 1
-        logged(message)
+    def take_logs(self) -> None:
+        """Take what has arrived on /rosout, at most `MOST_AT_ONCE` messages."""
+        for _ in range(MOST_AT_ONCE):
+            taken = self._log.take_message(Log, False)
+            if taken is None:
+                return
+            self.received[ROSOUT] += 1
+            self._logged(taken[0])
 
     def take_held(self) -> list[tuple[str, Any, Any]]:
         """Return what the simulator published since the last call: /clock first, then by topic name.

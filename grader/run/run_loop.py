@@ -220,6 +220,7 @@ class RunLoop:
         """Take over what the submission's processes said and did since the last call."""
         for line in self._processes.take_lines():
             self._take(line)
+        self._endpoints.look()
         if self._processes.layout != self._layout:
             self._layout = self._processes.layout
             self._endpoints.report(self._processes.endpoints)
@@ -246,6 +247,7 @@ class RunLoop:
         while self._processes.running and not self._pace.everything_arrived() and not patience.over():
             self._processes.wait(LOOK_ROUND)
         self._collect()
+        self._ros.take_logs()
         self._endpoints.close(self._processes.endpoints, self._processes.clock, self._ros.look_again)
         discovery, not_logged = self._ros.discovery, self._console.not_logged()
         self._graph_facts = {

@@ -21,6 +21,7 @@ def watch_logging(monitor: ExecutorMonitor) -> None:
     from rclpy.node import Node
 
     loggers: Counter[str] = Counter()  # names of those that publish on /rosout
+    contexts: dict[str, Any] = {}  # their contexts, which a signal may end
     make, destroy, shutdown = Node.__init__, Node.destroy_node, Context.shutdown
     log, add, remove = (
         rcl.rclpy_logging_rcutils_log,
@@ -33,6 +34,7 @@ def watch_logging(monitor: ExecutorMonitor) -> None:
         name = (node.get_name(), node.get_namespace())
         if name in {(e.node_name, e.node_namespace) for e in node.get_publishers_info_by_topic(ROSOUT)}:
             loggers[node.get_logger().name] = 1
+            contexts[node.get_logger().name] = node.context
 
     def noted_destroy(node: Any) -> Any:
         done = destroy(node)
@@ -42,11 +44,13 @@ def watch_logging(monitor: ExecutorMonitor) -> None:
     def noted_shutdown(context: Any) -> None:
         shutdown(context)
         loggers.clear()
+        contexts.clear()
 
     def noted_add(parent: str, child: str) -> bool:
         added: bool = add(parent, child)
         if added and loggers[parent]:
             loggers[f"{parent}.{child}"] += 1
+            contexts[f"{parent}.{child}"] = contexts[parent]
         return added
 
     def noted_remove(parent: str, child: str) -> Any:
@@ -54,8 +58,9 @@ def watch_logging(monitor: ExecutorMonitor) -> None:
         return remove(parent, child)
 
     def noted_log(severity: Any, name: str, *args: Any) -> None:
+        counts = loggers[name] > 0 and contexts[name].ok()
         log(severity, name, *args)
-        if loggers[name] > 0:
+        if counts:
             monitor.count_log()
 
     rcl.rclpy_logging_rcutils_log = noted_log
