@@ -170,6 +170,7 @@ class RunLoop:
 
     def _deliver(self, now: int) -> None:
         """Send what the simulator has published, one message at a time: /clock first, then by topic name."""
+        self._pace.wake_sleepers(now)
         messages = self._ros.take_held()
         if not messages:  # no bridge takes anything to ROS, not even /clock: still the world is on record
             self._scene.tick()

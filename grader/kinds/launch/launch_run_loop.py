@@ -136,7 +136,7 @@ class LaunchRunLoop(RunLoop):
         self._interrupted = True
         seen = len(self._lines)
         for each in self._processes.participants:
-            each.tell({"free": True})
+            each.tell({"free": True, "real": True})
         if was_running:
             self._processes.signal(signal.SIGINT)
         deadline = time.monotonic() + END_PATIENCE

@@ -28,6 +28,8 @@ GIVING_UP = 3  # failures after which the rest of the run is paced
 CLOCK_AGAIN = 0.05  # [s] /clock is best effort on the student's side, so it is sent again until it is seen
 LOST = 0.1  # [s] if everybody is idle and a message was not taken for this time, it is sent again
 LOST_PATIENCE = 10.0  # [s] of wall time for a message that is lost repeatedly, unless waiting has failed before
+STRAYS = 0.05  # [s] between two looks at threads that wait in a call that is not watched
+MOST_WAKES = 1_000  # of one process in a tick; a thread sleeps for a millisecond at least
 CLOCK = "/clock"
 
 
@@ -89,7 +91,7 @@ class LockStep(RealTime):
 
     def _matched(self) -> bool:
         matched = super()._matched() and (not self._holding or self._matched_with_each_other())
-        if not matched and self._holding:
+        if not matched:
             self._tell({"look": True})
         return matched
 
@@ -146,13 +148,37 @@ class LockStep(RealTime):
             self.everything_arrived()
         return 0
 
+    def wake_sleepers(self, now_ns: int) -> None:
+        """Wake those who sleep until `now_ns` [ns] one at a time, and wait for the consequences of each.
+
+        First comes who is due first, then by the names of nodes. They come before the messages of this tick.
+        """
+        self._pending = None
+        woken: Counter[int] = Counter()
+        while self.processes.running and not self._free:
+            due = [p for p in self._participants if _sleeps_until(p, now_ns) and woken[p.number] < MOST_WAKES]
+            if not due:
+                break
+            first = min(due, key=lambda p: (p.progress.wakes if p.progress else 0, p.name))
+            woken[first.number] += 1
+            first.wake(first.progress.wakes if first.progress and first.progress.wakes else now_ns)
+            self._settle()
+        self.processes.now_ns = now_ns
+        for each in self.processes.participants:
+            if self._free and _sleeps_until(each, now_ns):
+                each.wake(now_ns, every=True)
+            elif not each.gone and each.progress is not None and each.progress.clock is None:
+                each.tell({"now": now_ns})  # no node of it gets /clock
+
     def settle(self) -> None:
         """Wait until the message just sent was taken and its consequences have arrived.
 
         Then release the messages the processes hold, one at a time, and wait in the same way for each.
         """
-        if self._free or not (self._pending or self._holding):
-            return
+        if not self._free and (self._pending or self._holding):
+            self._settle()
+
+    def _settle(self) -> None:
         if not self._await_settled():
             return
         self._pending = None
@@ -172,6 +198,8 @@ class LockStep(RealTime):
     def _await_settled_until(self, deadline: float) -> bool:
         resend = time.monotonic() + CLOCK_AGAIN
         lost = time.monotonic() + LOST
+        strays = time.monotonic() + STRAYS
+        self._have_taken()
         give_up = time.monotonic() + (PATIENCE if self._failures else LOST_PATIENCE)
         while not self._settled():
             if not self.processes.running:
@@ -179,7 +207,13 @@ class LockStep(RealTime):
                 return False
             if not self.processes.wait(LOOK_ROUND):
                 self.ros.pump()
+                self._have_taken()
             now = time.monotonic()
+            if now > strays:
+                for each in self._participants:
+                    if each.progress and not each.progress.idle:
+                        each.tell({"strays": True})
+                strays = now + STRAYS
             if now > deadline:
                 self._fall_out_of_step()
                 return False
@@ -192,6 +226,12 @@ class LockStep(RealTime):
                 lost = now + LOST
                 deadline = min(now + PATIENCE, give_up) if self._copies else deadline
         return True
+
+    def _have_taken(self) -> None:
+        """Let the messages be taken for which a node has no time at the moment."""
+        for each in self._participants:
+            if each.progress and each.progress.blocked and not each.gone:
+                each.tell({"take": True})
 
     def _is_lost(self) -> bool:
         """Return whether every process is idle although one has not taken the message just sent."""
@@ -276,6 +316,13 @@ class LockStep(RealTime):
         self._write_off()
         for topic, count in self._total("published").items():
             self._lost[topic] = max(0, count - self.ros.received[topic])
+
+
+def _sleeps_until(participant: Participant, now_ns: int) -> bool:
+    """Return whether a thread of it sleeps that is due at `now_ns` [ns]."""
+    if participant.gone or participant.progress is None or participant.progress.wakes is None:
+        return False
+    return participant.progress.wakes <= now_ns
 
 
 def _holds(participant: Participant) -> bool:

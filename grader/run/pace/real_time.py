@@ -105,6 +105,9 @@ class RealTime:
         """Publish one message of the simulator at simulated time `now_ns` [ns]."""
         publisher.publish(message)
 
+    def wake_sleepers(self, now_ns: int) -> None:
+        """Wake those who sleep in simulated time until `now_ns` [ns]; in real time they sleep in real time."""
+
     def settle(self) -> None:
         """Wait for the consequences of the last message; in real time there is no waiting."""
 

@@ -41,6 +41,7 @@ class Participant:
         self._asked = asked
         self._answered = 0
         self._released = 0
+        self._woken = 0
         channel.setblocking(False)
         channel.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, LARGEST)
 
@@ -64,8 +65,10 @@ class Participant:
 
     @property
     def waiting_for_release(self) -> bool:
-        """Whether it has not reported yet that it carried out a release."""
-        return not self.gone and self.progress is not None and self.progress.released < self._released
+        """Whether it has not reported yet that it carried out a release, or woke a sleeper."""
+        if self.gone or self.progress is None:
+            return False
+        return self.progress.released < self._released or self.progress.woken < self._woken
 
     @property
     def wants_answer(self) -> bool:
@@ -83,6 +86,12 @@ class Participant:
         if self.progress is not None:
             self._released = self.progress.released + 1
             self.tell({"release": 1})
+
+    def wake(self, now_ns: int, every: bool = False) -> None:
+        """Order it to let simulated time go on to `now_ns` and to wake the sleeper due first, or every one due."""
+        if self.progress is not None:
+            self._woken = self.progress.woken + 1
+            self.tell({"wake": now_ns} | ({"every": True} if every else {}))
 
     def tell(self, order: dict[str, Any]) -> None:
         with contextlib.suppress(OSError):

@@ -34,6 +34,11 @@ class Progress:
     released: int = 0
     flushes: int = 0  # how often it has asked for the confirmation that everything arrived
     again: frozenset[str] = frozenset()  # topics on which it expects that a message may come twice
+    spun: bool = False  # whether an executor of it has ever waited
+    wakes: int | None = None  # [ns] of simulated time at which its first sleeper is due
+    woken: int = 0  # orders to wake a sleeper that it carried out
+    blocked: bool = False  # one of its nodes cannot take messages at the moment: a callback sleeps, or nobody spins it
+    lost: dict[str, int] = field(default_factory=dict)  # published before anybody had found the publisher
     endpoints: tuple[Endpoint, ...] = ()
 
     @staticmethod
@@ -53,6 +58,11 @@ class Progress:
                 released=_count(raw["released"]),
                 flushes=_count(raw["flushes"]),
                 again=frozenset(map(str, raw.get("again", ()))),
+                spun=raw.get("spun") is True,
+                wakes=_count(raw["wakes"]) if "wakes" in raw else None,
+                woken=_count(raw.get("woken", 0)),
+                blocked=raw.get("blocked") is True,
+                lost=_counts(raw.get("lost", {})),
                 endpoints=tuple(_endpoint(e) for e in raw["endpoints"])
                 if "endpoints" in raw
                 else before.endpoints

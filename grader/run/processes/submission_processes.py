@@ -87,6 +87,7 @@ class SubmissionProcesses:
         self._last = b""  # end of what was written beyond the limit
         self._last_taken = 0  # lines
         self._written = 0  # [bytes]
+        self.now_ns = 0  # simulated time, told to processes that ask for it
         self.exit_code: int | None = None
         self.hid = False  # whether it closed its end of the socket and lived on
 
@@ -201,6 +202,8 @@ class SubmissionProcesses:
 
     def _hear(self, who: Participant, message: dict[str, Any]) -> None:
         self._tree.hear(message)
+        if "clock" in message:
+            who.tell({"now": self.now_ns})
         self.asked(who, message)
 
     def _reap(self) -> None:
