@@ -127,7 +127,7 @@ class RunLoop:
         more = self._last_look()
         self._processes.stop()
         self._scene.finish()
-        return self._facts(ready) | more
+        return self._facts(ready and self._processes.spun) | more
 
     @property
     def _wall_limit(self) -> float:
@@ -243,6 +243,7 @@ class RunLoop:
             "offered": self._ros.offered,
             "listened": self._ros.listened,
             "dropped": dropped,
+            "too_early": self._pace.too_early(),
             "lines_dropped": self._processes.dropped_lines,
             "messages_not_recorded": {t: n - MOST_MESSAGES for t, n in self._messages.items() if n > MOST_MESSAGES},
             "hid": self._processes.hid,

@@ -93,6 +93,10 @@ class RealTime:
                     each.answer()
         return True
 
+    def too_early(self) -> dict[str, int]:
+        """Return by topic how many messages the processes published before anybody had found the publisher."""
+        return {topic: count for topic, count in sorted(self._total("lost").items()) if self.ros.listens(topic)}
+
     def _total(self, what: str) -> Counter[str]:
         """Sum one of the counters over all processes, including those that have ended."""
         total: Counter[str] = Counter()

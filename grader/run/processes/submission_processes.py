@@ -124,6 +124,11 @@ class SubmissionProcesses:
         return sorted((p for p in self.participants if p.progress and not p.gone), key=lambda p: p.name)
 
     @property
+    def spun(self) -> bool:
+        """Whether a node of it was ever spun, or published something."""
+        return any(p.progress.spun or p.progress.published for p in self.participants if p.progress)
+
+    @property
     def layout(self) -> tuple[int, ...]:
         """A value that changes when a process or an endpoint comes or goes."""
         return tuple(-1 if p.gone else id(p.progress.endpoints) if p.progress else 0 for p in self.participants)

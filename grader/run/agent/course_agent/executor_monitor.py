@@ -326,6 +326,7 @@ class ExecutorMonitor:
             self._flushed = self._released + self.published.total() + self.delivered.total()
         while self._held:  # not released by the grader in time
             self._send_next()
+        self.report()  # it is at work again: simulated time stands still until it waits or is gone
 
     def report(self, flushing: bool = False) -> None:
         """Send the counts if they changed since the last report."""

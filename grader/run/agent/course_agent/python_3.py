@@ -178,7 +178,9 @@ def install_threads(threads: ThreadMonitor) -> None:
         join(other, timeout)
 
     def unwatched_shutdown() -> None:
-        threads.leave()  # the main thread only waits for the others
+        others = [each for each in threading.enumerate() if each is not threading.main_thread() and not each.daemon]
+        if others:  # else the process ends, which it does at work
+            threads.leave()
         shutdown()
 
     def told_sleep(seconds: float) -> None:
