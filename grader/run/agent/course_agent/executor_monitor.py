@@ -129,7 +129,7 @@ class ExecutorMonitor:
         elif "take" in order:
             self._take()
             self.report()
-        elif "strays" in order:
+        elif "strays" in order or "ping" in order:
             alive = threading.enumerate()
             self.threads.look_for_strays({t.ident: t.native_id for t in alive if t.ident and t.native_id})
             self.report()
@@ -192,7 +192,8 @@ class ExecutorMonitor:
         rate = os.environ.get(SIMULATED_CLOCKS)
         if rate and not self.threads.simulated and self._channel.open:
             self._channel.send({"clock": True})
-            self._told_time.wait(None)
+            with self.threads.at_work():
+                self._told_time.wait(None)
             if self._channel.open:
                 self.threads.start(self.threads.now_ns, float(rate))
 
@@ -322,7 +323,9 @@ class ExecutorMonitor:
         self._answered.clear()
         self._flushes += 1
         self.report(flushing=True)
-        if self._answered.wait(FLUSH_PATIENCE):
+        with self.threads.at_work():
+            answered = self._answered.wait(FLUSH_PATIENCE)
+        if answered:
             self._flushed = self._released + self.published.total() + self.delivered.total()
         while self._held:  # not released by the grader in time
             self._send_next()

@@ -15,9 +15,10 @@ The clocks of the process (`time.time()` and its kind) go on with simulated time
 from __future__ import annotations
 
 import _thread
+import contextlib
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 MILLISECOND = 1_000_000  # [ns] of simulated time: the shortest sleep
@@ -159,6 +160,19 @@ class ThreadMonitor:
                 wait.cut = True
                 self.rouse(wait)
                 wait.wake()
+
+    @contextlib.contextmanager
+    def at_work(self) -> Iterator[None]:
+        """Let the calling thread count as at work whatever it does, as one that runs a callback."""
+        number = self.mine()
+        if number is None or number in self.calling:
+            yield
+            return
+        self.calling.add(number)
+        try:
+            yield
+        finally:
+            self.calling.discard(number)
 
     def look_for_strays(self, native: dict[int, int]) -> None:
         """Do not count a thread as at work that does not run: it waits in a call that is not watched.
