@@ -10,9 +10,9 @@ The patches in `rclpy_7_1.py` call it. Each time the last thread that was at wor
 readers they had. Requests and responses count as messages on "request NAME" and "response NAME". When `flushes` grows,
 the process waits for an answer before it destroys a publisher. `again` names the topics on which the grader has
 announced to send a message once more; copies are dropped (`rclpy_7_1.py`). `wakes` is the simulated time [ns] at which
-the first sleeper is due, `woken` how many orders to wake one were carried out (`thread_monitor.py`). `blocked` says that
-a node cannot take messages at the moment; the order `take` has them taken (`inbox.py`). The grader advances simulated
-time only when these numbers show that every message was taken.
+the first sleeper is due, `woken` how many orders to wake one were carried out (`thread_monitor.py`). `blocked` says
+that a node cannot take messages at the moment; the order `take` has them taken (`inbox.py`). The grader advances
+simulated time only when these numbers show that every message was taken.
 
 A publisher is found by others while its process waits, and simulated time stands still for that. What it publishes
 before the first wait after its creation is lost, as it is when nobody has discovered it yet; `lost` counts that.
@@ -29,7 +29,7 @@ import json
 import os
 import threading
 from collections import Counter, deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 from . import grader_requests

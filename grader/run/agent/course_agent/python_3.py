@@ -136,9 +136,9 @@ def install_asyncio() -> None:
 
 
 def install_threads(threads: ThreadMonitor) -> None:
-    """Watch the threads that are started from now on, and the main one. Raises ImportError if Python is not as expected.
+    """Watch the calling thread and those that are started from now on. Raises ImportError if Python is not as expected.
 
-    The calling thread must be the only one that runs code of the submission.
+    The calling thread should be the only one that runs code of the submission.
     """
     global _threads
     import queue

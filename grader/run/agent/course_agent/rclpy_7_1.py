@@ -201,8 +201,8 @@ def _make_subscriptions_reliable(monitor: ExecutorMonitor) -> None:
     best-effort reader loses the whole picture, and lock-step would wait for it in vain. How many are lost depends on
     how busy the machine is. So where the grader publishes reliably, a best-effort subscription reads reliably.
     Elsewhere its QoS stays, because QoS decides which endpoints match; there the grader sends a lost message again, and
-    readers that had it already drop the copy (`ExecutorMonitor.is_copy`). What a node knows about its subscriptions (`qos_profile`,
-    parameters) stays what it asked for.
+    readers that had it already drop the copy (`ExecutorMonitor.is_copy`). What a node knows about its subscriptions
+    (`qos_profile`, parameters) stays what it asked for.
     """
     from rclpy.impl.implementation_singleton import rclpy_implementation as rcl
 

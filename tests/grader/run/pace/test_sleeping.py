@@ -60,8 +60,10 @@ def ask_until(end):
 
 @pytest.mark.parametrize("way", WAYS)
 def test_a_thread_sleeps_in_simulated_time(heard, way):
-    call = WAYS[way].replace("contextlib.suppress(queue.Empty).__class__; ", "").replace(
-        "contextlib.suppress(TimeoutError).__class__; ", ""
+    call = (
+        WAYS[way]
+        .replace("contextlib.suppress(queue.Empty).__class__; ", "")
+        .replace("contextlib.suppress(TimeoutError).__class__; ", "")
     )
     code = f"""
 {TOOLS}
@@ -93,7 +95,9 @@ rclpy.spin(node)
     ids=["spin_once", "future", "loop", "poll"],
 )
 def test_the_timeout_of_a_spin_is_simulated_time(play, wait):
-    code = f"from rclpy.task import Future\nnode = Node('plain', use_global_arguments=False)\n{NOW}\n{wait}\nsay('over')\n"
+    code = (
+        f"from rclpy.task import Future\nnode = Node('plain', use_global_arguments=False)\n{NOW}\n{wait}\nsay('over')\n"
+    )
     played = play(ticks=6, holding=False, simulated=True, node=code + "rclpy.spin(node)")
     assert played.pace.paced_ticks == 0
     assert [line.split()[:2] for line in played.heard] == [["over", "0.300"]]
@@ -124,7 +128,14 @@ def test_sleepers_wake_in_the_order_of_their_time_then_of_their_start(heard):
     rclpy.spin(node)
     """
     said = [line.split()[:2] for line in heard(code, ticks=5)]
-    assert said == [["b", "0.100"], ["a", "0.100"], ["slow", "0.200"], ["b", "0.200"], ["a", "0.200"], ["slow", "0.400"]]
+    assert said == [
+        ["b", "0.100"],
+        ["a", "0.100"],
+        ["slow", "0.200"],
+        ["b", "0.200"],
+        ["a", "0.200"],
+        ["slow", "0.400"],
+    ]
 
 
 def test_messages_queue_up_while_a_callback_sleeps_and_the_oldest_are_lost(play):
