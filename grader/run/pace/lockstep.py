@@ -3,9 +3,9 @@
 The simulator publishes one message at a time and waits until the student's processes have taken it and are idle, and
 until everything they published has arrived. Messages between several processes, or from several processes to the
 simulator at the same time, would be a race: the processes hold them back and release one at a time on order, always in
-the same sequence. Nothing depends on the speed of the machine. While a node cannot be followed (it blocks, or never
-spins), simulated time is paced to the wall clock; waiting for one message takes `PATIENCE` at most. `real_time.py` has
-the same interface without the waiting.
+the same sequence. Who sleeps does so in simulated time, and is woken when it has come. Nothing depends on the speed of
+the machine. While a node cannot be followed (it blocks, or never spins), simulated time is paced to the wall clock;
+waiting for one message takes `PATIENCE` at most. `real_time.py` has the same interface without the waiting.
 """
 
 from __future__ import annotations
