@@ -90,10 +90,7 @@ class LockStep(RealTime):
                 each.tell(order)
 
     def _matched(self) -> bool:
-        matched = super()._matched() and (not self._holding or self._matched_with_each_other())
-        if not matched:
-            self._tell({"look": True})
-        return matched
+        return super()._matched() and (not self._holding or self._matched_with_each_other())
 
     def _matched_with_each_other(self) -> bool:
         if not (self._free or all(each.progress and each.progress.holding for each in self._participants)):

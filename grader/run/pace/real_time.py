@@ -29,6 +29,7 @@ class RealTime:
     def __init__(self, processes: SubmissionProcesses, ros: GraderEndpoints) -> None:
         self.processes = processes
         self.ros = ros
+        self.ros.look = self._look_who_was_found
         self.paced_ticks = 0
         self.held_seconds = 0.0  # [s] of wall time spent in long waits for the student
         self._due: float | None = None
@@ -60,6 +61,8 @@ class RealTime:
     def await_matches(self, deadline: float) -> None:
         """Wait until every endpoint that can match has matched on both sides."""
         while self.processes.running and time.monotonic() < deadline and not self._matched():
+            for each in self.processes.participants:
+                each.tell({"look": True})  # a process that sleeps does not look by itself
             self.processes.wait(LOOK_ROUND)
             self.ros.pump()
 
@@ -92,6 +95,13 @@ class RealTime:
                 else:
                     each.answer()
         return True
+
+    def _look_who_was_found(self) -> None:
+        """Tell our endpoints when the publishers were found that had published something before."""
+        self.processes.wait(0)
+        for each in self.processes.participants:
+            if each.progress is not None and each.progress.found_at:
+                self.ros.found_at.update(each.progress.found_at)
 
     def too_early(self) -> dict[str, int]:
         """Return by topic how many messages the processes published before anybody had found the publisher."""

@@ -39,6 +39,8 @@ class Progress:
     woken: int = 0  # orders to wake a sleeper that it carried out
     blocked: bool = False  # one of its nodes cannot take messages at the moment: a callback sleeps, or nobody spins it
     lost: dict[str, int] = field(default_factory=dict)  # published before anybody had found the publisher
+    # topic -> [ns] of real time: what it published earlier is only for those who join late and ask for it
+    found_at: dict[str, int] = field(default_factory=dict)
     endpoints: tuple[Endpoint, ...] = ()
 
     @staticmethod
@@ -63,6 +65,7 @@ class Progress:
                 woken=_count(raw.get("woken", 0)),
                 blocked=raw.get("blocked") is True,
                 lost=_counts(raw.get("lost", {})),
+                found_at=_counts(raw.get("found_at", {})),
                 endpoints=tuple(_endpoint(e) for e in raw["endpoints"])
                 if "endpoints" in raw
                 else before.endpoints

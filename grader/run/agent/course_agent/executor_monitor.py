@@ -15,7 +15,8 @@ that a node cannot take messages at the moment; the order `take` has them taken 
 simulated time only when these numbers show that every message was taken.
 
 A publisher is found by others while its process waits, and simulated time stands still for that. What it publishes
-before the first wait after its creation is lost, as it is when nobody has discovered it yet; `lost` counts that.
+before the first wait after its creation is lost, as it is when nobody has discovered it yet; `lost` counts that. DDS
+keeps it for late joiners if the publisher is transient local; the grader ignores what is older than `found_at`.
 
 Messages between several processes would be a race. After the order `hold` a process therefore queues what it sends, and
 each order `release` lets one message leave: at any moment one message is in transit in the whole system. The order
@@ -34,9 +35,9 @@ from typing import Any
 
 from . import grader_requests
 from .channel import Channel
-from .inbox import blocked, fill
+from .inbox import blocked, fill, is_copy
 from .signals import Signal
-from .thread_monitor import ThreadMonitor, monotonic, sleep
+from .thread_monitor import ThreadMonitor, monotonic, sleep, time_ns
 
 TOPICS = "COURSE_TOPICS"
 RELIABLE = "reliable"  # kind in TOPICS: what the grader publishes reliably
@@ -47,6 +48,7 @@ UNMATCHED_SLICE = 0.005  # [s] between two looks at an unmatched publisher; DDS 
 FLUSH_PATIENCE = 1.0  # [s] for the grader to receive the last messages before a publisher is destroyed
 MATCH_PATIENCE = 5.0  # [s] after which a publisher counts as unmatched
 SERVICE_PATIENCE = 1.0  # [s] for a service to be found before a request is sent
+NEVER = 1 << 62  # [ns] of real time
 HOUSEKEEPING = ("/rosout", "/parameter_events")  # topics of every node, which lock-step ignores
 
 
@@ -65,6 +67,8 @@ class ExecutorMonitor:
         self._holding = holding
         self._released = 0
         self.lost: Counter[str] = Counter()
+        # Topics whose early messages DDS keeps for late joiners: when their publishers were found, in real time [ns].
+        self._found_at: dict[str, int] = {}
         self.spun = False  # whether an executor has ever waited
         self._lock = threading.RLock()
         self._answered = Signal()
@@ -202,13 +206,24 @@ class ExecutorMonitor:
         with self._lock:
             self._nodes.pop(id(node), None)
 
+    def announce_early(self, topic: str) -> None:
+        """Tell the grader that what comes on a topic is none of its own until the process has waited."""
+        with self._lock:
+            self._found_at[topic] = NEVER
+        self.report()
+
+    @property
+    def nodes(self) -> list[Any]:
+        """The nodes of this process."""
+        return list(self._nodes.values())
+
     def local_subscriptions(self, topic: str) -> list[Any]:
         """Return the subscriptions of this process to a topic."""
-        return [s for n in list(self._nodes.values()) for s in list(n.subscriptions) if self.topic_of(s) == topic]
+        return [s for n in self.nodes for s in list(n.subscriptions) if self.topic_of(s) == topic]
 
     def executor_of(self, entity: Any) -> Any:
         """Return the executor that looks at a subscription or guard condition; None if there is none."""
-        for node in list(self._nodes.values()):
+        for node in self.nodes:
             if entity in node._subscriptions or entity in node._guards:
                 return node.executor
         return None
@@ -224,7 +239,7 @@ class ExecutorMonitor:
 
     def _took_subscription(self, subscription: Any, item: Any) -> bool:
         topic = self.topic_of(subscription)
-        if self.is_copy(subscription, item[0]) and topic in self.again:
+        if is_copy(subscription, item[0]) and topic in self.again:
             return False
         self.count(self.taken, topic)
         for node in self._nodes.values():
@@ -246,17 +261,6 @@ class ExecutorMonitor:
         self.clock_seen[id(source)] = max(now, self.clock_seen.get(id(source), 0))
         if self.threads.simulated:
             self.threads.tell(now)
-
-    @staticmethod
-    def is_copy(subscription: Any, message: Any) -> bool:
-        """Return whether a message has the stamp of the one before it; False for a message without a stamp."""
-        if not hasattr(subscription.msg_type, "header"):
-            return False
-        # A raw subscription gets bytes: a header of four bytes that names the encoding, then the stamp.
-        raw = isinstance(message, bytes)
-        stamp = message[4:12] if raw else (message.header.stamp.sec, message.header.stamp.nanosec)
-        before, subscription.course_stamp = getattr(subscription, "course_stamp", None), stamp
-        return bool(stamp == before)
 
     def _is_met(self, endpoint: dict[str, Any]) -> bool:
         """Return whether the grader has the opposite endpoint, of the same type and with compatible QoS."""
@@ -339,6 +343,7 @@ class ExecutorMonitor:
                 self._refresh_endpoints()
             if idle and self._found != self._layout:
                 self._found = self._layout
+                self._found_at = {topic: min(at, time_ns()) for topic, at in self._found_at.items()}
                 for publisher in [p for n in self._nodes.values() for p in n.publishers]:
                     publisher.course_found = getattr(publisher, "course_found", "found")
             sources = [n._time_source for n in self._nodes.values() if n._time_source.ros_time_is_active]
@@ -361,6 +366,8 @@ class ExecutorMonitor:
                 report["blocked"] = True
             if self.lost:
                 report["lost"] = self.lost
+            if self._found_at:
+                report["found_at"] = self._found_at
             if self.again:
                 report["again"] = sorted(self.again)
             if self._endpoints != self._reported_endpoints:

@@ -183,9 +183,10 @@ def install_threads(threads: ThreadMonitor) -> None:
             threads.leave()
         shutdown()
 
-    def told_sleep(seconds: float) -> None:
+    def told_sleep(seconds: Any) -> None:
         if not threads.simulated or threads.mine() is None or not seconds > 0:
-            sleep(seconds)
+            with threads.waiting():
+                sleep(seconds)
             return
         lock = WatchedLock(threads)
         lock.acquire()

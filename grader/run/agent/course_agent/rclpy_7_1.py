@@ -17,7 +17,7 @@ from typing import Any
 
 from .channel import channel
 from .executor_monitor import HOLD, HOUSEKEEPING, TOPICS, ExecutorMonitor, type_name
-from .inbox import Kept, fill, has_kept, kept
+from .inbox import Kept, fill, has_kept, is_copy, kept
 from .python_3 import install_threads
 from .rclpy_7_1_waits import nudge, watch_waits
 from .self_check import Reliance, misfits
@@ -112,7 +112,7 @@ def _watch_messages(monitor: ExecutorMonitor) -> None:
         if callback is None:
             return None
         topic = monitor.topic_of(subscription)
-        if monitor.is_copy(subscription, _variables(callback)["msg_tuple"][0]) and topic in monitor.again:
+        if is_copy(subscription, _variables(callback)["msg_tuple"][0]) and topic in monitor.again:
             return None
         monitor.count(monitor.taken, topic)
         return callback
@@ -134,6 +134,7 @@ def _watch_messages(monitor: ExecutorMonitor) -> None:
         topic = monitor.topic_of(publisher)
         monitor.count(monitor.lost, topic)
         if publisher.qos_profile.durability.name == "TRANSIENT_LOCAL":
+            monitor.announce_early(topic)
             publish(publisher, message)
             return
         for subscription in monitor.local_subscriptions(topic):
@@ -201,7 +202,7 @@ def _make_subscriptions_reliable(monitor: ExecutorMonitor) -> None:
     best-effort reader loses the whole picture, and lock-step would wait for it in vain. How many are lost depends on
     how busy the machine is. So where the grader publishes reliably, a best-effort subscription reads reliably.
     Elsewhere its QoS stays, because QoS decides which endpoints match; there the grader sends a lost message again, and
-    readers that had it already drop the copy (`ExecutorMonitor.is_copy`). What a node knows about its subscriptions
+    readers that had it already drop the copy (`is_copy`). What a node knows about its subscriptions
     (`qos_profile`, parameters) stays what it asked for.
     """
     from rclpy.impl.implementation_singleton import rclpy_implementation as rcl

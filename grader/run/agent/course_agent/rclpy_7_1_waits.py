@@ -47,7 +47,7 @@ def _watch_executors(monitor: ExecutorMonitor) -> None:
 
     def watched_wait(executor: Any, timeout_sec: Any = None, nodes: Any = None, condition: Any = lambda: False) -> Any:
         mine = threads.mine()
-        threads.calling.discard(mine)  # type: ignore[arg-type]
+        threads.calling.discard(mine)
         _await_start(executor, monitor)
         seconds = getattr(timeout_sec, "timeout", timeout_sec)
         seconds = None if seconds is None or seconds < 0 else seconds
@@ -72,7 +72,8 @@ def _watch_executors(monitor: ExecutorMonitor) -> None:
             if found is None and seconds == 0:
                 if not threads.polls_too_often():
                     if not threads.simulated:
-                        threads.end(threads.begin(None, lambda: None))
+                        with threads.waiting():
+                            pass
                     raise TimeoutException
                 due = _Due(monitor, POLL_PERIOD)
                 seconds = POLL_PERIOD
@@ -178,7 +179,7 @@ def _await_start(executor: Any, monitor: ExecutorMonitor) -> None:
                 try:
                     callback()
                 finally:
-                    monitor.threads.calling.discard(mine)  # type: ignore[arg-type]
+                    monitor.threads.calling.discard(mine)
 
             return submit(run)
 
@@ -254,7 +255,7 @@ def _watch_clocks(monitor: ExecutorMonitor) -> None:
                 self._event.wait((until.nanoseconds - shown) / 1e9)
 
     Clock.now = watched_now
-    clocks._rclpy = _Module(clocks._rclpy, ClockEvent=WatchedClockEvent)  # type: ignore[attr-defined]
+    clocks._rclpy = _Module(clocks._rclpy, ClockEvent=WatchedClockEvent)
 
 
 def _watch_single_messages(monitor: ExecutorMonitor) -> None:
@@ -280,7 +281,7 @@ def _watch_single_messages(monitor: ExecutorMonitor) -> None:
             self._set.add_guard_condition(self._guard)
 
         def add_subscription(self, handle: Any) -> None:
-            for node in list(monitor._nodes.values()):
+            for node in monitor.nodes:
                 for subscription in node.subscriptions:
                     if subscription.handle is handle:
                         subscription.course_waited = True

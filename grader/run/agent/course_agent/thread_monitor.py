@@ -27,7 +27,7 @@ MOST_POLLS = 3  # of an executor that has nothing to do, without a wait in betwe
 POLL_PERIOD = 0.01  # [s] of simulated time that the next such poll takes at most
 
 # The clocks and the sleep of the machine, for the agent itself.
-monotonic, sleep = time.monotonic, time.sleep
+monotonic, sleep, time_ns = time.monotonic, time.sleep, time.time_ns
 
 
 class Wait:
@@ -124,6 +124,15 @@ class ThreadMonitor:
         """Say that the calling thread waits no more."""
         if wait is not None:
             self.rouse(wait)
+
+    @contextlib.contextmanager
+    def waiting(self) -> Iterator[None]:
+        """Let the calling thread wait in real time."""
+        wait = self.begin(None, lambda: None)
+        try:
+            yield
+        finally:
+            self.end(wait)
 
     def rouse(self, wait: Wait) -> None:
         """Count a thread as at work whose wait is about to end."""
@@ -245,8 +254,11 @@ class WatchedLock:
             return True
         if not blocking or timeout == 0:
             return False
-        if threads.mine() is None or (timeout > 0 and not threads.simulated):
+        if threads.mine() is None:
             return self._lock.acquire(True, timeout)
+        if timeout > 0 and not threads.simulated:
+            with threads.waiting():
+                return self._lock.acquire(True, timeout)
         deadline = threads.after(timeout) if timeout > 0 else None
         with threads.lock:
             if self._lock.acquire(False):

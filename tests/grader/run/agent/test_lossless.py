@@ -10,7 +10,7 @@ from types import SimpleNamespace
 import pytest
 
 from gz_course.grader.record.reading import Recording
-from gz_course.grader.run.agent.course_agent.executor_monitor import ExecutorMonitor
+from gz_course.grader.run.agent.course_agent.inbox import is_copy
 from gz_course.grader.run.pace import lockstep
 from gz_course.grader.run.processes.progress import Progress
 from gz_course.grader.run.sandbox import environment
@@ -179,9 +179,6 @@ def test_nothing_large_is_lost_however_little_the_sockets_hold(course_folder, gr
     # What the student's node asked for is what is judged, not how it is delivered.
     asked = {e["topic"]: e["reliability"] for e in Recording(narrow.recording).facts()["endpoints"]}
     assert asked["/camera"] == asked["/cloud/points"] == "BEST_EFFORT"
-
-
-is_copy = ExecutorMonitor.is_copy
 
 
 class Listener:

@@ -100,14 +100,19 @@ def test_a_subscription_in_the_same_process_hears_it(play):
     assert played.heard == ["first timer"]
 
 
-def test_another_process_hears_only_what_is_kept_for_those_who_join_late(play):
+@pytest.mark.parametrize("linger", ["", "sum(range(3 * 10**7))"], ids=["at once", "later"])
+def test_another_process_hears_only_what_is_kept_for_those_who_join_late(play, linger):
     speaker = """
     from rclpy.qos import DurabilityPolicy, QoSProfile
     kept = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-    node.create_publisher(String, "/plain", 10).publish(String(data="plain"))
-    node.create_publisher(String, "/kept", kept).publish(String(data="kept"))
+    plain, late = node.create_publisher(String, "/plain", 10), node.create_publisher(String, "/kept", kept)
+    said = node.create_publisher(String, "/said", kept)
+    LINGER
+    plain.publish(String(data="plain"))
+    late.publish(String(data="kept"))
+    said.publish(String(data="for the grader"))
     rclpy.spin(node)
-    """
+    """.replace("LINGER", linger)
     ear = """
     from rclpy.qos import DurabilityPolicy, QoSProfile
     kept = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -120,6 +125,45 @@ def test_another_process_hears_only_what_is_kept_for_those_who_join_late(play):
     """
     played = play(ticks=3, simulated=True, ear=ear, speaker=speaker)
     assert played.heard == ["kept"]
+
+
+ONE_COMMAND_AT_THE_START = """
+import rclpy
+from geometry_msgs.msg import Twist
+
+rclpy.init()
+node = rclpy.create_node("teleop")
+publisher = node.create_publisher(Twist, "/cmd_vel", 10)
+command = Twist()
+command.linear.x = 0.5
+sum(range({work}))
+publisher.publish(command)
+node.create_timer(2.0, lambda: publisher.publish(Twist()))
+rclpy.spin(node)
+"""
+LATE_LISTENER = """
+import time
+from gz_course.grader.run.grader_endpoints import GraderEndpoints
+begin = GraderEndpoints.__init__
+def later(*arguments, **options):
+    time.sleep({seconds})
+    begin(*arguments, **options)
+GraderEndpoints.__init__ = later
+"""
+
+
+@pytest.mark.proof
+def test_one_score_and_one_truth_whoever_comes_late(tmp_path, grading):
+    seen = set()
+    for number in range(20):
+        file = tmp_path / f"{number}" / "teleop_node.py"
+        file.parent.mkdir()
+        file.write_text(ONE_COMMAND_AT_THE_START.format(work=3 * 10**7 if number % 2 else 1))
+        prelude = LATE_LISTENER.format(seconds=3.0 if number >= 10 else 0.0)
+        report = grading(file.parent, "03_teleop", file, prelude=prelude).report
+        seen.add((report["score"], report["truth_sha256"]))
+        assert "published before anybody had found the publisher" in report["diagnosis"], report["diagnosis"]
+    assert len(seen) == 1
 
 
 def test_the_standard_library_is_as_the_patches_expect_it():
