@@ -47,6 +47,7 @@ class Exercise:
     robot: str
     duration: float  # [s] simulated
     tick: float  # [s] simulated time between two /clock messages
+    real_time_factor: float  # [s] simulated time in a second of the clocks of the computer
     bridge: Path | None  # bridges between simulator and ROS; None if the submission brings them
     observe: dict[str, str]  # ROS topics the student is to publish on -> type
     script: tuple[ScriptedCommand, ...]
@@ -130,6 +131,7 @@ def load_exercise(folder: Path) -> Exercise:
         robot=run.text("robot"),
         duration=run.number("duration", above=0),
         tick=run.number("tick", 0.01, above=0),
+        real_time_factor=run.number("real_time_factor", 1.0, above=0),
         bridge=None if find_kind(kind).brings_bridge else folder / run.text("bridge"),
         observe=_observed(run.table("observe", {})),
         script=tuple(map(ScriptedCommand.read, manifest.tables("script", []))),

@@ -18,7 +18,7 @@ RCLPY = "ros-jazzy-rclpy"
 def check_compatibility() -> None:
     """Raise InfrastructureError naming the first item of rclpy or Python that is not as the patches expect it."""
     installed = version(RCLPY)
-    found = misfits(rclpy_7_1.RELIED_UPON) + misfits(python_3.SUBPROCESS)
+    found = misfits(rclpy_7_1.RELIED_UPON) + misfits(python_3.SUBPROCESS | python_3.THREADS)
     if not found and not installed.startswith(f"{rclpy_7_1.VERSION}."):
         found = [f"rclpy has the version {installed}, and {rclpy_7_1.VERSION} is expected"]
     if found:

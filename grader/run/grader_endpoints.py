@@ -16,6 +16,7 @@ from typing import Any
 import rclpy
 from rcl_interfaces.msg import Log
 from rclpy.context import Context
+from rclpy.exceptions import InvalidHandle
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.impl.implementation_singleton import rclpy_implementation as rcl
 from rclpy.logging import LoggingSeverity, set_logger_level
@@ -73,6 +74,8 @@ class GraderEndpoints:
         self.offered = {e.ros_topic: e.ros_type for e in entries if e.direction.to_ros}
         self.listened = {e.ros_topic: e.ros_type for e in entries if e.direction.to_gz} | observe
         self.received: Counter[str] = Counter()
+        self.found_at: dict[str, int] = {}  # topic -> [ns] of real time: older messages are none of ours
+        self.look: Callable[[], None] = lambda: None  # brings `found_at` up to date
         self._heard = heard
         self._context = Context()
         # No arguments: the grader's own are not meant for ROS.
@@ -84,7 +87,7 @@ class GraderEndpoints:
                 NODE, context=self._context, start_parameter_services=False, enable_rosout=False
             )
             stack.callback(self._node.destroy_node)
-            self._executor = SingleThreadedExecutor(context=self._context)
+            self._executor = _Executor(self, context=self._context)
             stack.callback(self._executor.shutdown)
             self._executor.add_node(self._node)
             self.bridge = Bridge(self._node, gz_node, entries, publish=self._hold, heard=self._bridge_heard)
@@ -244,6 +247,31 @@ class GraderEndpoints:
     def close(self) -> None:
         """Leave the ROS graph."""
         self._open.close()
+
+
+class _Executor(SingleThreadedExecutor):
+    """Ignores messages that are older than the moment at which their publisher was found (`found_at`)."""
+
+    def __init__(self, endpoints: GraderEndpoints, **options: Any) -> None:
+        super().__init__(**options)
+        self._endpoints = endpoints
+
+    def _take_subscription(self, sub: Any) -> Any:
+        if not self._endpoints.listens(sub.topic_name):
+            return super()._take_subscription(sub)
+        try:
+            with sub.handle:
+                taken = sub.handle.take_message(sub.msg_type, sub.raw)
+        except InvalidHandle:  # destroyed since it became ready
+            return None
+        self._endpoints.look()
+        if taken is None or taken[1]["source_timestamp"] < self._endpoints.found_at.get(sub.topic_name, 0):
+            return None
+
+        async def call() -> None:
+            sub.callback(taken[0])
+
+        return call
 
 
 def _qos(endpoint: Any) -> dict[str, Any]:

@@ -135,7 +135,7 @@ class RunLoop:
         more = self._last_look() | {"stopped": self._processes.stopped}
         self._processes.stop()
         self._scene.finish()
-        return self._facts(ready) | more
+        return self._facts(ready and self._processes.spun) | more
 
     @property
     def _time_limit(self) -> float:
@@ -187,6 +187,7 @@ class RunLoop:
 
     def _deliver(self, now: int) -> None:
         """Send what the simulator has published, one message at a time: /clock first, then by topic name."""
+        self._pace.wake_sleepers(now)
         messages = self._ros.take_held()
         if not messages:  # no bridge takes anything to ROS, not even /clock: still the world is on record
             self._scene.tick()
@@ -287,6 +288,7 @@ class RunLoop:
             "offered": self._ros.offered,
             "listened": self._ros.listened,
             "dropped": dropped,
+            "too_early": self._pace.too_early(),
             "lines_dropped": self._processes.dropped_lines,
             "messages_not_recorded": {t: n - MOST_MESSAGES for t, n in self._messages.items() if n > MOST_MESSAGES},
             "hid": self._processes.hid,

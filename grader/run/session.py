@@ -18,7 +18,7 @@ from gz_course.grader.exercise.trial import Trial
 from gz_course.grader.kinds.kind import find_kind
 from gz_course.grader.printable import shown
 from gz_course.grader.process.temporary_folder import sweep
-from gz_course.grader.run.agent.course_agent.executor_monitor import RELIABLE
+from gz_course.grader.run.agent.course_agent.executor_monitor import RELIABLE, SIMULATED_CLOCKS
 from gz_course.grader.run.domain import Domain
 from gz_course.grader.run.processes.submission_processes import SubmissionProcesses
 from gz_course.grader.run.sandbox import AUTO, Sandbox
@@ -82,6 +82,8 @@ def run(
         stack.callback(sandbox.close)
         folder = sandbox.put_files(plan.files)
         command, variables = kind.command(folder / plan.program, trial), kind.environment(pace)
+        if pace == "lockstep":
+            variables = variables | {SIMULATED_CLOCKS: str(exercise.real_time_factor)}
         processes = SubmissionProcesses(command, sandbox, topics, variables, shown=str(folder))
         stack.callback(processes.close)
         stack.enter_context(_environment(sandbox.grader_environment()))

@@ -27,6 +27,8 @@ LIMITS = {
     "disk": "wrote more files, or larger ones, than its folder may hold (64 MiB)",
 }
 
+STARTED = 0.05  # [s] of simulated time: who ended before that ended before simulated time began
+
 # Topics of every ROS 2 node, which say nothing about the exercise.
 OWN_TOPICS = frozenset({"/rosout", "/parameter_events", "/clock"})
 
@@ -149,10 +151,13 @@ def ended_early(recording: Recording, facts: dict[str, Any]) -> str:
     """Report that nothing kept the node alive until simulated time began."""
     if facts.get("ready", True) or facts.get("exit_at") is None:
         return ""
+    when = "before simulated time began"
+    if facts["exit_at"] > STARTED:
+        when = f"at {facts['exit_at']:.2f} s of simulated time and had never spun"
     return (
-        "Your node's process ended (exit code 0) before simulated time began: nothing kept it alive. "
-        "Create the node and hand it to rclpy.spin()."
-    )
+        f"Your node's process ended (exit code 0) {when}: nothing kept it alive. "
+        f"Create the node and hand it to rclpy.spin(). {too_early(recording, ())}"
+    ).strip()
 
 
 def never_spun(recording: Recording, facts: dict[str, Any]) -> str:
@@ -235,6 +240,8 @@ def silent(recording: Recording, facts: dict[str, Any]) -> str:
     """Name the first topic with a publisher and no message."""
     for topic in facts.get("listened", {}):
         if not recording.has(f"topics/{topic.strip('/')}/count"):
+            if early := _too_early(facts, topic):
+                return early
             if facts.get("exit_at") is not None:
                 return (
                     f"Your node's process ended (exit code 0) at {facts['exit_at']:.2f} s of simulated time, before it "
@@ -243,6 +250,25 @@ def silent(recording: Recording, facts: dict[str, Any]) -> str:
                 )
             return f"Your node has a publisher on {topic} but never published a message."
     return ""
+
+
+def _too_early(facts: dict[str, Any], topic: str) -> str:
+    """Return a sentence about messages that were published before anybody had found the publisher; else nothing."""
+    count = facts.get("too_early", {}).get(topic, 0)
+    if not count:
+        return ""
+    what, pronoun = ("1 message", "it was") if count == 1 else (f"{count} messages", "they were")
+    return (
+        f"{what} on {topic} {'was' if count == 1 else 'were'} published before anybody had found the publisher, so "
+        f"{pronoun} lost: others find it while your node waits. Publish from a timer, or wait until "
+        "get_subscription_count() is not 0."
+    )
+
+
+def too_early(recording: Recording, findings: Iterable[Finding]) -> str:
+    """Return a sentence about the first topic with messages that were published too early; empty if there is none."""
+    facts = recording.facts()
+    return next(filter(None, (_too_early(facts, topic) for topic in facts.get("listened", {}))), "")
 
 
 def dropped(recording: Recording, facts: dict[str, Any]) -> str:

@@ -150,7 +150,7 @@ class LaunchRunLoop(RunLoop):
         self._interrupted_at = self._processes.clock.now()
         seen = len(self._lines)
         for each in self._processes.participants:
-            each.tell({"free": True})
+            each.tell({"free": True, "real": True})
         if was_running:
             self._processes.signal(signal.SIGINT)
         patience = Patience(self._processes.clock, END_PATIENCE)

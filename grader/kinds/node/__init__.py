@@ -103,7 +103,7 @@ def diagnosis() -> Diagnosis:
             looks.dropped,
             looks.unstable,
         ),
-        (looks.whole_number_fault, clock_fault),
+        (looks.whole_number_fault, clock_fault, looks.too_early),
     )
 
 

@@ -3,9 +3,10 @@
 The simulator publishes one message at a time and waits until the student's processes have taken it and are idle, and
 until everything they published has arrived. Messages between several processes, or from several processes to the
 simulator at the same time, would be a race: the processes hold them back and release one at a time on order, always in
-the same sequence. Nothing depends on the speed of the machine. While a node cannot be followed (it blocks, or never
-spins), simulated time is paced to the wall clock; waiting for one message takes `PATIENCE` at most, and at one
-simulated time at most `MOST_AT_ONCE` messages are sent. `real_time.py` has the same interface without the waiting.
+the same sequence. Who sleeps does so in simulated time, and is woken when it has come. Nothing depends on the speed of
+the machine. While a node cannot be followed (it blocks, or never spins), simulated time is paced to the wall clock;
+waiting for one message takes `PATIENCE` at most, and at one simulated time at most `MOST_AT_ONCE` messages are sent.
+`real_time.py` has the same interface without the waiting.
 """
 
 from __future__ import annotations
@@ -30,6 +31,8 @@ GIVING_UP = 3  # failures after which the rest of the run is paced
 CLOCK_AGAIN = 0.05  # [s] /clock is best effort on the student's side, so it is sent again until it is seen
 LOST = 0.1  # [s] if everybody is idle and a message was not taken for this time, it is sent again
 LOST_PATIENCE = 10.0  # [s] for a message that is lost repeatedly, unless waiting has failed before
+STRAYS = 0.05  # [s] between two looks at threads that wait in a call that is not watched
+MOST_WAKES = 1_000  # of one process in a tick; a thread sleeps for a millisecond at least
 CLOCK = "/clock"
 
 
@@ -92,10 +95,7 @@ class LockStep(RealTime):
                 each.tell(order)
 
     def _matched(self) -> bool:
-        matched = super()._matched() and (not self._holding or self._matched_with_each_other())
-        if not matched and self._holding:
-            self._tell({"look": True})
-        return matched
+        return super()._matched() and (not self._holding or self._matched_with_each_other())
 
     def _matched_with_each_other(self) -> bool:
         if not (self._free or all(each.progress and each.progress.holding for each in self._participants)):
@@ -152,13 +152,37 @@ class LockStep(RealTime):
             self.everything_arrived()
         return 0
 
+    def wake_sleepers(self, now_ns: int) -> None:
+        """Wake those who sleep until `now_ns` [ns] one at a time, and wait for the consequences of each.
+
+        First comes who is due first, then by the names of nodes. They come before the messages of this tick.
+        """
+        self._pending = None
+        woken: Counter[int] = Counter()
+        while self.processes.running and not self._free:
+            due = [p for p in self._participants if _sleeps_until(p, now_ns) and woken[p.number] < MOST_WAKES]
+            if not due:
+                break
+            first = min(due, key=lambda p: (p.progress.wakes if p.progress else 0, p.name))
+            woken[first.number] += 1
+            first.wake(first.progress.wakes if first.progress and first.progress.wakes else now_ns)
+            self._settle()
+        self.processes.now_ns = now_ns
+        for each in self.processes.participants:
+            if self._free and _sleeps_until(each, now_ns):
+                each.wake(now_ns, every=True)
+            elif not each.gone and each.progress is not None and each.progress.clock is None:
+                each.tell({"now": now_ns})  # no node of it gets /clock
+
     def settle(self) -> None:
         """Wait until the message just sent was taken and its consequences have arrived.
 
         Then release the messages the processes hold, one at a time, and wait in the same way for each.
         """
-        if self._free or not (self._pending or self._holding):
-            return
+        if not self._free and (self._pending or self._holding):
+            self._settle()
+
+    def _settle(self) -> None:
         if not self._await_settled():
             return
         self._pending = None
@@ -173,6 +197,8 @@ class LockStep(RealTime):
         self._copies = 0
         resend = time.monotonic() + CLOCK_AGAIN
         lost = time.monotonic() + LOST
+        strays = time.monotonic() + STRAYS
+        self._have_taken()
         patience = Patience(self.processes.clock, PATIENCE)
         give_up = Patience(self.processes.clock, PATIENCE if self._failures else LOST_PATIENCE)
         while not self._settled():
@@ -181,12 +207,18 @@ class LockStep(RealTime):
                 return False
             if not self.processes.wait(LOOK_ROUND):
                 self.ros.pump()
+                self._have_taken()
+            now = time.monotonic()
+            if now > strays:
+                for each in self._participants:
+                    if each.progress and not each.progress.idle:
+                        each.tell({"strays": True})
+                strays = now + STRAYS
             if self._is_flooded():
                 return False
             if patience.over():
                 self._fall_out_of_step()
                 return False
-            now = time.monotonic()
             if self._pending and self._pending[0] == CLOCK and now > resend:
                 _, publisher, message = self._pending
                 publisher.publish(message)
@@ -203,6 +235,12 @@ class LockStep(RealTime):
         sent = self._total("published").total() - self._sent_before
         self.flooded |= max(sent, self._released) > MOST_AT_ONCE
         return self.flooded
+
+    def _have_taken(self) -> None:
+        """Let the messages be taken for which a node has no time at the moment."""
+        for each in self._participants:
+            if each.progress and each.progress.blocked and not each.gone:
+                each.tell({"take": True})
 
     def _is_lost(self) -> bool:
         """Return whether every process is idle although one has not taken the message just sent."""
@@ -287,6 +325,13 @@ class LockStep(RealTime):
         self._write_off()
         for topic, count in self._total("published").items():
             self._lost[topic] = max(0, count - self.ros.received[topic])
+
+
+def _sleeps_until(participant: Participant, now_ns: int) -> bool:
+    """Return whether a thread of it sleeps that is due at `now_ns` [ns]."""
+    if participant.gone or participant.progress is None or participant.progress.wakes is None:
+        return False
+    return participant.progress.wakes <= now_ns
 
 
 def _holds(participant: Participant) -> bool:

@@ -34,6 +34,7 @@ class RealTime:
     def __init__(self, processes: SubmissionProcesses, ros: GraderEndpoints) -> None:
         self.processes = processes
         self.ros = ros
+        self.ros.look = self._look_who_was_found
         self.paced_ticks = 0
         self.flooded = False  # whether more was sent at one simulated time than is allowed
         self._due: float | None = None
@@ -79,6 +80,8 @@ class RealTime:
         """Wait until every endpoint that can match has matched on both sides, for `MATCHING` at most."""
         patience = Patience(self.processes.clock, MATCHING)
         while self.processes.running and not self._matched() and not patience.over():
+            for each in self.processes.participants:
+                each.tell({"look": True})  # a process that sleeps does not look by itself
             self.processes.wait(LOOK_ROUND)
             self.ros.pump()
 
@@ -112,6 +115,17 @@ class RealTime:
                     each.answer()
         return True
 
+    def _look_who_was_found(self) -> None:
+        """Tell our endpoints when the publishers were found that had published something before."""
+        self.processes.wait(0)
+        for each in self.processes.participants:
+            if each.progress is not None and each.progress.found_at:
+                self.ros.found_at.update(each.progress.found_at)
+
+    def too_early(self) -> dict[str, int]:
+        """Return by topic how many messages the processes published before anybody had found the publisher."""
+        return {topic: count for topic, count in sorted(self._total("lost").items()) if self.ros.listens(topic)}
+
     def _total(self, what: str) -> Counter[str]:
         """Sum one of the counters over all processes, including those that have ended."""
         total: Counter[str] = Counter()
@@ -123,6 +137,9 @@ class RealTime:
     def send(self, topic: str, publisher: Any, message: Any, now_ns: int) -> None:
         """Publish one message of the simulator at simulated time `now_ns` [ns]."""
         publisher.publish(message)
+
+    def wake_sleepers(self, now_ns: int) -> None:
+        """Wake those who sleep in simulated time until `now_ns` [ns]; in real time they sleep in real time."""
 
     def settle(self) -> None:
         """Wait for the consequences of the last message; in real time there is no waiting."""

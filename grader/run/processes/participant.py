@@ -51,6 +51,7 @@ class Participant:
         self._released = 0
         self._sent = 0  # messages it had sent when it was last ordered to release one
         self._vain = 0  # orders in a row to which no message left
+        self._woken = 0
         channel.setblocking(False)
         channel.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, LARGEST)
 
@@ -79,8 +80,10 @@ class Participant:
 
     @property
     def waiting_for_release(self) -> bool:
-        """Whether it has not reported yet that it carried out a release."""
-        return not self.gone and self.progress is not None and self.progress.released < self._released
+        """Whether it has not reported yet that it carried out a release, or woke a sleeper."""
+        if self.gone or self.progress is None:
+            return False
+        return self.progress.released < self._released or self.progress.woken < self._woken
 
     @property
     def wants_answer(self) -> bool:
@@ -110,6 +113,12 @@ class Participant:
             self._vain, self._sent = (self._vain + 1 if sent == self._sent else 0), sent
             self._released = self.progress.released + 1
             self.tell({"release": 1})
+
+    def wake(self, now_ns: int, every: bool = False) -> None:
+        """Order it to let simulated time go on to `now_ns` and to wake the sleeper due first, or every one due."""
+        if self.progress is not None:
+            self._woken = self.progress.woken + 1
+            self.tell({"wake": now_ns} | ({"every": True} if every else {}))
 
     def tell(self, order: dict[str, Any]) -> None:
         with contextlib.suppress(OSError):

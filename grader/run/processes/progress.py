@@ -35,6 +35,13 @@ class Progress:
     flushes: int = 0  # how often it has asked for the confirmation that everything arrived
     logged: int = 0  # messages its nodes have sent to /rosout
     again: frozenset[str] = frozenset()  # topics on which it expects that a message may come twice
+    spun: bool = False  # whether an executor of it has ever waited
+    wakes: int | None = None  # [ns] of simulated time at which its first sleeper is due
+    woken: int = 0  # orders to wake a sleeper that it carried out
+    blocked: bool = False  # one of its nodes cannot take messages at the moment: a callback sleeps, or nobody spins it
+    lost: dict[str, int] = field(default_factory=dict)  # published before anybody had found the publisher
+    # topic -> [ns] of real time: what it published earlier is only for those who join late and ask for it
+    found_at: dict[str, int] = field(default_factory=dict)
     endpoints: tuple[Endpoint, ...] = ()
 
     @staticmethod
@@ -55,6 +62,12 @@ class Progress:
                 flushes=_count(raw["flushes"]),
                 logged=_count(raw.get("logged", 0)),
                 again=frozenset(map(str, raw.get("again", ()))),
+                spun=raw.get("spun") is True,
+                wakes=_count(raw["wakes"]) if "wakes" in raw else None,
+                woken=_count(raw.get("woken", 0)),
+                blocked=raw.get("blocked") is True,
+                lost=_counts(raw.get("lost", {})),
+                found_at=_counts(raw.get("found_at", {})),
                 endpoints=tuple(_endpoint(e) for e in raw["endpoints"])
                 if "endpoints" in raw
                 else before.endpoints

@@ -95,6 +95,7 @@ class SubmissionProcesses:
         self._line_count = 0
         self._last = b""  # end of what was written beyond the limit
         self._last_taken = 0  # lines
+        self.now_ns = 0  # simulated time, told to processes that ask for it
         self.exit_code: int | None = None
         self.hid = False  # whether it closed its end of the socket and lived on
 
@@ -134,6 +135,11 @@ class SubmissionProcesses:
     def followed(self) -> list[Participant]:
         """The processes with nodes that spin, sorted by name, so that equal runs have the same order."""
         return sorted((p for p in self.participants if p.progress and not p.gone), key=lambda p: p.name)
+
+    @property
+    def spun(self) -> bool:
+        """Whether a node of it was ever spun, or published something."""
+        return any(p.progress.spun or p.progress.published for p in self.participants if p.progress)
 
     @property
     def layout(self) -> tuple[int, ...]:
@@ -228,6 +234,8 @@ class SubmissionProcesses:
 
     def _hear(self, who: Participant, message: dict[str, Any]) -> None:
         self._tree.hear(message)
+        if "clock" in message:
+            who.tell({"now": self.now_ns})
         self.asked(who, message)
 
     def _reap(self) -> None:

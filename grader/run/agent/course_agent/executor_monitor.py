@@ -1,16 +1,23 @@
 """Monitor of one process of the submission: counts messages, knows the endpoints, holds messages back, and reports.
 
-The patches in `rclpy_7_1.py` call it. Each time an executor is about to go idle it sends a report:
+The patches in `rclpy_7_1.py` call it. Each time the last thread that was at work begins to wait it sends a report:
 
     {"clock": ns, "idle": true, "taken": {topic: n}, "published": {topic: n}, "delivered": {topic: n},
-     "holding": true, "held": n, "released": n, "flushes": n, "logged": n, "endpoints": [...]}
+     "holding": true, "held": n, "released": n, "flushes": n, "spun": true, "woken": n, "logged": n,
+     "endpoints": [...]}
 
-`endpoints` is included only when it changed; `clock` is the smallest simulated time [ns] of all spinning nodes; `taken`
-and `published` count messages since the start, the latter only while there were subscribers, and `delivered` the number
-of readers they had; `logged` counts messages on /rosout. Requests and responses count as messages on "request NAME" and
+`endpoints` is included only when it changed; `clock` is the smallest simulated time [ns] of all nodes; `taken` and
+`published` count messages since the start, the latter only while there were subscribers, and `delivered` the number of
+readers they had; `logged` counts messages on /rosout. Requests and responses count as messages on "request NAME" and
 "response NAME". When `flushes` grows, the process waits for an answer before it destroys a publisher. `again` names the
-topics on which the grader has announced to send a message once more; copies are dropped (`rclpy_7_1.py`). The grader
-advances simulated time only when these numbers show that every message was taken.
+topics on which the grader has announced to send a message once more; copies are dropped (`rclpy_7_1.py`). `wakes` is
+the simulated time [ns] at which the first sleeper is due, `woken` how many orders to wake one were carried out
+(`thread_monitor.py`). `blocked` says that a node cannot take messages at the moment; the order `take` has them taken
+(`inbox.py`). The grader advances simulated time only when these numbers show that every message was taken.
+
+A publisher is found by others while its process waits, and simulated time stands still for that. What it publishes
+before the first wait after its creation is lost, as it is when nobody has discovered it yet; `lost` counts that. DDS
+keeps it for late joiners if the publisher is transient local; the grader ignores what is older than `found_at`.
 
 Messages between several processes would be a race. After the order `hold` a process therefore queues what it sends, and
 each order `release` lets one message leave: at any moment one message is in transit in the whole system. The order
@@ -21,25 +28,30 @@ from __future__ import annotations
 
 import contextlib
 import json
+import os
 import threading
-import time
 from collections import Counter, deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 from . import grader_requests
 from .channel import Channel
+from .inbox import blocked, fill, is_copy
+from .signals import Signal
+from .thread_monitor import ThreadMonitor, monotonic, sleep, time_ns
 
 TOPICS = "COURSE_TOPICS"
 RELIABLE = "reliable"  # kind in TOPICS: what the grader publishes reliably
 HOLD = "COURSE_HOLD"
+# Environment variable that lets sleeping take simulated time: how much of it passes in a second of the clocks.
+SIMULATED_CLOCKS = "COURSE_SIMULATED_CLOCKS"
 UNMATCHED_SLICE = 0.005  # [s] between two looks at an unmatched publisher; DDS gives no event we could wait for
-POOL_SLICE = 0.001  # [s] between two looks at a running pool callback, in case its end does not wake us
 MOST_LOGGED = 50  # messages on /rosout that are under way
 LOG_PATIENCE = 30.0  # [s] for the grader to receive them; it may be starting up
 FLUSH_PATIENCE = 10.0  # [s] for the grader to receive the last messages before a publisher is destroyed
 MATCH_PATIENCE = 5.0  # [s] after which a publisher counts as unmatched
 SERVICE_PATIENCE = 1.0  # [s] for a service to be found before a request is sent
+NEVER = 1 << 62  # [ns] of real time
 HOUSEKEEPING = ("/rosout", "/parameter_events")  # topics of every node, which lock-step ignores
 
 
@@ -48,6 +60,8 @@ class ExecutorMonitor:
 
     def __init__(self, way: Channel, topics: dict[str, dict[str, str]], holding: bool) -> None:
         self._channel = way
+        self.threads = ThreadMonitor()
+        self.threads.on_idle = self.report
         self._topics = topics  # topics on which the grader has an endpoint: kind of our endpoint -> topic -> ROS type
         self.taken: Counter[str] = Counter()
         self.published: Counter[str] = Counter()
@@ -58,18 +72,21 @@ class ExecutorMonitor:
         self._held: deque[Callable[[], None]] = deque()
         self._holding = holding
         self._released = 0
-        self.blocked_threads = 0  # threads that wait in Client.call
+        self.lost: Counter[str] = Counter()
+        # Topics whose early messages DDS keeps for late joiners: when their publishers were found, in real time [ns].
+        self._found_at: dict[str, int] = {}
+        self.spun = False  # whether an executor has ever waited
         self._lock = threading.RLock()
-        self._answered = threading.Event()
+        self._answered = Signal()
+        self._told_time = Signal()
         self.clock_seen: dict[int, int] = {}  # id(TimeSource) -> [ns]
-        self.waiting: dict[int, bool] = {}  # id(executor) -> whether it waits
         self._nodes: dict[int, Any] = {}
         self._topic_of: dict[int, str] = {}  # id(subscription) -> topic; asking rcl each time is slow
         self._layout: tuple[Any, ...] = ()
         self._endpoints: list[dict[str, Any]] = []
         self._reported_endpoints: list[dict[str, Any]] = []
         self._unmatched_since: dict[tuple[str, str], float] = {}
-        self._awaited: set[int] = set()  # id(publisher) of those whose match was awaited
+        self._found: tuple[Any, ...] = ()  # the layout at the last wait
         self._last_report = ""
         self.again: set[str] = set()  # topics on which the grader may send a message twice
         self._flushes = 0
@@ -95,7 +112,7 @@ class ExecutorMonitor:
             send()
             return
         self._held.append(send)
-        if all(self.waiting.values()):  # sent by a thread of its own, so no executor will report it
+        if self.threads.idle:  # sent by a thread that is not watched, so nobody will report it
             self.report()
 
     def count_log(self) -> None:
@@ -111,24 +128,14 @@ class ExecutorMonitor:
         if full and self._channel.open:
             self._log_confirmed.clear()
             self._channel.send({"logged": self.logged})
-            self._log_confirmed.wait(LOG_PATIENCE)
-
-    @contextlib.contextmanager
-    def blocked(self) -> Iterator[None]:
-        """Count a thread that waits for a response, and so the callback it runs, as idle."""
-        with self._lock:
-            self.blocked_threads += 1
-        try:
-            yield
-        finally:
-            with self._lock:
-                self.blocked_threads -= 1
+            with self.threads.at_work():
+                self._log_confirmed.wait(LOG_PATIENCE)
 
     def await_service(self, client: Any) -> None:
         """Wait until discovery has found a service before a request is sent, at most for `SERVICE_PATIENCE`."""
-        deadline = time.monotonic() + SERVICE_PATIENCE
-        while not client.service_is_ready() and time.monotonic() < deadline:
-            threading.Event().wait(UNMATCHED_SLICE)
+        deadline = monotonic() + SERVICE_PATIENCE
+        while not client.service_is_ready() and monotonic() < deadline:
+            sleep(UNMATCHED_SLICE)
 
     def _obey(self, order: dict[str, Any] | None) -> None:
         """Carry out an order of the grader; None means that the grader is gone. Called in a thread."""
@@ -136,8 +143,23 @@ class ExecutorMonitor:
             return
         if order is None:
             self._let_go()
+            self.threads.release_all()
             self._answered.set()
             self._log_confirmed.set()
+            self._told_time.set()
+        elif "now" in order:
+            self.threads.tell(order["now"])
+            self._told_time.set()
+        elif "wake" in order:
+            self.threads.wake(order["wake"], every="every" in order)
+            self.report()
+        elif "take" in order:
+            self._take()
+            self.report()
+        elif "strays" in order or "ping" in order:
+            alive = threading.enumerate()
+            self.threads.look_for_strays({t.ident: t.native_id for t in alive if t.ident and t.native_id})
+            self.report()
         elif "arrived" in order:
             self._answered.set()
         elif "logs_arrived" in order:
@@ -147,6 +169,8 @@ class ExecutorMonitor:
             self.report()
         elif "free" in order:
             self._let_go()
+            if "real" in order:
+                self.threads.release_all()
         elif "release" in order:
             self._send_next()
             self.report()
@@ -171,21 +195,97 @@ class ExecutorMonitor:
                 send()
         self._released += 1
 
-    def await_match(self, publisher: Any) -> None:
-        """Delay the first message of a publisher until the grader subscribes, so that discovery loses none.
+    def await_match(self, publisher: Any) -> bool:
+        """Return whether a publisher has been found by others; False while its process has not waited since it is.
 
-        Simulated time stands still meanwhile. A publisher that cannot match (because of its QoS) is delayed for
-        `MATCH_PATIENCE` only. rclpy offers the matched event only through an executor, so this looks repeatedly.
+        Simulated time stood still while it was matched on the grader's side, and here it is matched at the latest now:
+        a publisher that cannot match (because of its QoS) is delayed for `MATCH_PATIENCE`, once. rclpy offers the
+        matched event only through an executor, so this looks repeatedly.
         """
-        if id(publisher) in self._awaited:
-            return
-        self._awaited.add(id(publisher))
-        endpoint = self._describe("", "publisher", publisher, 0)
-        if not self._is_met(endpoint):
-            return
-        deadline = time.monotonic() + MATCH_PATIENCE
-        while not publisher.get_subscription_count() and time.monotonic() < deadline:
-            threading.Event().wait(UNMATCHED_SLICE)
+        found = getattr(publisher, "course_found", None)
+        if found is None:
+            return False
+        if found == "awaited":
+            return True
+        publisher.course_found = "awaited"
+        if self._is_met(self._describe("", "publisher", publisher, 0)):
+            deadline = monotonic() + MATCH_PATIENCE
+            while not publisher.get_subscription_count() and monotonic() < deadline:
+                sleep(UNMATCHED_SLICE)
+        return True
+
+    def add_node(self, node: Any) -> None:
+        """Watch a new node. With the first one, sleeping begins to take simulated time."""
+        with self._lock:
+            self._nodes[id(node)] = node
+        rate = os.environ.get(SIMULATED_CLOCKS)
+        if rate and not self.threads.simulated and self._channel.open:
+            self._channel.send({"clock": True})
+            with self.threads.at_work():
+                self._told_time.wait(None)
+            if self._channel.open:
+                self.threads.start(self.threads.now_ns, float(rate))
+
+    def remove_node(self, node: Any) -> None:
+        """Do not watch a node any more that is destroyed."""
+        with self._lock:
+            self._nodes.pop(id(node), None)
+
+    def announce_early(self, topic: str) -> None:
+        """Tell the grader that what comes on a topic is none of its own until the process has waited."""
+        with self._lock:
+            self._found_at[topic] = NEVER
+        self.report()
+
+    @property
+    def nodes(self) -> list[Any]:
+        """The nodes of this process."""
+        return list(self._nodes.values())
+
+    def local_subscriptions(self, topic: str) -> list[Any]:
+        """Return the subscriptions of this process to a topic."""
+        return [s for n in self.nodes for s in list(n.subscriptions) if self.topic_of(s) == topic]
+
+    def executor_of(self, entity: Any) -> Any:
+        """Return the executor that looks at a subscription or guard condition; None if there is none."""
+        for node in self.nodes:
+            if entity in node._subscriptions or entity in node._guards:
+                return node.executor
+        return None
+
+    def _take(self) -> None:
+        """Take the messages that no executor can take at the moment."""
+        with self._lock, self.threads.lock:
+            if not self.threads.idle:
+                return
+            for kind, entity in list(blocked(self._nodes.values())):
+                with contextlib.suppress(Exception):  # destroyed meanwhile
+                    fill(kind, entity, getattr(self, f"_took_{kind}"))
+
+    def _took_subscription(self, subscription: Any, item: Any) -> bool:
+        topic = self.topic_of(subscription)
+        if is_copy(subscription, item[0]) and topic in self.again:
+            return False
+        self.count(self.taken, topic)
+        for node in self._nodes.values():
+            if node._time_source._clock_sub is subscription:
+                self.saw_clock(node._time_source, item[0])
+        return True
+
+    def _took_service(self, service: Any, item: Any) -> bool:
+        self.count(self.taken, f"request {service.service_name}")
+        return True
+
+    def _took_client(self, client: Any, item: Any) -> bool:
+        self.count(self.taken, f"response {client.service_name}")
+        return True
+
+    def saw_clock(self, source: Any, message: Any) -> None:
+        """Note the simulated time that a node has got."""
+        now = message.clock.sec * 1_000_000_000 + message.clock.nanosec
+        self.clock_seen[id(source)] = max(now, self.clock_seen.get(id(source), 0))
+        if self.threads.simulated:
+            self.threads.tell(now)
 
     def _is_met(self, endpoint: dict[str, Any]) -> bool:
         """Return whether the grader has the opposite endpoint, of the same type and with compatible QoS."""
@@ -203,25 +303,18 @@ class ExecutorMonitor:
             topic = self._topic_of[id(endpoint)] = endpoint.topic_name
         return topic
 
-    def executor_idle(self, executor: Any) -> float | None:
-        """Report if every executor is idle; return how long the coming wait may last [s] (None: for ever)."""
-        with self._lock:
-            self.waiting[id(executor)] = True
-            for node in executor.get_nodes():
-                self._nodes[id(node)] = node
-            self._refresh_endpoints()
-            if all(self.waiting.values()):
-                self.report()
-        return UNMATCHED_SLICE if self._impatient() else None
-
-    def _impatient(self) -> bool:
+    def impatient(self) -> bool:
         """Return whether an endpoint may still be about to match."""
-        now = time.monotonic()
+        now = monotonic()
         return any(now - since < MATCH_PATIENCE for since in self._unmatched_since.values())
 
+    def _now(self) -> tuple[Any, ...]:
+        """Return a value that changes when an endpoint comes or goes."""
+        return tuple((key, *map(id, n._publishers), *map(id, n._subscriptions)) for key, n in self._nodes.items())
+
     def _refresh_endpoints(self) -> None:
-        layout = tuple((key, len(n._publishers), len(n._subscriptions)) for key, n in self._nodes.items())
-        if layout == self._layout and not self._impatient():
+        layout = self._now()
+        if layout == self._layout and not self.impatient():
             return
         if layout != self._layout:
             self._topic_of.clear()  # ids of destroyed endpoints may be used again
@@ -235,7 +328,7 @@ class ExecutorMonitor:
             for subscription in list(node.subscriptions):
                 matched = subscription.get_publisher_count()
                 self._endpoints.append(self._describe(name, "subscription", subscription, matched))
-        now = time.monotonic()
+        now = monotonic()
         waiting = [(e["kind"], e["topic"]) for e in self._endpoints if not e["matched"] and self._is_met(e)]
         self._unmatched_since = {key: self._unmatched_since.get(key, now) for key in waiting}
 
@@ -259,10 +352,13 @@ class ExecutorMonitor:
         self._answered.clear()
         self._flushes += 1
         self.report(flushing=True)
-        if self._answered.wait(FLUSH_PATIENCE):
+        with self.threads.at_work():
+            answered = self._answered.wait(FLUSH_PATIENCE)
+        if answered:
             self._flushed = self._sent()
         while self._held:  # not released by the grader in time
             self._send_next()
+        self.report()  # it is at work again: simulated time stands still until it waits or is gone
 
     def _sent(self) -> int:
         return self._released + self.published.total() + self.delivered.total() + self.logged
@@ -270,10 +366,18 @@ class ExecutorMonitor:
     def report(self, flushing: bool = False) -> None:
         """Send the counts if they changed since the last report."""
         with self._lock:
-            spinning = [n._time_source for n in self._nodes.values() if n._time_source.ros_time_is_active]
+            idle = self.threads.idle
+            if idle or flushing:
+                self._refresh_endpoints()
+            if idle and self._found != self._layout:
+                self._found = self._layout
+                self._found_at = {topic: min(at, time_ns()) for topic, at in self._found_at.items()}
+                for publisher in [p for n in self._nodes.values() for p in n.publishers]:
+                    publisher.course_found = getattr(publisher, "course_found", "found")
+            sources = [n._time_source for n in self._nodes.values() if n._time_source.ros_time_is_active]
             report: dict[str, Any] = {
-                "clock": min((self.clock_seen.get(id(s), 0) for s in spinning), default=None),
-                "idle": flushing or all(self.waiting.values()),
+                "clock": min((self.clock_seen.get(id(s), 0) for s in sources), default=None),
+                "idle": flushing or idle,
                 "taken": self.taken,
                 "published": self.published,
                 "delivered": self.delivered,
@@ -282,7 +386,17 @@ class ExecutorMonitor:
                 "released": self._released,
                 "flushes": self._flushes,
                 "logged": self.logged,
+                "spun": self.spun,
+                "woken": self.threads.woken,
             }
+            if (wakes := self.threads.wakes_ns) is not None and self.threads.simulated:
+                report["wakes"] = wakes
+            if idle and any(True for _ in blocked(self._nodes.values())):
+                report["blocked"] = True
+            if self.lost:
+                report["lost"] = self.lost
+            if self._found_at:
+                report["found_at"] = self._found_at
             if self.again:
                 report["again"] = sorted(self.again)
             if self._endpoints != self._reported_endpoints:

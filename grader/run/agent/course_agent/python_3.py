@@ -3,15 +3,21 @@
 `import_hooks.py` calls `install_subprocess` and `install_asyncio` when those modules are imported. A new Python process
 needs a while until it can report anything, so its parent announces it. Event loops (`ros2 launch` is one) and processes
 that wait for a child are reported as waiting, so that simulated time does not stand still for them.
+
+In a process with rclpy, `rclpy_7_1.py` calls `install_threads`: threads and their waits are watched from then on
+(`thread_monitor.py`), and sleeping takes simulated time. What waits in C (a read from a socket, a process that is
+waited for) is not watched, nor what asks the clock in C (`datetime.now()`).
 """
 
 from __future__ import annotations
 
+import math
 import os
 from typing import Any
 
 from .channel import SOCKET, channel
 from .self_check import Reliance, misfits
+from .thread_monitor import ThreadMonitor, WatchedLock
 
 SOON = 10.0  # [s] a timer of an event loop that is due within this time, such as a TimerAction, is waited for
 # Source: subprocess.py and asyncio/ of CPython 3.11 to 3.14.
@@ -25,9 +31,27 @@ ASYNCIO: dict[str, Reliance] = {
     "asyncio.base_events:BaseEventLoop._run_once": ("self", "_scheduled _ready _stopping _selector _process_events"),
     "asyncio.events:TimerHandle.__init__": ("", "_when"),
     "asyncio.events:Handle.__init__": ("", "_cancelled"),
+    "asyncio.selector_events:BaseSelectorEventLoop._write_to_self": ("self", ""),
 }
+# Source: threading.py, queue.py and concurrent/futures/thread.py of CPython 3.11.
+THREADS: dict[str, Reliance] = {
+    "threading:Condition.wait": ("self timeout", "_allocate_lock _waiters acquire"),
+    "threading:Condition.notify": ("self n", "_waiters release"),
+    "threading:Condition.wait_for": ("self predicate timeout", "_time wait"),
+    "threading:Event.wait": ("self timeout", "_cond wait"),
+    "threading:Thread.start": ("self", "_bootstrap _started"),
+    "threading:Thread._bootstrap_inner": ("self", "run"),
+    "threading:Thread.join": ("self timeout", "_started"),
+    "threading:_shutdown": ("", ""),
+    "queue:Queue.get": ("self block timeout", "time not_empty wait"),
+    "queue:Queue.put": ("self item block timeout", "time not_full wait"),
+    "queue:_PySimpleQueue.put": ("self item block timeout", "_count release"),
+    "concurrent.futures.thread:ThreadPoolExecutor.__init__": ("", "SimpleQueue queue"),
+}
+CLOCKS = ("time", "monotonic", "perf_counter")
 
 _waiting = False
+_threads: ThreadMonitor | None = None
 
 
 def install_subprocess() -> None:
@@ -63,14 +87,43 @@ def install_subprocess() -> None:
 
 def install_asyncio() -> None:
     """Start to report when an event loop is about to wait. Raises ImportError if `asyncio` is not as expected."""
-    from asyncio import base_events
+    from asyncio import base_events, selector_events
 
     _check(ASYNCIO)
     loops: Any = base_events.BaseEventLoop
     once = loops._run_once
+    writer: Any = selector_events.BaseSelectorEventLoop
+    write = writer._write_to_self
+
+    def noted_write(loop: Any) -> None:
+        if _threads is not None and (wait := getattr(loop, "course_wait", None)) is not None:
+            _threads.rouse(wait)
+        write(loop)
+
+    def sleep_until_due(loop: Any, threads: ThreadMonitor) -> None:
+        """Wait for an event, or in simulated time for the next timer."""
+        times = [each._when for each in loop._scheduled if not each._cancelled]
+        left = min(times) - loop.time() if times else math.inf
+        if left <= 0:
+            return
+        loop.course_wait = wait = threads.begin(threads.after(left), lambda: write(loop))
+        try:
+            events = loop._selector.select(None)
+        finally:
+            threads.end(wait)
+            loop.course_wait = None
+        loop._process_events(events)
 
     def told_run_once(loop: Any) -> None:
-        if not loop._ready and not loop._stopping:
+        simulated = _threads is not None and _threads.simulated and _threads.mine() is not None
+        if not loop._ready and not loop._stopping and simulated:
+            assert _threads is not None
+            ready = loop._selector.select(0)
+            if ready:
+                loop._process_events(ready)
+            else:
+                sleep_until_due(loop, _threads)
+        elif not loop._ready and not loop._stopping:
             ready = loop._selector.select(0)
             if ready:
                 loop._process_events(ready)
@@ -79,6 +132,96 @@ def install_asyncio() -> None:
         once(loop)
 
     loops._run_once = told_run_once
+    writer._write_to_self = noted_write
+
+
+def install_threads(threads: ThreadMonitor) -> None:
+    """Watch the calling thread and those that are started from now on. Raises ImportError if Python is not as expected.
+
+    The calling thread should be the only one that runs code of the submission.
+    """
+    global _threads
+    import queue
+    import select
+    import threading
+    import time
+
+    _check(THREADS)
+    _threads = threads
+    threads.enter(threads.expect())
+    module: Any = threading
+    thread: Any = threading.Thread
+    start, bootstrap, join, shutdown = thread.start, thread._bootstrap_inner, thread.join, module._shutdown
+
+    def noted_start(new: Any) -> None:
+        new.course_number, new.course_ended = threads.expect(), threading.Event()
+        try:
+            start(new)
+        except BaseException:
+            threads.leave(new.course_number)
+            raise
+
+    def noted_bootstrap(new: Any) -> None:
+        threads.enter(new.course_number)
+        try:
+            bootstrap(new)
+        finally:
+            new.course_ended.set()
+            threads.leave()
+
+    def watched_join(other: Any, timeout: float | None = None) -> None:
+        ended = getattr(other, "course_ended", None)
+        if ended is not None and other is not threading.current_thread() and other._started.is_set():
+            if not ended.wait(None if timeout is None else max(timeout, 0.0)):
+                return
+            timeout = None
+        join(other, timeout)
+
+    def unwatched_shutdown() -> None:
+        others = [each for each in threading.enumerate() if each is not threading.main_thread() and not each.daemon]
+        if others:  # else the process ends, which it does at work
+            threads.leave()
+        shutdown()
+
+    def told_sleep(seconds: Any) -> None:
+        if not threads.simulated or threads.mine() is None or not seconds > 0:
+            with threads.waiting():
+                sleep(seconds)
+            return
+        lock = WatchedLock(threads)
+        lock.acquire()
+        lock.acquire(True, seconds)
+
+    def told_select(reading: Any, writing: Any, failing: Any, timeout: float | None = None) -> Any:
+        if not threads.simulated or threads.mine() is None or timeout is None or timeout <= 0:
+            return selecting(reading, writing, failing, timeout)
+        ready = selecting(reading, writing, failing, 0)
+        if any(ready):
+            return ready
+        told_sleep(timeout)
+        return selecting(reading, writing, failing, 0)
+
+    sleep, selecting = time.sleep, select.select
+    module._allocate_lock = lambda: WatchedLock(threads)
+    thread.start, thread._bootstrap_inner, thread.join = noted_start, noted_bootstrap, watched_join
+    module._shutdown = unwatched_shutdown
+    queue.SimpleQueue = queue._PySimpleQueue  # type: ignore[attr-defined, misc]
+    time.sleep, select.select = told_sleep, told_select
+    for name in CLOCKS:
+        _follow(time, name, threads)
+    # These have bound the clock under names of their own.
+    module._time = queue.time = time.monotonic  # type: ignore[attr-defined]
+
+
+def _follow(module: Any, name: str, threads: ThreadMonitor) -> None:
+    """Let a clock of the time module follow simulated time."""
+    real = getattr(module, f"{name}_ns")
+
+    def nanoseconds() -> int:
+        return threads.clock_ns(name, real)
+
+    setattr(module, f"{name}_ns", nanoseconds)
+    setattr(module, name, lambda: nanoseconds() / 1e9)
 
 
 def _check(relied_upon: dict[str, Reliance]) -> None:

@@ -1,25 +1,25 @@
 """All patches of rclpy 7.1 (ROS 2 Jazzy): they report when a process has nothing left to do.
 
-`import_hooks.py` calls `install` as soon as rclpy is imported. Patched are the executor's wait, every publish, take,
-request and response, and the destruction of publishers; `executor_monitor.py` counts and reports. `RELIED_UPON` lists
-everything in rclpy on which this depends. The grader trusts none of it: a process that reports falsely only spoils its
-own run.
+`import_hooks.py` calls `install` as soon as rclpy is imported. Patched are every publish, take, request and response,
+and the destruction of publishers; in `rclpy_7_1_waits.py` the executor's wait and all others. `executor_monitor.py`
+counts and reports. `RELIED_UPON` lists everything in rclpy on which this depends. The grader trusts none of it: a
+process that reports falsely only spoils its own run.
 """
 
 from __future__ import annotations
 
 import atexit
-import contextlib
 import copy
 import json
 import os
 import sys
-import threading
-import time
 from typing import Any
 
 from .channel import channel
-from .executor_monitor import HOLD, HOUSEKEEPING, POOL_SLICE, TOPICS, ExecutorMonitor, type_name
+from .executor_monitor import HOLD, HOUSEKEEPING, TOPICS, ExecutorMonitor, type_name
+from .inbox import Kept, fill, has_kept, is_copy, kept
+from .python_3 import install_threads
+from .rclpy_7_1_waits import nudge, watch_waits
 from .rosout_counter import watch_logging
 from .self_check import Reliance, misfits
 from .tracebacks import print_traceback
@@ -39,7 +39,16 @@ RELIED_UPON: dict[str, Reliance] = {
     "rclpy.executors:TimeoutException": EXISTS,
     "rclpy.time_source:TimeSource.clock_callback": ("self msg", ""),
     "rclpy.time_source:TimeSource.ros_time_is_active": EXISTS,
-    "rclpy.node:Node.__init__": ("", "_publishers _subscriptions _time_source"),
+    "rclpy.executors:Executor._make_handler": ("self entity node take_from_wait_list", "_guard"),
+    "rclpy.executors:Executor.can_execute": ("self entity", "_executor_event"),
+    "rclpy.executors:Executor.wake": ("self", "_guard trigger"),
+    "rclpy.guard_condition:GuardCondition.trigger": ("self", ""),
+    "rclpy.wait_for_message:wait_for_message": ("msg_type node topic", "_rclpy WaitSet wait"),
+    "rclpy.clock:Clock.sleep_until": ("self until context", "_rclpy ClockEvent set wait_until_ros"),
+    "rclpy.clock:Clock.now": ("self", ""),
+    "rclpy.timer:Rate.sleep": ("self", "_event wait"),
+    "rclpy.node:Node.__init__": ("", "_publishers _subscriptions _time_source _guards"),
+    "rclpy.node:Node.executor": EXISTS,
     "rclpy.node:Node.destroy_node": EXISTS,
     "rclpy.node:Node.get_publishers_info_by_topic": EXISTS,
     "rclpy.node:Node.destroy_publisher": EXISTS,
@@ -48,7 +57,6 @@ RELIED_UPON: dict[str, Reliance] = {
     "rclpy.publisher:Publisher.publish": ("self msg", ""),
     "rclpy.publisher:Publisher.get_subscription_count": ("self", ""),
     "rclpy.subscription:Subscription.get_publisher_count": ("self", ""),
-    "rclpy.client:Client.call": ("self request timeout_sec", ""),
     "rclpy.client:Client.call_async": ("self request", "_lock _pending_requests send_request"),
     "rclpy.client:Client.remove_pending_request": ("self future", ""),
     "rclpy.client:Client.service_is_ready": ("self", ""),
@@ -62,7 +70,6 @@ RELIED_UPON: dict[str, Reliance] = {
     "rclpy.impl.implementation_singleton:rclpy_implementation.rclpy_resolve_name": EXISTS,
 }
 CLOCK = "/clock"  # the grader sends it again until it is seen
-POOL_START = 0.01  # [s] for a pool to start a callback; a pool whose threads are all busy does not
 
 _monitor: ExecutorMonitor | None = None
 
@@ -80,96 +87,17 @@ def install() -> None:
         raise ImportError(f"this rclpy cannot be kept in step: {found[0]}")
     topics = json.loads(os.environ.get(TOPICS, "{}"))
     _monitor = ExecutorMonitor(channel(), topics, bool(os.environ.get(HOLD)))
-    _watch_executors(_monitor)
+    _monitor.listen()  # in a thread that is not watched
+    install_threads(_monitor.threads)
+    watch_waits(_monitor)
     _watch_messages(_monitor)
+    _watch_nodes(_monitor)
     _make_subscriptions_reliable(_monitor)
     _watch_services(_monitor)
     watch_logging(_monitor)
     channel().send({"ros": True})
-    _monitor.listen()
     atexit.register(_monitor.flush)
     sys.excepthook = lambda kind, error, trace: print_traceback(error)
-
-
-def _watch_executors(monitor: ExecutorMonitor) -> None:
-    """Patch the wait of every executor, and the clocks of the nodes."""
-    from rclpy.executors import ConditionReachedException, Executor, TimeoutException
-    from rclpy.time_source import TimeSource
-
-    wait, clock_callback = Executor.wait_for_ready_callbacks, TimeSource.clock_callback
-
-    def watched_wait(executor: Any, timeout_sec: Any = None, nodes: Any = None, condition: Any = lambda: False) -> Any:
-        monitor.waiting[id(executor)] = False
-        _await_start(executor)
-        seconds = getattr(timeout_sec, "timeout", timeout_sec)
-        deadline = None if seconds is None or seconds < 0 else time.monotonic() + seconds
-        patience: float | None = 0.0
-        while True:
-            # A callback may still run in the executor's pool; its end wakes the wait.
-            running = [future for future in getattr(executor, "_futures", ()) if not future.done()]
-
-            def ended(running: list[Any] = running) -> bool:
-                return condition() or all(future.done() for future in running)
-
-            # The rest of an earlier wait set ends in a timeout, too; only a new one shows that there is nothing to do.
-            old = patience == 0.0 and executor._cb_iter is not None
-            try:
-                found = wait(executor, patience, nodes, ended if running and patience else condition)
-            except TimeoutException:
-                executor._cb_iter = None
-                if old:
-                    continue
-                if patience and deadline is not None and time.monotonic() >= deadline:
-                    raise
-            except ConditionReachedException:
-                if condition():
-                    raise
-            else:
-                monitor.waiting[id(executor)] = False
-                return found
-            # A callback that has ended becomes `done` a moment after it woke the wait, hence the short slice.
-            busy = sum(not future.done() for future in running) > monitor.blocked_threads
-            slice_ = POOL_SLICE if busy else monitor.executor_idle(executor)
-            if seconds == 0:
-                raise TimeoutException
-            left = None if deadline is None else max(1e-6, deadline - time.monotonic())
-            patience = left if slice_ is None else slice_ if left is None else min(slice_, left)
-
-    def watched_clock(source: Any, message: Any) -> None:
-        clock_callback(source, message)
-        monitor.clock_seen[id(source)] = message.clock.sec * 1_000_000_000 + message.clock.nanosec
-
-    Executor.wait_for_ready_callbacks = watched_wait
-    TimeSource.clock_callback = watched_clock
-
-
-_started: dict[int, threading.Event] = {}  # id(thread pool) -> whether its last callback has started
-
-
-def _await_start(executor: Any) -> None:
-    """Wait until the pool of a MultiThreadedExecutor has started the callback it was just given.
-
-    Until then the executor finds the same callback ready again and again and keeps the pool from running.
-    """
-    pool = getattr(executor, "_executor", None)
-    if pool is None:
-        return
-    if id(pool) not in _started:
-        submit = pool.submit
-
-        def noted_submit(callback: Any) -> Any:
-            started = _started[id(pool)] = threading.Event()
-
-            def run() -> None:
-                started.set()
-                callback()
-
-            return submit(run)
-
-        pool.submit = noted_submit
-        _started[id(pool)] = threading.Event()
-        _started[id(pool)].set()
-    _started[id(pool)].wait(POOL_START)
 
 
 def _watch_messages(monitor: ExecutorMonitor) -> None:
@@ -178,10 +106,14 @@ def _watch_messages(monitor: ExecutorMonitor) -> None:
     from rclpy.executors import Executor
     from rclpy.node import Node
     from rclpy.publisher import Publisher
+    from rclpy.serialization import deserialize_message, serialize_message
 
     take, publish = Executor._take_subscription, Publisher.publish
 
     def watched_take(executor: Any, subscription: Any) -> Any:
+        if has_kept(subscription):
+            fill("subscription", subscription, monitor._took_subscription)
+            return take(executor, Kept(subscription, kept(subscription).popleft()))
         callback = take(executor, subscription)
         if callback is None:
             return None
@@ -200,17 +132,35 @@ def _watch_messages(monitor: ExecutorMonitor) -> None:
             # A best-effort publisher never matches the grader's subscriptions.
             if publisher.qos_profile.reliability.name != "BEST_EFFORT":
                 monitor.count(monitor.published, topic)
+            for subscription in monitor.local_subscriptions(topic):
+                nudge(monitor, monitor.executor_of(subscription))
+
+    def lose(publisher: Any, message: Any) -> None:
+        """Publish to nobody but this process and to those who join later and ask for what was before."""
+        topic = monitor.topic_of(publisher)
+        monitor.count(monitor.lost, topic)
+        if publisher.qos_profile.durability.name == "TRANSIENT_LOCAL":
+            monitor.announce_early(topic)
+            publish(publisher, message)
+            return
+        for subscription in monitor.local_subscriptions(topic):
+            if subscription.msg_type is publisher.msg_type and hears(subscription, publisher):
+                data = message if isinstance(message, bytes) else serialize_message(message)
+                own = data if subscription.raw else deserialize_message(data, subscription.msg_type)
+                kept(subscription).append((own, {"source_timestamp": 0, "received_timestamp": 0}))
+                nudge(monitor, monitor.executor_of(subscription))
 
     def watched_publish(publisher: Any, message: Any) -> None:
-        if not monitor.holds or publisher.topic in HOUSEKEEPING or not isinstance(message, publisher.msg_type | bytes):
-            monitor.await_match(publisher)
+        if publisher.topic in HOUSEKEEPING or not isinstance(message, publisher.msg_type | bytes):
+            publish(publisher, message)
+        elif not monitor.await_match(publisher):
+            lose(publisher, message)
+        elif not monitor.holds:
             emit(publisher, message)
-            return
-        from rclpy.serialization import serialize_message
-
-        # Serialized at once, because the caller may change the message later.
-        data = message if isinstance(message, bytes) else serialize_message(message)
-        monitor.hold(lambda: emit(publisher, data))
+        else:
+            # Serialized at once, because the caller may change the message later.
+            data = message if isinstance(message, bytes) else serialize_message(message)
+            monitor.hold(lambda: emit(publisher, data))
 
     def flushed(function: Any) -> Any:
         def after_flush(*args: Any, **kwargs: Any) -> Any:
@@ -226,6 +176,31 @@ def _watch_messages(monitor: ExecutorMonitor) -> None:
     Publisher.publish = watched_publish
 
 
+def hears(subscription: Any, publisher: Any) -> bool:
+    """Return whether a subscription gets what a publisher of the same topic and type sends."""
+    asked, offered = subscription.qos_profile, publisher.qos_profile
+    return (asked.reliability.name != "RELIABLE" or offered.reliability.name != "BEST_EFFORT") and (
+        asked.durability.name != "TRANSIENT_LOCAL" or offered.durability.name == "TRANSIENT_LOCAL"
+    )
+
+
+def _watch_nodes(monitor: ExecutorMonitor) -> None:
+    """Patch the beginning and the end of nodes."""
+    from rclpy.node import Node
+
+    begin, destroy = Node.__init__, Node.destroy_node
+
+    def watched_begin(node: Any, *arguments: Any, **options: Any) -> None:
+        begin(node, *arguments, **options)
+        monitor.add_node(node)
+
+    def watched_destroy(node: Any) -> None:
+        destroy(node)
+        monitor.remove_node(node)
+
+    Node.__init__, Node.destroy_node = watched_begin, watched_destroy
+
+
 def _make_subscriptions_reliable(monitor: ExecutorMonitor) -> None:
     """Make subscriptions lose nothing of what the grader publishes reliably, whatever reliability they ask for.
 
@@ -233,8 +208,8 @@ def _make_subscriptions_reliable(monitor: ExecutorMonitor) -> None:
     best-effort reader loses the whole picture, and lock-step would wait for it in vain. How many are lost depends on
     how busy the machine is. So where the grader publishes reliably, a best-effort subscription reads reliably.
     Elsewhere its QoS stays, because QoS decides which endpoints match; there the grader sends a lost message again, and
-    readers that had it already drop the copy (`is_copy`). What a node knows about its subscriptions (`qos_profile`,
-    parameters) stays what it asked for.
+    readers that had it already drop the copy (`is_copy`). What a node knows about its subscriptions
+    (`qos_profile`, parameters) stays what it asked for.
     """
     from rclpy.impl.implementation_singleton import rclpy_implementation as rcl
 
@@ -247,16 +222,6 @@ def _make_subscriptions_reliable(monitor: ExecutorMonitor) -> None:
         return subscription(node, kind, topic, profile)
 
     rcl.Subscription = lossless_subscription
-
-
-def is_copy(subscription: Any, message: Any) -> bool:
-    """Return whether a message has the stamp of the one before it; False for a message without a stamp."""
-    if not hasattr(subscription.msg_type, "header"):
-        return False
-    # A raw subscription gets bytes: a header of four bytes that names the encoding, then the stamp.
-    stamp = message[4:12] if isinstance(message, bytes) else (message.header.stamp.sec, message.header.stamp.nanosec)
-    before, subscription.course_stamp = getattr(subscription, "course_stamp", None), stamp
-    return bool(stamp == before)
 
 
 def _reliable(profile: Any) -> Any:
@@ -278,16 +243,19 @@ def _watch_services(monitor: ExecutorMonitor) -> None:
     from rclpy.task import Future
 
     take_request, take_response = Executor._take_service, Executor._take_client
-    call, respond = Client.call, Service.send_response
-    caller = threading.local()
+    respond = Service.send_response
 
     def watched_take_request(executor: Any, service: Any) -> Any:
+        if has_kept(service):
+            return take_request(executor, Kept(service, kept(service).popleft()))
         callback = take_request(executor, service)
         if _took(callback, "request_and_header"):
             monitor.count(monitor.taken, f"request {service.service_name}")
         return callback
 
     def watched_take_response(executor: Any, client: Any) -> Any:
+        if has_kept(client):
+            return take_response(executor, Kept(client, kept(client).popleft()))
         callback = take_response(executor, client)
         if _took(callback, "header_and_response"):
             monitor.count(monitor.taken, f"response {client.service_name}")
@@ -298,8 +266,6 @@ def _watch_services(monitor: ExecutorMonitor) -> None:
             raise TypeError
         asked = copy.deepcopy(request)
         future = Future()
-        if calling := getattr(caller, "calling", None):
-            future.add_done_callback(lambda _: calling.close())
         future.add_done_callback(client.remove_pending_request)
 
         def send() -> None:
@@ -315,16 +281,6 @@ def _watch_services(monitor: ExecutorMonitor) -> None:
         monitor.hold(send)
         return future
 
-    def watched_call(client: Any, *args: Any, **kwargs: Any) -> Any:
-        # Until the response arrives, which the future of `call_async` learns first.
-        with contextlib.ExitStack() as calling:
-            calling.enter_context(monitor.blocked())
-            caller.calling = calling
-            try:
-                return call(client, *args, **kwargs)
-            finally:
-                caller.calling = None
-
     def watched_respond(service: Any, response: Any, header: Any) -> None:
         if not isinstance(response, service.srv_type.Response):
             raise TypeError
@@ -338,7 +294,6 @@ def _watch_services(monitor: ExecutorMonitor) -> None:
     Executor._take_service = watched_take_request
     Executor._take_client = watched_take_response
     Client.call_async = watched_call_async
-    Client.call = watched_call
     Service.send_response = watched_respond
 
 

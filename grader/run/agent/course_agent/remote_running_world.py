@@ -6,13 +6,12 @@
 from __future__ import annotations
 
 import base64
-import threading
-import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from .grader_requests import ask
+from .thread_monitor import monotonic, sleep
 
 LOOK_AGAIN = 0.05  # [s] until a world is asked for again
 
@@ -25,19 +24,19 @@ class RemoteRunningWorld:
     ) -> None:
         from gz_course.sim.ros_program.errors import Failure
 
-        end = (time.monotonic() if start is None else start) + timeout
+        end = (monotonic() if start is None else start) + timeout
         worlds: list[str] = []
         while not (worlds and (not name or name in worlds)):
             answer = ask({"worlds": True})
             worlds = answer.get("worlds", [])
             if answer.get("coming"):  # it has not got up yet, perhaps on a busy machine
-                end = max(end, time.monotonic() + timeout)
-            if time.monotonic() > end:
+                end = max(end, monotonic() + timeout)
+            if monotonic() > end:
                 if worlds:
                     raise Failure(f"no world '{name}' appeared within {timeout:g} s; worlds that run are: {worlds[0]}")
                 raise Failure(f"no simulator answered within {timeout:g} s; start gz sim")
             if not worlds or (name and name not in worlds):
-                threading.Event().wait(LOOK_AGAIN)
+                sleep(LOOK_AGAIN)
         self.name = name or worlds[0]
 
     def call(self, verb: str, request: Any) -> bool:

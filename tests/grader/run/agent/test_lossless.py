@@ -11,7 +11,7 @@ from types import SimpleNamespace
 import pytest
 
 from gz_course.grader.record.reading import Recording
-from gz_course.grader.run.agent.course_agent.rclpy_7_1 import is_copy
+from gz_course.grader.run.agent.course_agent.inbox import is_copy
 from gz_course.grader.run.pace import lockstep
 from gz_course.grader.run.processes.progress import Progress
 from gz_course.grader.run.sandbox import environment
@@ -263,7 +263,15 @@ def test_a_copy_has_the_stamp_of_the_one_before(raw):
         return SimpleNamespace(header=SimpleNamespace(stamp=SimpleNamespace(sec=7, nanosec=nanosec)))
 
     asked = [(camera, 1), (camera, 1), (other, 1), (camera, 2), (camera, 2), (camera, 2), (camera, 3)]
-    assert [is_copy(who, picture(stamp)) for who, stamp in asked] == [False, True, False, False, True, True, False]
+    assert [is_copy(who, picture(stamp)) for who, stamp in asked] == [
+        False,
+        True,
+        False,
+        False,
+        True,
+        True,
+        False,
+    ]
 
 
 def test_what_has_no_stamp_is_never_a_copy():

@@ -1,4 +1,4 @@
-"""Waits a second on the wall clock before it lets the node spin: no simulated time has passed by then."""
+"""Sleeps for a second before it speaks: others find the publisher meanwhile. It works, but nothing else can happen."""
 
 import time
 

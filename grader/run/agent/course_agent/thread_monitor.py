@@ -1,0 +1,302 @@
+"""Which threads of this process are at work, and how long the others sleep: in simulated time.
+
+A process has nothing left to do when no thread is at work. A thread counts as at work from its start, except while it
+waits in a call that is watched: `python_3.py` and `rclpy_7_1.py` patch those. Who ends the wait of a thread (with a
+lock, an event, a message to itself) counts it as at work again, at once and not when it comes to run, so that there is
+no moment at which nobody seems to be at work.
+
+A wait with a timeout is a sleep. It ends when the grader orders the one that is due first to wake up; of those due at
+the same time, that of the thread that was started first. A sleep takes whole milliseconds, at least one.
+
+The clocks of the process (`time.time()` and its kind) go on with simulated time: that of the latest wake-up or
+`/clock`. A thread that asks the time again and again without waiting is made to wait for a millisecond.
+"""
+
+from __future__ import annotations
+
+import _thread
+import contextlib
+import math
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+MILLISECOND = 1_000_000  # [ns] of simulated time: the shortest sleep
+MOST_READS = 1_000  # of the clock without a wait in between
+MOST_POLLS = 3  # of an executor that has nothing to do, without a wait in between
+POLL_PERIOD = 0.01  # [s] of simulated time that the next such poll takes at most
+
+# The clocks and the sleep of the machine, for the agent itself.
+monotonic, sleep, time_ns = time.monotonic, time.sleep, time.time_ns
+
+
+class Wait:
+    """One wait of a thread. `wake` ends it, called by another thread; `timed_out` says that its time has come."""
+
+    __slots__ = ("cut", "deadline", "number", "open", "timed_out", "wake")
+
+    def __init__(self, number: int, deadline: int | None, wake: Callable[[], object]) -> None:
+        self.number = number
+        self.deadline = deadline  # [ns]
+        self.wake = wake
+        self.open = True
+        self.timed_out = False
+        self.cut = False  # simulated time has ended; the rest of it is real time
+
+
+class ThreadMonitor:
+    """All watched threads of this process. `on_idle` is called when the last one that was at work begins to wait."""
+
+    def __init__(self) -> None:
+        self.lock = _thread.RLock()
+        self.on_idle: Callable[[], object] = lambda: None
+        self.simulated = False  # whether sleeping takes simulated time
+        self.rate = 1.0  # simulated time in a second of the clocks
+        self.now_ns = 0
+        self.woken = 0  # orders to wake up that were carried out
+        self.calling: set[int] = set()  # threads that run a callback
+        self._begin_ns = 0
+        self._bases: dict[str, int] = {}
+        self._numbers: dict[int, int] = {}  # ident -> number
+        self._next = 0
+        self._working: set[int] = set()
+        self._waits: dict[int, Wait] = {}
+        self._reads: dict[int, int] = {}
+        self._polls: dict[int, int] = {}
+        self._elsewhere: dict[int, tuple[int, str]] = {}  # native id and number -> what the kernel said of it
+
+    # Threads
+
+    def expect(self) -> int:
+        """Return the number of a thread that is about to start; it counts as at work."""
+        with self.lock:
+            number, self._next = self._next, self._next + 1
+            self._working.add(number)
+            return number
+
+    def enter(self, number: int) -> None:
+        """Say that the calling thread is the one expected."""
+        self._numbers[_thread.get_ident()] = number
+
+    def leave(self, number: int | None = None) -> None:
+        """Do not watch a thread any more: the calling one, or one that could not be started."""
+        if number is None:
+            number = self._numbers.pop(_thread.get_ident(), None)
+        with self.lock:
+            if number is None or number not in self._working:
+                return
+            self._working.discard(number)
+            quiet = not self._working
+        if quiet:
+            self.on_idle()
+
+    def mine(self) -> int | None:
+        """Return the number of the calling thread, None if it is not watched."""
+        return self._numbers.get(_thread.get_ident())
+
+    @property
+    def idle(self) -> bool:
+        """Whether no thread is at work."""
+        return not self._working
+
+    # Waits
+
+    def begin(self, deadline: int | None, wake: Callable[[], object]) -> Wait | None:
+        """Say that the calling thread is about to wait; None if it is not watched. `end` must follow."""
+        with self.lock:
+            wait = self.open(deadline, wake)
+        if wait is not None and self.idle:
+            self.on_idle()
+        return wait
+
+    def open(self, deadline: int | None, wake: Callable[[], object]) -> Wait | None:
+        """As `begin`, without telling that nobody is at work."""
+        number = self.mine()
+        if number is None:
+            return None
+        wait = self._waits[number] = Wait(number, deadline, wake)
+        self._reads.pop(number, None)
+        self._polls.pop(number, None)
+        self._working.discard(number)
+        return wait
+
+    def end(self, wait: Wait | None) -> None:
+        """Say that the calling thread waits no more."""
+        if wait is not None:
+            self.rouse(wait)
+
+    @contextlib.contextmanager
+    def waiting(self) -> Iterator[None]:
+        """Let the calling thread wait in real time."""
+        wait = self.begin(None, lambda: None)
+        try:
+            yield
+        finally:
+            self.end(wait)
+
+    def rouse(self, wait: Wait) -> None:
+        """Count a thread as at work whose wait is about to end."""
+        with self.lock:
+            if wait.open:
+                wait.open = False
+                if self._waits.get(wait.number) is wait:
+                    del self._waits[wait.number]
+                self._working.add(wait.number)
+
+    @property
+    def wakes_ns(self) -> int | None:
+        """When the first sleeper is due [ns of simulated time]."""
+        with self.lock:
+            return min((w.deadline for w in self._waits.values() if w.deadline is not None), default=None)
+
+    def wake(self, now_ns: int, every: bool = False) -> None:
+        """Let simulated time go on and wake the sleeper that is due first, or every one that is due."""
+        with self.lock:
+            self.tell(now_ns)
+            self.woken += 1
+            due = [w for w in self._waits.values() if w.deadline is not None and w.deadline <= self.now_ns]
+            due.sort(key=lambda w: (w.deadline, w.number))
+            for wait in due if every else due[:1]:
+                wait.timed_out = True
+                self.rouse(wait)
+                wait.wake()
+
+    def release_all(self) -> None:
+        """Let sleeping take real time from now on, also what is left of a sleep."""
+        with self.lock:
+            self.simulated = False
+            for wait in [w for w in self._waits.values() if w.deadline is not None]:
+                wait.cut = True
+                self.rouse(wait)
+                wait.wake()
+
+    @contextlib.contextmanager
+    def at_work(self) -> Iterator[None]:
+        """Let the calling thread count as at work whatever it does, as one that runs a callback."""
+        number = self.mine()
+        if number is None or number in self.calling:
+            yield
+            return
+        self.calling.add(number)
+        try:
+            yield
+        finally:
+            self.calling.discard(number)
+
+    def look_for_strays(self, native: dict[int, int]) -> None:
+        """Do not count a thread as at work that does not run: it waits in a call that is not watched.
+
+        `native` are the kernel's numbers of threads. One that was not scheduled since the last look stays uncounted
+        until its next watched wait. This is not asked of a thread that runs a callback.
+        """
+        for ident, kernel in native.items():
+            number = self._numbers.get(ident)
+            if number is None or number not in self._working or number in self.calling:
+                continue
+            said = _scheduled(kernel)
+            with self.lock:
+                if said and self._elsewhere.get(number) == (kernel, said):
+                    self._working.discard(number)
+                else:
+                    self._elsewhere[number] = (kernel, said)
+
+    # Time
+
+    def start(self, now_ns: int, rate: float) -> None:
+        """Let sleeping take simulated time from now on, and the clocks follow it."""
+        with self.lock:
+            self.now_ns = self._begin_ns = now_ns
+            self.rate = rate
+            self._bases = {name: getattr(time, f"{name}_ns")() for name in ("time", "monotonic", "perf_counter")}
+            self.simulated = True
+
+    def tell(self, now_ns: int) -> None:
+        """Set the simulated time; it never goes back."""
+        self.now_ns = max(self.now_ns, now_ns)
+
+    def after(self, seconds: float) -> int | None:
+        """Return the simulated time [ns] in some seconds of the clocks; None is never."""
+        if seconds * self.rate > 1e9:
+            return None
+        return self.now_ns + max(1, math.ceil(seconds * self.rate * 1e3 - 1e-6)) * MILLISECOND
+
+    def clock_ns(self, name: str, real: Callable[[], int]) -> int:
+        """Return what a clock of the time module shows [ns]."""
+        if not self.simulated:
+            return real()
+        number = self.mine()
+        if number is not None:
+            reads = self._reads[number] = self._reads.get(number, 0) + 1
+            if reads > MOST_READS:
+                time.sleep(MILLISECOND / 1e9 / self.rate)
+        return self._bases[name] + round((self.now_ns - self._begin_ns) / self.rate)
+
+    def polls_too_often(self) -> bool:
+        """Count a poll of an executor that has nothing to do; return whether the next one must wait."""
+        number = self.mine()
+        if number is None or not self.simulated:
+            return False
+        polls = self._polls[number] = self._polls.get(number, 0) + 1
+        return polls >= MOST_POLLS
+
+
+class WatchedLock:
+    """A lock whose waiters are watched: the locks on which conditions, events and queues wait."""
+
+    def __init__(self, threads: ThreadMonitor) -> None:
+        self._threads = threads
+        self._lock = _thread.allocate_lock()
+        self._wait: Wait | None = None
+
+    def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
+        threads = self._threads
+        if self._lock.acquire(False):
+            return True
+        if not blocking or timeout == 0:
+            return False
+        if threads.mine() is None:
+            return self._lock.acquire(True, timeout)
+        if timeout > 0 and not threads.simulated:
+            with threads.waiting():
+                return self._lock.acquire(True, timeout)
+        deadline = threads.after(timeout) if timeout > 0 else None
+        with threads.lock:
+            if self._lock.acquire(False):
+                return True
+            wait = self._wait = threads.open(deadline, self._lock.release)
+        assert wait is not None
+        if threads.idle:
+            threads.on_idle()
+        try:
+            self._lock.acquire()
+        finally:
+            with threads.lock:
+                threads.rouse(wait)
+                self._wait = None
+        if wait.cut and deadline is not None:
+            return self._lock.acquire(True, (deadline - threads.now_ns) / 1e9 / threads.rate)
+        return not wait.timed_out
+
+    def release(self) -> None:
+        with self._threads.lock:
+            wait, self._wait = self._wait, None
+            if wait is not None:
+                self._threads.rouse(wait)
+                if wait.timed_out or wait.cut:
+                    return  # released already
+            self._lock.release()
+
+    def locked(self) -> bool:
+        return self._lock.locked()
+
+
+def _scheduled(kernel: int) -> str:
+    """Return how often a thread was scheduled, as the kernel counts; empty if it runs."""
+    try:
+        with open(f"/proc/self/task/{kernel}/status", "rb") as file:  # noqa: PTH123 - pathlib would cost a start
+            lines: list[Any] = file.read().decode(errors="replace").splitlines()
+    except OSError:
+        return ""
+    if not any(line.startswith("State:\tS") for line in lines):
+        return ""
+    return " ".join(line for line in lines if "ctxt_switches" in line)
