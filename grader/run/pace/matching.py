@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from gz_course.grader.run.agent.course_agent.executor_monitor import qos_can_match
+from gz_course.grader.run.agent.course_agent.endpoint_description import qos_can_match
 from gz_course.grader.run.processes.progress import Endpoint
 
 if TYPE_CHECKING:

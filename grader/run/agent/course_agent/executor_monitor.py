@@ -36,6 +36,7 @@ from typing import Any
 
 from . import grader_requests
 from .channel import Channel
+from .endpoint_description import described, qos_can_match
 from .inbox import blocked, fill, is_copy
 from .signals import Signal
 from .thread_monitor import ThreadMonitor, monotonic, sleep, time_ns
@@ -208,7 +209,7 @@ class ExecutorMonitor:
         if found == "awaited":
             return True
         publisher.course_found = "awaited"
-        if self._is_met(self._describe("", "publisher", publisher, 0)):
+        if self._is_met(described("", "publisher", self.topic_of(publisher), publisher, 0)):
             deadline = monotonic() + MATCH_PATIENCE
             while not publisher.get_subscription_count() and monotonic() < deadline:
                 sleep(UNMATCHED_SLICE)
@@ -324,25 +325,15 @@ class ExecutorMonitor:
             name = node.get_fully_qualified_name()
             for publisher in list(node.publishers):
                 matched = publisher.get_subscription_count()
-                self._endpoints.append(self._describe(name, "publisher", publisher, matched))
+                self._endpoints.append(described(name, "publisher", self.topic_of(publisher), publisher, matched))
             for subscription in list(node.subscriptions):
                 matched = subscription.get_publisher_count()
-                self._endpoints.append(self._describe(name, "subscription", subscription, matched))
+                self._endpoints.append(
+                    described(name, "subscription", self.topic_of(subscription), subscription, matched)
+                )
         now = monotonic()
         waiting = [(e["kind"], e["topic"]) for e in self._endpoints if not e["matched"] and self._is_met(e)]
         self._unmatched_since = {key: self._unmatched_since.get(key, now) for key in waiting}
-
-    def _describe(self, node: str, kind: str, endpoint: Any, matched: int) -> dict[str, Any]:
-        qos = endpoint.qos_profile
-        return {
-            "node": node,
-            "kind": kind,
-            "topic": self.topic_of(endpoint),
-            "type": type_name(endpoint.msg_type),
-            "reliability": qos.reliability.name,
-            "durability": qos.durability.name,
-            "matched": matched,
-        }
 
     def flush(self) -> None:
         """Wait until the grader has received everything published so far, or for `FLUSH_PATIENCE`."""
@@ -405,19 +396,3 @@ class ExecutorMonitor:
             if text != self._last_report:
                 self._last_report = text
                 self._channel.send_text(text)
-
-
-def type_name(kind: Any) -> str:
-    """Return the ROS type of a class of messages, such as `geometry_msgs/msg/Twist`."""
-    return f"{kind.__module__.split('.')[0]}/msg/{kind.__name__}"
-
-
-def qos_can_match(kind: str, reliability: str, durability: str, **_: Any) -> bool:
-    """Return whether an endpoint's QoS is compatible with the grader's: reliable and volatile, as in ros_gz_bridge.
-
-    A best-effort publisher does not match a reliable subscription, nor a transient-local subscription a volatile
-    publisher.
-
-    Source: ROS 2 documentation, "Quality of Service settings", section "QoS compatibilities".
-    """
-    return reliability != "BEST_EFFORT" if kind == "publisher" else durability != "TRANSIENT_LOCAL"

@@ -16,7 +16,8 @@ import sys
 from typing import Any
 
 from .channel import channel
-from .executor_monitor import HOLD, HOUSEKEEPING, TOPICS, ExecutorMonitor, type_name
+from .endpoint_description import type_name
+from .executor_monitor import HOLD, HOUSEKEEPING, TOPICS, ExecutorMonitor
 from .inbox import Kept, fill, has_kept, is_copy, kept
 from .python_3 import install_threads
 from .rclpy_7_1_waits import nudge, watch_waits
