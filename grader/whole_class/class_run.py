@@ -38,7 +38,7 @@ from gz_course.grader.whole_class.versions import versions
 LOOK = 2.0  # [s] between two checks that the workers still exist
 ATTEMPTS = 3  # at one submission, if the student is not at fault
 HOPELESS = 6  # failures in a row, before any success, after which the run ends
-# [s], [s] and wall seconds per simulated second of a grading. Its own watchdog ends what takes too much; this is for one
+# [s], [s] and wall seconds per simulated second of a grading. Its watchdog ends what takes too much; this is for one
 # that hangs nevertheless.
 START_UP, PER_TRIAL, WALL_FACTOR = 600.0, 600.0, 60.0
 PART = ".part-"
