@@ -136,6 +136,18 @@ def test_a_process_that_never_spun(told):
     assert "never spun" in sentence and "rclpy.spin(node)" in sentence
 
 
+def test_a_process_that_was_stopped_is_not_said_to_have_never_spun(told):
+    outcome, sentence = told(ready=False, stopped=True, publisher=False, signals={})
+    assert outcome == "timeout"
+    assert "SIGSTOP" in sentence and "never spun" not in sentence
+
+
+def test_nodes_that_never_come_to_rest(told):
+    outcome, sentence = told(out_of_time=True, flooded=True, sim_seconds=1.25)
+    assert outcome == "timeout"
+    assert "more than 10000 messages at 1.25 s" in sentence and "answer each other" in sentence
+
+
 def test_a_good_run_may_end_by_itself(told):
     assert told(exit_at=5.5, exit_code=0) == ("graded", "")
 

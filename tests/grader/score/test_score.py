@@ -46,6 +46,12 @@ def test_full_marks_have_no_diagnosis_whatever_was_odd(record, exercise):
     assert (verdict.points, verdict.diagnosis) == (100, "")
 
 
+@pytest.mark.parametrize(("low", "outcome"), [(0.1, "graded"), (0.9, "timeout")])
+def test_full_marks_are_never_a_timeout(record, exercise, low, outcome):
+    one = dataclasses.replace(exercise, checks=(check("small", 100, low),))
+    assert score(record(truth(), facts={"ready": False}), one).outcome == outcome
+
+
 def test_a_structural_fault_comes_before_the_checks(record, exercise):
     verdict = score(record(truth(), facts={"fault": "node.py, line 3: SyntaxError"}), exercise)
     assert (verdict.diagnosis, verdict.outcome) == ("node.py, line 3: SyntaxError", "student_error")
