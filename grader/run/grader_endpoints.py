@@ -23,6 +23,7 @@ from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.serialization import serialize_message
 from rclpy.signals import SignalHandlerOptions
+from rclpy.subscription import Subscription
 from rclpy.type_support import check_is_valid_msg_type
 
 from gz_course.grader.errors import ManifestError
@@ -268,8 +269,10 @@ class _Executor(SingleThreadedExecutor):
         if taken is None or taken[1]["source_timestamp"] < self._endpoints.found_at.get(sub.topic_name, 0):
             return None
 
+        with_info = sub._callback_type is Subscription.CallbackType.WithMessageInfo
+
         async def call() -> None:
-            sub.callback(taken[0])
+            sub.callback(*(taken if with_info else taken[:1]))
 
         return call
 
