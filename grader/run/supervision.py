@@ -29,7 +29,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from gz_course.grader.errors import InfrastructureError
-from gz_course.grader.process.temporary_folder import sweep
+from gz_course.grader.process.temporary_folder import abandoned, sweep
 from gz_course.grader.run.sandbox.resource_monitor import descendants
 from gz_course.grader.run.watchdog import Look
 
@@ -176,6 +176,8 @@ class Supervised:
                 os.waitpid(each, os.WNOHANG)
         if killed:
             sweep()
+            if abandoned():  # somebody who ended a moment ago had written there meanwhile
+                sweep()
 
     def _wait(self, pid: int) -> int:
         if self._status is None:
