@@ -47,7 +47,8 @@ def _command(values: dict[str, object]) -> list[str]:
     file, text = values.get("world_sdf_file"), values.get("world_sdf_string")
     if bool(file) == bool(text):
         raise UsageError("say which world: give world_sdf_file or world_sdf_string, one of them")
-    command = [sys.executable, "-P", "-m", "gz_course.sim.gz.command", "sim", "-r", "-s", str(file or _in_memory(str(text)))]
+    gz = [sys.executable, "-P", "-m", "gz_course.sim.gz.command"]
+    command = [*gz, "sim", "-r", "-s", str(file or _in_memory(str(text)))]
     if "initial_sim_time" in values:
         command += ["--initial-sim-time", str(values["initial_sim_time"])]
     if "verbosity_level" in values:
