@@ -1,7 +1,7 @@
-"""The program `gzserver`: Gazebo's server with a running world, which ROS parameters name.
+"""The program `gzserver`: Gazebo's server with the world named by ROS parameters, running.
 
-`gz_server.launch.py` starts it. It reads the parameters and becomes `gz sim -r -s` by `exec`, so that signals and the
-exit code are those of the simulator.
+`gz_server.launch.py` starts it. It reads the parameters and becomes `gz sim -r -s` by `exec`, so signals and the exit
+code are those of the simulator.
 
 Source: ros_gz_sim/src/gzserver.cpp, https://github.com/gazebosim/ros_gz
 """
@@ -47,16 +47,8 @@ def _command(values: dict[str, object]) -> list[str]:
     file, text = values.get("world_sdf_file"), values.get("world_sdf_string")
     if bool(file) == bool(text):
         raise UsageError("say which world: give world_sdf_file or world_sdf_string, one of them")
-    command = [
-        sys.executable,
-        "-P",
-        "-m",
-        "gz_course.sim.gz.command",
-        "sim",
-        "-r",
-        "-s",
-        str(file or _in_memory(str(text))),
-    ]
+    gz = [sys.executable, "-P", "-m", "gz_course.sim.gz.command"]
+    command = [*gz, "sim", "-r", "-s", str(file or _in_memory(str(text)))]
     if "initial_sim_time" in values:
         command += ["--initial-sim-time", str(values["initial_sim_time"])]
     if "verbosity_level" in values:
