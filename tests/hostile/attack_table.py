@@ -12,7 +12,7 @@ from collections import defaultdict
 LEVELS = ("A", "B", "C", "D")
 USERS = ("root", "user")
 NOTES = (
-    "root at C and D, in what `cases/` holds: without capabilities in a container of its own (own processes, everything",
+    "root at C and D, in what `cases/` holds: without capabilities in a container of its own (own processes, all",
     "read-only but /tmp), as in Docker; else the attacks would hit this machine.",
     "documented: this level does not hold that, and docs/instructors.md says so.",
     "-: this combination is not run; tests that need neither a level nor a user run as root at the best level.",
