@@ -12,10 +12,10 @@ from collections import defaultdict
 LEVELS = ("A", "B", "C", "D")
 USERS = ("root", "user")
 NOTES = (
-    "root at C and D: without capabilities in a container of its own (own processes, everything read-only but /tmp), "
-    "as in Docker; else the attacks would hit this machine.",
-    "documented: this level does not hold that, and docs/instructors.md says so. -: this combination is not run; tests "
-    "that need neither a level nor a user run as root at the best level.",
+    "root at C and D, in what `cases/` holds: without capabilities in a container of its own (own processes, all",
+    "read-only but /tmp), as in Docker; else the attacks would hit this machine.",
+    "documented: this level does not hold that, and docs/instructors.md says so.",
+    "-: this combination is not run; tests that need neither a level nor a user run as root at the best level.",
 )
 
 
@@ -58,10 +58,10 @@ def print_table(write, reports):
         return
     names = max(map(len, found))
     write("attacks: verdict, and processes/files/shared memory left")
-    write("  ".join([" " * names, *(f"{level} {user:<16}" for level, user in columns)]))
+    write(" ".join([" " * names, *(f"{level} {user:<14}" for level, user in columns)]).rstrip())
     for name in sorted(found):
         cells = [found[name].get(column, "-") for column in columns]
-        write("  ".join([name.ljust(names), *(f"{cell:<18}" for cell in cells)]).rstrip())
+        write(" ".join([name.ljust(names), *(f"{cell:<16}" for cell in cells)]).rstrip())
     verdicts = [cell.split()[0] for row in found.values() for cell in row.values()]
     counted = ", ".join(f"{verdicts.count(word)} {word}" for word in ("contained", "documented", "BREACH", "skipped"))
     write(f"{len(found)} attacks: {counted}")
