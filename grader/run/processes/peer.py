@@ -111,7 +111,8 @@ class BoxProcesses:
             return peer.age if self.holds(peer) else None
         for pid in descendants(self._root):
             if _inner(pid, "NSpid:") == inner:
-                return Peer.look(pid).age
+                peer = Peer.look(pid)
+                return peer.age if peer.started >= 0 else None
         return None
 
 

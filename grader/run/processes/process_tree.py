@@ -62,7 +62,8 @@ class ProcessTree:
         if before is not None and self._lives(before):
             return
         state = "shell" if program in SHELLS else "starting" if program.startswith("python") else "silent"
-        self._processes[pid] = StartedProcess(pid, "silent" if age is None else state, self._now())
+        waited = age is not None and age < START_UP
+        self._processes[pid] = StartedProcess(pid, state if waited else "silent", self._now())
 
     def _lives(self, child: StartedProcess) -> bool:
         """Whether a process of the tree still exists; a younger one may have got its number."""

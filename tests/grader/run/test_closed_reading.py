@@ -77,7 +77,10 @@ WORLDS += [
 ]
 
 def served(node, opened):
-    return SimulatedPrograms({"mine.sdf"}, Path("/submission"), 0, node, opened.append, lambda: None)
+    return SimulatedPrograms(
+        {"mine.sdf"}, Path("/submission"), 0, node, opened.append, lambda: None,
+        entitled=lambda *_: True, arguments=lambda who: None,
+    )
 
 def load(each, text):
     name = address(text.encode(), "sdf")

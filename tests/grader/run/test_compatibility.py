@@ -1,5 +1,6 @@
 """A library that has changed ends a run in one clear sentence (exit 3), and not in a hang."""
 
+import os
 import subprocess
 import sys
 
@@ -14,12 +15,8 @@ from gz_course.grader.run.agent.course_agent import python_3, rclpy_7_1
 from gz_course.grader.run.agent.course_agent.self_check import misfits
 from gz_course.grader.run.compatibility import check_compatibility
 
-COMMAND = """
-import sys, rclpy.executors
-del rclpy.executors.Executor._take_client
-from gz_course.grader.course import main
-main()
-"""
+# Every Python of the grading begins with it.
+ANOTHER_RCLPY = "import rclpy.executors; del rclpy.executors.Executor._take_client"
 
 
 def test_what_is_installed_fits():
@@ -60,7 +57,10 @@ def test_another_version(monkeypatch):
 
 def test_a_grading_ends_with_exit_code_3(root, tmp_path):
     words = ["grade", "03_teleop", "--submission", str(root / "solutions/03_teleop"), "--out", str(tmp_path)]
-    done = subprocess.run([sys.executable, "-c", COMMAND, *words], capture_output=True, text=True, cwd=root)
+    (tmp_path / "sitecustomize.py").write_text(ANOTHER_RCLPY)
+    command = [sys.executable, "-c", "from gz_course.grader.course import main; main()", *words]
+    environment = os.environ | {"PYTHONPATH": str(tmp_path)}
+    done = subprocess.run(command, capture_output=True, text=True, cwd=root, env=environment)
     assert done.returncode == 3
     assert "rclpy.executors.Executor._take_client is missing" in done.stderr
 

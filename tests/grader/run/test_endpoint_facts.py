@@ -7,6 +7,7 @@ import pytest
 from gz_course.grader.run import endpoint_facts
 from gz_course.grader.run.discovery import UNKNOWN
 from gz_course.grader.run.endpoint_facts import EndpointFacts
+from gz_course.grader.run.fair_clock import FairClock
 from gz_course.grader.run.processes.progress import Endpoint
 
 SCAN = Endpoint("/a", "subscription", "/scan", "sensor_msgs/msg/LaserScan", "BEST_EFFORT", "VOLATILE", 0)
@@ -31,7 +32,7 @@ def facts(monkeypatch):
     def call(reported, *answers, present=(), reliably=False):
         made = EndpointFacts(Seen(*answers), lambda topic: reliably)
         made.report(reported)
-        made.close(present, lambda: None)
+        made.close(present, FairClock(list), lambda: None)
         return [(each["node"], each["topic"], each["reliability"]) for each in made.as_facts()]
 
     return call

@@ -10,6 +10,7 @@ import pytest
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
+from gz_course.grader.kinds.launch.claims import SimulatorArguments
 from gz_course.grader.kinds.launch.simulated_programs import SimulatedPrograms
 from gz_course.grader.run.processes.participant import Participant
 from gz_course.sim.gz.msgs.entity_factory_pb2 import EntityFactory
@@ -174,7 +175,8 @@ def test_the_simulator_alone_passes_on_that_its_world_is_to_run_or_to_pause(serv
     description = hand_over(served, MINE.encode())
     world = {"given": "w", "path": "", "built_in": "shapes.sdf", "description": description}
     served.asked(simulator, {"world": world})
-    served.asked(simulator, {"run": {"paused": True, "iterations": 0}})
+    served._arguments = lambda who: SimulatorArguments("w", paused=True, iterations=0)
+    served.asked(simulator, {"run": {}})
     served.asked(other, {"control": {"pause": False}})
     assert served.simulator.paused
     served.asked(simulator, {"control": {"pause": False}})

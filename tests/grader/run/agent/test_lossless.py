@@ -185,7 +185,8 @@ def test_nothing_large_is_lost_however_little_the_sockets_hold(course_folder, gr
 class Listener:
     """A process of the submission that takes a picture only when it was sent often enough."""
 
-    gone = starting = waiting_for_release = wants_answer = False
+    gone = starting = waiting_for_release = wants_answer = waits_for_log = False
+    logged = 0
     progress = Progress(clock=1)
 
     def __init__(self):

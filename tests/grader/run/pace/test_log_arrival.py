@@ -26,14 +26,24 @@ class Process:
 @pytest.fixture
 def clock(monkeypatch):
     now = SimpleNamespace(value=0.0)
-    monkeypatch.setattr(log_arrival, "time", SimpleNamespace(monotonic=lambda: now.value))
+    monkeypatch.setattr(log_arrival, "Patience", lambda clock, seconds: Waited(now, now.value + seconds))
     return now
+
+
+class Waited:
+    """A patience that is over at a time."""
+
+    def __init__(self, now, end):
+        self._now, self._end = now, end
+
+    def over(self):
+        return self._now.value >= self._end
 
 
 def test_it_is_complete_when_all_has_come_and_who_waits_is_told(clock):
     process, received = Process(2), Counter()
     logs = LogArrival(
-        SimpleNamespace(participants=[process]), SimpleNamespace(received=received, take_logs=lambda: None)
+        SimpleNamespace(participants=[process], clock=None), SimpleNamespace(received=received, take_logs=lambda: None)
     )
     assert not logs.complete() and not process.told
     received[ROSOUT] = 2
@@ -43,7 +53,7 @@ def test_it_is_complete_when_all_has_come_and_who_waits_is_told(clock):
 def test_what_is_said_and_never_comes_is_waited_for_a_few_times_and_then_never_again(clock):
     process, received = Process(0), Counter()
     logs = LogArrival(
-        SimpleNamespace(participants=[process]), SimpleNamespace(received=received, take_logs=lambda: None)
+        SimpleNamespace(participants=[process], clock=None), SimpleNamespace(received=received, take_logs=lambda: None)
     )
     for _ in range(GIVING_UP):
         process.logged += 1
