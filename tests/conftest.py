@@ -25,5 +25,6 @@ def pytest_terminal_summary(terminalreporter):
     """Print the table of attacks, if tests of `hostile/` have run at several levels."""
     from gz_course.tests.hostile.attack_table import print_table
 
-    reports = [each for kind in ("passed", "failed", "error", "skipped") for each in terminalreporter.getreports(kind)]
+    kinds = ("passed", "failed", "error", "skipped")
+    reports = [each for kind in kinds for each in terminalreporter.getreports(kind) if hasattr(each, "user_properties")]
     print_table(terminalreporter.write_line, reports)

@@ -192,6 +192,7 @@ class RunLoop:
         if not messages:  # no bridge takes anything to ROS, not even /clock: still the world is on record
             self._scene.tick()
             self._processes.wait(0)
+            self._pace.settle()
         for number, (topic, publisher, message) in enumerate(messages):
             self._pace.send(topic, publisher, message, now)
             if number == 0:

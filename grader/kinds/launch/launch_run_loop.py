@@ -91,6 +91,8 @@ class LaunchRunLoop(RunLoop):
                 patience = Patience(self._processes.clock, SIMULATOR_PATIENCE)
         if self._processes.running:
             self._pace.await_ready()
+            self._pace.settle()  # whoever is still at work may end, and others start
+            self._pace.await_ready()
         self._collect()
 
     def _run(self) -> None:

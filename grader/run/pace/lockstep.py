@@ -179,7 +179,7 @@ class LockStep(RealTime):
 
         Then release the messages the processes hold, one at a time, and wait in the same way for each.
         """
-        if not self._free and (self._pending or self._holding):
+        if not self._free and (self._pending or (self._holding and self._participants)):
             self._settle()
 
     def _settle(self) -> None:

@@ -101,9 +101,10 @@ class Participant:
         self.tell({"logs_arrived": True})
 
     def answer(self) -> None:
-        """Confirm that everything it published has arrived."""
+        """Confirm that everything it published has arrived. It goes on, and reports again when it waits."""
         if self.progress is not None:
             self._answered = self.progress.flushes
+            self.progress = replace(self.progress, idle=False)
             self.tell({"arrived": True})
 
     def release(self) -> None:

@@ -70,6 +70,11 @@ class ProcessTree:
         age = self._age(child.pid) if child.state != "ended" else None
         return age is not None and age > time.monotonic() - child.started - SAME
 
+    def knows(self, pid: int) -> bool:
+        """Whether a process of the submission has said that it started this one, which has not ended for its parent."""
+        child = self._processes.get(pid)
+        return child is not None and child.state != "ended"
+
     def leave(self, pid: int) -> None:
         """Note that a process has closed its socket: it ends, or executes another program."""
         child = self._processes.get(pid)

@@ -224,7 +224,7 @@ class SubmissionProcesses:
                 self._read(each)
                 if not each.gone and each.peer == peer:
                     return False
-        return self._box.holds(peer)
+        return self._box.holds(peer) or (not peer.alive and self._tree.knows(peer.pid))
 
     def _read(self, each: Participant) -> None:
         each.read()

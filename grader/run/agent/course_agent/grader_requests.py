@@ -10,6 +10,7 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
+from . import python_3
 from .channel import channel
 
 _answers: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
@@ -32,9 +33,13 @@ def hear(message: dict[str, Any] | None) -> bool:
 
 
 def ask(question: dict[str, Any]) -> dict[str, Any]:
-    """Return the answer to a question; wait for it as long as the grader is there."""
+    """Return the answer to a question; wait for it as long as the grader is there.
+
+    The process counts as at work meanwhile, because it goes on with the answer at once.
+    """
     channel().send(question)
-    return _answers.get()
+    with python_3.at_work():
+        return _answers.get()
 
 
 def when_ended(act: Callable[[], None]) -> None:

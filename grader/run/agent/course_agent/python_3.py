@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 import os
+from contextlib import AbstractContextManager, nullcontext
 from typing import Any
 
 from .channel import SOCKET, channel
@@ -69,13 +70,17 @@ def install_subprocess() -> None:
 
     def told_end(process: Any, *args: Any, **kwargs: Any) -> None:
         ended(process, *args, **kwargs)
+        _resume()  # before the end is known, so that time does not go on meanwhile
         _tell({"ended": {"pid": process.pid, "code": process.returncode}})
 
     def told_wait(method: Any) -> Any:
         def wait(process: Any, *args: Any, **kwargs: Any) -> Any:
             if process.returncode is None:
                 _wait_begins()
-            return method(process, *args, **kwargs)
+            try:
+                return method(process, *args, **kwargs)
+            finally:
+                _resume()
 
         return wait
 
@@ -133,6 +138,16 @@ def install_asyncio() -> None:
 
     loops._run_once = told_run_once
     writer._write_to_self = noted_write
+
+
+def _resume() -> None:
+    if _threads is not None:
+        _threads.resume()
+
+
+def at_work() -> AbstractContextManager[None]:
+    """Let the calling thread count as at work whatever it does, if threads are watched in this process."""
+    return nullcontext() if _threads is None else _threads.at_work()
 
 
 def install_threads(threads: ThreadMonitor) -> None:

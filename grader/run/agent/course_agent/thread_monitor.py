@@ -183,6 +183,15 @@ class ThreadMonitor:
         finally:
             self.calling.discard(number)
 
+    def resume(self) -> None:
+        """Count the calling thread as at work after a wait that is not watched, and report that."""
+        number = self.mine()
+        if number is None:
+            return
+        with self.lock:
+            self._working.add(number)
+        self.on_idle()
+
     def look_for_strays(self, native: dict[int, int]) -> None:
         """Do not count a thread as at work that does not run: it waits in a call that is not watched.
 
