@@ -39,13 +39,12 @@ MODEL = "<sdf version='1.9'><model name='{}'><static>1</static><link name='l'/><
 WORLD = "<sdf version='1.9'><world name='mine'>{}</world></sdf>"
 # Talks to the grader itself, past the programs that would look at the file first.
 ATTACK = """
-import base64, sys, time
+import base64
 from course_agent.grader_requests import ask, hear
 from course_agent.channel import channel
 from gz.msgs.entity_factory_pb2 import EntityFactory
 channel().listen(hear)
-while not ask({"worlds": True}).get("worlds"):
-    time.sleep(0.1)
+print("ESCAPED" if ask({"worlds": True}).get("worlds") else "held worlds", flush=True)
 def create(**what):
     data = base64.b64encode(EntityFactory(**what).SerializeToString()).decode()
     answer = ask({"call": {"verb": "create", "type": "gz.msgs.EntityFactory", "data": data}})
