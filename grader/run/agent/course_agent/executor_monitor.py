@@ -51,7 +51,6 @@ MOST_LOGGED = 50  # messages on /rosout that are under way
 LOG_PATIENCE = 30.0  # [s] for the grader to receive them; it may be starting up
 FLUSH_PATIENCE = 10.0  # [s] for the grader to receive the last messages before a publisher is destroyed
 MATCH_PATIENCE = 5.0  # [s] after which a publisher counts as unmatched
-SERVICE_PATIENCE = 1.0  # [s] for a service to be found before a request is sent
 NEVER = 1 << 62  # [ns] of real time
 HOUSEKEEPING = ("/rosout", "/parameter_events")  # topics of every node, which lock-step ignores
 
@@ -131,12 +130,6 @@ class ExecutorMonitor:
             self._channel.send({"logged": self.logged})
             with self.threads.at_work():
                 self._log_confirmed.wait(LOG_PATIENCE)
-
-    def await_service(self, client: Any) -> None:
-        """Wait until discovery has found a service before a request is sent, at most for `SERVICE_PATIENCE`."""
-        deadline = monotonic() + SERVICE_PATIENCE
-        while not client.service_is_ready() and monotonic() < deadline:
-            sleep(UNMATCHED_SLICE)
 
     def _obey(self, order: dict[str, Any] | None) -> None:
         """Carry out an order of the grader; None means that the grader is gone. Called in a thread."""

@@ -10,10 +10,11 @@ import threading
 from typing import Any
 
 from . import inbox
-from .executor_monitor import SERVICE_PATIENCE, UNMATCHED_SLICE, ExecutorMonitor
+from .executor_monitor import UNMATCHED_SLICE, ExecutorMonitor
 from .signals import Signal
 from .thread_monitor import POLL_PERIOD, Wait, monotonic, sleep
 
+SERVICE_PATIENCE = 10.0  # [s] for a service to be found before a client's first request is sent
 POOL_START = 0.01  # [s] for a pool to start a callback; a pool whose threads are all busy does not
 
 
