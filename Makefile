@@ -3,10 +3,9 @@ PYTHON ?= python3
 BIN := .venv/bin
 PIP := $(BIN)/pip --disable-pip-version-check --quiet install --constraint constraints.txt
 
-# Tests side by side: domains, partitions and folders are reserved by each worker. Many tests wait, so there are more
-# workers than a small machine has cores.
+# Tests side by side: domains, partitions and folders are reserved by each worker.
 # `exec`, so that whatever ends make ends the test run: the shell between them would not pass a signal on.
-WORKERS ?= 5
+WORKERS ?= 3
 PARALLEL := --numprocesses $(WORKERS) --dist worksteal
 
 # Hundreds of Pythons are started: they find the modules compiled, whatever the caller's environment says.
