@@ -9,7 +9,6 @@ from __future__ import annotations
 import contextlib
 import json
 import socket
-import time
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -35,7 +34,6 @@ class Participant:
     ) -> None:
         self.channel = channel
         self.number = number  # in the order of connecting, from 0
-        self.since = time.monotonic()
         self.peer = Peer.of(channel)
         self.command: tuple[str, ...] = ()
         self.pid = self.group = 0  # as seen in the sandbox

@@ -87,8 +87,7 @@ class SubmissionProcesses:
             self._selector.register(pipe, selectors.EVENT_READ)
         self._selector.register(self._listener, selectors.EVENT_READ)
         self.participants: list[Participant] = []
-        before = frozenset(child.pid for child in self._children_before)
-        self._box = BoxProcesses(self._process.pid, self._process.walled, before)
+        self._box = BoxProcesses(self._process.pid, self._process.walled, self._apart)
         self.clock = FairClock(lambda: [os.getpid(), *self._members()])
         self._tree = ProcessTree(self._box.age, self.clock.now)
         self._lines: list[str] = []
