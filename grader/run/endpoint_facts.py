@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import asdict, replace
 from typing import Any
 
+from gz_course.grader.run.agent.course_agent.executor_monitor import HOUSEKEEPING
 from gz_course.grader.run.discovery import UNKNOWN, Discovery
 from gz_course.grader.run.fair_clock import FairClock, Patience
 from gz_course.grader.run.processes.progress import Endpoint
@@ -35,7 +36,7 @@ class EndpointFacts:
     def report(self, endpoints: Iterable[Endpoint]) -> None:
         """Take what processes report, and look which of that DDS has seen already."""
         for each in endpoints:
-            if len(self._reported) < MOST:
+            if len(self._reported) < MOST and each.topic not in HOUSEKEEPING:
                 self._reported.setdefault(_key(each), each)
         self._looks = MOST_LOOKS
         self.look()
@@ -51,7 +52,7 @@ class EndpointFacts:
 
         `wait()` is called between two looks.
         """
-        expected = {_key(each) for each in present}
+        expected = {_key(each) for each in present if each.topic not in HOUSEKEEPING}
         patience = Patience(clock, NAMES)
         while self._look() or expected - self._seen.keys():
             if patience.over():

@@ -279,8 +279,8 @@ class LockStep(RealTime):
         """Return whether a tick may end: all arrived, all idle, the clock seen by all, every message taken."""
         if self._look_around():
             self.await_matches()
-        if not self._participants or not self.everything_arrived():
-            return False
+        if not any(each.progress for each in self.processes.participants) or not self.everything_arrived():
+            return False  # somebody may be there whom nobody can follow
         for each in self._participants:
             progress = each.progress
             if progress is None or not progress.idle or each.waiting_for_release:

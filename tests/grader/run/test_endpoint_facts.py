@@ -58,3 +58,11 @@ def test_the_quality_of_service_is_that_of_dds_except_where_the_agent_asks_for_m
 
 def test_an_endpoint_whose_node_stays_unknown_belongs_to_none(facts):
     assert facts([], [dataclasses.replace(DRIVE, node=UNKNOWN)]) == []
+
+
+def test_topics_of_every_node_are_not_waited_for():
+    made = EndpointFacts(Seen([DRIVE]), lambda topic: False)
+    every = dataclasses.replace(DRIVE, topic="/parameter_events")
+    made.report([DRIVE, every])
+    made.close([DRIVE, every], FairClock(list), lambda: pytest.fail("nothing is missing"))
+    assert [each["topic"] for each in made.as_facts()] == ["/cmd_vel"]

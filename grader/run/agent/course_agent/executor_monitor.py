@@ -68,7 +68,7 @@ class ExecutorMonitor:
         self.delivered: Counter[str] = Counter()
         self.logged = 0  # messages sent to /rosout
         self._confirmed = 0  # of those: known to have arrived, or waited for in vain
-        self._log_confirmed = threading.Event()
+        self._log_confirmed = Signal()
         self._held: deque[Callable[[], None]] = deque()
         self._holding = holding
         self._released = 0

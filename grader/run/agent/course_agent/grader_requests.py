@@ -5,15 +5,15 @@ A process asks one thing at a time; the answer comes in the thread that listens.
 
 from __future__ import annotations
 
-import queue
 import threading
+from _queue import SimpleQueue  # that of `queue` is replaced by one whose waiters count as idle
 from collections.abc import Callable
 from typing import Any
 
 from . import python_3
 from .channel import channel
 
-_answers: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
+_answers: SimpleQueue[dict[str, Any]] = SimpleQueue()
 _ended = threading.Event()
 _on_end: list[Callable[[], None]] = []
 

@@ -14,18 +14,19 @@ from __future__ import annotations
 import math
 import os
 from contextlib import AbstractContextManager, nullcontext
+from types import SimpleNamespace
 from typing import Any
 
 from .channel import SOCKET, channel
 from .self_check import Reliance, misfits
-from .thread_monitor import ThreadMonitor, WatchedLock
+from .thread_monitor import ThreadMonitor, WatchedLock, monotonic, sleep
 
 SOON = 10.0  # [s] a timer of an event loop that is due within this time, such as a TimerAction, is waited for
 # Source: subprocess.py and asyncio/ of CPython 3.11 to 3.14.
 SUBPROCESS: dict[str, Reliance] = {
     "subprocess:Popen.__init__": ("", "returncode pid"),
     "subprocess:Popen._handle_exitstatus": ("", "returncode"),
-    "subprocess:Popen._wait": ("self timeout", ""),
+    "subprocess:Popen._wait": ("self timeout", "_time time sleep"),
     "subprocess:Popen._communicate": ("self input endtime orig_timeout", ""),
 }
 ASYNCIO: dict[str, Reliance] = {
@@ -60,6 +61,9 @@ def install_subprocess() -> None:
     import subprocess
 
     _check(SUBPROCESS)
+    module: Any = subprocess
+    # A child lives in real time, and so does the wait for it: it looks again and again, sleeping in between.
+    module._time, module.time = monotonic, SimpleNamespace(sleep=sleep)
     process_class: Any = subprocess.Popen
     start, ended = process_class.__init__, process_class._handle_exitstatus
 
@@ -216,7 +220,7 @@ def install_threads(threads: ThreadMonitor) -> None:
         told_sleep(timeout)
         return selecting(reading, writing, failing, 0)
 
-    sleep, selecting = time.sleep, select.select
+    selecting = select.select
     module._allocate_lock = lambda: WatchedLock(threads)
     thread.start, thread._bootstrap_inner, thread.join = noted_start, noted_bootstrap, watched_join
     module._shutdown = unwatched_shutdown

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from . import python_3
 from .grader_requests import ask
 from .thread_monitor import monotonic, sleep
 
@@ -31,6 +32,9 @@ class RemoteRunningWorld:
             worlds = answer.get("worlds", [])
             if answer.get("coming"):  # it has not got up yet, perhaps on a busy machine
                 end = max(end, monotonic() + timeout)
+                with python_3.at_work():  # a world that comes does not run on before it is found
+                    sleep(LOOK_AGAIN)
+                continue
             if monotonic() > end:
                 if worlds:
                     raise Failure(f"no world '{name}' appeared within {timeout:g} s; worlds that run are: {worlds[0]}")

@@ -95,3 +95,19 @@ def test_who_lives_on_without_it_is_waited_for_once(tick):
     leaving = tick(Leaving(5, lives_on), ticks=100)
     assert leaving.waited == pytest.approx(PATIENCE * 10, abs=2)
     assert leaving.sent == []
+
+
+def test_nobody_is_waited_for_when_the_last_node_has_become_another_program(play):
+    played = play(
+        ticks=6,
+        node="""
+        import os
+        from rosgraph_msgs.msg import Clock
+        def leave(message):
+            if message.clock.nanosec >= 300_000_000:
+                os.execv("/bin/sleep", ["sleep", "600"])
+        node.create_subscription(Clock, "/clock", leave, rclpy.qos.qos_profile_sensor_data)
+        rclpy.spin(node)
+        """,
+    )
+    assert played.pace.paced_ticks == 0

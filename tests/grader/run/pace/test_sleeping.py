@@ -212,3 +212,17 @@ def test_a_worker_has_answered_before_time_goes_on(heard):
     rclpy.spin(node)
     """
     assert [line.split()[2] for line in heard(code, ticks=4)] == ["0.1", "0.2", "0.3", "0.4"]
+
+
+def test_the_wait_for_a_child_takes_real_time(heard):
+    code = """
+import subprocess, sys
+CHILD = "import os, time; os.close(1); os.close(2); time.sleep(0.3)"
+def work():
+    timer.cancel()
+    subprocess.run([sys.executable, "-S", "-c", CHILD], capture_output=True, timeout=100)
+    say("has ended")
+timer = node.create_timer(0.1, work)
+rclpy.spin(node)
+"""
+    assert heard(code, ticks=4) == ["has ended 0.100 0.1"]
