@@ -185,7 +185,9 @@ WAYS = {
 }
 
 
-@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize(
+    "way", ["file", "spawn_entity", *(pytest.param(w, marks=pytest.mark.proof) for w in ("string", "param"))]
+)
 def test_models_come_in_every_way_that_create_knows(launch, way):
     faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
     loops = ("".join("vertex {} {} {}\n".format(*CORNERS[corner]) for corner in face) for face in faces)
