@@ -267,6 +267,10 @@ class SubmissionProcesses:
         codes = self._tree.codes()
         return [{"program": p.program, "code": codes[p.pid]} for p in self.participants if p.pid in codes]
 
+    def started_by_submission(self, who: Participant) -> bool:
+        """Whether the submission's own code has started a process, by what it reports."""
+        return not self._tree.is_ours(who.pid)
+
     def stop(self) -> None:
         """End the process group and every descendant: SIGINT, then SIGTERM, then SIGKILL."""
         for each in self.participants:

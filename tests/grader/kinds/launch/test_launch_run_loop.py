@@ -216,6 +216,17 @@ def test_create_puts_a_model_into_the_world_and_others_start_when_it_has(launch)
     assert "Entity creation successful" in run.log
 
 
+def test_what_python_starts_in_a_session_of_its_own_is_told_from_an_action(launch):
+    run = launch(
+        """
+        OpaqueFunction(function=lambda context: __import__("subprocess").Popen(
+            ["gz", "sim", "-s", "-r", "empty.sdf"], start_new_session=True) and None),
+        bridge(CLOCK),
+        """
+    )
+    assert run.facts["by_python"] == ["gz"]
+
+
 def test_a_second_simulator_stands_still_beside_the_first(launch):
     run = launch('gz("sim", "-s", "-r", "shapes.sdf"), gz("sim", "-s", "-r", "shapes.sdf"),')
     assert [s["ran"] for s in run.facts["simulators"]] == [True, True]
