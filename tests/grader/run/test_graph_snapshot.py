@@ -9,8 +9,8 @@ from rclpy.context import Context
 from std_msgs.msg import Float64, String
 
 from gz_course.grader.run.domain import Domain
-from gz_course.grader.run.grader_endpoints import GraderEndpoints
 from gz_course.grader.run.fair_clock import FairClock
+from gz_course.grader.run.grader_endpoints import GraderEndpoints
 from gz_course.grader.run.graph_snapshot import both_graphs
 from gz_course.grader.run.pace.matching import can_match
 from gz_course.grader.run.processes.progress import Endpoint
