@@ -254,7 +254,10 @@ class ExecutorMonitor:
                 return
             for kind, entity in list(blocked(self._nodes.values())):
                 with contextlib.suppress(Exception):  # destroyed meanwhile
-                    fill(kind, entity, getattr(self, f"_took_{kind}"))
+                    if kind == "action":
+                        entity.course_take_all()
+                    else:
+                        fill(kind, entity, getattr(self, f"_took_{kind}"))
 
     def _took_subscription(self, subscription: Any, item: Any) -> bool:
         topic = self.topic_of(subscription)

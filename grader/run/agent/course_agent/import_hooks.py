@@ -18,6 +18,7 @@ REMOTE_GAZEBO = "COURSE_REMOTE_GAZEBO"
 # Module -> the function that is called once it is loaded.
 AFTER = {
     "rclpy": ("rclpy_7_1", "install"),
+    "rclpy.action": ("rclpy_7_1_actions", "install"),
     "subprocess": ("python_3", "install_subprocess"),
     "asyncio.base_events": ("python_3", "install_asyncio"),
 }

@@ -38,16 +38,24 @@ class Kept:
 
 
 def blocked(nodes: Iterable[Any]) -> Iterator[tuple[str, Any]]:
-    """Yield the subscriptions, services and clients that no waiting executor looks at: their kind, and they."""
+    """Yield what no waiting executor looks at: the kind (subscription, service, client, action), and the entity."""
     for node in nodes:
         executor = node.executor
         waits = getattr(executor, "course_wait", None) is not None and node in executor.get_nodes()
         if waits and getattr(executor, "_executor", None) is None:
             continue
-        for kind in ("subscription", "service", "client"):
-            for entity in list(getattr(node, f"{kind}s")):
+        for kind in ("subscription", "service", "client", "action"):
+            for entity in list(_entities(node, kind)):
                 if not (waits and executor.can_execute(entity)) and not hasattr(entity, "course_waited"):
                     yield kind, entity
+
+
+def _entities(node: Any, kind: str) -> Iterable[Any]:
+    """Return the entities of a node of one kind; `action` are the clients and servers of actions."""
+    if kind == "action":
+        return [each for each in node.waitables if hasattr(each, "course_take_all")]
+    found: Iterable[Any] = getattr(node, f"{kind}s")
+    return found
 
 
 def fill(kind: str, entity: Any, took: Took) -> None:
@@ -81,10 +89,10 @@ def has_kept(entity: Any) -> bool:
 def ready(executor: Any, nodes: Any) -> Any:
     """Return what an executor is to do next with what was kept, as `wait_for_ready_callbacks` does; None if nothing."""
     for node in executor.get_nodes() if nodes is None else nodes:
-        for kind in ("subscription", "client", "service"):
-            for entity in getattr(node, f"{kind}s"):
+        for kind in ("subscription", "client", "service", "action"):
+            for entity in _entities(node, kind):
                 if has_kept(entity) and executor.can_execute(entity):
-                    take = getattr(executor, f"_take_{kind}")
+                    take = executor._take_waitable if kind == "action" else getattr(executor, f"_take_{kind}")
                     return executor._make_handler(entity, node, take), entity, node
     return None
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import threading
+from collections.abc import Callable
 from typing import Any
 
 from . import inbox
@@ -320,17 +321,17 @@ def _wait_for_services(monitor: ExecutorMonitor) -> None:
     wait = Client.wait_for_service
 
     def patient_wait(client: Any, timeout_sec: float | None = None) -> bool:
-        await_service(monitor, client, SERVICE_LOOK)
+        await_found(monitor, client.context, client.service_is_ready, SERVICE_LOOK)
         return bool(wait(client, timeout_sec))
 
     Client.wait_for_service = patient_wait
 
 
-def await_service(monitor: ExecutorMonitor, client: Any, seconds: float) -> None:
-    """Wait until discovery has found a service, at work: at most for some seconds in which nobody else is at work."""
+def await_found(monitor: ExecutorMonitor, context: Any, is_found: Callable[[], bool], seconds: float) -> None:
+    """Wait until discovery has found a server, at work: at most for some seconds in which nobody else is at work."""
     since = None
     with monitor.threads.at_work():
-        while client.context.ok() and not client.service_is_ready():
+        while context.ok() and not is_found():
             told = ask({"looking": True})
             now = told.get("now", math.inf)
             if since is None or told.get("others"):
