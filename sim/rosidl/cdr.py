@@ -7,7 +7,7 @@ Offsets count from the first byte after the encapsulation header. A number is al
 length with the ending zero, its bytes and the zero; a sequence is its length and its elements.
 
 Source: OMG DDS-XTypes 1.3, chapter 7.4.1, https://www.omg.org/spec/DDS-XTYPES/1.3
-Source: Fast CDR 2.2 (a wide text has no ending zero, and two bytes a character)
+Source: Fast CDR 2.2 (a wide text has no ending zero, and four bytes for each unit of UTF-16)
 """
 
 from __future__ import annotations
@@ -30,6 +30,9 @@ Encode = Callable[[Any], bytes]
 Decode = Callable[[bytes], Any]
 
 
+_NATIVE_UTF_16 = f"utf-16-{sys.byteorder[0]}e"
+
+
 class MalformedError(ValueError):
     """Bytes that are not a message of the expected type."""
 
@@ -37,7 +40,16 @@ class MalformedError(ValueError):
 @functools.cache
 def encoder(message_class: type) -> Encode:
     """Return the function that writes a message. It raises what a wrong value in a field causes."""
-    code = _Code({"join": b"".join, "tobytes": _tobytes, "octets": _octets, "zero_ended": _zero_ended, "fits": _fits})
+    code = _Code(
+        {
+            "join": b"".join,
+            "tobytes": _tobytes,
+            "octets": _octets,
+            "zero_ended": _zero_ended,
+            "units": _units,
+            "fits": _fits,
+        }
+    )
     _Writer(code).write(message_class, "m")
     return code.function("m", ["parts = []", "p = parts.append", "n = 0"], "return join(parts)")
 
@@ -71,8 +83,16 @@ def _text(data: bytes) -> str:
     return data.partition(b"\0")[0].decode("utf-8", "replace")
 
 
-def _wide(data: bytes, byte_order: str) -> str:
-    return data.decode("utf-16-le" if byte_order == "<" else "utf-16-be", "replace")
+def _units(text: str) -> bytes:
+    """Return the units of UTF-16 of a wide text, four bytes each."""
+    return array.array("I", array.array("H", text.encode(_NATIVE_UTF_16))).tobytes()
+
+
+def _wide(data: bytes, swapped: bool) -> str:
+    units = array.array("I", data)
+    if swapped:
+        units.byteswap()
+    return array.array("H", [unit & 0xFFFF for unit in units]).tobytes().decode(_NATIVE_UTF_16, "replace")
 
 
 def _tobytes(value: Any, size: int) -> bytes:
@@ -163,8 +183,8 @@ class _Writer:
             self._message(nested_class(kind), self._named(value))
         else:
             wide = isinstance(kind, idl.AbstractWString)
-            data = self._named(f'{value}.encode("utf-16-le")' if wide else f"zero_ended({value})")
-            self._run.add("I", f"len({data}) >> 1" if wide else f"len({data})")
+            data = self._named(f"units({value})" if wide else f"zero_ended({value})")
+            self._run.add("I", f"len({data}) >> 2" if wide else f"len({data})")
             self._bytes(data)
 
     def _elements(self, kind: Any, value: str) -> None:
@@ -266,8 +286,8 @@ class _Reader:
             self._code.add(f"{target} = {message}")
         else:
             wide = isinstance(kind, idl.AbstractWString)
-            data = self._bytes(self._counted(), 2 if wide else 1)
-            self._code.add(f"{target} = " + (f"wide({data}, {self._order!r})" if wide else f"text({data})"))
+            data = self._bytes(self._counted(), 4 if wide else 1)
+            self._code.add(f"{target} = " + (f"wide({data}, {self._swapped})" if wide else f"text({data})"))
 
     def _elements(self, kind: Any, target: str) -> None:
         inner, size, most = kind.value_type, getattr(kind, "size", None), getattr(kind, "maximum_size", None)

@@ -132,10 +132,10 @@ def rows() -> Iterator[Row]:
         executor.shutdown()
         node.destroy_node()
         context.try_shutdown()
-    runs = [
-        subprocess.run([sys.executable, "-c", FIRST_USE], capture_output=True, text=True, check=True)
-        for _ in range(STARTS)
-    ]
+    # The modules of the course are compiled once, as in an installation.
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+    command = [sys.executable, "-c", FIRST_USE]
+    runs = [subprocess.run(command, capture_output=True, text=True, check=True, env=environment) for _ in range(STARTS)]
     messages, every = (statistics.median(float(run.stdout.split()[i]) for run in runs) * 1e3 for i in (0, 1))
-    yield Row("first use of the messages of tf2_msgs", f"{messages:.0f} ms", "", "", "at most 500 ms")
+    yield Row("first use of the messages of tf2_msgs", f"{messages:.0f} ms", "", "", "at most 20 ms")
     yield Row("first use of all of tf2_msgs", f"{every:.0f} ms", "", "", "at most 500 ms")
