@@ -22,7 +22,7 @@ from typing import Any
 from rosidl_parser import definition as idl
 
 from gz_course.sim.rosidl.cdr_layout import FORMATS, Run, smallest_size
-from gz_course.sim.rosidl.field_checks import TYPE_CODES, is_number_array
+from gz_course.sim.rosidl.field_checks import TYPE_CODES, dtype_name, is_number_array
 from gz_course.sim.rosidl.message_class import CHECK_FIELDS
 from gz_course.sim.rosidl.nested_classes import nested_class
 
@@ -30,6 +30,7 @@ Encode = Callable[[Any], bytes]
 Decode = Callable[[bytes], Any]
 
 
+_EXACT = {"float": "float", "double": "float", "boolean": "bool"}
 _NATIVE_UTF_16 = f"utf-16-{sys.byteorder[0]}e"
 
 
@@ -48,6 +49,7 @@ def encoder(message_class: type) -> Encode:
             "zero_ended": _zero_ended,
             "units": _units,
             "fits": _fits,
+            "exactly": _exactly,
         }
     )
     _Writer(code).write(message_class, "m")
@@ -114,6 +116,13 @@ def _fits(length: int, size: int | None, most: int | None) -> int:
     return length
 
 
+def _exactly(kind: type, *values: Any) -> None:
+    """Refuse values of another type, which compiled packages send as wrong values or end the process for."""
+    for value in values:
+        if not isinstance(value, kind):
+            raise TypeError(f"expected a value of type '{kind.__name__}', found {value!r}")
+
+
 def _ndarray(data: bytes, dtype: Any, count: int, offset: int, byte_order: str) -> Any:
     from numpy import frombuffer
 
@@ -163,6 +172,7 @@ class _Writer:
     def __init__(self, code: _Code) -> None:
         self._code = code
         self._run = Run()
+        self._exact: dict[str, list[str]] = {"float": [], "bool": []}
 
     def write(self, message_class: Any, message: str) -> None:
         self._message(message_class, message)
@@ -178,6 +188,9 @@ class _Writer:
         if isinstance(kind, idl.AbstractNestedType):
             self._elements(kind, value)
         elif isinstance(kind, idl.BasicType):
+            if kind.typename in _EXACT:
+                value = self._named(value)
+                self._exact[_EXACT[kind.typename]].append(value)
             self._run.add(FORMATS[kind.typename], value)
         elif isinstance(kind, idl.NamespacedType):
             self._message(nested_class(kind), self._named(value))
@@ -242,6 +255,13 @@ class _Writer:
         """Write the fields of fixed size that have come together."""
         if not self._run:
             return
+        for name, values in self._exact.items():
+            if values:
+                classes = " is ".join(f"{value}.__class__" for value in values)
+                self._code.block(f"if not ({name} is {classes}):")
+                self._code.add(f"exactly({name}, {', '.join(values)})")
+                self._code.end()
+                values.clear()
         structs = self._run.structs("<")
         pack = self._code.constant([each.pack for each in structs])
         sizes = self._code.constant([each.size for each in structs])
@@ -329,7 +349,7 @@ class _Reader:
         if isinstance(kind, idl.Array):
             import numpy
 
-            dtype = self._code.constant(numpy.dtype(code))
+            dtype = self._code.constant(numpy.dtype(dtype_name(kind.value_type.typename)))
             self._code.add(f"{target} = ndarray(b, {dtype}, {count}, o, {self._order!r})")
         else:
             values = self._code.local()

@@ -29,7 +29,8 @@ KEPT = 100_000
 
 FIRST_USE = """
 import rclpy, sensor_msgs.msg, geometry_msgs.msg, action_msgs.srv, time
-geometry_msgs.msg.TransformStamped.__class__.__import_type_support__()
+for each in (geometry_msgs.msg.TransformStamped, action_msgs.srv.CancelGoal):  # compiled, and needed by tf2_msgs
+    type(each).__import_type_support__()
 start = time.perf_counter()
 from tf2_msgs.msg import TF2Error, TFMessage
 for each in (TFMessage, TF2Error):
