@@ -44,7 +44,7 @@ def test_classes_and_bytes_of_every_kind(pairs):
         assert ours.get_fields_and_field_types() == theirs.get_fields_and_field_types()
         assert repr(ours()) == repr(theirs())
         for name in {name for name in dir(type(theirs)) if name.isupper()}:
-            assert getattr(ours, name) == getattr(theirs, name)
+            assert repr(getattr(ours, name)) == repr(getattr(theirs, name))
         for _ in range(300):
             state = pick.getstate()
             mine = fill(ours(), pick)
