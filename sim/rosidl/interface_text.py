@@ -13,7 +13,7 @@ import keyword
 import re
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 from rosidl_adapter import parser as adapter
 from rosidl_parser import definition as idl
@@ -49,7 +49,7 @@ _RESERVED = {
     *("using", "virtual", "void", "volatile", "wchar_t", "xor", "xor_eq"),
 }
 
-Interface = idl.Message | idl.Service | idl.Action
+Interface: TypeAlias = idl.Message | idl.Service | idl.Action
 
 
 def read_interface(path: Path, package: str) -> Interface:
@@ -222,4 +222,7 @@ def _idl_type(kind: adapter.Type) -> idl.AbstractType:
         return idl.Array(inner, kind.array_size)
     if kind.is_upper_bound:
         return idl.BoundedSequence(inner, kind.array_size)
+    if kind.is_array and isinstance(inner, idl.BoundedWString):
+        # ROS takes the bound of the texts for that of the sequence, too (rosidl_parser 4.6): hashes depend on it.
+        return idl.BoundedSequence(inner, inner.maximum_size)
     return idl.UnboundedSequence(inner) if kind.is_array else inner
