@@ -64,7 +64,7 @@ COUNTS = {
     "example_interfaces": 33,
     "gps_msgs": 2,
     "marine_acoustic_msgs": 8,
-    "nav2_msgs": 30,
+    "nav2_msgs": 35,
     "ros_gz_interfaces": 25,
     "turtlesim": 8,
     "vision_msgs": 16,
