@@ -44,7 +44,7 @@ def _values(ros_class, name, kind):
         return SCALARS[kind]
     if listed := re.fullmatch(r"sequence<(.+)>", kind):
         code = {"float": "f", "double": "d", "int32": "i", "uint8": "B"}.get(listed[1])
-        items = st.lists(_values(ros_class, "", listed[1]), max_size=10)
+        items = st.lists(_values(ros_class, "", listed[1]), max_size=4 if "/" in listed[1] else 10)
         return items if code is None else items.map(lambda numbers: array(code, numbers))
     if fixed := re.fullmatch(r"(double|float)\[(\d+)\]", kind):
         size = int(fixed[2])

@@ -1,7 +1,5 @@
 """The table of pairs is found by scanning its folder, and reports missing packages."""
 
-import importlib.util
-
 import pytest
 
 import gz_course.sim.ros_gz_bridge.convert as ros_gz_bridge_convert
@@ -72,29 +70,17 @@ def test_the_same_pair_cannot_be_declared_twice():
         type_pairs.add_pair("std_msgs/msg/Bool", "gz.msgs.Boolean", to_ros=lambda gz: gz, to_gz=lambda ros: ros)
 
 
-ABSENT = [
-    ("actuator_msgs/msg/Actuators", "gz.msgs.Actuators"),
-    ("gps_msgs/msg/GPSFix", "gz.msgs.NavSat"),
-    ("marine_acoustic_msgs/msg/Dvl", "gz.msgs.DVLVelocityTracking"),
-    ("ros_gz_interfaces/msg/Contacts", "gz.msgs.Contacts"),
-    ("tf2_msgs/msg/TFMessage", "gz.msgs.Pose_V"),
-    ("vision_msgs/msg/Detection3D", "gz.msgs.AnnotatedOriented3DBox"),
-]
+def test_the_package_that_a_type_needs_is_named(monkeypatch):
+    monkeypatch.setattr(type_pairs, "_installed", lambda package: package != "ros_gz_interfaces")
+    for kind, find in (("msg/Contacts", lambda name: find_pair(name, "gz.msgs.Contacts")), ("srv/Spawn", find_service)):
+        with pytest.raises(MissingPackageError, match=f"/{kind} needs the ROS package ros_gz_interfaces, which is not"):
+            find(f"ros_gz_interfaces/{kind}")
 
 
-@pytest.mark.parametrize(("ros_type", "gz_type"), ABSENT)
-def test_the_package_that_a_pair_needs_is_named(ros_type, gz_type):
-    package = ros_type.split("/")[0]
-    if importlib.util.find_spec(package) is not None:
-        assert find_pair(ros_type, gz_type)
-        return
-    with pytest.raises(MissingPackageError, match=f"{ros_type} needs the ROS package {package}, which is not"):
-        find_pair(ros_type, gz_type)
-
-
-@pytest.mark.skipif(importlib.util.find_spec("ros_gz_interfaces") is not None, reason="ros_gz_interfaces is installed")
-def test_the_package_that_a_service_needs_is_named():
-    with pytest.raises(MissingPackageError, match="needs the ROS package ros_gz_interfaces, which is not installed"):
-        find_service("ros_gz_interfaces/srv/ControlWorld")
-    with pytest.raises(UnknownPairError, match=r"std_srvs/srv/Empty; none.*not installed: .*ros_gz_interfaces"):
+def test_an_unknown_service_is_told_what_is_known(monkeypatch):
+    with pytest.raises(UnknownPairError, match=r"std_srvs/srv/Empty; the nearest is ros_gz_interfaces/srv/"):
+        find_service("std_srvs/srv/Empty")
+    monkeypatch.setattr(type_pairs, "_services", {})
+    monkeypatch.setattr(type_pairs, "_installed", lambda package: package != "ros_gz_interfaces")
+    with pytest.raises(UnknownPairError, match=r"std_srvs/srv/Empty; none.*not installed: ros_gz_interfaces"):
         find_service("std_srvs/srv/Empty")
