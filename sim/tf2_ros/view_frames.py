@@ -73,7 +73,7 @@ def _view(node: Node, arguments: list[str]) -> int:
         return 0
     logger.info("Generating graph...")
     try:
-        text = dot_text(yaml.safe_load(buffer.all_frames_as_yaml()), node.get_clock().now().nanoseconds * 1e-9)
+        text = dot_text(frames_of(buffer.all_frames_as_yaml()), node.get_clock().now().nanoseconds * 1e-9)
     except (yaml.YAMLError, TypeError, KeyError, AttributeError):
         raise Failure("a frame has a name that cannot stand in YAML, so the tree cannot be read") from None
     graph = Path(f"{given.output or time.strftime('frames_%Y-%m-%d_%H.%M.%S')}.gv")
@@ -85,8 +85,13 @@ def _view(node: Node, arguments: list[str]) -> int:
     return 0
 
 
-def dot_text(frames: dict[str, dict[str, Any]], now: float) -> str:
-    """Return the graph of the frames of `all_frames_as_yaml`, recorded at the time `now` [s]."""
+def frames_of(text: str) -> Any:
+    """Return the frames of `all_frames_as_yaml`; all values are texts, since a name may look like something else."""
+    return yaml.load(text, Loader=yaml.BaseLoader)
+
+
+def dot_text(frames: dict[str, dict[str, str]], now: float) -> str:
+    """Return the graph of the frames, recorded at the time `now` [s]."""
     if not frames:
         return 'digraph G { "No tf data received" }'
     text = "digraph G {\n"
@@ -97,7 +102,7 @@ def dot_text(frames: dict[str, dict[str, Any]], now: float) -> str:
             f"\\nMost recent transform: {frame['most_recent_transform']}"
             f'\\nOldest transform: {frame["oldest_transform"]}\\n"];\n'
         )
-    roots = {str(frame["parent"]): None for frame in frames.values() if frame["parent"] not in frames}
+    roots = {frame["parent"]: None for frame in frames.values() if frame["parent"] not in frames}
     root = next(reversed(roots), next(iter(frames)))
     return (
         f"{text}edge [style=invis];\n"
@@ -106,8 +111,8 @@ def dot_text(frames: dict[str, dict[str, Any]], now: float) -> str:
     )
 
 
-def _escaped(text: Any) -> str:
-    return str(text).replace("\\", "\\\\").replace('"', '\\"')
+def _escaped(text: str) -> str:
+    return text.replace("\\", "\\\\").replace('"', '\\"')
 
 
 def _draw(graph: Path, logger: Any) -> None:

@@ -1,0 +1,67 @@
+"""A node that looks up transforms gets the same answer each time, also if it has to wait for them."""
+
+ROBOT = """
+from geometry_msgs.msg import TransformStamped
+from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
+
+static, moving = StaticTransformBroadcaster(node), TransformBroadcaster(node)
+
+def transform(parent, child, x):
+    made = TransformStamped(child_frame_id=child)
+    made.header.frame_id = parent
+    made.header.stamp = node.get_clock().now().to_msg()
+    made.transform.translation.x = x
+    return made
+
+def move():
+    moving.sendTransform(transform("map", "base", node.get_clock().now().nanoseconds / 1e9))
+
+static.sendTransform(transform("base", "lidar", 100.0))
+node.create_timer(0.2, move)
+rclpy.spin(node)
+"""
+LOOKER = """
+import threading
+import time
+from rclpy.duration import Duration
+from rclpy.time import Time
+from tf2_ros import Buffer, TransformException, TransformListener
+
+buffer = Buffer(node=node)
+listener = TransformListener(buffer, node)
+said = node.create_publisher(String, "/said", 10)
+
+def look(who, ago, timeout):
+    now = node.get_clock().now()
+    began = time.monotonic()
+    try:
+        found = buffer.lookup_transform("map", "lidar", now - ago, timeout)
+        text = f"{found.transform.translation.x:.3f}"
+    except TransformException as error:
+        text = type(error).__name__
+    said.publish(String(data=f"{who} {now.nanoseconds / 1e9:.1f}: {text} after {time.monotonic() - began:.1f}"))
+
+def in_a_thread():
+    while True:
+        time.sleep(0.35)
+        look("thread", Duration(), Duration(seconds=0.5))
+
+threading.Thread(target=in_a_thread, daemon=True).start()
+node.create_timer(0.1, lambda: look("timer", Duration(seconds=0.3), Duration()))
+rclpy.spin(node)
+"""
+
+
+def test_every_lookup_finds_the_same_each_time(play):
+    runs = [play(ticks=20, simulated=True, robot=ROBOT, looker=LOOKER) for _ in range(2)]
+    for played in runs:
+        assert played.pace.paced_ticks == 0, played.lines
+    assert runs[0].heard == runs[1].heard
+    # Between two transforms, 0.2 s apart, of x = t; the static one adds 100 m.
+    found = [line.split() for line in runs[0].heard if "Exception" not in line]
+    in_timer = [words for words in found if words[0] == "timer"]
+    assert len(in_timer) > 10 and any(words[0] == "thread" for words in found), runs[0].heard
+    for who, then, x, _, took in found:
+        ago = 0.3 if who == "timer" else 0.0
+        assert float(x) == round(float(then.rstrip(":")) - ago + 100.0, 3), runs[0].heard
+        assert took == "0.0" if who == "timer" else float(took) <= 0.5
