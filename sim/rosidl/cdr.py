@@ -19,7 +19,6 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
-import numpy
 from rosidl_parser import definition as idl
 
 from gz_course.sim.rosidl.cdr_layout import FORMATS, Run, smallest_size
@@ -96,7 +95,9 @@ def _fits(length: int, size: int | None, most: int | None) -> int:
 
 
 def _ndarray(data: bytes, dtype: Any, count: int, offset: int, byte_order: str) -> Any:
-    values = numpy.frombuffer(data, dtype.newbyteorder(byte_order), count, offset)
+    from numpy import frombuffer
+
+    values = frombuffer(data, dtype.newbyteorder(byte_order), count, offset)
     return values.astype(dtype)
 
 
@@ -306,6 +307,8 @@ class _Reader:
             self._code.end()
         self._expect(count, width)
         if isinstance(kind, idl.Array):
+            import numpy
+
             dtype = self._code.constant(numpy.dtype(code))
             self._code.add(f"{target} = ndarray(b, {dtype}, {count}, o, {self._order!r})")
         else:

@@ -38,23 +38,29 @@ def description(name: str) -> Description:
 def _known(name: str) -> dict[str, Description]:
     """Return the individual descriptions of a type and of all types it refers to, by name."""
     found: dict[str, Description] = {}
+    seen: set[str] = set()
     todo = [name]
     while todo:
         here = todo.pop()
-        if here in found:
+        if here in seen:
             continue
-        package, kind, part = here.split("/")
-        interface = part if kind == "msg" else part.split("_")[0]
-        path = _file(package, kind, interface)
-        if package in packages.packages():
-            found |= {each["type_name"]: each for each in individual_descriptions(definition(path, package))}
-        else:
-            message = json.loads(path.with_suffix(".json").read_text(encoding="utf-8"))["type_description_msg"]
-            for each in (message["type_description"], *message["referenced_type_descriptions"]):
-                found[each["type_name"]] = each
-        todo += [field["type"]["nested_type_name"] for field in found[here]["fields"]]
-        todo = [each for each in todo if each]
+        seen.add(here)
+        if here not in found:
+            found |= _descriptions_with(here)
+        nested = [field["type"]["nested_type_name"] for field in found[here]["fields"]]
+        todo += [each for each in nested if each]
     return found
+
+
+def _descriptions_with(name: str) -> dict[str, Description]:
+    """Return the individual descriptions in the file that defines a type."""
+    package, kind, part = name.split("/")
+    path = _file(package, kind, part if kind == "msg" else part.split("_")[0])
+    if package in packages.packages():
+        return {each["type_name"]: each for each in individual_descriptions(definition(path, package))}
+    message = json.loads(path.with_suffix(".json").read_text(encoding="utf-8"))["type_description_msg"]
+    every = (message["type_description"], *message["referenced_type_descriptions"])
+    return {each["type_name"]: each for each in every}
 
 
 def _file(package: str, kind: str, name: str) -> Path:

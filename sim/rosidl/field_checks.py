@@ -15,7 +15,6 @@ from collections import UserList, UserString
 from collections.abc import ByteString, Callable, Sequence, Set
 from typing import Any
 
-import numpy
 from rosidl_parser import definition as idl
 
 TYPE_CODES = {
@@ -50,6 +49,8 @@ def stored(kind: idl.AbstractType) -> Callable[[Any], Any] | None:
         return None
     code = TYPE_CODES[kind.value_type.typename]
     if isinstance(kind, idl.Array):
+        import numpy
+
         dtype = numpy.dtype(code)
         return lambda value: numpy.array(value, dtype=dtype)
     return lambda value: array.array(code, value)
@@ -83,27 +84,38 @@ def checks(kind: idl.AbstractType, nested_class: Callable[[idl.NamespacedType], 
     return _string_check(kind)
 
 
-def accepts_unchecked(kind: idl.AbstractType) -> Check | None:
-    """Return the check of an array that is stored as it is; None if the field holds no array of numbers."""
+def array_check(kind: idl.AbstractType) -> Callable[[str, Any], bool] | None:
+    """Return the check of an array that is stored as it is; None if the field holds no array of numbers.
+
+    The check returns whether the value is such an array.
+    """
     if not is_number_array(kind):
         return None
     code = TYPE_CODES[kind.value_type.typename]
     if isinstance(kind, idl.Array):
+        import numpy
+
         dtype, name = numpy.dtype(code), dtype_name(kind.value_type.typename)
 
-        def ndarray(field: str, value: Any) -> None:
+        def is_ndarray(field: str, value: Any) -> bool:
+            if not isinstance(value, numpy.ndarray):
+                return False
             _expect(value.dtype == dtype, f"The '{field}' numpy.ndarray() must have the dtype of 'numpy.{name}'")
             _expect(value.size == kind.size, f"The '{field}' numpy.ndarray() must have a size of {kind.size}")
+            return True
 
-        return ndarray
+        return is_ndarray
     bound = getattr(kind, "maximum_size", None)
 
-    def plain_array(field: str, value: Any) -> None:
+    def is_array(field: str, value: Any) -> bool:
+        if not isinstance(value, array.array):
+            return False
         _expect(value.typecode == code, f"The '{field}' array.array() must have the type code of '{code}'")
         if bound is not None:
             _expect(len(value) <= bound, f"The '{field}' array.array() must have a size <= {bound}")
+        return True
 
-    return plain_array
+    return is_array
 
 
 def _expect(holds: bool, sentence: str) -> None:

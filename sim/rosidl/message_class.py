@@ -11,7 +11,6 @@ from collections.abc import Callable
 from copy import copy
 from typing import Any
 
-import numpy
 from rosidl_parser import definition as idl
 
 from gz_course.sim.rosidl import field_checks
@@ -130,6 +129,8 @@ def _new_value(kind: idl.AbstractType) -> Callable[[], Any]:
         return list
     if isinstance(kind, idl.Array):
         if field_checks.is_number_array(kind):
+            import numpy
+
             dtype = numpy.dtype(field_checks.TYPE_CODES[kind.value_type.typename])
             return lambda: numpy.zeros(kind.size, dtype=dtype)
         make = _new_value(kind.value_type)
@@ -145,15 +146,13 @@ def _new_value(kind: idl.AbstractType) -> Callable[[], Any]:
 
 def _field_property(owner: type, member: idl.Member) -> property:
     check = field_checks.checks(member.type, nested_class)
-    accepts = field_checks.accepts_unchecked(member.type)
+    is_array = field_checks.array_check(member.type)
     store = field_checks.stored(member.type)
     name, put = member.name, getattr(owner, f"_{member.name}").__set__
-    array_type = numpy.ndarray if isinstance(member.type, idl.Array) else field_checks.array.array
 
     def setter(self: Any, value: Any) -> None:
         if self._check_fields:
-            if accepts is not None and isinstance(value, array_type):
-                accepts(name, value)
+            if is_array is not None and is_array(name, value):
                 put(self, value)
                 return
             check(name, value)

@@ -112,23 +112,24 @@ class MessageSupport:
             "_CONVERT_TO_PY": capsule(_TO_PY),
         }
 
-    def create(self) -> int:
-        """Return the address of a new box, which lives until it is destroyed."""
+    def create(self, message: Any = None) -> int:
+        """Return the address of a new box, filled or not, which lives until it is destroyed."""
         box = MessageBox(_nothing)
         box.support = self
         box.size = 0
         box.message = None
         _boxes[id(box)] = box
+        if message is not None:
+            box.__ror__(message)
         return id(box)
 
     def encoded(self, message: Any) -> bytes:
-        """Return the bytes of a message. Raises TypeError or ValueError with a sentence that names the field."""
+        """Return the bytes of a message. Raises TypeError with a sentence that names the field."""
         try:
             return self._encode(message)
-        except UnicodeEncodeError:
-            raise
         except Exception as error:
-            raise type(error)(_explanation(message, self.described.name) or str(error)) from None
+            seen = _explanation(message) or str(error)
+            raise TypeError(f"this {self.described.name} cannot be sent: {seen}") from None
 
     def _handle(self, _: int, identifier: bytes) -> int | None:
         if identifier == IDENTIFIER:
@@ -155,9 +156,14 @@ class MessageSupport:
         return True
 
 
-def box_at(pointer: int) -> MessageBox | None:
-    """Return the box with this address."""
-    return _boxes.get(pointer)
+def message_at(pointer: int) -> Any:
+    """Return the message in the box with this address."""
+    return _boxes[pointer].message
+
+
+def destroy_box(pointer: int) -> bool:
+    """Let go of a box; return whether there was one."""
+    return _boxes.pop(pointer, None) is not None
 
 
 def _nothing(cdr: int) -> int:
@@ -168,18 +174,19 @@ def _decoded(message_class: Any, order: str, data: bytes) -> Any:
     return decoder(message_class, order)(data)
 
 
-def _explanation(message: Any, name: str) -> str:
+def _explanation(message: Any, place: str = "") -> str:
     """Return which field of a message has a wrong value; empty if the setters find none."""
     fields = message._fields_and_field_types
     try:
         type(message)(check_fields=True, **{field: getattr(message, field) for field in fields})
     except AssertionError as error:
-        return f"{name}: {error}"
+        return f"{f'in {place}: ' if place else ''}{error}"
     for field in fields:
         values = getattr(message, field)
         for value in values if isinstance(values, list | tuple) else [values]:
-            if hasattr(value, "SLOT_TYPES") and (inner := _explanation(value, type(value).__name__)):
-                return f"{name}.{field}: {inner}"
+            inside = f"{place}.{field}" if place else field
+            if hasattr(value, "SLOT_TYPES") and (found := _explanation(value, inside)):
+                return found
     return ""
 
 
