@@ -83,8 +83,8 @@ def as_dot(frames: Frames, authorities: Mapping[str, str], time: int = 0) -> str
             f'Buffer length: {(newest - cache.oldest()) * 1e-9:.3f} sec\\n"];\n'
         )
     recorded = f'"Recorded at time: {seconds(time)}"[ shape=plaintext ] ;\n ' if time else ""
-    for frame, cache in frames.items():
-        if (cache is None and time) or (cache is not None and not cache.parent(0)):
+    for frame, above in frames.items():
+        if (above is None and time) or (above is not None and not above.parent(0)):
             text += f'{_LEGEND}{recorded}}}->"{frame}";\n'
     return text + "}"
 

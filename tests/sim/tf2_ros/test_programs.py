@@ -15,8 +15,11 @@ VIEW = "gz_course.sim.tf2_ros.view_frames"
 
 def test_one_publishes_and_the_other_echoes(programs):
     words = ["--x", "1.5", "--yaw", "1.5707963267948966", "--frame-id", "map", "--child-frame-id", "odom"]
-    publisher = programs.ros2("run", "tf2_ros", "static_transform_publisher", *words)
     echo = programs.ros2("run", "tf2_ros", "tf2_echo", "map", "odom", "20")
+    echo.wait_for(
+        'Waiting for transform map ->  odom: Invalid frame ID "map" passed to canTransform argument target_frame'
+    )
+    publisher = programs.ros2("run", "tf2_ros", "static_transform_publisher", *words)
     echo.wait_for("- Matrix:")
     echo.wait_for("0.000  0.000  0.000  1.000")
     publisher.wait_for("from 'map' to 'odom'")
@@ -32,7 +35,7 @@ def test_one_publishes_and_the_other_echoes(programs):
         "  1.000  0.000  0.000  0.000\n"
         " -0.000  0.000  1.000  0.000\n"
         "  0.000  0.000  0.000  1.000\n"
-    ).replace("-0.000", "0.000") in echo.said.replace("-0.000", "0.000")
+    ).replace(" -0.000", "  0.000") in echo.said.replace(" -0.000", "  0.000")
     assert "translation: ('1.500000', '0.000000', '0.000000')" in publisher.said
 
 
@@ -121,7 +124,7 @@ def ctrl_c():
 def test_ctrl_c_ends_each_with_exit_code_0(call, ctrl_c, ros_node):
     names = {name: f"ended_{number}" for number, name in enumerate((ECHO, MONITOR, VIEW))}
     for module, words, sentence in (
-        (ECHO, ["here", "there", "100"], "Waiting for transform here ->  there: Invalid frame ID"),
+        (ECHO, ["here", "there", "100"], ""),
         (MONITOR, ["here", "there"], "Waiting for transform chain to become available between here and there"),
         (VIEW, ["-t", "1000"], "Listening to tf data for 1000.0 seconds..."),
     ):
