@@ -1,11 +1,18 @@
 """Quaternions (x, y, z, w), Euler angles and homogeneous matrices, in place of the `tf_transformations` package.
 
-Of its names these are missing: `projection_matrix`, `clip_matrix`, `shear_matrix`, their counterparts from a matrix,
-`compose_matrix`, `decompose_matrix`, `orthogonalization_matrix`, `superimposition_matrix` and `Arcball`.
+Of its names only `Arcball` and the functions for it are missing.
 
 Source: https://github.com/DLu/tf_transformations
 """
 
+from gz_course.sim.tf_transformations.composition import (
+    compose_matrix,
+    decompose_matrix,
+    orthogonalization_matrix,
+    shear_from_matrix,
+    shear_matrix,
+    superimposition_matrix,
+)
 from gz_course.sim.tf_transformations.euler_angles import (
     euler_from_matrix,
     euler_from_quaternion,
@@ -29,6 +36,7 @@ from gz_course.sim.tf_transformations.matrices import (
     translation_from_matrix,
     translation_matrix,
 )
+from gz_course.sim.tf_transformations.projections import clip_matrix, projection_from_matrix, projection_matrix
 from gz_course.sim.tf_transformations.quaternions import (
     quaternion_about_axis,
     quaternion_conjugate,
@@ -40,13 +48,19 @@ from gz_course.sim.tf_transformations.quaternions import (
 from gz_course.sim.tf_transformations.vectors import random_vector, unit_vector, vector_norm
 
 __all__ = [
+    "clip_matrix",
+    "compose_matrix",
     "concatenate_matrices",
+    "decompose_matrix",
     "euler_from_matrix",
     "euler_from_quaternion",
     "euler_matrix",
     "identity_matrix",
     "inverse_matrix",
     "is_same_transform",
+    "orthogonalization_matrix",
+    "projection_from_matrix",
+    "projection_matrix",
     "quaternion_about_axis",
     "quaternion_conjugate",
     "quaternion_from_euler",
@@ -64,6 +78,9 @@ __all__ = [
     "rotation_matrix",
     "scale_from_matrix",
     "scale_matrix",
+    "shear_from_matrix",
+    "shear_matrix",
+    "superimposition_matrix",
     "translation_from_matrix",
     "translation_matrix",
     "unit_vector",

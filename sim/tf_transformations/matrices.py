@@ -43,7 +43,7 @@ def quaternion_matrix(quaternion: Any) -> Any:
 
 def quaternion_from_matrix(matrix: Any) -> Quaternion:
     """Return the quaternion (x, y, z, w), with w not negative, of the rotation in a matrix."""
-    m = _rotation(np.asarray(matrix, dtype=np.float64)[:3, :3])
+    m = rotation_of(np.asarray(matrix, dtype=np.float64)[:3, :3])
     # The largest of the four is taken from the diagonal, because a small one would be inexact.
     squared = [1.0 + m[0, 0] - m[1, 1] - m[2, 2], 1.0 - m[0, 0] + m[1, 1] - m[2, 2]]
     squared += [1.0 - m[0, 0] - m[1, 1] + m[2, 2], 1.0 + m[0, 0] + m[1, 1] + m[2, 2]]
@@ -74,7 +74,7 @@ def rotation_from_matrix(matrix: Any) -> tuple[float, Any, Any]:
     x, y, z, w = quaternion_from_matrix(matrix)
     sine = math.sqrt(x * x + y * y + z * z)
     direction = np.array([x, y, z]) / sine if sine > 0.0 else np.array([1.0, 0.0, 0.0])
-    return 2.0 * math.atan2(sine, w), direction, _fixed_point(matrix)
+    return 2.0 * math.atan2(sine, w), direction, fixed_point(matrix)
 
 
 def random_rotation_matrix(rand: Any = None) -> Any:
@@ -102,8 +102,8 @@ def scale_from_matrix(matrix: Any) -> tuple[float, Any, Any]:
     values, vectors = np.linalg.eigh((matrix[:3, :3] + matrix[:3, :3].T) / 2.0)
     nearest = int(np.argmin(abs(values - (trace - 2.0))))
     if abs(values[nearest] - (trace - 2.0)) < 1e-8:
-        return trace - 2.0, _fixed_point(matrix), vectors[:, nearest]
-    return trace / 3.0, _fixed_point(matrix), None
+        return trace - 2.0, fixed_point(matrix), vectors[:, nearest]
+    return trace / 3.0, fixed_point(matrix), None
 
 
 def reflection_matrix(point: Any, normal: Any) -> Any:
@@ -121,7 +121,7 @@ def reflection_from_matrix(matrix: Any) -> tuple[Any, Any]:
     values, vectors = np.linalg.eigh(matrix[:3, :3])
     if abs(values[0] + 1.0) > 1e-8:
         raise ValueError("no unit eigenvector corresponding to eigenvalue -1")
-    return _fixed_point(matrix), vectors[:, 0]
+    return fixed_point(matrix), vectors[:, 0]
 
 
 def inverse_matrix(matrix: Any) -> Any:
@@ -142,14 +142,14 @@ def is_same_transform(matrix0: Any, matrix1: Any) -> bool:
     return bool(np.allclose(one / one[3, 3], two / two[3, 3]))
 
 
-def _rotation(matrix: Any) -> Any:
+def rotation_of(matrix: Any) -> Any:
     """Return the rotation in a matrix (3, 3) that may scale and shear as well."""
     turn, upper = np.linalg.qr(matrix)
     turn = turn * np.where(np.diag(upper) < 0.0, -1.0, 1.0)
     return turn if np.linalg.det(turn) > 0.0 else turn * (-1.0, 1.0, 1.0)
 
 
-def _fixed_point(matrix: Any) -> Any:
+def fixed_point(matrix: Any) -> Any:
     """Return a point (4,) that a matrix does not move, the one nearest to the origin."""
     point, *_ = np.linalg.lstsq(np.identity(3) - matrix[:3, :3], matrix[:3, 3], rcond=1e-9)
     return np.append(point, 1.0)

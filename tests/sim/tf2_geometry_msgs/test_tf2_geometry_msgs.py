@@ -22,7 +22,7 @@ def pose_message(place, turn):
     return Pose(position=Point(**dict(zip("xyz", place, strict=True))), orientation=Quaternion(x=x, y=y, z=z, w=w))
 
 
-@settings(max_examples=40)
+@settings(max_examples=20)
 @given(poses, poses, vectors)
 def test_points_vectors_poses_twists_and_wrenches(frame, pose, other):
     from geometry_msgs.msg import PointStamped, Twist, Vector3, Vector3Stamped, Wrench

@@ -40,7 +40,7 @@ def trees(draw):
     return [(parent, draw(poses), draw(st.booleans())) for parent in parents]
 
 
-@settings(max_examples=60)
+@settings(max_examples=40)
 @given(trees(), st.data())
 def test_any_two_frames_of_any_tree(tree, data):
     buffer = BufferCore()
@@ -60,7 +60,7 @@ def test_any_two_frames_of_any_tree(tree, data):
     assert (by_way_of.header.frame_id, by_way_of.child_frame_id) == names
 
 
-@settings(max_examples=60)
+@settings(max_examples=40)
 @given(poses, poses, st.floats(0.0, 1.0))
 def test_between_two_stamps_the_motion_is_even(first, second, share):
     """The way is straight; the turn is about one axis, at constant speed, and never by more than half a turn."""
@@ -76,7 +76,7 @@ def test_between_two_stamps_the_motion_is_even(first, second, share):
             assert (np.trace(relative) - 1.0) / 2.0 == pytest.approx(math.cos(2.0 * whole * part), abs=1e-6)
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(st.floats(0.0, 4.0), st.floats(-2.0, 2.0), st.floats(0.1, 2.0))
 def test_a_robot_on_a_circle(time, speed, height):
     """`map -> odom -> base -> arm -> lidar`: a body that turns evenly carries a static chain."""

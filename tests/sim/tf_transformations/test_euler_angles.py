@@ -25,7 +25,7 @@ angles = st.floats(-math.pi, math.pi)
 quarter = math.pi / 2.0
 
 
-@settings(max_examples=40)
+@settings(max_examples=10)
 @given(angles, angles, angles)
 @example(1.0, quarter, 2.0)
 @example(1.0, -quarter, 0.5)

@@ -13,7 +13,7 @@ vectors = st.tuples(*[st.floats(-10.0, 10.0)] * 3).filter(lambda vector: math.hy
 turns = st.integers(0, 2**32 - 1).map(lambda seed: tf.random_quaternion(np.random.default_rng(seed).random(3)))
 
 
-@settings(max_examples=60)
+@settings(max_examples=25)
 @given(turns, turns, vectors)
 def test_quaternions_turn_vectors_as_their_matrices_do(one, two, vector):
     both = tf.quaternion_multiply(one, two)
@@ -25,7 +25,7 @@ def test_quaternions_turn_vectors_as_their_matrices_do(one, two, vector):
     assert back[3] >= 0.0 and abs(np.dot(back, one)) == pytest.approx(1.0)
 
 
-@settings(max_examples=60)
+@settings(max_examples=25)
 @given(turns, turns, st.floats(0.0, 1.0))
 def test_slerp(one, two, share):
     found = tf.quaternion_slerp(one, two, share)
@@ -34,7 +34,7 @@ def test_slerp(one, two, share):
     assert abs(np.dot(one, found)) == pytest.approx(math.cos(share * whole), abs=1e-6)
 
 
-@settings(max_examples=60)
+@settings(max_examples=25)
 @given(vectors, vectors, st.floats(0.01, 3.0))
 def test_what_a_matrix_was_made_of(point, direction, number):
     moved = tf.concatenate_matrices(tf.translation_matrix(point), tf.rotation_matrix(number, direction))
