@@ -23,7 +23,9 @@ rclpy.spin(node)
 LOOKER = """
 import threading
 import time
+from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.duration import Duration
+from rclpy.executors import MultiThreadedExecutor
 from rclpy.time import Time
 from tf2_ros import Buffer, TransformException, TransformListener
 
@@ -47,9 +49,15 @@ def in_a_thread():
         time.sleep(0.35)
         look("thread", Duration(), Duration(seconds=0.5))
 
+def in_a_callback():
+    look("callback", Duration(), Duration(seconds=0.5))
+
 threading.Thread(target=in_a_thread, daemon=True).start()
 node.create_timer(0.1, lambda: look("timer", Duration(seconds=0.3), Duration()))
-rclpy.spin(node)
+node.create_timer(0.35, in_a_callback, callback_group=ReentrantCallbackGroup())
+executor = MultiThreadedExecutor(4)
+executor.add_node(node)
+executor.spin()
 """
 
 
@@ -61,7 +69,7 @@ def test_every_lookup_finds_the_same_each_time(play):
     # Between two transforms, 0.2 s apart, of x = t; the static one adds 100 m.
     found = [line.split() for line in runs[0].heard if "Exception" not in line]
     in_timer = [words for words in found if words[0] == "timer"]
-    assert len(in_timer) > 10 and any(words[0] == "thread" for words in found), runs[0].heard
+    assert len(in_timer) > 10 and {words[0] for words in found} == {"timer", "thread", "callback"}, runs[0].heard
     for who, then, x, _, took in found:
         ago = 0.3 if who == "timer" else 0.0
         assert float(x) == round(float(then.rstrip(":")) - ago + 100.0, 3), runs[0].heard
