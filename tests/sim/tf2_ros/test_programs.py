@@ -2,6 +2,7 @@
 
 import signal
 import threading
+import time
 
 import pytest
 
@@ -107,7 +108,8 @@ def ctrl_c():
 
     def after(condition):
         def watch():
-            while not condition():
+            end = time.monotonic() + 120.0
+            while not condition() and time.monotonic() < end:
                 pause.wait(0.02)
             # Blocked in the main thread by the program, and fetched there.
             signal.pthread_kill(threading.main_thread().ident, signal.SIGINT)
