@@ -52,9 +52,17 @@ def in_a_thread():
 def in_a_callback():
     look("callback", Duration(), Duration(seconds=0.5))
 
+async def in_a_coroutine():
+    now = node.get_clock().now()
+    found = await buffer.lookup_transform_async("map", "lidar", now)
+    came = (node.get_clock().now() - now).nanoseconds / 1e9
+    text = f"coroutine {now.nanoseconds / 1e9:.1f}: {found.transform.translation.x:.3f} after {came:.3f}"
+    said.publish(String(data=text))
+
 threading.Thread(target=in_a_thread, daemon=True).start()
 node.create_timer(0.1, lambda: look("timer", Duration(seconds=0.3), Duration()))
 node.create_timer(0.35, in_a_callback, callback_group=ReentrantCallbackGroup())
+node.create_timer(0.3, in_a_coroutine, callback_group=ReentrantCallbackGroup())
 executor = MultiThreadedExecutor(4)
 executor.add_node(node)
 executor.spin()
@@ -69,7 +77,9 @@ def test_every_lookup_finds_the_same_each_time(play):
     # Between two transforms, 0.2 s apart, of x = t; the static one adds 100 m.
     found = [line.split() for line in runs[0].heard if "Exception" not in line]
     in_timer = [words for words in found if words[0] == "timer"]
-    assert len(in_timer) > 10 and {words[0] for words in found} == {"timer", "thread", "callback"}, runs[0].heard
+    assert len(in_timer) > 10 and {words[0] for words in found} == {"timer", "thread", "callback", "coroutine"}, runs[
+        0
+    ].heard
     for who, then, x, _, took in found:
         ago = 0.3 if who == "timer" else 0.0
         assert float(x) == round(float(then.rstrip(":")) - ago + 100.0, 3), runs[0].heard
