@@ -31,7 +31,7 @@ from gz_course.sim.rosidl.c_structs import (
     capsule,
     keep,
 )
-from gz_course.sim.rosidl.cdr import MalformedError, decoder, encoder
+from gz_course.sim.rosidl.cdr import Decode, Encode, MalformedError, decoder, encoder
 from gz_course.sim.rosidl.described_type import DescribedType
 from gz_course.sim.rosidl.introspection import IDENTIFIER as INTROSPECTION
 from gz_course.sim.rosidl.introspection import message_members
@@ -68,7 +68,9 @@ class MessageBox(functools.partial):
 
     def __ror__(self, message: Any) -> object:
         data = self.support.encoded(message)
-        self.__setstate__((fast_cdr.write, (), {"data": data, "size": len(data)}, None))
+        self.__setstate__(  # type: ignore[attr-defined]
+            (fast_cdr.write, (), {"data": data, "size": len(data)}, None)
+        )
         self.message = message
         self.size = len(data)
         return _TRUE
@@ -83,9 +85,8 @@ class MessageSupport:
     def __init__(self, message_class: Any, described: DescribedType) -> None:
         self.message_class = message_class
         self.described = described
-        self._encode = encoder(message_class)
-        self._decode = {order: functools.partial(_decoded, message_class, order) for order in "<>"}
-        self._decode["<"] = decoder(message_class)
+        self._encode: Encode | None = None
+        self._decode: dict[str, Decode] = {}
         self._has_warned = False
         self.turn: Any = threading.RLock()
         package, kind, name = described.name.split("/")
@@ -130,11 +131,18 @@ class MessageSupport:
         return id(box)
 
     def _create_alone(self) -> int:
-        """Return a new box for this thread, when no other thread has boxes of this type."""
+        """Return a new box for this thread, when no other thread has boxes of this type.
+
+        The functions that write and read it are made before the first box: not while Fast DDS holds locks, and not for
+        messages that are never sent, as most of those of an action are.
+        """
         while True:  # an exception, which Ctrl-C can cause at any place, would leave C code with an address of nothing
             try:
                 if not self.turn._is_owned():
                     self.turn.acquire()
+                if self._encode is None:
+                    self._decode = {order: decoder(self.message_class, order) for order in _BYTE_ORDERS.values()}
+                    self._encode = encoder(self.message_class)
                 return self.create()
             except KeyboardInterrupt:
                 continue
@@ -142,7 +150,7 @@ class MessageSupport:
     def encoded(self, message: Any) -> bytes:
         """Return the bytes of a message. Raises TypeError with a sentence that names the field."""
         try:
-            return self._encode(message)
+            return (self._encode or encoder(self.message_class))(message)
         except Exception as error:
             seen = _explanation(message) or str(error)
             raise TypeError(f"this {self.described.name} cannot be sent: {seen}") from None
@@ -206,10 +214,6 @@ def _destroy(pointer: int) -> None:
 
 def _nothing(cdr: int) -> int:
     return 0
-
-
-def _decoded(message_class: Any, order: str, data: bytes) -> Any:
-    return decoder(message_class, order)(data)
 
 
 def _explanation(message: Any, place: str = "") -> str:
