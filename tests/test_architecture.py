@@ -45,6 +45,10 @@ FORBIDDEN = {
     "sim/ros_gz_bridge": ("mujoco", "sim/gz/sim", "sim/launch", "sim/launch_ros", "sim/ros2"),
     "sim/ros_gz_image": ("mujoco", "sim/gz/sim/world", "sim/gz/sim/server"),
     "sim/ros_gz_sim": ("sim/ros_gz_bridge", "mujoco", "sim/gz/sim/world", "sim/gz/sim/server"),
+    "sim/tf2_geometry_msgs": ("sim", "mujoco"),
+    "sim/tf2_py": ("sim", "mujoco"),
+    "sim/tf2_ros": ("sim", "mujoco"),
+    "sim/tf_transformations": ("sim", "rclpy", "mujoco"),
     "grader/score": ("rclpy", "mujoco", *RUNNING),
     "grader/report": ("rclpy", "mujoco", *RUNNING),
     AGENT: ("grader", "mujoco", "rerun"),
@@ -56,6 +60,10 @@ ALLOWED = {
     "sim/prefix": ("sim/prefix", "sim/launch", "sim/launch_ros", "sim/rosidl"),
     "sim/rosidl": ("sim/rosidl",),
     "sim/ros2": ("sim/ros2", "sim/prefix", "sim/launch", "sim/launch_ros"),
+    "sim/tf2_geometry_msgs": ("sim/tf2_geometry_msgs", "sim/tf2_ros", "sim/tf2_py"),
+    "sim/tf2_py": ("sim/tf2_py",),
+    "sim/tf2_ros": ("sim/tf2_ros", "sim/tf2_py", "sim/ros_program"),
+    "sim/tf_transformations": ("sim/tf_transformations",),
     AGENT: (AGENT,),
 }
 FOR_ALL = ("sim/did_you_mean",)  # what every room may import

@@ -1,14 +1,12 @@
 """The topics of robot_state_publisher: `/robot_description`, `/tf_static`, and `/tf` from `/joint_states`.
 
-`robot_state_publisher.main` creates one `StatePublisher`. If tf2_msgs is not installed, only the description is
-published, with one warning.
+`robot_state_publisher.main` creates one `StatePublisher`.
 
 Source: README.md of https://github.com/ros/robot_state_publisher
 """
 
 from __future__ import annotations
 
-import importlib
 import math
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
@@ -21,6 +19,8 @@ from std_msgs.msg import String
 from gz_course.sim.gz.sim.errors import SimError
 from gz_course.sim.robot_state_publisher.kinematics import Kinematics, Transform
 from gz_course.sim.ros_program.errors import UsageError, first_line
+from gz_course.sim.tf2_ros.static_transform_broadcaster import StaticTransformBroadcaster
+from gz_course.sim.tf2_ros.transform_broadcaster import TransformBroadcaster
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -33,10 +33,6 @@ DEFAULTS: dict[str, Any] = {
     "frame_prefix": "",
     "ignore_timestamp": False,
 }
-NO_TF = (
-    "tf2_msgs is not installed, so /tf and /tf_static are not published, only the robot description; "
-    "source a ROS 2 workspace that has tf2_msgs, then start again"
-)
 _LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _FASTEST_HZ = 1000.0
 
@@ -63,7 +59,8 @@ class StatePublisher:
         self._published_ns: dict[str, int] = {}
         self._latest_ns = 0
         self._has_warned = False
-        self._send, self._send_static = (send, send_static) if send and send_static else _tf_topics(node)
+        self._send = send or TransformBroadcaster(node).sendTransform
+        self._send_static = send_static or StaticTransformBroadcaster(node).sendTransform
         self._description = node.create_publisher(String, "robot_description", _LATCHED)
         try:
             self._kinematics = Kinematics.from_urdf(values["robot_description"])
@@ -161,18 +158,3 @@ def _message(transform: Transform, prefix: str, stamp: Any) -> TransformStamped:
     place.x, place.y, place.z = map(float, transform.pose.position)
     turn.w, turn.x, turn.y, turn.z = map(float, transform.pose.quaternion)
     return message
-
-
-def _tf_topics(node: Node) -> tuple[Send, Send]:
-    """Return the functions that publish on `/tf` and `/tf_static`; without tf2_msgs they do nothing."""
-    try:
-        message_type = importlib.import_module("tf2_msgs.msg").TFMessage
-    except ImportError:
-        node.get_logger().warning(NO_TF)
-        return (lambda _: None), (lambda _: None)
-    moving = node.create_publisher(message_type, "/tf", QoSProfile(depth=100))
-    static = node.create_publisher(message_type, "/tf_static", _LATCHED)
-    return (
-        lambda transforms: moving.publish(message_type(transforms=transforms)),
-        lambda transforms: static.publish(message_type(transforms=transforms)),
-    )

@@ -1,4 +1,4 @@
-"""StatePublisher between joint states and transforms, which are intercepted before tf2_msgs is needed."""
+"""StatePublisher between joint states and transforms, which are intercepted before they are sent."""
 
 import math
 

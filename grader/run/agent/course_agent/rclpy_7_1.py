@@ -31,7 +31,7 @@ EXISTS: Reliance = ("", "")
 # Source: the Python files of rclpy 7.1.6, https://github.com/ros2/rclpy/tree/jazzy/rclpy/rclpy
 RELIED_UPON: dict[str, Reliance] = {
     "rclpy.executors:Executor.wait_for_ready_callbacks": ("self", "_cb_iter _wait_for_ready_callbacks"),
-    "rclpy.executors:Executor._wait_for_ready_callbacks": ("self timeout_sec nodes condition", ""),
+    "rclpy.executors:Executor._wait_for_ready_callbacks": ("self timeout_sec nodes condition", "executing"),
     "rclpy.executors:Executor._take_subscription": ("self sub", "msg_tuple"),
     "rclpy.executors:Executor._take_service": ("self srv", "request_and_header"),
     "rclpy.executors:Executor._take_client": ("self client", "header_and_response"),
@@ -44,6 +44,10 @@ RELIED_UPON: dict[str, Reliance] = {
     "rclpy.executors:Executor._make_handler": ("self entity node take_from_wait_list", "_guard"),
     "rclpy.executors:Executor.can_execute": ("self entity", "_executor_event"),
     "rclpy.executors:Executor.wake": ("self", "_guard trigger"),
+    "rclpy.task:Future.__await__": ("self", "_pending result"),
+    "rclpy.task:Future.add_done_callback": ("self callback", ""),
+    "rclpy.task:Task.__call__": ("self", "_handler send"),
+    "rclpy.task:Task.executing": ("self", "_executing"),
     "rclpy.guard_condition:GuardCondition.trigger": ("self", ""),
     "rclpy.wait_for_message:wait_for_message": ("msg_type node topic", "_rclpy WaitSet wait"),
     "rclpy.clock:Clock.sleep_until": ("self until context", "_rclpy ClockEvent set wait_until_ros"),

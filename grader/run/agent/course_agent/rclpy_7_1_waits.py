@@ -14,6 +14,7 @@ from typing import Any
 from . import inbox
 from .executor_monitor import UNMATCHED_SLICE, ExecutorMonitor
 from .grader_requests import ask
+from .rclpy_7_1_coroutines import watch_coroutines
 from .signals import Signal
 from .thread_monitor import POLL_PERIOD, Wait, monotonic, sleep
 
@@ -32,6 +33,7 @@ def watch_waits(monitor: ExecutorMonitor) -> None:
     _watch_clocks(monitor)
     _watch_single_messages(monitor)
     _wait_for_services(monitor)
+    watch_coroutines()
 
 
 def nudge(monitor: ExecutorMonitor, executor: Any) -> None:
