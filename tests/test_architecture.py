@@ -31,11 +31,14 @@ ROS_MESSAGES = r"\w+_(msgs|interfaces)(/|$)"
 FORBIDDEN = {
     "sim": ("grader", "chapters", "exercises", "solutions"),
     "grader": ("chapters", "exercises", "solutions"),
+    "sim/cv_bridge": ("sim", "rclpy", "mujoco", "cv2"),
     "sim/gz": (*ROS, "sim/ros_gz_bridge", "sim/ros_gz_image", "sim/ros_gz_sim", "sim/robot_state_publisher"),
     "sim/gz/msgs": ("sim/gz/sim", "sim/gz/transport", "sim/gz/command"),
     "sim/gz/transport": ("sim/gz/sim", "mujoco"),
+    "sim/laser_geometry": ("sim", "rclpy", "mujoco"),
     "sim/launch": ("sim", "rclpy", "mujoco", "ament_index_python"),
     "sim/launch_ros": ("sim", "rclpy", "mujoco"),
+    "sim/message_filters": ("sim", "mujoco"),
     "sim/prefix": ("sim", "rclpy", "mujoco"),
     "sim/robot_state_publisher": ("sim/ros_gz_bridge", "mujoco", "sim/gz/sim/world", "sim/gz/sim/server"),
     "sim/ros2": ("sim", "mujoco"),
@@ -43,16 +46,21 @@ FORBIDDEN = {
     "sim/ros_gz_bridge": ("mujoco", "sim/gz/sim", "sim/launch", "sim/launch_ros", "sim/ros2"),
     "sim/ros_gz_image": ("mujoco", "sim/gz/sim/world", "sim/gz/sim/server"),
     "sim/ros_gz_sim": ("sim/ros_gz_bridge", "mujoco", "sim/gz/sim/world", "sim/gz/sim/server"),
+    "sim/sensor_msgs_py": ("sim", "rclpy", "mujoco"),
     "grader/score": ("rclpy", "mujoco", *RUNNING),
     "grader/report": ("rclpy", "mujoco", *RUNNING),
     AGENT: ("grader", "mujoco", "rerun"),
 }
 # Exceptions: a room may import these, whatever is forbidden above.
 ALLOWED = {
+    "sim/cv_bridge": ("sim/cv_bridge",),
+    "sim/laser_geometry": ("sim/laser_geometry", "sim/sensor_msgs_py"),
     "sim/launch": ("sim/launch",),
     "sim/launch_ros": ("sim/launch_ros", "sim/launch"),
+    "sim/message_filters": ("sim/message_filters",),
     "sim/prefix": ("sim/prefix", "sim/launch", "sim/launch_ros"),
     "sim/ros2": ("sim/ros2", "sim/prefix", "sim/launch", "sim/launch_ros"),
+    "sim/sensor_msgs_py": ("sim/sensor_msgs_py",),
     AGENT: (AGENT,),
 }
 FOR_ALL = ("sim/did_you_mean",)  # what every room may import

@@ -72,9 +72,10 @@ def complaint(recording: Recording, program: str) -> str:
 def logged_error(recording: Recording, process: str) -> str:
     """Return the first error that a process of the launch has logged; empty if there is none."""
     for line in recording.lines("log/student"):
-        if (output := OUTPUT.match(line.text)) and output.group(1).rpartition("-")[0] == process:
-            if error := ERROR.match(output.group(2)):
-                return shown(error.group(1), 300)
+        output = OUTPUT.match(line.text)
+        of_it = output is not None and output.group(1).rpartition("-")[0] == process
+        if output and of_it and (error := ERROR.match(output.group(2))):
+            return shown(error.group(1), 300)
     return ""
 
 

@@ -28,8 +28,8 @@ def demosaic(image: np.ndarray, pattern: str, layout: str) -> np.ndarray:
             here = (slice(row, None, 2), slice(column, None, 2))
             own = _color(pattern, row + 1, column + 1)  # of the pixel in the middle of 3x3
             for place, color in enumerate(layout):
-                total, count = means[_how(pattern, own, color, row + 1)]
-                out[1:-1, 1:-1, place][here] = (total[here] + count // 2) // count
+                total, shift = means[_how(pattern, own, color, row + 1)]
+                out[1:-1, 1:-1, place][here] = (total[here] + ((1 << shift) >> 1)) >> shift
     return _with_border(out)
 
 
@@ -44,25 +44,24 @@ def demosaic_gray(image: np.ndarray, pattern: str) -> np.ndarray:
             here = (slice(row, None, 2), slice(column, None, 2))
             own = _color(pattern, row + 1, column + 1)
             ways = [(weight, *means[_how(pattern, own, color, row + 1)]) for color, weight in _WEIGHTS.items()]
-            common = max(count for _, _, count in ways)
-            total = sum(weight * sums[here] * (common // count) for weight, sums, count in ways)
-            unit = common << _SHIFT
-            out[1:-1, 1:-1][here] = (total + unit // 2) // unit
+            most = max(shift for _, _, shift in ways)
+            total = sum((weight << (most - shift)) * sums[here] for weight, sums, shift in ways)
+            out[1:-1, 1:-1][here] = (total + (1 << (most + _SHIFT - 1))) >> (most + _SHIFT)
     return _with_border(out)
 
 
 def _means(image: np.ndarray) -> dict[str, tuple[np.ndarray, int]]:
-    """Return sums of pixels around each inner pixel, and of how many."""
-    wide = image.astype(np.int64)
+    """Return sums of pixels around each inner pixel, and the power of two that says of how many."""
+    wide = image.astype(np.uint32)
     level = wide[1:-1, :-2] + wide[1:-1, 2:]
     upright = wide[:-2, 1:-1] + wide[2:, 1:-1]
     diagonal = wide[:-2, :-2] + wide[:-2, 2:] + wide[2:, :-2] + wide[2:, 2:]
     return {
-        "itself": (wide[1:-1, 1:-1], 1),
-        "level": (level, 2),
-        "upright": (upright, 2),
-        "cross": (level + upright, 4),
-        "diagonal": (diagonal, 4),
+        "itself": (wide[1:-1, 1:-1], 0),
+        "level": (level, 1),
+        "upright": (upright, 1),
+        "cross": (level + upright, 2),
+        "diagonal": (diagonal, 2),
     }
 
 

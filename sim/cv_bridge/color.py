@@ -79,11 +79,13 @@ def _colors(image: np.ndarray, start: str, end: str) -> np.ndarray:
     if start in ("uyvy", "yuyv"):
         return _from_yuv(image, start, end)
     if end == "gray":
-        total = sum(image[:, :, start.index(color)].astype(np.uint32) * w for color, w in _GRAY_WEIGHTS.items())
+        exact = np.float32 if image.itemsize == 1 else np.float64  # holds the sums without rounding
+        weights = np.array([_GRAY_WEIGHTS.get(color, 0) for color in start], exact)
+        total = (image.astype(exact) @ weights).astype(np.uint32)
         return ((total + (1 << (_GRAY_SHIFT - 1))) >> _GRAY_SHIFT).astype(image.dtype)
     out = np.empty((*image.shape[:2], len(end)), image.dtype)
     for place, color in enumerate(end):
-        if color == "a" and "a" not in start:
+        if color == "a" and not start.endswith("a"):
             out[:, :, place] = np.iinfo(image.dtype).max
         else:
             out[:, :, place] = image if start == "gray" else image[:, :, start.index(color)]

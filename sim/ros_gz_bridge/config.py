@@ -95,7 +95,9 @@ def read_yaml(text: str | bytes, file_name: str = "<string>", *, lazy: bool = Fa
     """Return the bridges and the faults of a YAML text, like `read_file`."""
     first_line = f"{file_name}:1"
     if len(text) > MAX_BYTES:
-        return _only(first_line, f"larger than {MAX_BYTES // 1024} KiB, which no bridge configuration needs", fatal=True)
+        return _only(
+            first_line, f"larger than {MAX_BYTES // 1024} KiB, which no bridge configuration needs", fatal=True
+        )
     try:
         root, further = _documents(text, file_name)
     except ConfigError as error:

@@ -7,7 +7,6 @@ definitions of sensor_msgs/msg/PointCloud2 and PointField.
 from __future__ import annotations
 
 import sys
-from array import array
 from collections import namedtuple
 from collections.abc import Iterable
 from typing import Any
@@ -142,12 +141,16 @@ def create_cloud(
     fields = list(fields)
     point_type = dtype_from_fields(fields, point_step)
     if not isinstance(points, np.ndarray):
-        points = np.array([tuple(each) for each in points], dtype=point_type)
+        rows = [tuple(each) for each in points]
+        points = np.zeros(len(rows), dtype=point_type)
+        points[:] = rows
     elif points.dtype.names is None:
         assert all(field.datatype == fields[0].datatype for field in fields[1:]), (
             "All fields need to have the same datatype. Pass a structured NumPy array with multiple dtypes otherwise."
         )
-        points = unstructured_to_structured(points, dtype=point_type)
+        values = unstructured_to_structured(points, dtype=point_type)
+        points = np.zeros(values.shape, dtype=point_type)  # gaps between fields hold no stray memory
+        points[...] = values
     else:
         assert points.dtype == point_type, (
             "PointFields and structured NumPy array dtype do not match for all fields! "
@@ -157,8 +160,6 @@ def create_cloud(
         "Too many dimensions for organized cloud! Points can only be organized in max. two dimensional space"
     )
     width = points.shape[0]
-    data = array("B")
-    data.frombytes(memoryview(points).cast("B"))
     cloud = PointCloud2(
         header=header,
         height=points.shape[1] if points.ndim == 2 else 1,
@@ -169,13 +170,14 @@ def create_cloud(
         point_step=points.dtype.itemsize,
         row_step=points.dtype.itemsize * width,
     )
-    cloud.data = data  # the setter takes an array as it is, the constructor converts it value by value
+    cloud.data.frombytes(memoryview(points).cast("B"))  # assigned data is copied once more
     return cloud
 
 
 def create_cloud_xyz32(header: Header, points: Iterable[Any]) -> PointCloud2:
     """Return a cloud of points (x, y, z) [m] with fields of type FLOAT32."""
     fields = [
-        PointField(name=name, offset=4 * index, datatype=PointField.FLOAT32, count=1) for index, name in enumerate("xyz")
+        PointField(name=name, offset=4 * index, datatype=PointField.FLOAT32, count=1)
+        for index, name in enumerate("xyz")
     ]
     return create_cloud(header, fields, points)
