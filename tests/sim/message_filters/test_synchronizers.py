@@ -85,7 +85,7 @@ def test_similar_stamps_of_three_inputs(arrivals, slop, size):
             queues[index].remove(min(queues[index]))
         sets = [each for each in itertools.product(*queues) if each[index] == ms and max(each) - min(each) < slop]
         if sets:
-            best = min(sets, key=lambda s: [(abs(each - ms), queue.index(each)) for each, queue in zip(s, queues)])
+            best = min(sets, key=lambda s: [(abs(t - ms), q.index(t)) for t, q in zip(s, queues, strict=True)])
             wanted.append(best)
             for queue, used in zip(queues, best, strict=True):
                 queue.remove(used)

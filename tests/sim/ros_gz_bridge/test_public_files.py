@@ -107,7 +107,7 @@ TAKEN = {
         QUOTED + TWIST.replace("topic_name: /model/robot/", 'ros_topic_name: a\n  gz_topic_name: ~/'), 1,
         ["works only with the parameter expand_gz_topic_names"], "error",
     ),
-    "a bridge that is a text": (QUOTED + "- /cmd_vel@geometry_msgs/msg/Twist]gz.msgs.Twist\n", 1, ["x.yaml:8"], "error"),
+    "a bridge that is a text": (QUOTED + "- /go@geometry_msgs/msg/Twist]gz.msgs.Twist\n", 1, ["x.yaml:8"], "error"),
     "two types on a ROS topic": (
         TWIST + with_type(TWIST, "std_msgs/msg/Bool", "gz.msgs.Boolean"), 1, ["x.yaml:5", "one type"], "error"
     ),
