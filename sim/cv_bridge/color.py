@@ -79,9 +79,9 @@ def _colors(image: np.ndarray, start: str, end: str) -> np.ndarray:
     if start in ("uyvy", "yuyv"):
         return _from_yuv(image, start, end)
     if end == "gray":
-        exact = np.float32 if image.itemsize == 1 else np.float64  # holds the sums without rounding
+        exact = np.dtype("f4" if image.itemsize == 1 else "f8")  # holds the sums without rounding
         weights = np.array([_GRAY_WEIGHTS.get(color, 0) for color in start], exact)
-        total = (image.astype(exact) @ weights).astype(np.uint32)
+        total = np.matmul(image.astype(exact), weights).astype(np.uint32)
         return ((total + (1 << (_GRAY_SHIFT - 1))) >> _GRAY_SHIFT).astype(image.dtype)
     out = np.empty((*image.shape[:2], len(end)), image.dtype)
     for place, color in enumerate(end):

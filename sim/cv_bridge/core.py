@@ -6,7 +6,7 @@ Source: cv_bridge/python/cv_bridge/core.py of vision_opencv 4.1 (Jazzy), the tex
 from __future__ import annotations
 
 import sys
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from sensor_msgs.msg import CompressedImage, Image
@@ -92,7 +92,8 @@ class CvBridge:
             if self.cvtype_to_name[self.encoding_to_cvtype2(encoding)] != own_type:
                 raise CvBridgeError(f"encoding specified as {encoding}, but image has incompatible type {own_type}")
         message.is_bigendian = int(cvim.dtype.byteorder == ">" or (cvim.dtype.byteorder == "=" and _BIG))
-        message.data.frombytes(memoryview(np.ascontiguousarray(cvim)).cast("B"))  # assigned data is copied once more
+        values = memoryview(cast(Any, np.ascontiguousarray(cvim))).cast("B")
+        message.data.frombytes(values)  # assigned data would be copied once more
         message.step = len(message.data) // message.height
         if header is not None:
             message.header = header

@@ -25,6 +25,7 @@ MAX_BYTES = 256 * 1024
 """Maximum size of a YAML file [byte]."""
 MAX_ENTRIES = 1000
 """Maximum number of bridges in a file."""
+_SECOND_DOCUMENT = "a second document begins here, which is not read; write one list without '---' between its entries"
 
 
 @dataclass
@@ -114,8 +115,7 @@ def read_yaml(text: str | bytes, file_name: str = "<string>", *, lazy: bool = Fa
         return _only(first_line, f"{len(root.value)} bridges, more than the {MAX_ENTRIES} a file may hold", fatal=True)
     config = Config()
     if further is not None:
-        sentence = "a second document begins here, which is not read; put all bridges in one list without '---' between"
-        config.findings.append(Finding(_place(file_name, further), sentence, tolerated=True))
+        config.findings.append(Finding(_place(file_name, further), _SECOND_DOCUMENT, tolerated=True))
     for node in root.value:
         config.add(_entry(file_name, node, config.findings, lazy))
     config.findings.extend(check(config.topics, config.services))
@@ -127,11 +127,19 @@ def _only(place: str, sentence: str, *, fatal: bool = False) -> Config:
     return Config(findings=[Finding(place, sentence, fatal=fatal)])
 
 
-def _documents(text: str | bytes, file_name: str) -> tuple[yaml.Node | None, yaml.Node | None]:
-    """Return the node trees of the first document of a YAML text and of the second, or None; with line numbers.
+def compose(text: str | bytes, file_name: str) -> yaml.Node | None:
+    """Return the node tree of a YAML text with one document. Raises ConfigError with one sentence about anything else.
 
-    No object is constructed. Raises ConfigError with one sentence that begins with file and line if it is not YAML.
+    The sentence begins with file and line; the nodes have line numbers; no object is constructed.
     """
+    root, further = _documents(text, file_name)
+    if further is not None:
+        raise ConfigError([f"{_place(file_name, further)}: {_SECOND_DOCUMENT}"])
+    return root
+
+
+def _documents(text: str | bytes, file_name: str) -> tuple[yaml.Node | None, yaml.Node | None]:
+    """Return the node trees of the first document of a YAML text and of the second, or None. Raises as `compose`."""
     try:
         documents = yaml.compose_all(text, Loader=yaml.SafeLoader)
         return next(documents, None), next(documents, None)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import sys
 from collections import namedtuple
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.lib.recfunctions import structured_to_unstructured, unstructured_to_structured
@@ -17,7 +17,7 @@ from sensor_msgs.msg import PointCloud2, PointField
 from std_msgs.msg import Header
 
 DUMMY_FIELD_PREFIX = "unnamed_field"
-_DATATYPES = {
+_DATATYPES: dict[int, np.dtype[Any]] = {
     PointField.INT8: np.dtype(np.int8),
     PointField.UINT8: np.dtype(np.uint8),
     PointField.INT16: np.dtype(np.int16),
@@ -170,7 +170,7 @@ def create_cloud(
         point_step=points.dtype.itemsize,
         row_step=points.dtype.itemsize * width,
     )
-    cloud.data.frombytes(memoryview(points).cast("B"))  # assigned data is copied once more
+    cloud.data.frombytes(memoryview(cast(Any, points)).cast("B"))  # assigned data would be copied once more
     return cloud
 
 
