@@ -19,7 +19,8 @@ ROOT = Path(__file__).parents[1]
 BIN = Path(sys.executable).parent
 PACKAGES = ("launch", "launch_ros", "ros_gz_bridge", "ros_gz_sim", "ros_gz_image", "robot_state_publisher", "ros2cli")
 NODES_USE = ("cv_bridge", "laser_geometry", "message_filters", "sensor_msgs_py")
-MODULES = (*PACKAGES, *NODES_USE, "ros2", "prefix", "grader", "sim", "tests", "solutions", "docs", "gz/transport13", "gz/msgs10")
+OTHERS = ("ros2", "prefix", "grader", "sim", "tests", "solutions", "docs", "gz/transport13", "gz/msgs10")
+MODULES = (*PACKAGES, *NODES_USE, *OTHERS)
 PROGRAMS = ("ros2", "gz", "parameter_bridge", "python3")
 THEIRS = 77  # exit code of their programs
 
