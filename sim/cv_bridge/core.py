@@ -15,6 +15,10 @@ from gz_course.sim.cv_bridge import picture_file
 from gz_course.sim.cv_bridge.color import convert
 from gz_course.sim.cv_bridge.encodings import DEPTHS, NUMPY_NAMES, channels_of, cv_type, depth_of, make_type
 
+_ARRAYS = (np.ndarray, np.generic)
+_BIG = sys.byteorder == "big"
+_NAMES = {np.dtype(name): name for name in NUMPY_NAMES}  # NumPy makes the name of a type anew each time
+
 
 class CvBridgeError(TypeError):
     """A conversion that is not possible."""
@@ -35,7 +39,8 @@ class CvBridge:
 
     def dtype_with_channels_to_cvtype2(self, dtype: np.dtype, n_channels: int) -> str:
         """Return the name of a type, such as `8UC3`. Raises KeyError for a type that OpenCV does not have."""
-        return f"{self.numpy_type_to_cvtype[dtype.name]}C{n_channels}"
+        name = _NAMES.get(dtype) or dtype.name
+        return f"{self.numpy_type_to_cvtype[name]}C{n_channels}"
 
     def cvtype2_to_dtype_with_channels(self, cvtype: int) -> tuple[str, int]:
         """Return the NumPy type and the number of channels of OpenCV's number of a type."""
@@ -80,7 +85,7 @@ class CvBridge:
         type of the encoding, TypeError for something that is no array, and KeyError for a type that OpenCV does not
         have.
         """
-        if not isinstance(cvim, np.ndarray | np.generic):
+        if not isinstance(cvim, _ARRAYS):
             raise TypeError("Your input type is not a numpy array")
         message = Image()
         message.height, message.width = cvim.shape[0], cvim.shape[1]
@@ -116,7 +121,7 @@ class CvBridge:
         Raises TypeError for something that is no array, and CvBridgeError for a format or a type that cannot be
         written.
         """
-        if not isinstance(cvim, np.ndarray | np.generic):
+        if not isinstance(cvim, _ARRAYS):
             raise TypeError("Your input type is not a numpy array")
         message = CompressedImage()
         message.format = dst_format
@@ -134,6 +139,3 @@ class CvBridge:
             return convert(image, encoding, desired)
         except RuntimeError as error:
             raise CvBridgeError(error) from None
-
-
-_BIG = sys.byteorder == "big"
