@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from rclpy.node import Node
 
     from gz_course.sim.ros_gz_bridge.config import Config
+    from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, ServiceEntry
     from gz_course.sim.ros_gz_bridge.finding import Finding
 
 HELP = """\
@@ -76,10 +77,18 @@ def _bridge(node: Node, texts: list[str]) -> int:
     from gz_course.sim.ros_gz_bridge.watch import Watch, Watcher
 
     given = parameters.read_parameters(node)
-    config, errors = configured(node, [text for text in texts if text != _STRICT], given, strict=_STRICT in texts)
+    strict = _STRICT in texts
+    config, errors = configured(node, [text for text in texts if text != _STRICT], given, strict=strict)
     logger = node.get_logger()
     for sentence in errors:
         logger.error(sentence)
+
+    def left_out(entry: BridgeEntry | ServiceEntry, sentence: str) -> None:
+        logger.error(sentence)
+        errors.append(sentence)
+        config.topics = [each for each in config.topics if each is not entry]
+        config.services = [each for each in config.services if each is not entry]
+
     heartbeat = given.values["subscription_heartbeat"] / 1000
     overrides = HeaderOverrides(
         frame_id=given.values["override_frame_id"], wall_time=given.values["override_timestamps_with_wall_time"]
@@ -96,6 +105,7 @@ def _bridge(node: Node, texts: list[str]) -> int:
                 heartbeat=heartbeat,
                 services=config.services,
                 threaded=True,
+                left_out=None if strict else left_out,
             )
         except BridgeError as error:
             raise UsageError(*error.errors) from None

@@ -194,6 +194,15 @@ def test_what_cannot_be_bridged_is_named_and_the_rest_is_bridged(start, ros, eve
     assert f"{file}:5: the key 'directon' is not known; did you mean 'direction'?" in warning
 
 
+def test_a_topic_renamed_to_one_of_another_type_is_left_out(start):
+    other = GOOD.replace("/a", "/b", 1).replace("Bool@", "Float32@").replace("Boolean", "Float")
+    process = start(GOOD.replace("@gz", "[gz"), other, "--ros-args", "-r", "/b:=/a")
+    process.wait_for("ready: 1 bridge; what the errors above name is left out")
+    assert process.stop() == 0
+    (error,) = [line for line in process.lines if "[ERROR]" in line]
+    assert f"argument '{other}': cannot bridge /b: " in error
+
+
 def test_with_nothing_to_bridge_it_says_so_and_waits(start):
     process = start("--ros-args", "-p", "config_file:=/none.yaml")
     process.wait_for("/none.yaml: cannot read the bridge configuration: No such file or directory")
