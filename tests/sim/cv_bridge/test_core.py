@@ -6,7 +6,7 @@ from itertools import product
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 from sensor_msgs.msg import CompressedImage, Image
@@ -131,7 +131,6 @@ def test_other_errors():
         cvtColor2(np.zeros((2, 2), np.uint8), "bgr8", "mono8")
 
 
-@settings(deadline=None)
 @given(st.data(), st.sampled_from(list(product(EVERY, EVERY))))
 def test_every_pair_of_encodings_is_converted_or_refused(data, pair):
     source, target = pair
