@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction, ServiceEntry
@@ -69,6 +69,9 @@ class EntryReader:
         service = any(key in self._values for key in _OF_SERVICES_ONLY)
         entry = self._service() if service else self._topic()
         broken = any(not (finding.warning or finding.tolerated) for finding in self._findings)
+        if any(not (finding.warning or finding.tolerated or finding.fatal) for finding in self._findings):
+            # The original leaves this entry out before it comes to the fault at which it would end.
+            self._findings = [replace(finding, fatal=False) for finding in self._findings]
         self._all_findings.extend(self._findings)
         return None if broken else entry
 

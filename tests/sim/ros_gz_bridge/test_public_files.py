@@ -93,6 +93,14 @@ TAKEN = {
         QUOTED + "- topic_name: /odom\n  ros_type: nav_msgs/msg/Odometry\n  gz_type: gz.msgs.Odometry\n", 1,
         ["x.yaml:8: 'ros_type_name' is missing", "did you mean 'ros_type_name'?"], "error",
     ),
+    "keys of one's own": (
+        QUOTED + "- ros_topic: /odom\n  gz_topic: /odom\n  ros_type: nav_msgs/msg/Odometry\n  lazy: maybe\n", 1,
+        ["x.yaml:8: the topic is missing", "did you mean 'ros_topic_name'?"], "error",
+    ),
+    "a name that ROS refuses, of an unknown type": (
+        QUOTED + with_type(TWIST, "my_msgs/msg/Mine", "gz.msgs.Mine").replace("/cmd_vel", "/cmd vel"), 1,
+        ["x.yaml:8: '/model/robot/cmd vel' is not a ROS topic name"], "error",
+    ),
     "the keys of Fortress": (
         QUOTED + LASER.replace("gz_t", "ign_t"), 1, ["did you mean 'gz_topic_name'", "'gz_type_name' is mis"], "error"
     ),
