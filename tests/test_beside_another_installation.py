@@ -18,7 +18,9 @@ from gz_course.grader.run.domain import Domain
 ROOT = Path(__file__).parents[1]
 BIN = Path(sys.executable).parent
 PACKAGES = ("launch", "launch_ros", "ros_gz_bridge", "ros_gz_sim", "ros_gz_image", "robot_state_publisher", "ros2cli")
-MODULES = (*PACKAGES, "ros2", "prefix", "grader", "sim", "tests", "solutions", "docs", "gz/transport13", "gz/msgs10")
+NODES_USE = ("cv_bridge", "laser_geometry", "message_filters", "sensor_msgs_py")
+OTHERS = ("ros2", "prefix", "grader", "sim", "tests", "solutions", "docs", "gz/transport13", "gz/msgs10")
+MODULES = (*PACKAGES, *NODES_USE, *OTHERS)
 PROGRAMS = ("ros2", "gz", "parameter_bridge", "python3")
 THEIRS = 77  # exit code of their programs
 
@@ -74,9 +76,10 @@ def run(sourced, tmp_path):
 
 
 def test_the_stand_in_is_found_by_the_public_names(run):
-    names = "launch, launch_ros, ros_gz_bridge, gz.transport13, gz.msgs10"
-    done = run(sys.executable, "-c", f"import {names}; print({', '.join(f'{n}.WHOSE' for n in names.split(', '))})")
-    assert (done.stdout, done.stderr) == (" ".join(["theirs"] * 5) + "\n", "")
+    names = ["launch", "launch_ros", "ros_gz_bridge", "gz.transport13", "gz.msgs10", *NODES_USE]
+    program = f"import {', '.join(names)}; print({', '.join(f'{n}.WHOSE' for n in names)})"
+    done = run(sys.executable, "-c", program)
+    assert (done.stdout, done.stderr) == (" ".join(["theirs"] * len(names)) + "\n", "")
     assert run("ros2", "topic", "list").returncode == THEIRS
 
 

@@ -17,6 +17,7 @@ from gz_course.grader.record.reading import Recording
 SAID = re.compile(r"^\[[^\]]+\] (gz sim|parameter_bridge|create|gzserver): (.*)")
 OUTPUT = re.compile(r"^\[([^\] ]+-\d+)\] (.*\S)")  # a line of a process that the launch started
 DIED = re.compile(r"^\[ERROR\] \[([^\]]+-\d+)\]: process has died .*exit code (-?\d+)")
+ERROR = re.compile(r"^\[ERROR\] (?:\[[\d.]+\] )?\[[^\]]+\]: (.*)")  # of a ROS log
 PLACE = re.compile(r"^\S*?([^/\s]+):(\d+): ")  # prefix of an error in a launch file
 
 
@@ -65,6 +66,16 @@ def complaint(recording: Recording, program: str) -> str:
     for line in recording.lines("log/student"):
         if (match := SAID.match(line.text)) and match.group(1) == program:
             return shown(match.group(2), 300)
+    return ""
+
+
+def logged_error(recording: Recording, process: str) -> str:
+    """Return the first error that a process of the launch has logged; empty if there is none."""
+    for line in recording.lines("log/student"):
+        output = OUTPUT.match(line.text)
+        of_it = output is not None and output.group(1).rpartition("-")[0] == process
+        if output and of_it and (error := ERROR.match(output.group(2))):
+            return shown(error.group(1), 300)
     return ""
 
 

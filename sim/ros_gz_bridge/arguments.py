@@ -43,22 +43,22 @@ def _read(text: str, findings: list[Finding], lazy: bool = False) -> BridgeEntry
     where = _place(text)
     if re.search(r"@[^@\[\]]*/srv/", text):
         entry, faults = _service(text, where)
-        findings.extend(Finding(where, fault) for fault in faults)
+        findings.extend(faults)
         return None if faults else entry
     match = re.fullmatch(r"([^@]*)@([^@\[\]]*)(?:([@\[\]])(.*))?", text, re.DOTALL)
     if match is None:
-        findings.append(Finding(where, f"has no '@'; expected {_SYNTAX}"))
+        findings.append(Finding(where, f"has no '@'; expected {_SYNTAX}", fatal=True))
         return None
     topic, ros_type, mark, gz_type = match.groups()
-    faults = _name_faults(topic, f"the topic name before the first '@' is missing; expected {_SYNTAX}")
+    faults = _name_faults(where, topic, f"the topic name before the first '@' is missing; expected {_SYNTAX}")
     if mark is None:
-        faults.append(
-            f"has no direction and no Gazebo type; expected {_SYNTAX}, for instance "
-            f"{topic}@{ros_type}@{_partner(ros_type)}"
-        )
+        example = f"{topic}@{ros_type}@{_partner(ros_type)}"
+        sentence = f"has no direction and no Gazebo type; expected {_SYNTAX}, for instance {example}"
+        faults.append(Finding(where, sentence))
     else:
-        faults.extend(type_faults(ros_type, gz_type))
-    findings.extend(Finding(where, fault) for fault in faults)
+        malformed = not gz_type or "@" in gz_type
+        faults.extend(Finding(where, fault, fatal=malformed) for fault in type_faults(ros_type, gz_type))
+    findings.extend(faults)
     if faults or mark is None:
         return None
     if warning := old_type_warning(gz_type):
@@ -66,27 +66,30 @@ def _read(text: str, findings: list[Finding], lazy: bool = False) -> BridgeEntry
     return BridgeEntry(topic, topic, ros_type, canonical_gz_type(gz_type), _MARKS[mark], lazy=lazy, source=where)
 
 
-def _service(text: str, where: str) -> tuple[ServiceEntry | None, list[str]]:
+def _service(text: str, where: str) -> tuple[ServiceEntry | None, list[Finding]]:
     match = re.fullmatch(r"([^@]*)@([^@\[\]]*)(?:@([^@\[\]]+)@([^@\[\]]+))?", text, re.DOTALL)
     if match is None:
-        return None, [f"is not a service bridge; expected {_SERVICE_SYNTAX} (Gazebo's service is offered to ROS)"]
+        sentence = f"is not a service bridge; expected {_SERVICE_SYNTAX} (Gazebo's service is offered to ROS)"
+        return None, [Finding(where, sentence, fatal=True)]
     name, ros_type, request, reply = (part or "" for part in match.groups())
-    faults = _name_faults(name, f"the service name before the first '@' is missing; expected {_SERVICE_SYNTAX}")
-    faults.extend(service_type_faults(ros_type, request, reply))
+    faults = _name_faults(where, name, f"the service name before the first '@' is missing; expected {_SERVICE_SYNTAX}")
+    faults.extend(Finding(where, fault) for fault in service_type_faults(ros_type, request, reply))
     if not faults:
         try:
             types = find_service(ros_type, request, reply)
             request, reply = types.gz_request_type, types.gz_reply_type
         except UnknownPairError as error:
-            faults.append(str(error))
+            faults.append(Finding(where, str(error)))
     return ServiceEntry(name, ros_type, request, reply, where), faults
 
 
-def _name_faults(name: str, missing: str) -> list[str]:
+def _name_faults(where: str, name: str, missing: str) -> list[Finding]:
     if not name:
-        return [missing]
-    fault = ros_name_fault(name) or gz_name_fault(name)
-    return [fault] if fault else []
+        return [Finding(where, missing, fatal=True)]
+    if fault := ros_name_fault(name):
+        return [Finding(where, fault, fatal=True)]
+    fault = gz_name_fault(name)
+    return [Finding(where, fault)] if fault else []
 
 
 def _partner(ros_type: str) -> str:

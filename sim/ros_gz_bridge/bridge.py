@@ -27,6 +27,7 @@ from gz_course.sim.ros_gz_bridge.ros_listener import RosListener
 from gz_course.sim.ros_gz_bridge.service_link import ServiceLink
 from gz_course.sim.ros_gz_bridge.type_pairs import TypePair, UnknownPairError, find_pair, find_service
 
+LeftOut = Callable[[BridgeEntry | ServiceEntry, str], None]
 _ECHO_MARGIN = 16
 
 
@@ -42,6 +43,8 @@ class Bridge:
     - `threaded` gives each topic with large messages from other processes a thread, and all topics from ROS another;
       without it a message is bridged in the thread that delivers it.
     - `monotonic` returns the time [s] by which warnings are limited.
+    - `left_out(entry, sentence)` is called for each entry that ROS or Gazebo refuses, for instance because a topic was
+      renamed to one of another type; without it such an entry is an error.
 
     Raises BridgeError listing every entry that cannot work, and then leaves nothing behind.
     """
@@ -59,6 +62,7 @@ class Bridge:
         services: Iterable[ServiceEntry] = (),
         threaded: bool = False,
         monotonic: Callable[[], float] = time.monotonic,
+        left_out: LeftOut | None = None,
     ) -> None:
         self.entries = list(entries)
         self.services = list(services)
@@ -81,7 +85,7 @@ class Bridge:
         self._status_lock = threading.Lock()
         rows = self._checked()
         try:
-            self._set_up(rows)
+            self._set_up(rows, left_out)
             if any(entry.lazy for entry in self.entries):
                 steady = Clock(clock_type=ClockType.STEADY_TIME)
                 self._timer = ros_node.create_timer(heartbeat, self._connect_lazy, clock=steady)
@@ -143,10 +147,10 @@ class Bridge:
             raise BridgeError(errors)
         return rows
 
-    def _set_up(self, rows: list[Row]) -> None:
+    def _set_up(self, rows: list[Row], left_out: LeftOut | None) -> None:
         """Create every endpoint, publishers first, so that no message arrives before it can be published."""
         filters = _echo_filters(rows)
-        errors = []
+        errors: list[tuple[BridgeEntry | ServiceEntry, str]] = []
         for row in rows:
             try:
                 if row.entry.direction.to_ros:
@@ -156,14 +160,17 @@ class Bridge:
                     own_filter = next((own for other, own in filters if other is row), None)
                     self._to_gz.append(RosToGz(self, row, own_filter))
             except Exception as error:
-                errors.append(sentence(row.entry, f"cannot bridge {row.entry.ros_topic}: {error_text(error)}"))
+                errors.append((row.entry, f"cannot bridge {row.entry.ros_topic}: {error_text(error)}"))
         for service in self.services:
             try:
                 self._offered.append(ServiceLink(self._ros_node, self._gz_node, service))
             except Exception as error:
-                errors.append(sentence(service, f"cannot offer {service.name}: {error_text(error)}"))
-        if errors:
-            raise BridgeError(errors)
+                errors.append((service, f"cannot offer {service.name}: {error_text(error)}"))
+        if left_out is not None:
+            for entry, text in errors:
+                left_out(entry, sentence(entry, text))
+        elif errors:
+            raise BridgeError([sentence(entry, text) for entry, text in errors])
         for incoming in self._to_ros:
             incoming.look_for_echoes(self._to_gz)
         for outgoing in self._to_gz:

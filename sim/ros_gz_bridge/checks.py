@@ -102,7 +102,7 @@ def _clock_to_gazebo(topics: Sequence[BridgeEntry], services: Sequence[ServiceEn
             yield _never(
                 entry,
                 f"gives Gazebo a clock on {entry.gz_topic}, but Gazebo makes its own time and listens to no clock; "
-                "did you mean [ or direction: GZ_TO_ROS? (--compat bridges it all the same)",
+                "did you mean [ or direction: GZ_TO_ROS?",
             )
         elif entry.ros_type == _CLOCK and entry.direction is Direction.BIDIRECTIONAL:
             yield _warning(
@@ -143,7 +143,7 @@ def _wrong_direction(topics: Sequence[BridgeEntry], services: Sequence[ServiceEn
             yield _never(
                 entry,
                 f"{entry.gz_type} is what Gazebo publishes, nothing in its world listens to that; "
-                "did you mean [ or direction: GZ_TO_ROS? (--compat bridges it all the same)",
+                "did you mean [ or direction: GZ_TO_ROS?",
             )
         elif published and entry.direction is Direction.BIDIRECTIONAL:
             yield _warning(

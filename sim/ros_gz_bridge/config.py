@@ -1,16 +1,17 @@
 """The bridges of a YAML file, and its faults with file and line.
 
-What the original ros_gz_bridge ignores (a misspelt key, a type without conversion, a repeated bridge) is an error here.
-All errors of a file are reported at once.
+What the original ros_gz_bridge passes over (a misspelt key, a type without conversion, a repeated bridge) is an error
+here, and the error knows what the original does (`Finding`). All errors of a file are reported at once.
 
-Source: "Configuring the bridge via YAML" in README.md of ros_gz_bridge, https://github.com/gazebosim/ros_gz
+Source: "Configuring the bridge via YAML" in README.md and src/bridge_config.cpp of ros_gz_bridge,
+https://github.com/gazebosim/ros_gz; src/nodebuilder.cpp and convert.h of yaml-cpp 0.8
 """
 
 from __future__ import annotations
 
 import re
 import stat
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import yaml
@@ -24,6 +25,7 @@ MAX_BYTES = 256 * 1024
 """Maximum size of a YAML file [byte]."""
 MAX_ENTRIES = 1000
 """Maximum number of bridges in a file."""
+_SECOND_DOCUMENT = "a second document begins here, which is not read; write one list without '---' between its entries"
 
 
 @dataclass
@@ -48,14 +50,16 @@ class Config:
         self.findings += other.findings
 
     def tolerant(self) -> Config:
-        """Return the configuration with the tolerance of the original ros_gz_bridge: errors become warnings.
+        """Return the configuration as the original ros_gz_bridge takes it: without the bridges that cannot be made.
 
-        Entries that cannot work are omitted.
+        Its errors are warnings.
         """
-        findings = [Finding(each.place, each.sentence, warning=True) for each in self.findings]
         broken = {each.place for each in self.findings if not (each.warning or each.tolerated)}
-        topics = [entry for entry in self.topics if entry.source not in broken]
-        return Config(topics, [entry for entry in self.services if entry.source not in broken], findings)
+        return Config(
+            [entry for entry in self.topics if entry.source not in broken],
+            [entry for entry in self.services if entry.source not in broken],
+            [replace(each, warning=True) for each in self.findings],
+        )
 
 
 def load_yaml(path: str | Path, *, lazy: bool = False) -> list[BridgeEntry]:
@@ -92,12 +96,14 @@ def read_yaml(text: str | bytes, file_name: str = "<string>", *, lazy: bool = Fa
     """Return the bridges and the faults of a YAML text, like `read_file`."""
     first_line = f"{file_name}:1"
     if len(text) > MAX_BYTES:
-        return _only(first_line, f"larger than {MAX_BYTES // 1024} KiB, which no bridge configuration needs")
+        return _only(
+            first_line, f"larger than {MAX_BYTES // 1024} KiB, which no bridge configuration needs", fatal=True
+        )
     try:
-        root = compose(text, file_name)
+        root, further = _documents(text, file_name)
     except ConfigError as error:
         place, _, sentence = error.errors[0].partition(": ")
-        return _only(place, sentence)
+        return _only(place, sentence, fatal=True)
     if root is None or (isinstance(root, yaml.ScalarNode) and root.tag.endswith(":null")):
         return _only(first_line, "the file is empty; expected a list of bridges, each starting with '- '")
     if not isinstance(root, yaml.SequenceNode):
@@ -106,8 +112,10 @@ def read_yaml(text: str | bytes, file_name: str = "<string>", *, lazy: bool = Fa
             f"expected a list of bridges, found {_shown(root)}; start each bridge with '- '",
         )
     if len(root.value) > MAX_ENTRIES:
-        return _only(first_line, f"{len(root.value)} bridges, more than the {MAX_ENTRIES} a file may hold")
+        return _only(first_line, f"{len(root.value)} bridges, more than the {MAX_ENTRIES} a file may hold", fatal=True)
     config = Config()
+    if further is not None:
+        config.findings.append(Finding(_place(file_name, further), _SECOND_DOCUMENT, tolerated=True))
     for node in root.value:
         config.add(_entry(file_name, node, config.findings, lazy))
     config.findings.extend(check(config.topics, config.services))
@@ -115,17 +123,26 @@ def read_yaml(text: str | bytes, file_name: str = "<string>", *, lazy: bool = Fa
     return config
 
 
-def _only(place: str, sentence: str) -> Config:
-    return Config(findings=[Finding(place, sentence)])
+def _only(place: str, sentence: str, *, fatal: bool = False) -> Config:
+    return Config(findings=[Finding(place, sentence, fatal=fatal)])
 
 
 def compose(text: str | bytes, file_name: str) -> yaml.Node | None:
-    """Return the node tree of a YAML text, with line numbers, without constructing any object from it.
+    """Return the node tree of a YAML text with one document. Raises ConfigError with one sentence about anything else.
 
-    Raises ConfigError with one sentence that begins with file and line if the text is not YAML.
+    The sentence begins with file and line; the nodes have line numbers; no object is constructed.
     """
+    root, further = _documents(text, file_name)
+    if further is not None:
+        raise ConfigError([f"{_place(file_name, further)}: {_SECOND_DOCUMENT}"])
+    return root
+
+
+def _documents(text: str | bytes, file_name: str) -> tuple[yaml.Node | None, yaml.Node | None]:
+    """Return the node trees of the first document of a YAML text and of the second, or None. Raises as `compose`."""
     try:
-        return yaml.compose(text, Loader=yaml.SafeLoader)
+        documents = yaml.compose_all(text, Loader=yaml.SafeLoader)
+        return next(documents, None), next(documents, None)
     except yaml.MarkedYAMLError as error:
         # An unfinished key or quotation is detected at its end: report its beginning.
         began = error.context in ("while scanning a simple key", "while scanning a quoted scalar")
@@ -185,21 +202,18 @@ def _entry(file_name: str, node: yaml.Node, findings: list[Finding], lazy: bool)
         return None
     values: dict[str, Value] = {}
     first_line: dict[str, int] = {}
-    usable = True
     for key_node, value_node in node.value:
         key = key_node.value if isinstance(key_node, yaml.ScalarNode) else None
         here = _place(file_name, key_node)
         if key is None or key not in (*KEYS, *SERVICE_KEYS):
-            findings.append(Finding(here, unknown_key(key), tolerated=key is not None))
-            usable &= key is not None
+            findings.append(Finding(here, unknown_key(key), tolerated=True))
         elif key in first_line:
-            findings.append(Finding(here, f"'{key}' is given twice (first in line {first_line[key]}); keep one"))
-            usable = False
+            sentence = f"'{key}' is given twice (first in line {first_line[key]}, which counts); keep one"
+            findings.append(Finding(here, sentence, tolerated=True))
         else:
             first_line[key] = key_node.start_mark.line + 1
             values[key] = _value(file_name, value_node)
-    entry = EntryReader(place, values, findings, lazy).read()
-    return entry if usable else None
+    return EntryReader(place, values, findings, lazy).read()
 
 
 def _value(file_name: str, node: yaml.Node) -> Value:

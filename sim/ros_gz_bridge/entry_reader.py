@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction, ServiceEntry
@@ -33,6 +33,7 @@ SERVICE_KEYS = ("service_name", "ros_type_name", "gz_req_type_name", "gz_rep_typ
 _OF_SERVICES_ONLY = tuple(key for key in SERVICE_KEYS if key not in KEYS)
 _WRONG_PREFIXES = ("gz_msgs.", "ign_msgs.")
 _OLD_PREFIX = "ignition.msgs."
+_TRUE, _FALSE = ("true", "yes", "on", "y"), ("false", "no", "off", "n")
 
 
 @dataclass(frozen=True)
@@ -68,6 +69,9 @@ class EntryReader:
         service = any(key in self._values for key in _OF_SERVICES_ONLY)
         entry = self._service() if service else self._topic()
         broken = any(not (finding.warning or finding.tolerated) for finding in self._findings)
+        if any(not (finding.warning or finding.tolerated or finding.fatal) for finding in self._findings):
+            # The original leaves this entry out before it comes to the fault at which it would end.
+            self._findings = [replace(finding, fatal=False) for finding in self._findings]
         self._all_findings.extend(self._findings)
         return None if broken else entry
 
@@ -111,7 +115,7 @@ class EntryReader:
                 self._wrong(None, f"'{key}' is missing; a service needs {', '.join(SERVICE_KEYS)}")
         name, ros_type, request, reply = (self._text(key) for key in SERVICE_KEYS)
         if name and (fault := ros_name_fault(name) or gz_name_fault(name)):
-            self._wrong("service_name", fault)
+            self._wrong("service_name", fault, fatal=ros_name_fault(name) is not None)
         if not (name and ros_type and request and reply):
             return None
         for fault in service_type_faults(ros_type, request, reply):
@@ -125,8 +129,8 @@ class EntryReader:
             self._advise("gz_type_name", warning)
 
     def _topics(self) -> tuple[str | None, str | None]:
-        both = "topic_name" in self._values
-        sides = [key for key in ("ros_topic_name", "gz_topic_name") if key in self._values]
+        both = self._has("topic_name")
+        sides = [key for key in ("ros_topic_name", "gz_topic_name") if self._has(key)]
         if both and sides:
             self._wrong(
                 "topic_name",
@@ -135,7 +139,7 @@ class EntryReader:
             )
             return None, None
         if not both and not sides:
-            self._wrong(None, "the topic is missing; give topic_name, or ros_topic_name and gz_topic_name")
+            self._wrong(None, "the topic is missing; give topic_name, or ros_topic_name and gz_topic_name", fatal=True)
             return None, None
         ros_key, gz_key = ("topic_name", "topic_name") if both else (sides[0], sides[-1])
         ros_topic = self._text(ros_key)
@@ -143,10 +147,18 @@ class EntryReader:
         ros_fault = ros_name_fault(ros_topic) if ros_topic else None
         gz_fault = gz_name_fault(gz_topic) if gz_topic else None
         if ros_fault:
-            self._wrong(ros_key, ros_fault)
+            self._wrong(ros_key, ros_fault, fatal=True)
         if gz_fault and not (ros_fault and gz_key == ros_key):
             self._wrong(gz_key, gz_fault)
         return ros_topic, gz_topic
+
+    def _has(self, key: str) -> bool:
+        """Return whether the key of a name is given; an empty text counts as missing."""
+        value = self._values.get(key)
+        if value is None or value.kind != "text" or value.text:
+            return value is not None
+        self._wrong(key, f"'{key}' must be a text, not nothing; leave the key out", tolerated=True)
+        return False
 
     def _direction(self) -> Direction:
         text = self._text("direction") if "direction" in self._values else Direction.BIDIRECTIONAL.value
@@ -165,7 +177,8 @@ class EntryReader:
             return None
         if text not in QOS_PROFILES:
             guess = did_you_mean(text.upper(), QOS_PROFILES)
-            self._wrong("qos_profile", f"the QoS profile '{text}' is none of {', '.join(QOS_PROFILES)}{guess}")
+            sentence = f"the QoS profile '{text}' is none of {', '.join(QOS_PROFILES)}{guess}"
+            self._wrong("qos_profile", sentence, tolerated=True)
             return None
         self._warn(
             "qos_profile",
@@ -179,7 +192,9 @@ class EntryReader:
         if value is None:
             return None
         if not value.is_scalar:
-            self._wrong(key, f"'{key}' must be a text, not {value.shown}")
+            newer = key in ("qos_profile", "frame_id")  # keys that the original of Jazzy does not read
+            sentence = f"'{key}' must be a text, not {value.shown}"
+            self._wrong(key, sentence, tolerated=newer, fatal=value.kind == "structure" and not newer)
             return None
         return value.text
 
@@ -191,8 +206,9 @@ class EntryReader:
             self._warn(key, f"'{key}' below 0 means the default depth to newer releases than Jazzy; leave it out")
             return default
         if not value.is_scalar or not re.fullmatch(r"0*[1-9]\d{0,5}", value.text, re.ASCII):
-            seen = value.text or value.shown
-            self._wrong(key, f"'{key}' must be a number of messages from 1 to 999999, not {seen}")
+            zero = value.is_scalar and re.fullmatch("0+", value.text, re.ASCII) is not None
+            sentence = f"'{key}' must be a number of messages from 1 to 999999, not {value.text or value.shown}"
+            self._wrong(key, sentence, tolerated=zero, fatal=not zero)
             return default
         return int(value.text)
 
@@ -201,9 +217,10 @@ class EntryReader:
         if value is None:
             return default
         if value.kind != "bool":
-            self._wrong(key, f"'{key}' must be true or false, not {value.text or value.shown}")
-            return False
-        return value.text.lower() in ("true", "yes", "on")
+            known = value.kind == "text" and value.text.lower() in (*_TRUE, *_FALSE)
+            sentence = f"'{key}' must be true or false, not {value.text or value.shown}"
+            self._wrong(key, sentence, tolerated=known, fatal=not known)
+        return value.text.lower() in _TRUE
 
     def _without_effect(self, direction: Direction, frame_id: str | None) -> None:
         if "publisher_queue" in self._values and not direction.to_ros:
@@ -217,8 +234,8 @@ class EntryReader:
         if frame_id and not direction.to_ros:
             self._advise("frame_id", "'frame_id' changes nothing here: it is for messages that go to ROS")
 
-    def _wrong(self, key: str | None, sentence: str, *, advice: bool = False) -> None:
-        self._findings.append(Finding(self._values[key].place if key else self._place, sentence, advice=advice))
+    def _wrong(self, key: str | None, sentence: str, **marks: bool) -> None:
+        self._findings.append(Finding(self._values[key].place if key else self._place, sentence, **marks))
 
     def _warn(self, key: str, sentence: str) -> None:
         self._findings.append(Finding(self._values[key].place, sentence, warning=True))

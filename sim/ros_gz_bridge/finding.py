@@ -15,7 +15,8 @@ _LONGEST = 600
 class Finding:
     """An error or a warning. `place` is `file:line`, or the name of the argument or parameter.
 
-    `tolerated` marks an error that the original ros_gz_bridge ignores; with `--compat` it is only a warning. `advice`
+    Of an error, `tolerated` says that the original ros_gz_bridge makes the bridge all the same, and `fatal` that it
+    ends; of other errors it leaves out the bridge. `parameter_bridge` does the same, unless it is `--strict`. `advice`
     marks what is no mistake of the author: a key that changes nothing, or a ROS package that is not installed here;
     `course grade` takes no points for it.
     """
@@ -25,6 +26,7 @@ class Finding:
     warning: bool = False
     tolerated: bool = False
     advice: bool = False
+    fatal: bool = False
 
     def __str__(self) -> str:
         return f"{one_line(self.place)}: {one_line(self.sentence)}" if self.place else one_line(self.sentence)

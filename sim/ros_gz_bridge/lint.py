@@ -1,7 +1,8 @@
 """The program `ros2 run ros_gz_bridge lint bridge.yaml`, which checks the configuration of a bridge.
 
 It also accepts the arguments of `parameter_bridge`. It prints the findings that `parameter_bridge` would report at its
-start, one per line; the exit code is 2 if there are errors among them, else 0.
+start, one per line; the exit code is 2 if there are errors among them, else 0. `parameter_bridge --strict` refuses what
+is an error here; without `--strict` it goes on where the original does.
 """
 
 from __future__ import annotations

@@ -1,10 +1,13 @@
 """The program `parameter_bridge`, which bridges Gazebo and ROS topics until it is interrupted.
 
 It reads the command line, the ROS parameters and the YAML file, and runs `bridge.Bridge` between one ROS node and one
-Gazebo node. All faults of the configuration are reported at the start, with exit code 2. Importing this module loads
-no ROS, so that `ros_program.program.run` handles signals from the start.
+Gazebo node. All faults of the configuration are reported at the start. Where the original leaves out a bridge or makes
+it in spite of the fault, so does this one; where the original ends, and with `--strict` after any error, nothing is
+started and the exit code is 2. Importing this module loads no ROS, so that `ros_program.program.run` handles signals
+from the start.
 
-Source: README.md and src/parameter_bridge.cpp of ros_gz_bridge, https://github.com/gazebosim/ros_gz
+Source: README.md, src/parameter_bridge.cpp, src/ros_gz_bridge.cpp and src/bridge_config.cpp of ros_gz_bridge,
+https://github.com/gazebosim/ros_gz
 """
 
 from __future__ import annotations
@@ -21,11 +24,12 @@ if TYPE_CHECKING:
     from rclpy.node import Node
 
     from gz_course.sim.ros_gz_bridge.config import Config
+    from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, ServiceEntry
     from gz_course.sim.ros_gz_bridge.finding import Finding
 
 HELP = """\
-usage: parameter_bridge TOPIC@ROS_TYPE@GZ_TYPE ... [--compat] [--ros-args ...]
-       parameter_bridge --ros-args -p config_file:=FILE
+usage: parameter_bridge TOPIC@ROS_TYPE@GZ_TYPE ... [--strict] [--ros-args ...]
+       parameter_bridge [--strict] --ros-args -p config_file:=FILE
 
 Bridges topics between Gazebo and ROS 2. The mark between the two types is the direction:
   @  both ways          [  from Gazebo to ROS          ]  from ROS to Gazebo
@@ -37,7 +41,8 @@ Quote each argument: some shells give [ a meaning of their own.
 A service of Gazebo is offered to ROS with SERVICE@ROS_TYPE or SERVICE@ROS_TYPE@GZ_REQUEST_TYPE@GZ_REPLY_TYPE:
   parameter_bridge /world/empty/control@ros_gz_interfaces/srv/ControlWorld
 
-  --compat  report errors that the original ros_gz_bridge ignores as warnings
+A bridge that cannot be made is reported and left out; the others are made.
+  --strict  start nothing if there is any error
 
 ROS parameters (after --ros-args, each as -p name:=value, or in a file after --params-file):
   config_file                         YAML list of bridges; not together with bridges on the command line
@@ -52,7 +57,7 @@ To give a topic another name in ROS: -r /gz/name:=/ros/name
 To check a file without starting anything: ros2 run ros_gz_bridge lint FILE
 """
 
-_COMPAT = "--compat"
+_STRICT = "--strict"
 _SWITCH_S = 0.001
 
 
@@ -72,8 +77,18 @@ def _bridge(node: Node, texts: list[str]) -> int:
     from gz_course.sim.ros_gz_bridge.watch import Watch, Watcher
 
     given = parameters.read_parameters(node)
-    config = _configured(node, [text for text in texts if text != _COMPAT], given, compat=_COMPAT in texts)
+    strict = _STRICT in texts
+    config, errors = configured(node, [text for text in texts if text != _STRICT], given, strict=strict)
     logger = node.get_logger()
+    for sentence in errors:
+        logger.error(sentence)
+
+    def left_out(entry: BridgeEntry | ServiceEntry, sentence: str) -> None:
+        logger.error(sentence)
+        errors.append(sentence)
+        config.topics = [each for each in config.topics if each is not entry]
+        config.services = [each for each in config.services if each is not entry]
+
     heartbeat = given.values["subscription_heartbeat"] / 1000
     overrides = HeaderOverrides(
         frame_id=given.values["override_frame_id"], wall_time=given.values["override_timestamps_with_wall_time"]
@@ -90,6 +105,7 @@ def _bridge(node: Node, texts: list[str]) -> int:
                 heartbeat=heartbeat,
                 services=config.services,
                 threaded=True,
+                left_out=None if strict else left_out,
             )
         except BridgeError as error:
             raise UsageError(*error.errors) from None
@@ -102,7 +118,8 @@ def _bridge(node: Node, texts: list[str]) -> int:
         watcher = Watcher(Watch(bridge, gz_node, logger), heartbeat)
         watcher.start()
         count = len(config.topics) + len(config.services)
-        logger.info(f"ready: {count} bridge{'s' if count != 1 else ''}")
+        without = "; what the errors above name is left out" if errors else ""
+        logger.info(f"ready: {count} bridge{'s' if count != 1 else ''}{without}")
         try:
             return wait_for_signal(node)
         finally:
@@ -110,10 +127,10 @@ def _bridge(node: Node, texts: list[str]) -> int:
             bridge.close()
 
 
-def _configured(node: Node, texts: list[str], given: Any, compat: bool) -> Config:
-    """Return the bridges of the command line, of the parameters and of the file, with warnings in `findings`.
+def configured(node: Node, texts: list[str], given: Any, strict: bool) -> tuple[Config, list[str]]:
+    """Return the bridges of the command line, of the parameters and of the file, and what is said of those left out.
 
-    Raises UsageError with every error, unless `compat` turns them into warnings.
+    The warnings are in `findings`. Raises UsageError with every error if one of them is fatal, or any with `strict`.
     """
     from gz_course.sim.ros_gz_bridge.arguments import read_arguments
     from gz_course.sim.ros_gz_bridge.checks import check, private_gz_names
@@ -124,13 +141,10 @@ def _configured(node: Node, texts: list[str], given: Any, compat: bool) -> Confi
     options = [text for text in texts if text.startswith("-")]
     arguments = [text for text in texts if text not in options]
     config: Config = given.config
-    config.findings += [Finding("", f"the option {option} is not known (see --help)") for option in options]
+    config.findings += [Finding("", f"the option {option} is not known (see --help)", fatal=True) for option in options]
     config.include(read_arguments(arguments, lazy=lazy))
     if path and arguments:
-        sentence = (
-            f"bridges are given on the command line and in {path}, which ros_gz_bridge would then not read; "
-            "put all of them in one place"
-        )
+        sentence = f"bridges are given on the command line, so {path} is not read; put all of them in one place"
         config.findings.append(Finding("", sentence, tolerated=True))
     elif path:
         file = read_file(path, lazy=lazy)
@@ -139,18 +153,19 @@ def _configured(node: Node, texts: list[str], given: Any, compat: bool) -> Confi
         config.include(file)
     if not (config.topics or config.services or config.findings):
         sentence = "nothing to bridge; give bridges as arguments or -p config_file:=FILE (see --help)"
-        raise UsageError(sentence)
+        config.findings.append(Finding("", sentence))
     config.findings += [each for each in check(config.topics, config.services) if each not in config.findings]
     if given.values["expand_gz_topic_names"]:
         _expand(config, node)
     else:
         config.findings += private_gz_names(config.topics, config.services)
-    if compat:
-        config = config.tolerant()
     errors: list[Finding] = [finding for finding in config.findings if not finding.warning]
-    if errors:
+    if any(strict or finding.fatal for finding in errors):
         raise UsageError(*map(str, errors))
-    return config
+    severe = [finding for finding in errors if not finding.tolerated]
+    kept = config.tolerant()
+    kept.findings = [finding for finding in config.findings if finding not in severe]
+    return kept, [str(finding) for finding in severe]
 
 
 def _expand(config: Config, node: Node) -> None:

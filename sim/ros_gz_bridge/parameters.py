@@ -55,10 +55,10 @@ def read_parameters(node: Node) -> Parameters:
         value = given[name]
         if type(value) is not type(default):
             sentence = f"the parameter {name} must be {TYPE_WORDS[type(default)]}, not {value!r}"
-            read.config.findings.append(Finding("", sentence))
+            read.config.findings.append(Finding("", sentence, fatal=True))
         elif name == "subscription_heartbeat" and not 1 <= value <= 3_600_000:
             sentence = f"the parameter {name} must be a number of ms above 0 and up to an hour, not {value}"
-            read.config.findings.append(Finding("", sentence))
+            read.config.findings.append(Finding("", sentence, fatal=True))
         else:
             read.values[name] = value
     _read_bridges(given, read)
@@ -70,7 +70,7 @@ def _read_bridges(given: dict[str, Any], read: Parameters) -> None:
     findings = read.config.findings
     names = given.get("bridge_names", [])
     if not isinstance(names, Sequence) or isinstance(names, str) or not all(isinstance(name, str) for name in names):
-        findings.append(Finding("", f"the parameter bridge_names must be a list of texts, not {names!r}"))
+        findings.append(Finding("", f"the parameter bridge_names must be a list of texts, not {names!r}", fatal=True))
         return
     for name in sorted({name for name in names if list(names).count(name) > 1}):
         findings.append(Finding("", f"the parameter bridge_names holds {name} twice", tolerated=True))

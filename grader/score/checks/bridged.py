@@ -20,7 +20,7 @@ from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.graphs import WAYS, Bridged, bridges
-from gz_course.grader.score.launched import by_python, deaths
+from gz_course.grader.score.launched import by_python, deaths, logged_error
 from gz_course.sim.did_you_mean import did_you_mean, nearest_name
 
 KEYS = ("ros_topic", "ros_type", "gz_topic", "gz_type", "direction")
@@ -43,7 +43,8 @@ def bridged(recording: Recording, parameters: Table) -> Finding:
         died = next((each for each in deaths(recording) if each.process == "parameter_bridge"), None)
         if died is not None and not made:
             return Finding(False, expected, f"parameter_bridge ended with exit code {died.code}{died.words}")
-        return Finding(False, expected, _not_there(wanted, made))
+        said = logged_error(recording, "parameter_bridge")
+        return Finding(False, expected, _not_there(wanted, made) + (f"; parameter_bridge said: {said}" if said else ""))
     if measured := by_python(recording, "parameter_bridge"):
         return Finding(False, expected, measured)
     faults = [_fault(bridge, wanted, same, facts) for bridge in candidates]

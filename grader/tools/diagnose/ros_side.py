@@ -21,7 +21,7 @@ from gz_course.sim.ros2.errors import CommandError
 from gz_course.sim.ros2.graph import FIRST_CONTACT, UNKNOWN_NODE, Graph, destroy_ended
 from gz_course.sim.ros2.interface import message_class
 from gz_course.sim.ros_gz_bridge import bridged_topics
-from gz_course.sim.ros_gz_bridge.config import ConfigError, load_yaml
+from gz_course.sim.ros_gz_bridge.config import read_file
 from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction
 
 ANSWER_WITHIN = 1.0  # [s] for all nodes to return their parameters
@@ -144,11 +144,8 @@ def _bridge(node: str, offered: Any, file: Any, ends: list[RosEndpoint]) -> Runn
             pass
     if not node.rpartition("/")[2].startswith(_BRIDGE_NAMES):
         return None
-    if isinstance(file, str) and file:
-        try:
-            return RunningBridge(node, tuple(load_yaml(file)))
-        except (ConfigError, OSError):
-            pass
+    if isinstance(file, str) and file and (entries := read_file(file).tolerant().topics):
+        return RunningBridge(node, tuple(entries))
     return RunningBridge(node, tuple(_guessed(ends)), certain=False)
 
 

@@ -226,7 +226,11 @@ def test_no_text_does_worse_than_a_config_error(text):
             "'publisher_queue' must be a number of messages from 1 to 999999, not 0",
         ),
         (bridge(subscriber_queue="ten"), "b.yaml:5:", "'subscriber_queue' must be a number of messages"),
-        (bridge() + "  direction: ROS_TO_GZ\n", "b.yaml:5:", "'direction' is given twice (first in line 4)"),
+        (
+            bridge() + "  direction: ROS_TO_GZ\n",
+            "b.yaml:5:",
+            "'direction' is given twice (first in line 4, which counts)",
+        ),
         (bridge() + bridge(), "b.yaml:5:", "bridges /scan again (first: b.yaml:1)"),
         ("[" * 5000, "b.yaml", "nested too deeply"),
         ("[" + "a, " * 1001 + "]", "b.yaml", "1001 bridges, more than the 1000"),

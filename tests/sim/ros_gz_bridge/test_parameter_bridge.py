@@ -150,9 +150,9 @@ GOOD = "/a@std_msgs/msg/Bool@gz.msgs.Boolean"
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--ros-args", "-p", "config_file:=/none.yaml"], "/none.yaml: cannot read the bridge configuration"),
+        (["--strict", "--ros-args", "-p", "config_file:=/none.yaml"], "/none.yaml: cannot read the bridge config"),
         (
-            ["--ros-args", "-p", "lazy:=true"],
+            ["--strict"],
             "nothing to bridge; give bridges as arguments or -p config_file:=FILE",
         ),
         ([GOOD, "--ros-args", "-p", "lazy:=3"], "the parameter lazy must be true or false, not 3"),
@@ -161,8 +161,8 @@ GOOD = "/a@std_msgs/msg/Bool@gz.msgs.Boolean"
             "must be a number of ms above 0 and up to an hour, not 0",
         ),
         (
-            [GOOD, "--ros-args", "-p", "config_file:=x.yaml"],
-            "bridges are given on the command line and in x.yaml",
+            [GOOD, "--strict", "--ros-args", "-p", "config_file:=x.yaml"],
+            "bridges are given on the command line, so x.yaml is not read",
         ),
         (
             [GOOD, "--ros-args", "--nonsense"],
@@ -181,10 +181,39 @@ def test_a_start_that_fails_says_why_in_one_sentence(ros_domain, arguments, word
     assert words in line
 
 
-def test_a_broken_file_lists_all_its_faults(ros_domain, tmp_path):
+def test_what_cannot_be_bridged_is_named_and_the_rest_is_bridged(start, ros, eventually, tmp_path):
+    file = tmp_path / "b.yaml"
+    file.write_text(CONFIG.replace("direction", "directon", 1).replace("gz.msgs.LaserScan", "gz.msgs.LaserScn"))
+    process = start("--ros-args", "-p", f"config_file:={file}")
+    process.wait_for("ready: 1 bridge; what the errors above name is left out")
+    eventually(lambda: ros.node.count_subscribers("/base/cmd_vel") == 1, "the good bridge listens")
+    assert process.stop() == 0
+    (error,) = [line for line in process.lines if "[ERROR]" in line]
+    assert f"{file}:8: sensor_msgs/msg/LaserScan cannot become gz.msgs.LaserScn; " in error
+    (warning,) = [line for line in process.lines if "[WARN]" in line and "key" in line]
+    assert f"{file}:5: the key 'directon' is not known; did you mean 'direction'?" in warning
+
+
+def test_a_topic_renamed_to_one_of_another_type_is_left_out(start):
+    other = GOOD.replace("/a", "/b", 1).replace("Bool@", "Float32@").replace("Boolean", "Float")
+    process = start(GOOD.replace("@gz", "[gz"), other, "--ros-args", "-r", "/b:=/a")
+    process.wait_for("ready: 1 bridge; what the errors above name is left out")
+    assert process.stop() == 0
+    (error,) = [line for line in process.lines if "[ERROR]" in line]
+    assert f"argument '{other}': cannot bridge /b: " in error
+
+
+def test_with_nothing_to_bridge_it_says_so_and_waits(start):
+    process = start("--ros-args", "-p", "config_file:=/none.yaml")
+    process.wait_for("/none.yaml: cannot read the bridge configuration: No such file or directory")
+    process.wait_for("ready: 0 bridges")
+    assert process.stop() == 0
+
+
+def test_strict_lists_all_faults_of_a_broken_file(ros_domain, tmp_path):
     file = tmp_path / "b.yaml"
     file.write_text(CONFIG.replace("direction", "directon").replace("gz.msgs.Twist", "gz.msgs.Twit"))
-    done = run("--ros-args", "-p", f"config_file:={file}")
+    done = run("--strict", "--ros-args", "-p", f"config_file:={file}")
     assert done.returncode == 2
     places = [line.split(": ")[1] for line in done.stderr.splitlines()]
     assert places == [f"{file}:3", f"{file}:5", f"{file}:10"]

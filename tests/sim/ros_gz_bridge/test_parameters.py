@@ -109,7 +109,7 @@ def test_every_fault_of_every_source_at_once(ros_domain):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock", GOOD, GOOD], "bridges /a again"),
+        (["--strict", "/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock", GOOD, GOOD], "bridges /a again"),
         ([GOOD, "--ros-args", "-p", "bridge_names:=3"], "the parameter bridge_names must be a list of texts, not 3"),
         ([GOOD, "--ros-args", "-r", "__node:=1x"], "ROS did not start"),
         ([GOOD, "--ros-args", "--params-file", "/none.yaml"], "ROS did not start"),
@@ -124,17 +124,17 @@ def test_private_names_need_the_parameter(ros_domain, tmp_path):
     file.write_text(
         "- {ros_topic_name: /a, gz_topic_name: ~/a, ros_type_name: std_msgs/msg/Bool, gz_type_name: gz.msgs.Boolean}\n"
     )
-    (sentence,) = fails("--ros-args", "-p", f"config_file:={file}")
+    (sentence,) = fails("--strict", "--ros-args", "-p", f"config_file:={file}")
     assert sentence.endswith("b.yaml:1: the Gazebo name ~/a works only with the parameter expand_gz_topic_names:=true")
 
 
-def test_compat_starts_with_what_can_be_bridged(start, tmp_path):
+def test_it_starts_with_what_can_be_bridged(start, tmp_path):
     file = tmp_path / "b.yaml"
     file.write_text(PARAMETERS)
-    process = start(GOOD, "/b@std_msgs/msg/Bol@gz.msgs.Boolean", "--compat", "--ros-args", "-p", f"config_file:={file}")
+    process = start(GOOD, "/b@std_msgs/msg/Bol@gz.msgs.Boolean", "--ros-args", "-p", f"config_file:={file}")
     process.wait_for("ready: 1 bridge")
-    process.wait_for("bridges are given on the command line and in")
-    process.wait_for("[WARN]")
+    process.wait_for("bridges are given on the command line, so")
+    process.wait_for("[ERROR]")
     assert process.stop() == 0
 
 

@@ -116,8 +116,8 @@ def test_programs_complain_as_they_always_do(launch):
         """
         gz("sim", "-s", "-r", "lidar_rom.sdf"),
         gz("sim", "--nonsense"),
-        bridge("/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clok"),
-        bridge(),
+        bridge("--strict", "/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clok"),
+        bridge("--strict"),
         """
     )
     assert "did you mean 'lidar_room.sdf'?" in run.log

@@ -142,6 +142,15 @@ def test_what_a_process_said_last_before_it_died_is_quoted(find, record):
     )
 
 
+def test_what_a_bridge_has_left_out_is_quoted(record):
+    said = "bridge.yaml:4: rosgraph_msgs/msg/Clock cannot become gz.msgs.Clok"
+    line = f"[parameter_bridge-2] [ERROR] [1700000000.123456789] [ros_gz_bridge]: {said}"
+    recording = record(facts={"launch": GOOD}, lines=[(0.0, "[gz-1] [ERROR] [gz]: no"), (0.0, line)])
+    wanted = {"ros_topic": "/time", "ros_type": "r", "gz_topic": "/clock", "gz_type": "g", "direction": "GZ_TO_ROS"}
+    bridge = check_kinds()["bridged"](recording, Table(wanted | {"at_least": 5}, "check 'it'", "parameter"))
+    assert bridge.measured == f"no bridge has the ROS topic /time; parameter_bridge said: {said}"
+
+
 @pytest.mark.parametrize(
     ("changes", "measured"),
     [

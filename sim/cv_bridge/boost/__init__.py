@@ -1,0 +1,1 @@
+"""The functions that the original implements in C++."""
