@@ -15,7 +15,8 @@ import pytest
 ROOT = Path(__file__).parents[1]
 NAMESPACE = "gz_course."  # an import name of ours is this and the path from the root
 PUBLIC_NAMES = {path.name for path in (ROOT / "public").iterdir() if path.is_dir()} - {"gz_course", "__pycache__"}
-PACKAGES = {path.name for path in (ROOT / "sim").iterdir() if path.is_dir() and path.name != "__pycache__"}
+NO_CODE = {"__pycache__", "interfaces"}
+PACKAGES = {path.name for path in (ROOT / "sim").iterdir() if path.is_dir()} - NO_CODE
 CODE_FOLDERS = ("sim", "grader", "public", "exercises", "solutions", "chapters", "tests")
 LONGEST_FILE = 400
 VAGUE_NAMES = {"utils", "util", "helpers", "helper", "common", "misc"}
@@ -39,6 +40,7 @@ FORBIDDEN = {
     "sim/prefix": ("sim", "rclpy", "mujoco"),
     "sim/robot_state_publisher": ("sim/ros_gz_bridge", "mujoco", "sim/gz/sim/world", "sim/gz/sim/server"),
     "sim/ros2": ("sim", "mujoco"),
+    "sim/rosidl": ("sim", "rclpy", "mujoco"),
     "sim/ros_program": ("sim/ros_gz_bridge", "sim/ros_gz_sim", "sim/ros_gz_image", "mujoco", "sim/gz/sim"),
     "sim/ros_gz_bridge": ("mujoco", "sim/gz/sim", "sim/launch", "sim/launch_ros", "sim/ros2"),
     "sim/ros_gz_image": ("mujoco", "sim/gz/sim/world", "sim/gz/sim/server"),
@@ -51,7 +53,8 @@ FORBIDDEN = {
 ALLOWED = {
     "sim/launch": ("sim/launch",),
     "sim/launch_ros": ("sim/launch_ros", "sim/launch"),
-    "sim/prefix": ("sim/prefix", "sim/launch", "sim/launch_ros"),
+    "sim/prefix": ("sim/prefix", "sim/launch", "sim/launch_ros", "sim/rosidl"),
+    "sim/rosidl": ("sim/rosidl",),
     "sim/ros2": ("sim/ros2", "sim/prefix", "sim/launch", "sim/launch_ros"),
     AGENT: (AGENT,),
 }

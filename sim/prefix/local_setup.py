@@ -1,9 +1,10 @@
 """The environment that `source setup.bash` sets up on a full install, for every Python of this environment.
 
 This folder is an ament prefix: `share/ament_index` names the packages, `share/<package>` holds their files,
-`lib/<package>` their executables. `gz_ros2_course_prefix.pth` calls `main` whenever Python starts, so that `ros2 run`,
-`get_package_share_directory` and launch files find them. A workspace that the user has sourced comes first. Only `os`
-and `sys` are imported, because this runs at every start of Python.
+`lib/<package>` their executables. `sim/interfaces` is another one, of packages with interfaces only.
+`gz_ros2_course_prefix.pth` calls `main` whenever Python starts, so that `ros2 run`, `get_package_share_directory` and
+launch files find them, and interfaces can be imported. A workspace that the user has sourced comes first. Only `os` and
+`sys` are imported, because this runs at every start of Python.
 
 Source: README.md of ament_index_python, https://github.com/ament/ament_index
 Source: REP-122, https://www.ros.org/reps/rep-0122.html
@@ -15,6 +16,9 @@ import os
 import sys
 from collections.abc import MutableMapping
 
+from gz_course.sim.rosidl import import_hook
+from gz_course.sim.rosidl.packages import BUILT_IN
+
 PREFIX = os.path.dirname(os.path.abspath(__file__))  # noqa: PTH100, PTH120 - pathlib would slow every start
 WHEELS_GUARD = "_ROS_WHEELS_BOOTSTRAP_COMPLETE"
 LIBRARY_PATH = "LD_LIBRARY_PATH"
@@ -23,20 +27,22 @@ LIBRARY_PATH = "LD_LIBRARY_PATH"
 def main() -> None:
     """Set up the environment of this process, which its children inherit."""
     source(os.environ)
+    import_hook.install()
     # The user may have modules of these names.
     for name in (__name__, __name__.rpartition(".")[0]):
         sys.modules.pop(name, None)
 
 
 def source(environment: MutableMapping[str, str]) -> None:
-    """Append the prefix of the course, that of the ROS wheels and the folder of the commands; calling it again adds
-    nothing.
+    """Append the prefix of the course, that of the ROS wheels, that of the interfaces and the folder of the commands;
+    calling it again adds nothing.
 
     They are appended to AMENT_PREFIX_PATH and PATH. COURSE_PYTHON is set to the running Python, which the executables
     in `lib` start.
     """
     _append(environment, "AMENT_PREFIX_PATH", PREFIX)
     _append(environment, "AMENT_PREFIX_PATH", sys.prefix)
+    _append(environment, "AMENT_PREFIX_PATH", BUILT_IN)
     if sys.executable:
         environment["COURSE_PYTHON"] = sys.executable
         _append(environment, "PATH", os.path.dirname(sys.executable), unset=os.defpath)  # noqa: PTH120

@@ -87,7 +87,7 @@ def test_doing_it_twice_changes_nothing():
     once = dict(environment)
     local_setup.source(environment)
     assert environment == once
-    assert environment["AMENT_PREFIX_PATH"] == f"{PREFIX}{os.pathsep}{sys.prefix}"
+    assert environment["AMENT_PREFIX_PATH"] == os.pathsep.join([str(PREFIX), sys.prefix, local_setup.BUILT_IN])
     assert environment["COURSE_PYTHON"] == sys.executable
 
 
