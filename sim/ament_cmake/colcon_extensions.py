@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from colcon_core.environment import create_environment_scripts
+from colcon_core.event.output import StderrLine
 from colcon_core.shell import create_environment_hook
 from colcon_core.task import TaskExtensionPoint
 from colcon_ros.package_identification.ros import RosPackageIdentification
@@ -62,7 +63,8 @@ class WithoutCMakeBuildTask(TaskExtensionPoint):
         others = [Path(path) for path in prefixes() if Path(path) != base or base in before]
         built = build(package, [*before, *others])
         for sentence in (*built.remarks, *built.faults):
-            self.print(sentence, file=sys.stderr)
+            # Not `self.print`: it sends `str`, at which the handler of colcon-output fails beside the `bytes` of others.
+            self.context.put_event_into_queue(StderrLine(f"{sentence}\n".encode()))
         if built.faults:
             return 1
         hooks = create_environment_hook("ament_prefix_path", base, name, "AMENT_PREFIX_PATH", "", mode="prepend")
@@ -74,7 +76,8 @@ class WithoutCMakeTestTask(TaskExtensionPoint):
     """Say that the tests of a package of build type `ament_cmake` need CMake."""
 
     async def test(self) -> int:
-        self.print(f"no test of {self.context.pkg.name} was run: CMake and ament_cmake run them, which are not here")
+        sentence = f"no test of {self.context.pkg.name} was run: CMake and ament_cmake run them, which are not here"
+        self.context.put_event_into_queue(StderrLine(f"{sentence}\n".encode()))
         return 0
 
 
