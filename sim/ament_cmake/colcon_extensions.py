@@ -63,7 +63,7 @@ class WithoutCMakeBuildTask(TaskExtensionPoint):
         others = [Path(path) for path in prefixes() if Path(path) != base or base in before]
         built = build(package, [*before, *others])
         for sentence in (*built.remarks, *built.faults):
-            # Not `self.print`: it sends `str`, at which the handler of colcon-output fails beside the `bytes` of others.
+            # Not `self.print`, which sends `str`: the handler of colcon-output fails at it.
             self.context.put_event_into_queue(StderrLine(f"{sentence}\n".encode()))
         if built.faults:
             return 1

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from types import ModuleType
 from typing import TYPE_CHECKING
 
-from gz_course.sim.rosidl.packages import packages
+from gz_course.sim.rosidl.packages import forget, packages
 
 if TYPE_CHECKING:
     from importlib.machinery import ModuleSpec
@@ -25,8 +25,8 @@ class InterfaceFinder:
     """Finder and loader of `PACKAGE`, `PACKAGE.msg` and the like, and of the module of each interface."""
 
     def __init__(self) -> None:
-        self._searched = ""
-        self._packages: dict[str, str] | None = None
+        self._searched: str | None = None
+        self._packages: dict[str, str] = {}
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None = None, target: ModuleType | None = None
@@ -60,12 +60,13 @@ class InterfaceFinder:
         fill(module, self._known()[package])
 
     def invalidate_caches(self) -> None:
-        self._packages = None
+        self._searched = None
+        forget()
 
     def _known(self) -> dict[str, str]:
-        """Return the marked packages; looked up again when the search path has changed."""
+        """Return the marked packages: name -> prefix. They are looked up again when the search path has changed."""
         path = os.environ.get("AMENT_PREFIX_PATH", "")
-        if self._packages is None or path != self._searched:
+        if path != self._searched:
             self._packages, self._searched = packages(), path
         return self._packages
 
@@ -75,4 +76,4 @@ def install() -> None:
     if not any(type(each).__name__ == InterfaceFinder.__name__ for each in sys.meta_path):
         names = [getattr(each, "__name__", "") for each in sys.meta_path]
         place = names.index("PathFinder") if "PathFinder" in names else len(names)
-        sys.meta_path.insert(place, InterfaceFinder())  # type: ignore[arg-type]
+        sys.meta_path.insert(place, InterfaceFinder())

@@ -13,7 +13,7 @@ import keyword
 import re
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 from rosidl_adapter import parser as adapter
 from rosidl_parser import definition as idl
@@ -49,7 +49,7 @@ _RESERVED = {
     *("using", "virtual", "void", "volatile", "wchar_t", "xor", "xor_eq"),
 }
 
-Interface = idl.Message | idl.Service | idl.Action
+Interface: TypeAlias = idl.Message | idl.Service | idl.Action
 
 
 def read_interface(path: Path, package: str) -> Interface:

@@ -98,11 +98,19 @@ def _metaclass(
         "__prepare__": classmethod(prepare),
     }
     for constant, value in constants.items():
-        body[constant] = property(lambda cls, value=value: value, doc=f"Message constant '{constant}'.")
+        body[constant] = property(_constantly(value), doc=f"Message constant '{constant}'.")
     for field, make in defaults.items():
         text = f"Return default value for message field '{field}'."
-        body[f"{field.upper()}__DEFAULT"] = property(lambda cls, make=make: make(), doc=text)
+        body[f"{field.upper()}__DEFAULT"] = property(_made_by(make), doc=text)
     return type(f"Metaclass_{name}", (type,), body)
+
+
+def _constantly(value: Any) -> Callable[[Any], Any]:
+    return lambda _: value
+
+
+def _made_by(make: Callable[[], Any]) -> Callable[[Any], Any]:
+    return lambda _: make()
 
 
 _CAPSULES = ("_CREATE_ROS_MESSAGE", "_CONVERT_FROM_PY", "_CONVERT_TO_PY", "_DESTROY_ROS_MESSAGE", "_TYPE_SUPPORT")

@@ -1,9 +1,13 @@
 """The type support of a message: what a compiled package has in C, made with ctypes.
 
 rclpy creates a C message, has it filled from a Python message, and gives it to rcl; what it holds is only known to the
-functions of this type support. Here it is a Python object, `MessageBox`. Fast DDS holds locks while it has a message
-written. No Python code may run then, because another thread could be given the interpreter and wait for the same
-lock: so what is called there is a `functools.partial` of the C++ function that appends bytes.
+functions of this type support. Here it is a Python object, `MessageBox`.
+
+Fast DDS holds locks while it has a message written or read. Another thread must not be given the interpreter then, and
+wait for such a lock without ever giving the interpreter back. A message is written without Python code: what is called
+is a `functools.partial` of the C++ function that appends bytes. It is read by Python code, and only threads that
+publish or take messages of the same type wait for the lock that is held meanwhile. So one thread at a time has boxes
+of a type, and the others wait before they call Fast DDS, where waiting gives the interpreter to others.
 
 Source: rclpy 7.1 (`convert_from_py`, `convert_to_py`, `create_from_py`)
 Source: rmw_fastrtps_cpp 8.4 (`type_support_common.cpp`)
@@ -15,6 +19,7 @@ import ctypes as c
 import functools
 import logging
 import operator
+import threading
 from collections.abc import Callable
 from typing import Any
 
@@ -26,7 +31,7 @@ from gz_course.sim.rosidl.c_structs import (
     capsule,
     keep,
 )
-from gz_course.sim.rosidl.cdr import MalformedError, decoder, encoder
+from gz_course.sim.rosidl.cdr import Decode, Encode, MalformedError, decoder, encoder
 from gz_course.sim.rosidl.described_type import DescribedType
 from gz_course.sim.rosidl.introspection import IDENTIFIER as INTROSPECTION
 from gz_course.sim.rosidl.introspection import message_members
@@ -63,7 +68,9 @@ class MessageBox(functools.partial):
 
     def __ror__(self, message: Any) -> object:
         data = self.support.encoded(message)
-        self.__setstate__((fast_cdr.write, (), {"data": data, "size": len(data)}, None))
+        self.__setstate__(  # type: ignore[attr-defined]
+            (fast_cdr.write, (), {"data": data, "size": len(data)}, None)
+        )
         self.message = message
         self.size = len(data)
         return _TRUE
@@ -78,10 +85,10 @@ class MessageSupport:
     def __init__(self, message_class: Any, described: DescribedType) -> None:
         self.message_class = message_class
         self.described = described
-        self._encode = encoder(message_class)
-        self._decode = {order: functools.partial(_decoded, message_class, order) for order in "<>"}
-        self._decode["<"] = decoder(message_class)
+        self._encode: Encode | None = None
+        self._decode: dict[str, Decode] = {}
         self._has_warned = False
+        self.turn: Any = threading.RLock()
         package, kind, name = described.name.split("/")
         self.introspection = message_members(message_class, f"{package}__{kind}", name)
         callbacks = MessageCallbacks(
@@ -100,7 +107,7 @@ class MessageSupport:
         self._support = MessageTypeSupport(IDENTIFIER, address(callbacks), handle, *described.functions)
         self.introspection_pointer = address(self._introspection_support)
         self.pointer = address(self._support)
-        self._create = address(_Create(self.create))
+        self._create = address(_Create(self._create_alone))
 
     def capsules(self) -> dict[str, Any]:
         """Return the attributes of the metaclass that rclpy reads."""
@@ -123,10 +130,27 @@ class MessageSupport:
             box.__ror__(message)
         return id(box)
 
+    def _create_alone(self) -> int:
+        """Return a new box for this thread, when no other thread has boxes of this type.
+
+        The functions that write and read it are made before the first box: not while Fast DDS holds locks, and not for
+        messages that are never sent, as most of those of an action are.
+        """
+        while True:  # an exception, which Ctrl-C can cause at any place, would leave C code with an address of nothing
+            try:
+                if not self.turn._is_owned():
+                    self.turn.acquire()
+                if self._encode is None:
+                    self._decode = {order: decoder(self.message_class, order) for order in _BYTE_ORDERS.values()}
+                    self._encode = encoder(self.message_class)
+                return self.create()
+            except KeyboardInterrupt:
+                continue
+
     def encoded(self, message: Any) -> bytes:
         """Return the bytes of a message. Raises TypeError with a sentence that names the field."""
         try:
-            return self._encode(message)
+            return (self._encode or encoder(self.message_class))(message)
         except Exception as error:
             seen = _explanation(message) or str(error)
             raise TypeError(f"this {self.described.name} cannot be sent: {seen}") from None
@@ -138,22 +162,31 @@ class MessageSupport:
 
     def _deserialize(self, cdr: int, box: MessageBox) -> bool:
         """Read the message of a buffer into a box; return whether it could be read."""
-        try:
-            header, data = fast_cdr.received(cdr)
-            order = _BYTE_ORDERS.get(header[:2])
-            if order is None:
-                raise MalformedError(f"its encoding {header.hex() or 'is missing and'} is not known")
-            box.message = self._decode[order](data)
-        except Exception as error:
-            if not self._has_warned:
-                self._has_warned = True
-                _log.warning(
-                    "A message that is no %s was dropped: %s. More of them are dropped without a word.",
-                    self.described.name,
-                    error,
-                )
-            return False
-        return True
+        while True:
+            try:
+                box.message = self._read(cdr)
+                return True
+            except KeyboardInterrupt:
+                continue
+            except Exception as error:
+                self._warn(error)
+                return False
+
+    def _read(self, cdr: int) -> Any:
+        header, data = fast_cdr.received(cdr)
+        order = _BYTE_ORDERS.get(header[:2])
+        if order is None:
+            raise MalformedError(f"its encoding {header.hex() or 'is missing and'} is not known")
+        return self._decode[order](data)
+
+    def _warn(self, error: Exception) -> None:
+        if not self._has_warned:
+            self._has_warned = True
+            _log.warning(
+                "A message that is no %s was dropped: %s. More of them are dropped without a word.",
+                self.described.name,
+                error,
+            )
 
 
 def message_at(pointer: int) -> Any:
@@ -161,17 +194,26 @@ def message_at(pointer: int) -> Any:
     return _boxes[pointer].message
 
 
-def destroy_box(pointer: int) -> bool:
-    """Let go of a box; return whether there was one."""
+def destroy_event(pointer: int) -> bool:
+    """Let go of a box that belongs to no thread; return whether there was one."""
     return _boxes.pop(pointer, None) is not None
+
+
+def _destroy(pointer: int) -> None:
+    """Let go of a box, and let other threads make boxes of its type."""
+    while True:
+        try:
+            box = _boxes.get(pointer)
+            if box is not None and box.support.turn._is_owned():
+                box.support.turn.release()
+            _boxes.pop(pointer, None)
+            return
+        except KeyboardInterrupt:
+            continue
 
 
 def _nothing(cdr: int) -> int:
     return 0
-
-
-def _decoded(message_class: Any, order: str, data: bytes) -> Any:
-    return decoder(message_class, order)(data)
 
 
 def _explanation(message: Any, place: str = "") -> str:
@@ -198,7 +240,7 @@ def _exported(name: str) -> int:
 _Create = c.PYFUNCTYPE(c.c_void_p)
 _FROM_PY = _exported("PyNumber_Or")
 _TO_PY = _exported("PyNumber_Invert")
-_DESTROY = address(c.PYFUNCTYPE(None, c.c_void_p)(_boxes.__delitem__))
+_DESTROY = address(c.PYFUNCTYPE(None, c.c_void_p)(_destroy))
 # Called by Fast DDS. The callables of the first two are written in C.
 _SERIALIZE = address(c.PYFUNCTYPE(c.c_bool, c.py_object, c.c_void_p)(operator.call))
 _SERIALIZED_SIZE = address(c.PYFUNCTYPE(c.c_uint32, c.py_object)(operator.attrgetter("size")))

@@ -21,7 +21,7 @@ def interface_files(package: Path) -> list[str]:
 
 def index_files(prefix: Path) -> dict[Path, str]:
     """Return the files of the index for all packages of a prefix that have interfaces: path -> content."""
-    made = {}
+    made: dict[Path, str] = {}
     for package in sorted((prefix / "share").iterdir()):
         if files := interface_files(package):
             content = {"packages": "", MARKS: "", ALL: "".join(f"{file}\n" for file in files)}

@@ -6,7 +6,6 @@ name is first used.
 
 from __future__ import annotations
 
-import functools
 import importlib
 from pathlib import Path
 from types import ModuleType
@@ -63,7 +62,6 @@ def _fill_folder(module: Any, prefix: str, package: str, kind: str) -> None:
     module.__all__ = sorted(owners)
 
 
-@functools.cache
 def _modules(prefix: str, package: str, kind: str) -> dict[str, Path]:
     """Return the modules of one kind of interfaces: name -> file."""
     folder = Path(share_folder(prefix, package), kind)

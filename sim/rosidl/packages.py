@@ -16,6 +16,8 @@ ALL = "rosidl_interfaces"  # the index of all packages with interfaces, compiled
 INDEX = os.path.join("share", "ament_index", "resource_index")  # noqa: PTH118 - imported at every start of Python
 BUILT_IN = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "interfaces")  # noqa: PTH100, PTH118, PTH120
 
+_seen: dict[tuple[str, tuple[str, ...]], dict[str, str]] = {}
+
 
 def prefixes() -> list[str]:
     """Return the ament prefixes in the order of search; the built-in one is the last."""
@@ -25,8 +27,15 @@ def prefixes() -> list[str]:
 
 def packages(index: str = MARKS) -> dict[str, str]:
     """Return the packages in an index: name -> prefix; the first prefix wins."""
+    searched = tuple(prefixes())
+    if (index, searched) not in _seen:
+        _seen[index, searched] = _listed(index, searched)
+    return _seen[index, searched]
+
+
+def _listed(index: str, searched: tuple[str, ...]) -> dict[str, str]:
     found: dict[str, str] = {}
-    for prefix in prefixes():
+    for prefix in searched:
         try:
             names = os.listdir(os.path.join(prefix, INDEX, index))  # noqa: PTH118, PTH208
         except OSError:
@@ -34,6 +43,11 @@ def packages(index: str = MARKS) -> dict[str, str]:
         for name in names:
             found.setdefault(name, prefix)
     return found
+
+
+def forget() -> None:
+    """Have the index read again, because packages may have come."""
+    _seen.clear()
 
 
 def share_folder(prefix: str, package: str) -> str:

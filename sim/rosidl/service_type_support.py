@@ -22,14 +22,14 @@ from gz_course.sim.rosidl.c_structs import (
 )
 from gz_course.sim.rosidl.described_type import DescribedType
 from gz_course.sim.rosidl.introspection import IDENTIFIER as INTROSPECTION
-from gz_course.sim.rosidl.message_type_support import IDENTIFIER, MessageSupport, destroy_box, message_at
+from gz_course.sim.rosidl.message_type_support import IDENTIFIER, MessageSupport, destroy_event, message_at
 
 _log = logging.getLogger("rosidl")
 _Handle: Callable[..., Any] = c.PYFUNCTYPE(c.c_void_p, c.c_void_p, c.c_char_p)
 _CreateEvent: Callable[..., Any] = c.PYFUNCTYPE(
     c.c_void_p, c.POINTER(ServiceEventInfo), c.c_void_p, c.c_void_p, c.c_void_p
 )
-_DESTROY_EVENT = address(c.PYFUNCTYPE(c.c_bool, c.c_void_p, c.c_void_p)(lambda event, _: destroy_box(event)))
+_DESTROY_EVENT = address(c.PYFUNCTYPE(c.c_bool, c.c_void_p, c.c_void_p)(lambda event, _: destroy_event(event)))
 
 
 class ServiceSupport:

@@ -101,7 +101,8 @@ def _field(member: idl.Member) -> Description:
 
 
 def _field_type(kind: idl.AbstractType) -> Description:
-    inner, number, capacity = kind, 0, 0
+    inner, number = kind, 0
+    capacity: Any = 0
     if isinstance(kind, idl.AbstractNestedType):
         inner, number = kind.value_type, _ARRAY_OFFSETS[type(kind)]
         capacity = getattr(kind, "size", None) or getattr(kind, "maximum_size", 0)

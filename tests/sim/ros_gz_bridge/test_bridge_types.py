@@ -49,12 +49,12 @@ def test_a_type_without_partner_is_named_with_the_nearest(capsys, arguments, wor
     assert output.out == "" and words in output.err and output.err.count("\n") == 1
 
 
-@pytest.mark.skipif(importlib.util.find_spec("tf2_msgs") is not None, reason="tf2_msgs is installed")
+@pytest.mark.skipif(importlib.util.find_spec("vision_msgs") is not None, reason="vision_msgs is installed")
 def test_the_package_that_is_missing_is_named(capsys):
-    assert main(["--get-ros-to-gz", "tf2_msgs/msg/TFMessage"]) == 1
-    assert "needs the ROS package tf2_msgs" in capsys.readouterr().err
+    assert main(["--get-ros-to-gz", "vision_msgs/msg/Detection2D"]) == 1
+    assert "needs the ROS package vision_msgs" in capsys.readouterr().err
     assert main(["--print-pairs"]) == 0
-    assert "tf2_msgs" in capsys.readouterr().err
+    assert "vision_msgs" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("arguments", [[], ["--nope"], ["--print-gz", "--print-ros"], ["--get-gz-to-ros"]])

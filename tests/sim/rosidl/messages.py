@@ -5,7 +5,6 @@ import math
 import random
 import struct
 import sys
-import types
 from pathlib import Path
 
 from rosidl_parser import definition as idl
@@ -44,17 +43,6 @@ def message_pairs():
         for name, ours in made(package, path).items():
             if hasattr(ours, "SLOT_TYPES"):
                 yield ours, getattr(compiled(package, path), name)
-
-
-def a_class(text, kind="msg", name="Thing", package="tested_msgs", folder=None):
-    """Return the class of a text, as an attribute of a module that nested types find."""
-    path = Path(folder) / package / kind / f"{name}.{kind}"
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(text)
-    found = classes_of(path, package)
-    module = types.ModuleType(f"{package}.{kind}.{module_name(name)}")
-    vars(module).update(found)
-    return found[name]
 
 
 def fill(message, pick):

@@ -11,7 +11,6 @@ from gz_course.sim.rosidl.definitions import definition
 from gz_course.sim.rosidl.type_description import full_description, individual_descriptions, type_hash
 from gz_course.tests.sim.rosidl.messages import as_values, compiled, fill, installed, made, message_pairs, seeded
 
-
 HEADER = b"\0\1\0\0"  # little endian, XCDR version 1
 
 
