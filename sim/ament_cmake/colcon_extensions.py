@@ -10,8 +10,6 @@ Source: colcon-ros 0.5 (`package_identification/ros.py`, `task/ament_cmake/build
 from __future__ import annotations
 
 import logging
-import os
-import shutil
 import sys
 from pathlib import Path
 from typing import Any
@@ -22,6 +20,7 @@ from colcon_core.shell import create_environment_hook
 from colcon_core.task import TaskExtensionPoint
 from colcon_ros.package_identification.ros import RosPackageIdentification
 
+from gz_course.sim.ament_cmake.installed_ament_cmake import ament_cmake_is_installed
 from gz_course.sim.rosidl.packages import BUILT_IN, prefixes
 
 _TYPE = "ros.ament_cmake"
@@ -79,12 +78,3 @@ class WithoutCMakeTestTask(TaskExtensionPoint):
         sentence = f"no test of {self.context.pkg.name} was run: CMake and ament_cmake run them, which are not here"
         self.context.put_event_into_queue(StderrLine(f"{sentence}\n".encode()))
         return 0
-
-
-def ament_cmake_is_installed() -> bool:
-    """Whether CMake is on the path and ament_cmake in one of the prefixes."""
-    if shutil.which(os.environ.get("CMAKE_COMMAND", "cmake")) is None:
-        return False
-    more = os.environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep)
-    config = "share/ament_cmake/cmake/ament_cmakeConfig.cmake"
-    return any(Path(prefix, config).is_file() for prefix in (*prefixes(), *more) if prefix)
