@@ -131,7 +131,8 @@ def by_keyword(values: Sequence[str], words: Sequence[str]) -> dict[str, list[st
 
 def _patterns(values: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Return the patterns of files to install, and of those to leave out, as regular expressions."""
-    kept, excluded = [], []
+    kept: list[str] = []
+    excluded: list[str] = []
     for index, value in enumerate(values[:-1]):
         if value in ("PATTERN", "REGEX"):
             text = values[index + 1]
