@@ -32,6 +32,7 @@ ROS_MESSAGES = r"\w+_(msgs|interfaces)(/|$)"
 FORBIDDEN = {
     "sim": ("grader", "chapters", "exercises", "solutions"),
     "grader": ("chapters", "exercises", "solutions"),
+    "sim/ament_cmake": ("sim", "rclpy", "mujoco"),
     "sim/gz": (*ROS, "sim/ros_gz_bridge", "sim/ros_gz_image", "sim/ros_gz_sim", "sim/robot_state_publisher"),
     "sim/gz/msgs": ("sim/gz/sim", "sim/gz/transport", "sim/gz/command"),
     "sim/gz/transport": ("sim/gz/sim", "mujoco"),
@@ -51,6 +52,7 @@ FORBIDDEN = {
 }
 # Exceptions: a room may import these, whatever is forbidden above.
 ALLOWED = {
+    "sim/ament_cmake": ("sim/ament_cmake", "sim/rosidl"),
     "sim/launch": ("sim/launch",),
     "sim/launch_ros": ("sim/launch_ros", "sim/launch"),
     "sim/prefix": ("sim/prefix", "sim/launch", "sim/launch_ros", "sim/rosidl"),

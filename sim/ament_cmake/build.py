@@ -119,6 +119,11 @@ def _files(
         try:
             for path, name in entry.files(package.folder):
                 executable = entry.executable or os.access(path, os.X_OK)
+                if entry.executable and package.symlink and not os.access(path, os.X_OK):
+                    sentence = (
+                        f"'{entry.source}' is linked but not executable, so `ros2 run` cannot find it; chmod +x it"
+                    )
+                    lists.remarks.append(at(lists.path, entry.line, sentence))
                 files[_inside(name, lists, entry.line)] = _File(path, executable=executable)
         except FileNotFoundError:
             near = did_you_mean(entry.source.strip("/"), [each.name for each in package.folder.iterdir()])

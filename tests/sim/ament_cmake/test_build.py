@@ -223,6 +223,15 @@ def test_launch_files_programs_python_modules_and_hooks_are_installed(workspace)
     assert hook == "prepend-non-duplicate;GZ_SIM_RESOURCE_PATH;share/tutorial_interfaces/models\n"
 
 
+def test_a_linked_program_must_be_executable(workspace):
+    workspace.more = "install(PROGRAMS run.py DESTINATION lib/${PROJECT_NAME})"
+    workspace.texts["run.py"] = ""
+    (remark,) = workspace.build(symlink=True).remarks
+    assert remark.endswith(
+        "CMakeLists.txt:5: 'run.py' is linked but not executable, so `ros2 run` cannot find it; chmod +x it"
+    )
+
+
 @pytest.mark.parametrize(
     ("more", "words"),
     [
