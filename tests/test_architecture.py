@@ -32,6 +32,7 @@ ROS_MESSAGES = r"\w+_(msgs|interfaces)(/|$)"
 FORBIDDEN = {
     "sim": ("grader", "chapters", "exercises", "solutions"),
     "grader": ("chapters", "exercises", "solutions"),
+    "sim/ament_cmake": ("sim", "rclpy", "mujoco"),
     "sim/cv_bridge": ("sim", "rclpy", "mujoco", "cv2"),
     "sim/gz": (*ROS, "sim/ros_gz_bridge", "sim/ros_gz_image", "sim/ros_gz_sim", "sim/robot_state_publisher"),
     "sim/gz/msgs": ("sim/gz/sim", "sim/gz/transport", "sim/gz/command"),
@@ -59,6 +60,7 @@ FORBIDDEN = {
 }
 # Exceptions: a room may import these, whatever is forbidden above.
 ALLOWED = {
+    "sim/ament_cmake": ("sim/ament_cmake", "sim/rosidl"),
     "sim/cv_bridge": ("sim/cv_bridge",),
     "sim/laser_geometry": ("sim/laser_geometry", "sim/sensor_msgs_py"),
     "sim/launch": ("sim/launch",),
