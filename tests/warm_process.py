@@ -30,19 +30,15 @@ ZYGOTE = Path(__file__).with_name("zygote.py")
 PROGRAMS = Path(sys.executable).parent
 DEADLINE_S = 120.0
 # What commands import. A module of ours that looks at the clock when it is imported, or that others look for in
-# `sys.modules`, is not among them, nor what starts threads (rerun) and what makes the grader not fork (rclpy).
-GAZEBO = (
+# `sys.modules`, is not among them, nor what starts threads (rerun).
+TRANSPORT = (
     "asyncio",
-    "mujoco",
     "gz_course.sim.gz.command_line",
     "gz_course.sim.gz.transport.commands.topic",
     "gz_course.sim.gz.transport.commands.service",
-    "gz_course.sim.gz.sim.commands.sim",
-    "gz_course.sim.gz.sim.server",
-    "gz_course.sim.gz.sim.world",
 )
 ROS = (
-    *GAZEBO,
+    *TRANSPORT,
     "rclpy.action",
     "rclpy.executors",
     "geometry_msgs.msg",
@@ -57,7 +53,18 @@ ROS = (
     "gz_course.sim.ros2.message_value",
     "gz_course.sim.ros2.qos",
 )
-GRADER = (*GAZEBO, "gz_course.grader.course", "gz_course.grader.grade", "gz_course.grader.run.session", "rich.console")
+WITHOUT_ROS = (
+    *TRANSPORT,
+    "rich.console",
+    "gz_course.sim.gz.sim.commands.sim",
+    "gz_course.sim.gz.sim.server",
+    "gz_course.sim.gz.sim.world",
+    "gz_course.grader.course",
+    "gz_course.grader.grade",
+    "gz_course.grader.run.session",
+)
+# Words in the name or the text of a program that is of ROS.
+OF_ROS = ("rclpy", "ros2", "ros_gz", "parameter_bridge", "bridge_types", "robot_state_publisher")
 # What Python and the C libraries read when they start.
 AT_START = ("PYTHON", "LC_", "LD_", "MALLOC_", "GLIBC_", "OPENBLAS_", "OMP_", "SETUPTOOLS_")
 ALSO_AT_START = {"LANG", "LANGUAGE", "TZ", "_ROS_WHEELS_BOOTSTRAP_COMPLETE"}
@@ -136,9 +143,10 @@ _zygotes = {}
 _starting = threading.Lock()
 
 
-def zygote_for(words):
-    """Return the zygote for a command, by its words; start it if there is none yet."""
-    modules = GRADER if any("gz_course.grader" in word for word in words) or words[0].endswith("/course") else ROS
+def zygote_for(program):
+    """Return the zygote for a program, a name or a text; start it if there is none yet."""
+    is_ros = "gz_course.grader" not in program and any(word in program for word in OF_ROS)
+    modules = ROS if is_ros else WITHOUT_ROS
     with _starting:
         if modules not in _zygotes:
             _zygotes[modules] = Zygote(modules)
@@ -233,7 +241,7 @@ class WarmPopen(subprocess.Popen):
             "ignored": signals(status["SigIgn"]),
             "blocked": signals(status["SigBlk"]),
         }
-        zygote = zygote_for(words)
+        zygote = zygote_for(Path(command["what"]).name if command["kind"] == "script" else command["what"])
         if not zygote.can_stand_for(command):
             return None
         place = os.open(folder, os.O_PATH | os.O_DIRECTORY)
