@@ -12,6 +12,8 @@ from pathlib import Path
 import psutil
 import pytest
 
+from gz_course.tests import warm_process
+
 with warnings.catch_warnings():
     # The parser that ROS's message packages bring along (lark) still imports a deprecated module.
     warnings.simplefilter("ignore", DeprecationWarning)
@@ -84,7 +86,7 @@ def environment(folder, **more):
 def run_course(folder, *arguments, prelude="", timeout=600, **variables):
     """Run `course ARGUMENTS` in `folder`; `prelude` is Python that runs before the command."""
     command = [*COURSE[:-1], f"{prelude}\n{COURSE[-1]}"]
-    done = subprocess.run(
+    done = warm_process.run(
         [*command, *map(str, arguments)],
         cwd=folder,
         env=environment(folder, **variables),

@@ -10,6 +10,8 @@ import time
 
 import pytest
 
+from gz_course.tests.warm_process import WarmPopen
+
 SOLUTION = "solutions/03_teleop/teleop_node.py"
 DEADLINE = 120.0
 
@@ -196,7 +198,7 @@ class Interrupted:
 
     def __init__(self, root, folder, environment):
         (folder / "node.py").write_text((root / SOLUTION).read_text())
-        self.process = subprocess.Popen(
+        self.process = WarmPopen(
             [sys.executable, "-c", START, "grade", "03", "--submission", folder / "node.py", "--out", folder / "out"],
             cwd=folder,
             env=environment(folder),

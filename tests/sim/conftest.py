@@ -15,6 +15,7 @@ import psutil
 import pytest
 
 from gz_course.grader.run.domain import Domain
+from gz_course.tests.warm_process import WarmPopen
 
 DEADLINE = 120.0
 
@@ -23,7 +24,7 @@ class Program:
     """A child process with its output so far and its end."""
 
     def __init__(self, command, environment, folder):
-        self.process = subprocess.Popen(
+        self.process = WarmPopen(
             [str(word) for word in command],
             env=environment,
             cwd=folder,

@@ -15,6 +15,8 @@ from gz_course.grader.errors import InfrastructureError
 from gz_course.grader.exercise import find_exercise
 from gz_course.grader.verify import jobs
 from gz_course.grader.verify.jobs import Job
+from gz_course.tests import warm_process
+from gz_course.tests.warm_process import WarmPopen
 
 pytestmark = pytest.mark.proof
 
@@ -49,7 +51,7 @@ def reports(root, tmp_path):
         program.write_text(GRADINGS)
         files = [str(root / file) for file in FILES]
         command = [sys.executable, str(program), str(root), str(out), str(count), str(trials), *files]
-        done = subprocess.run(command, capture_output=True, text=True, timeout=600)
+        done = warm_process.run(command, capture_output=True, text=True, timeout=600)
         assert done.returncode == 0, done.stderr
         return json.loads(done.stdout)
 
@@ -73,7 +75,7 @@ def verifying(root, tmp_path, course_environment, running_in):
     """`course verify --jobs 2` of one exercise, under way: its first line has been read."""
     shutil.copytree(root / "exercises/03_teleop", tmp_path / "exercises/03_teleop")
     shutil.copytree(root / "solutions/03_teleop", tmp_path / "solutions/03_teleop")
-    process = subprocess.Popen(
+    process = WarmPopen(
         [*COURSE, "verify", "03", "--jobs", "2", "--no-mutants"],
         cwd=tmp_path,
         env=course_environment(tmp_path, COURSE_ROOT=str(tmp_path), PYTHONUNBUFFERED="1"),

@@ -10,6 +10,9 @@ import sys
 import psutil
 import pytest
 
+from gz_course.tests import warm_process
+from gz_course.tests.warm_process import WarmPopen
+
 pytestmark = pytest.mark.proof
 
 FILE = "teleop_node.py"
@@ -41,7 +44,7 @@ def begin(tmp_path, short_course, submissions, course_environment):
 
     def start(*options, out="out"):
         command = [sys.executable, "-c", "from gz_course.grader.course import main; main()", "grade-all", "03_teleop"]
-        process = subprocess.Popen(
+        process = WarmPopen(
             [*command, str(submissions), "--out", str(tmp_path / out), *map(str, options)],
             cwd=tmp_path,
             env=course_environment(tmp_path, COURSE_ROOT=str(short_course)),
@@ -82,7 +85,7 @@ def reference(tmp_path_factory, short_course, submissions, course_environment):
     """The class graded in one go."""
     folder = tmp_path_factory.mktemp("reference")
     command = [sys.executable, "-c", "from gz_course.grader.course import main; main()", "grade-all", "03_teleop"]
-    done = subprocess.run(
+    done = warm_process.run(
         [*command, str(submissions), "--out", str(folder / "out"), "--html", "--gradescope"],
         cwd=folder,
         env=course_environment(folder, COURSE_ROOT=str(short_course)),

@@ -10,6 +10,8 @@ import sys
 import psutil
 import pytest
 
+from gz_course.tests.warm_process import WarmPopen
+
 FILE = "teleop_node.py"
 ENDLESS = 600  # [s] of an exercise that nobody waits for
 
@@ -45,7 +47,7 @@ def grade_one(tmp_path, course_environment, root):
 
     def start(folder, *options, deadline=120.0, submission=submission):
         told = json.dumps([str(folder), str(submission), deadline, options])
-        return subprocess.Popen(
+        return WarmPopen(
             [sys.executable, "-c", GRADE_ONE, told],
             cwd=tmp_path,
             env=course_environment(tmp_path),

@@ -3,7 +3,6 @@
 import json
 import math
 import os
-import subprocess
 import sys
 from array import array
 
@@ -22,6 +21,7 @@ from gz_course.sim.launch_ros.parameter_values import (
     evaluate_value,
     flattened,
 )
+from gz_course.tests import warm_process
 
 
 def text(value):
@@ -201,7 +201,7 @@ def test_a_real_node_gets_the_same_types(tmp_path, way):
         words = ["--params-file", str(tmp_path / "p.yaml")]
     else:
         words = [w for name, value in VALUES.items() for w in ("-p", f"p.{name}:={as_argument(value)}")]
-    done = subprocess.run(
+    done = warm_process.run(
         [sys.executable, "-c", NODE, "--ros-args", *words],
         env={**os.environ, "ROS_LOG_DIR": str(tmp_path), "ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF"},
         capture_output=True,

@@ -14,6 +14,7 @@ from gz_course.sim.launch import LaunchContext
 from gz_course.sim.launch.launch_description_sources import get_launch_description_from_python_launch_file
 from gz_course.sim.launch_ros.substitutions import FindPackageShare
 from gz_course.sim.prefix import local_setup
+from gz_course.tests.warm_process import WarmPopen
 
 SHARE = Path(local_setup.PREFIX) / "share"
 FILES = sorted(SHARE.glob("*/launch/*.launch.py"))
@@ -41,7 +42,7 @@ def start(tmp_path):
 
     def start(*arguments):
         running.append(
-            subprocess.Popen(
+            WarmPopen(
                 [sys.executable, "-m", "gz_course.sim.ros2", "launch", *arguments],
                 env={
                     **os.environ,

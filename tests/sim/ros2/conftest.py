@@ -12,6 +12,7 @@ import pytest
 
 from gz_course.grader.run.domain import Domain
 from gz_course.tests.sim.spinning import spin
+from gz_course.tests.warm_process import WarmPopen
 
 DEADLINE = 120.0
 
@@ -27,7 +28,10 @@ def ros_domain(tmp_path_factory):
 
 
 class Command:
-    """A running `ros2 …` in its own session, with its lines as they arrive."""
+    """A running `ros2 …` in its own session, with its lines as they arrive.
+
+    It begins after its imports, unless `process` is `subprocess.Popen`.
+    """
 
     def __init__(
         self,
@@ -35,12 +39,13 @@ class Command:
         command=(sys.executable, "-m", "gz_course.sim.ros2"),
         environment=None,
         stdin_text=None,
+        process=WarmPopen,
         **options,
     ):
         if stdin_text is not None:
             options["stdin"] = subprocess.PIPE
         options = {"stdin": subprocess.DEVNULL, "start_new_session": True, **options}
-        self.process = subprocess.Popen(
+        self.process = process(
             [*command, *arguments],
             env={**os.environ, "PYTHONFAULTHANDLER": "1", **(environment or {})},
             stdout=subprocess.PIPE,

@@ -13,6 +13,7 @@ import pytest
 
 from gz_course.grader.run.domain import Domain
 from gz_course.tests.sim.spinning import spin
+from gz_course.tests.warm_process import WarmPopen
 
 with warnings.catch_warnings():
     # lark, the parser in ROS's message packages, still imports a deprecated module.
@@ -121,7 +122,7 @@ class Process:
     """A running parameter_bridge with its log lines as they arrive."""
 
     def __init__(self, *arguments, command=COMMAND):
-        self.process = subprocess.Popen(
+        self.process = WarmPopen(
             [*command, *arguments],
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,

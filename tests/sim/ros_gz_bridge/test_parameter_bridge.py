@@ -2,7 +2,6 @@
 
 import re
 import signal
-import subprocess
 import sys
 
 import pytest
@@ -12,13 +11,14 @@ from sensor_msgs.msg import LaserScan
 from gz_course.sim.gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
 from gz_course.sim.gz.msgs.twist_pb2 import Twist as GzTwist
 from gz_course.sim.gz.transport import Node
+from gz_course.tests import warm_process
 
 DEADLINE = 120.0
 COMMAND = [sys.executable, "-m", "gz_course.sim.ros_gz_bridge.parameter_bridge"]
 
 
 def run(*arguments):
-    return subprocess.run([*COMMAND, *arguments], capture_output=True, text=True, timeout=600, check=False)
+    return warm_process.run([*COMMAND, *arguments], capture_output=True, text=True, timeout=600, check=False)
 
 
 CONFIG = """\

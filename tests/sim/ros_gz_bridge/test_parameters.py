@@ -2,7 +2,6 @@
 
 import os
 import signal
-import subprocess
 import sys
 
 import pytest
@@ -11,6 +10,7 @@ from sensor_msgs.msg import LaserScan
 
 from gz_course.sim.gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
 from gz_course.sim.gz.transport import Node
+from gz_course.tests import warm_process
 
 DEADLINE = 120.0
 PARAMETERS = """\
@@ -39,7 +39,7 @@ PARAMETERS = """\
 def fails(*arguments):
     """Return the error sentences of a bridge that does not start."""
     command = [sys.executable, "-m", "gz_course.sim.ros_gz_bridge.parameter_bridge", *arguments]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False)
+    done = warm_process.run(command, capture_output=True, text=True, timeout=600, check=False)
     assert done.returncode == 2, done.stderr
     assert "Traceback" not in done.stderr
     return [line.removeprefix("parameter_bridge: ") for line in done.stderr.splitlines()]
@@ -143,7 +143,7 @@ def test_parameters_are_shown_and_cannot_be_changed_while_it_runs(start):
     process.wait_for("ready: 1 bridge")
     environment = dict(os.environ)
     ros2 = [f"{sys.prefix}/bin/ros2", "param"]
-    done = subprocess.run(
+    done = warm_process.run(
         [*ros2, "set", "/ros_gz_bridge", "lazy", "true"],
         capture_output=True,
         text=True,

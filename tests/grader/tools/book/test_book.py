@@ -10,6 +10,7 @@ import pytest
 
 from gz_course.grader.tools.book.chapter import chapters
 from gz_course.grader.tools.book.objectives import lessons
+from gz_course.tests import warm_process
 
 NAME = "03_teleop"
 HEAD = """\
@@ -44,7 +45,7 @@ def course(tmp_path, root):
 
 
 def book(course, out):
-    return subprocess.run(
+    return warm_process.run(
         [sys.executable, "-m", "gz_course.grader.tools.book", str(out)],
         cwd=course,
         capture_output=True,

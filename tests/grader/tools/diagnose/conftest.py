@@ -2,7 +2,6 @@
 
 import contextlib
 import os
-import subprocess
 import sys
 import threading
 import time
@@ -12,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from gz_course.grader.tools.playground import Playground
+from gz_course.tests import warm_process
 
 DEADLINE = 120.0
 ROOT = Path(__file__).parents[4]
@@ -207,7 +207,7 @@ def course():
     """Run `course` in the present environment: the finished process."""
 
     def run(*arguments):
-        return subprocess.run(
+        return warm_process.run(
             [*COURSE, *arguments],
             capture_output=True,
             text=True,

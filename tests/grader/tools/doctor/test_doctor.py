@@ -11,6 +11,7 @@ import pytest
 
 from gz_course.grader.registry import module_names
 from gz_course.grader.tools.doctor import checks
+from gz_course.tests.warm_process import WarmPopen
 
 DEADLINE = 120.0
 
@@ -61,7 +62,7 @@ def test_bad_usage(doctor, arguments):
 
 
 def test_an_interrupt_leaves_nothing(tmp_path, course_environment, running_in):
-    process = subprocess.Popen(
+    process = WarmPopen(
         [sys.executable, "-c", "from gz_course.grader.course import main; main()", "doctor", "--deadline", "60"],
         cwd=tmp_path,
         env=course_environment(tmp_path),

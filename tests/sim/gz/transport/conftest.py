@@ -15,6 +15,7 @@ import pytest
 
 from gz_course.sim.gz.msgs.discovery_pb2 import Discovery
 from gz_course.sim.gz.transport import datagram
+from gz_course.tests.warm_process import WarmPopen
 
 DEADLINE_S = 120.0
 
@@ -23,7 +24,7 @@ class Peer:
     """A child process that runs peer.py."""
 
     def __init__(self, environment):
-        self.process = subprocess.Popen(
+        self.process = WarmPopen(
             [sys.executable, str(Path(__file__).with_name("peer.py"))],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,

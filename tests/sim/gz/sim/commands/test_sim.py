@@ -21,6 +21,7 @@ from gz_course.sim.gz.msgs.odometry_pb2 import Odometry
 from gz_course.sim.gz.msgs.twist_pb2 import Twist
 from gz_course.sim.gz.msgs.world_stats_pb2 import WorldStatistics
 from gz_course.sim.gz.transport import Node
+from gz_course.tests.warm_process import WarmPopen
 
 GZ = [sys.executable, "-c", "import sys; from gz_course.sim.gz.command import main; sys.exit(main())", "sim"]
 DEADLINE = 120
@@ -38,7 +39,7 @@ def start() -> Iterator[Callable[..., subprocess.Popen[str]]]:
     started: list[subprocess.Popen[str]] = []
 
     def run(*arguments: str) -> subprocess.Popen[str]:
-        process = subprocess.Popen(
+        process = WarmPopen(
             [*GZ, *arguments],
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,

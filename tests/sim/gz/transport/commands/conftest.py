@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from gz_course.tests.warm_process import WarmPopen
+
 GZ = Path(sys.executable).with_name("gz")
 DEADLINE_S = 120.0
 
@@ -18,7 +20,7 @@ class Command:
 
     def __init__(self, *arguments):
         environment = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
-        self.process = subprocess.Popen(
+        self.process = WarmPopen(
             [str(GZ), *arguments],
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
