@@ -98,6 +98,7 @@ def test_a_submission_earns_the_same(run, tmp_path, exercise):
     assert json.loads(report.read_text())["score"] == 100
 
 
+@pytest.mark.proof
 def test_the_doctor_sees_it(run):
     done = run(BIN / "course", "doctor", "--json", "--deadline", "60")
     assert "another ROS 2 is sourced" in done.stdout and "jazzy/bin/ros2" in done.stdout, done.stdout + done.stderr

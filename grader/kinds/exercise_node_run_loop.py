@@ -30,7 +30,7 @@ class ExerciseNodeRunLoop(RunLoop):
         return facts
 
     def _last_look(self) -> dict[str, Any]:
-        return both_graphs(self._gz_nodes[1], self._ros)
+        return both_graphs(self._gz_nodes[1], self._ros, self._processes.clock)
 
     def _is_reserved(self, endpoint: Endpoint) -> bool:
         return False

@@ -7,7 +7,6 @@ in lock-step they are published one at a time.
 from __future__ import annotations
 
 import contextlib
-import time
 from collections import Counter
 from collections.abc import Callable
 from importlib import import_module
@@ -30,10 +29,12 @@ from gz_course.grader.errors import ManifestError
 from gz_course.grader.run.agent.course_agent.executor_monitor import HOUSEKEEPING
 from gz_course.grader.run.agent.course_agent.rosout_counter import ROSOUT
 from gz_course.grader.run.discovery import UNKNOWN, Discovery
+from gz_course.grader.run.fair_clock import FairClock, Patience
 from gz_course.sim.gz.transport import Node as GzNode
 from gz_course.sim.ros_gz_bridge.bridge import Bridge, BridgeEntry, HeaderOverrides
 
-NAMES, LOOK_AGAIN = 5.0, 0.02  # [s] of wall time for the names of nodes to arrive, and between two looks
+NAMES = 5.0  # [s] for the names of nodes to arrive
+LOOK_AGAIN = 0.02  # [s] between two looks
 TAP_DEPTH = 1000
 # Also what was logged before the grader's subscription was found; more than one node may be about to be found.
 ROSOUT_QOS = QoSProfile(depth=5000, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -216,16 +217,16 @@ class GraderEndpoints:
             )
         return found
 
-    def ros_graph(self) -> dict[str, dict[str, list[str]]]:
+    def ros_graph(self, clock: FairClock) -> dict[str, dict[str, list[str]]]:
         """Return the ROS graph as seen from here: topic -> types, publishing and subscribing nodes.
 
         Waits, for at most `NAMES` seconds, until the name of every endpoint's node is known.
         """
-        deadline = time.monotonic() + NAMES
+        patience = Patience(clock, NAMES)
         while True:
             graph = self._graph()
             unknown = any(UNKNOWN in ends["publishers"] + ends["subscribers"] for ends in graph.values())
-            if not unknown or time.monotonic() > deadline:
+            if not unknown or patience.over():
                 return graph
             self.look_again()
 

@@ -8,17 +8,18 @@ from __future__ import annotations
 
 from typing import Any
 
+from gz_course.grader.run.fair_clock import FairClock
 from gz_course.grader.run.grader_endpoints import NODE, GraderEndpoints
 from gz_course.sim.gz.transport import MessagePublisher, Node
 
 SIMULATOR = "gz sim"
 
 
-def both_graphs(gz_node: Node, ros: GraderEndpoints) -> dict[str, Any]:
-    """Return the facts `gz_topics`, `ros_topics` and `bridges`. `gz_node` is the bridge's."""
+def both_graphs(gz_node: Node, ros: GraderEndpoints, clock: FairClock) -> dict[str, Any]:
+    """Return the facts `gz_topics`, `ros_topics` and `bridges`. `gz_node` is the bridge's, `clock` that of the run."""
     return {
         "gz_topics": gz_graph(gz_node),
-        "ros_topics": ros.ros_graph(),
+        "ros_topics": ros.ros_graph(clock),
         "bridges": ros.bridged(),
     }
 

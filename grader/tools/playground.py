@@ -28,7 +28,6 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 from pathlib import Path
 from types import TracebackType
 
@@ -36,7 +35,9 @@ from gz_course.grader.errors import UsageError
 from gz_course.grader.printable import shown
 from gz_course.grader.process.temporary_folder import TemporaryFolder, sweep
 from gz_course.grader.run.domain import Domain
+from gz_course.grader.run.fair_clock import FairClock, Patience
 from gz_course.grader.run.sandbox import ros_environment
+from gz_course.grader.run.sandbox.resource_monitor import descendants
 from gz_course.sim.did_you_mean import did_you_mean
 
 GRACE = 3.0  # [s] between SIGINT, SIGTERM and SIGKILL
@@ -89,15 +90,16 @@ class Program:
     def wait_for(self, text: str, deadline: float = 30.0) -> str:
         """Wait until it has printed `text`; return its output so far.
 
-        Raises TimeoutError, with the output, if it ends or `deadline` [s] of wall time pass before that.
+        Raises TimeoutError, with the output, if it ends or `deadline` [s] pass before that. Time in which the programs
+        of this process wait for a processor does not count.
         """
-        end = time.monotonic() + deadline
+        patience = Patience(FairClock(lambda: [os.getpid(), *descendants(os.getpid())]), deadline)
         pause = threading.Event()
         while True:
             ended = self.exit_code is not None  # asked first, because it may print before it ends
             if text in (output := self.output):
                 return output
-            if ended or time.monotonic() > end:
+            if ended or patience.over():
                 reason = "has ended and" if ended else f"has, within {deadline:g} s,"
                 raise TimeoutError(f"{self.command} {reason} not printed {text!r}, but:\n{output}")
             pause.wait(LOOK_AGAIN)

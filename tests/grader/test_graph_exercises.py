@@ -74,7 +74,13 @@ def test_a_bridge_without_a_clock_still_leaves_a_recorded_world(grade, root):
     assert len(Recording(outcome.recording).signal("truth/robot/x")) > 100
 
 
-@pytest.mark.parametrize(("text", "how"), [("raise SystemExit(3)", "exit code 3"), (None, "has no given_node.py")])
+@pytest.mark.parametrize(
+    ("text", "how"),
+    [
+        pytest.param("raise SystemExit(3)", "exit code 3", marks=pytest.mark.proof),
+        (None, "has no given_node.py"),
+    ],
+)
 def test_an_exercises_own_node_that_fails_is_the_authors_fault(grade, root, tmp_path, text, how):
     folder = tmp_path / "course" / "exercises" / TABLES
     shutil.copytree(root / "exercises" / TABLES, folder)

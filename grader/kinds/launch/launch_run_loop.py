@@ -137,10 +137,11 @@ class LaunchRunLoop(RunLoop):
     def _by_python(self) -> list[str]:
         """Programs that no action of the launch has started, but the launch file's own Python: `subprocess`, say.
 
-        What an action starts gets a process group of its own.
+        What an action starts gets a process group of its own, and is started by code of the course.
         """
         programs = self._processes.participants  # the launch itself comes first
-        return sorted({each.program for each in programs[1:] if each.group == programs[0].group})
+        by_itself = self._processes.started_by_submission
+        return sorted({p.program for p in programs[1:] if p.group == programs[0].group or by_itself(p)})
 
     def _ended(self) -> list[dict[str, Any]]:
         """Programs that have ended, with their exit codes."""

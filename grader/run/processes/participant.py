@@ -42,6 +42,7 @@ class Participant:
         self.follows = True  # False: no reports are expected of it
         self.uses_ros = False  # whether it has imported rclpy
         self.waits = False  # whether it only waits, for its children or for events
+        self.looking = False  # whether it waits for a service to be found, and has not been idle since
         self.waits_for_log = False  # whether it logs on when told that what it has logged has arrived
         self._logged = 0
         self._asked = asked
@@ -69,6 +70,11 @@ class Participant:
         """The program's name for people: the file or module that Python runs."""
         words = [word for word in self.command[1:] if word not in ("-m", "-P", "-c")]
         return words[0].rpartition("/")[2].removeprefix("gz_course.sim.") if words else ""
+
+    @property
+    def works(self) -> bool:
+        """Whether one of its threads was at work at the last report."""
+        return not self.gone and self.progress is not None and not self.progress.idle
 
     @property
     def starting(self) -> bool:
@@ -141,6 +147,7 @@ class Participant:
         progress = Progress.parse(data, self.progress)
         if progress is not None:
             self.progress = replace(progress, held=0) if self._vain > MOST_IN_VAIN else progress
+            self.looking &= not progress.idle
             return
         try:
             message = json.loads(data)
@@ -149,6 +156,7 @@ class Participant:
             if "logged" in message:
                 self._logged, self.waits_for_log = int(message["logged"]), True
             self.uses_ros |= "ros" in message
+            self.looking |= "looking" in message
             self.waits = "waiting" in message
             self._asked(self, message)
         except (ValueError, KeyError, TypeError, AttributeError, RecursionError, OverflowError, OSError):

@@ -28,6 +28,7 @@ class StartedProcess:
     since: float  # [s]
     code: int | None = None
     in_vain: bool = False  # whether it was waited for, and never said hello
+    ours: bool = True  # whether code of the course has started it, such as an action of a launch
     started: float = field(default_factory=time.monotonic)  # [s] of wall time
 
 
@@ -45,7 +46,7 @@ class ProcessTree:
     def hear(self, message: dict[str, Any]) -> None:
         """Update from a message. Raises TypeError, KeyError or ValueError if it is malformed."""
         if (started := message.get("started")) and len(self._processes) < MOST_CHILDREN:
-            self._start(int(started["pid"]), str(started["program"]))
+            self._start(int(started["pid"]), str(started["program"]), bool(started.get("ours", True)))
         elif ended := message.get("ended"):
             child = self._processes.get(int(ended["pid"]))
             if child is not None and not self._lives(child):
@@ -56,14 +57,14 @@ class ProcessTree:
                 if (child := self._processes.get(pid)) and child.state in PATIENCE:
                     child.state = "here"
 
-    def _start(self, pid: int, program: str) -> None:
+    def _start(self, pid: int, program: str, ours: bool) -> None:
         """Note a process that was started; wait for one that exists, and only once."""
         age, before = self._age(pid), self._processes.get(pid)
         if before is not None and self._lives(before):
             return
         state = "shell" if program in SHELLS else "starting" if program.startswith("python") else "silent"
         waited = age is not None and age < START_UP
-        self._processes[pid] = StartedProcess(pid, state if waited else "silent", self._now())
+        self._processes[pid] = StartedProcess(pid, state if waited else "silent", self._now(), ours=ours)
 
     def _lives(self, child: StartedProcess) -> bool:
         """Whether a process of the tree still exists; a younger one may have got its number."""
@@ -74,6 +75,11 @@ class ProcessTree:
         """Whether a process of the submission has said that it started this one, which has not ended for its parent."""
         child = self._processes.get(pid)
         return child is not None and child.state != "ended"
+
+    def is_ours(self, pid: int) -> bool:
+        """Whether no code of the submission has said that it started this process itself."""
+        child = self._processes.get(pid)
+        return child is None or child.ours
 
     def leave(self, pid: int) -> None:
         """Note that a process has closed its socket: it ends, or executes another program."""

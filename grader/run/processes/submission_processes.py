@@ -148,12 +148,14 @@ class SubmissionProcesses:
     @property
     def starting(self) -> bool:
         """Whether a process is about to become one that is followed. After `MOST_IN_VAIN` that never did, none is."""
-        if not self.participants:
-            return True
+        return not self.participants or self._starts()
+
+    def _starts(self, without: Participant | None = None) -> bool:
+        """Whether a process is about to be followed, other than one."""
         others = sum(_has_come_in_vain(each) for each in self.participants)
         if others + self._tree.in_vain >= MOST_IN_VAIN:
             return False
-        return self._tree.changing or any(p.starting for p in self.participants)
+        return self._tree.changing or any(p.starting for p in self.participants if p is not without)
 
     @property
     def endpoints(self) -> tuple[Endpoint, ...]:
@@ -235,6 +237,9 @@ class SubmissionProcesses:
         self._tree.hear(message)
         if "clock" in message:
             who.tell({"now": self.now_ns})
+        if "looking" in message:
+            others_work = any(p.works and not p.looking for p in self.participants if p is not who)
+            who.tell({"answer": {"others": others_work or self._starts(who), "now": self.clock.now()}})
         self.asked(who, message)
 
     def _reap(self) -> None:
@@ -261,6 +266,10 @@ class SubmissionProcesses:
         """Return `program` and exit `code` of the ended programs that had said hello, as reported by their parents."""
         codes = self._tree.codes()
         return [{"program": p.program, "code": codes[p.pid]} for p in self.participants if p.pid in codes]
+
+    def started_by_submission(self, who: Participant) -> bool:
+        """Whether the submission's own code has started a process, by what it reports."""
+        return not self._tree.is_ours(who.pid)
 
     def stop(self) -> None:
         """End the process group and every descendant: SIGINT, then SIGTERM, then SIGKILL."""

@@ -152,6 +152,7 @@ def test_nothing_that_is_handed_over_opens_a_file_or_runs_code(watched, tmp_path
     assert len(list(tmp_path.iterdir())) == 4
 
 
+@pytest.mark.proof
 def test_a_reader_that_opens_files_would_be_noticed(watched, tmp_path):
     offences = watched(WITH_FILES)["offences"]
     assert ["open", str(tmp_path / "secret.sdf")] in offences

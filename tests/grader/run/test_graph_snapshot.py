@@ -9,6 +9,7 @@ from rclpy.context import Context
 from std_msgs.msg import Float64, String
 
 from gz_course.grader.run.domain import Domain
+from gz_course.grader.run.fair_clock import FairClock
 from gz_course.grader.run.grader_endpoints import GraderEndpoints
 from gz_course.grader.run.graph_snapshot import both_graphs
 from gz_course.grader.run.pace.matching import can_match
@@ -107,7 +108,7 @@ def test_both_graphs(ros, gz, other):
     other.create_subscription(Float64, "/number", lambda message: None, 10)
     sensor.publish(Double(data=2.0))
 
-    facts = both_graphs(gz[1], made)
+    facts = both_graphs(gz[1], made, FairClock(list))
     assert facts["gz_topics"]["/gz/number"] == {
         "types": ["gz.msgs.Double"],
         "publishers": ["gz sim"],

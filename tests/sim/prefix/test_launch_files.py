@@ -121,6 +121,7 @@ def test_old_arguments_work_and_are_told(start):
     assert "'ign_args' is deprecated: use 'gz_args'" in lines_until(process, "is paused")
 
 
+@pytest.mark.proof
 def test_simulator_and_bridge_together(start, tmp_path):
     (tmp_path / "bridge.yaml").write_text(
         "- topic_name: /clock\n  ros_type_name: rosgraph_msgs/msg/Clock\n  gz_type_name: gz.msgs.Clock\n"
@@ -145,6 +146,7 @@ def test_a_server_from_a_text_and_a_model_spawned_into_it(start):
     assert "process has died" in output
 
 
+@pytest.mark.proof
 def test_a_model_with_its_bridge(start, tmp_path):
     (tmp_path / "bridge.yaml").write_text(
         "- topic_name: /clock\n  ros_type_name: rosgraph_msgs/msg/Clock\n  gz_type_name: gz.msgs.Clock\n"

@@ -1,10 +1,11 @@
-"""Questions to the grader that are answered: used by the programs of Gazebo that the grader serves.
+"""Questions to the grader that are answered, such as those of Gazebo's programs that the grader serves.
 
 A process asks one thing at a time; the answer comes in the thread that listens.
 """
 
 from __future__ import annotations
 
+import _thread
 import threading
 from _queue import SimpleQueue  # that of `queue` is replaced by one whose waiters count as idle
 from collections.abc import Callable
@@ -14,6 +15,7 @@ from . import python_3
 from .channel import channel
 
 _answers: SimpleQueue[dict[str, Any]] = SimpleQueue()
+_asking = _thread.allocate_lock()
 _ended = threading.Event()
 _on_end: list[Callable[[], None]] = []
 
@@ -37,8 +39,8 @@ def ask(question: dict[str, Any]) -> dict[str, Any]:
 
     The process counts as at work meanwhile, because it goes on with the answer at once.
     """
-    channel().send(question)
-    with python_3.at_work():
+    with _asking, python_3.at_work():
+        channel().send(question)
         return _answers.get()
 
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 import os
+import sys
 from contextlib import AbstractContextManager, nullcontext
 from types import SimpleNamespace
 from typing import Any
@@ -70,7 +71,9 @@ def install_subprocess() -> None:
     def told_start(process: Any, *args: Any, **kwargs: Any) -> None:
         start(process, *args, **kwargs)
         mute = kwargs.get("env") is not None and SOCKET not in kwargs["env"]  # it cannot find the grader
-        _tell({"started": {"pid": process.pid, "program": "" if mute else _program(process.pid)}})
+        caller = sys._getframe(1).f_globals.get("__name__", "")
+        ours = caller.startswith("gz_course.")  # as when an action of a launch starts a program
+        _tell({"started": {"pid": process.pid, "program": "" if mute else _program(process.pid), "ours": ours}})
 
     def told_end(process: Any, *args: Any, **kwargs: Any) -> None:
         ended(process, *args, **kwargs)

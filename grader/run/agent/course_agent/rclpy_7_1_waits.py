@@ -6,18 +6,22 @@ and who ends a wait counts its thread as at work again (`thread_monitor.py`).
 
 from __future__ import annotations
 
+import math
 import threading
 from typing import Any
 
 from . import inbox
 from .executor_monitor import UNMATCHED_SLICE, ExecutorMonitor
+from .grader_requests import ask
 from .rclpy_7_1_coroutines import watch_coroutines
 from .signals import Signal
 from .thread_monitor import POLL_PERIOD, Wait, monotonic, sleep
 
 # [s] for a service to be found: before a client's first request is sent, and before a wait for it takes simulated time.
-# Both are shorter than what the grader waits for a node (`pace/real_time.py`, PATIENCE).
+# The second is counted by the grader's fair clock, once nobody else is at work. Both are shorter than what the grader
+# waits for a node (`pace/real_time.py`, PATIENCE).
 SERVICE_PATIENCE, SERVICE_LOOK = 2.5, 1.0
+SERVICE_SLICE = 0.01  # [s] between two looks
 POOL_START = 0.01  # [s] for a pool to start a callback; a pool whose threads are all busy does not
 
 
@@ -312,15 +316,27 @@ def _watch_single_messages(monitor: ExecutorMonitor) -> None:
 
 
 def _wait_for_services(monitor: ExecutorMonitor) -> None:
-    """Let simulated time stand still for a moment in which discovery may find a service."""
+    """Let simulated time stand still while others are at work or start up, and while discovery may find a service."""
     from rclpy.client import Client
 
     wait = Client.wait_for_service
 
     def patient_wait(client: Any, timeout_sec: float | None = None) -> bool:
-        deadline = monotonic() + SERVICE_LOOK
-        while client.context.ok() and not client.service_is_ready() and monotonic() < deadline:
-            sleep(UNMATCHED_SLICE)
+        await_service(monitor, client, SERVICE_LOOK)
         return bool(wait(client, timeout_sec))
 
     Client.wait_for_service = patient_wait
+
+
+def await_service(monitor: ExecutorMonitor, client: Any, seconds: float) -> None:
+    """Wait until discovery has found a service, at work: at most for some seconds in which nobody else is at work."""
+    since = None
+    with monitor.threads.at_work():
+        while client.context.ok() and not client.service_is_ready():
+            told = ask({"looking": True})
+            now = told.get("now", math.inf)
+            if since is None or told.get("others"):
+                since = now
+            if now - since >= seconds or "error" in told:
+                return
+            sleep(SERVICE_SLICE)

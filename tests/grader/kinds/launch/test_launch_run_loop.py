@@ -185,7 +185,9 @@ WAYS = {
 }
 
 
-@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize(
+    "way", ["file", "spawn_entity", *(pytest.param(w, marks=pytest.mark.proof) for w in ("string", "param"))]
+)
 def test_models_come_in_every_way_that_create_knows(launch, way):
     faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
     loops = ("".join("vertex {} {} {}\n".format(*CORNERS[corner]) for corner in face) for face in faces)
@@ -212,6 +214,17 @@ def test_create_puts_a_model_into_the_world_and_others_start_when_it_has(launch)
     (bridge,) = run.recording.facts()["bridges"]
     assert bridge["to_ros"] == 50, "time had not begun before the bridge stood"
     assert "Entity creation successful" in run.log
+
+
+def test_what_python_starts_in_a_session_of_its_own_is_told_from_an_action(launch):
+    run = launch(
+        """
+        OpaqueFunction(function=lambda context: __import__("subprocess").Popen(
+            ["gz", "sim", "-s", "-r", "empty.sdf"], start_new_session=True) and None),
+        bridge(CLOCK),
+        """
+    )
+    assert run.facts["by_python"] == ["gz"]
 
 
 def test_a_second_simulator_stands_still_beside_the_first(launch):

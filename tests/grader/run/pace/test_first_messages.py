@@ -38,6 +38,7 @@ def test_it_is_lost_and_counted_and_what_comes_later_arrives(play):
     assert played.pace.paced_ticks == 0
 
 
+@pytest.mark.proof
 def test_so_it_is_when_dds_has_long_connected_the_two(play):
     played = play(ticks=4, holding=False, simulated=True, node=LINGERS)
     assert (played.heard, played.too_early) == (["later"], {"/said": 2})
@@ -100,7 +101,10 @@ def test_a_subscription_in_the_same_process_hears_it(play):
     assert played.heard == ["first timer"]
 
 
-@pytest.mark.parametrize("linger", ["", "sum(range(3 * 10**7))"], ids=["at once", "later"])
+@pytest.mark.parametrize(
+    "linger",
+    [pytest.param("", id="at once"), pytest.param("sum(range(3 * 10**7))", id="later", marks=pytest.mark.proof)],
+)
 def test_another_process_hears_only_what_is_kept_for_those_who_join_late(play, linger):
     speaker = """
     from rclpy.qos import DurabilityPolicy, QoSProfile

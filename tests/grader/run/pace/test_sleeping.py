@@ -58,7 +58,10 @@ def ask_until(end):
 """
 
 
-@pytest.mark.parametrize("way", WAYS)
+QUICK = ("time.sleep", "an event", "a queue", "asyncio", "the clock")
+
+
+@pytest.mark.parametrize("way", [pytest.param(way, marks=() if way in QUICK else pytest.mark.proof) for way in WAYS])
 def test_a_thread_sleeps_in_simulated_time(heard, way):
     code = f"""
 {TOOLS}

@@ -102,6 +102,7 @@ def test_from_a_healthy_system_to_one_whose_parts_are_gone(room, course, tmp_pat
     assert len(alone["ros"]["bridges"]["/ros_gz_bridge"]) == 4
 
 
+@pytest.mark.proof
 def test_a_process_stopped_in_its_terminal(room, course, tmp_path):
     listener, simulator = tmp_path / "listener.py", tmp_path / "simulator.py"
     listener.write_text(LISTENER)
