@@ -7,7 +7,7 @@ Offsets count from the first byte after the encapsulation header. A number is al
 length with the ending zero, its bytes and the zero; a sequence is its length and its elements.
 
 Source: OMG DDS-XTypes 1.3, chapter 7.4.1, https://www.omg.org/spec/DDS-XTYPES/1.3
-Source: Fast CDR 2.2 (a wide text has no ending zero, and two bytes a character)
+Source: Fast CDR 2.2 (a wide text has no ending zero, and four bytes for each unit of UTF-16)
 """
 
 from __future__ import annotations
@@ -22,12 +22,16 @@ from typing import Any
 from rosidl_parser import definition as idl
 
 from gz_course.sim.rosidl.cdr_layout import FORMATS, Run, smallest_size
-from gz_course.sim.rosidl.field_checks import TYPE_CODES, is_number_array
+from gz_course.sim.rosidl.field_checks import TYPE_CODES, dtype_name, is_number_array
 from gz_course.sim.rosidl.message_class import CHECK_FIELDS
 from gz_course.sim.rosidl.nested_classes import nested_class
 
 Encode = Callable[[Any], bytes]
 Decode = Callable[[bytes], Any]
+
+
+_EXACT = {"float": "float", "double": "float", "boolean": "bool"}
+_NATIVE_UTF_16 = f"utf-16-{sys.byteorder[0]}e"
 
 
 class MalformedError(ValueError):
@@ -37,7 +41,17 @@ class MalformedError(ValueError):
 @functools.cache
 def encoder(message_class: type) -> Encode:
     """Return the function that writes a message. It raises what a wrong value in a field causes."""
-    code = _Code({"join": b"".join, "tobytes": _tobytes, "octets": _octets, "zero_ended": _zero_ended, "fits": _fits})
+    code = _Code(
+        {
+            "join": b"".join,
+            "tobytes": _tobytes,
+            "octets": _octets,
+            "zero_ended": _zero_ended,
+            "units": _units,
+            "fits": _fits,
+            "exactly": _exactly,
+        }
+    )
     _Writer(code).write(message_class, "m")
     return code.function("m", ["parts = []", "p = parts.append", "n = 0"], "return join(parts)")
 
@@ -71,8 +85,16 @@ def _text(data: bytes) -> str:
     return data.partition(b"\0")[0].decode("utf-8", "replace")
 
 
-def _wide(data: bytes, byte_order: str) -> str:
-    return data.decode("utf-16-le" if byte_order == "<" else "utf-16-be", "replace")
+def _units(text: str) -> bytes:
+    """Return the units of UTF-16 of a wide text, four bytes each."""
+    return array.array("I", array.array("H", text.encode(_NATIVE_UTF_16))).tobytes()
+
+
+def _wide(data: bytes, swapped: bool) -> str:
+    units = array.array("I", data)
+    if swapped:
+        units.byteswap()
+    return array.array("H", [unit & 0xFFFF for unit in units]).tobytes().decode(_NATIVE_UTF_16, "replace")
 
 
 def _tobytes(value: Any, size: int) -> bytes:
@@ -92,6 +114,13 @@ def _fits(length: int, size: int | None, most: int | None) -> int:
     if (size is not None and length != size) or (most is not None and length > most):
         raise ValueError(f"expected {f'at most {most}' if size is None else size} elements, found {length}")
     return length
+
+
+def _exactly(kind: type, *values: Any) -> None:
+    """Refuse values of another type, which compiled packages send as wrong values or end the process for."""
+    for value in values:
+        if not isinstance(value, kind):
+            raise TypeError(f"expected a value of type '{kind.__name__}', found {value!r}")
 
 
 def _ndarray(data: bytes, dtype: Any, count: int, offset: int, byte_order: str) -> Any:
@@ -143,6 +172,7 @@ class _Writer:
     def __init__(self, code: _Code) -> None:
         self._code = code
         self._run = Run()
+        self._exact: dict[str, list[str]] = {"float": [], "bool": []}
 
     def write(self, message_class: Any, message: str) -> None:
         self._message(message_class, message)
@@ -158,13 +188,16 @@ class _Writer:
         if isinstance(kind, idl.AbstractNestedType):
             self._elements(kind, value)
         elif isinstance(kind, idl.BasicType):
+            if kind.typename in _EXACT:
+                value = self._named(value)
+                self._exact[_EXACT[kind.typename]].append(value)
             self._run.add(FORMATS[kind.typename], value)
         elif isinstance(kind, idl.NamespacedType):
             self._message(nested_class(kind), self._named(value))
         else:
             wide = isinstance(kind, idl.AbstractWString)
-            data = self._named(f'{value}.encode("utf-16-le")' if wide else f"zero_ended({value})")
-            self._run.add("I", f"len({data}) >> 1" if wide else f"len({data})")
+            data = self._named(f"units({value})" if wide else f"zero_ended({value})")
+            self._run.add("I", f"len({data}) >> 2" if wide else f"len({data})")
             self._bytes(data)
 
     def _elements(self, kind: Any, value: str) -> None:
@@ -222,6 +255,13 @@ class _Writer:
         """Write the fields of fixed size that have come together."""
         if not self._run:
             return
+        for name, values in self._exact.items():
+            if values:
+                classes = " is ".join(f"{value}.__class__" for value in values)
+                self._code.block(f"if not ({name} is {classes}):")
+                self._code.add(f"exactly({name}, {', '.join(values)})")
+                self._code.end()
+                values.clear()
         structs = self._run.structs("<")
         pack = self._code.constant([each.pack for each in structs])
         sizes = self._code.constant([each.size for each in structs])
@@ -266,8 +306,8 @@ class _Reader:
             self._code.add(f"{target} = {message}")
         else:
             wide = isinstance(kind, idl.AbstractWString)
-            data = self._bytes(self._counted(), 2 if wide else 1)
-            self._code.add(f"{target} = " + (f"wide({data}, {self._order!r})" if wide else f"text({data})"))
+            data = self._bytes(self._counted(), 4 if wide else 1)
+            self._code.add(f"{target} = " + (f"wide({data}, {self._swapped})" if wide else f"text({data})"))
 
     def _elements(self, kind: Any, target: str) -> None:
         inner, size, most = kind.value_type, getattr(kind, "size", None), getattr(kind, "maximum_size", None)
@@ -309,7 +349,7 @@ class _Reader:
         if isinstance(kind, idl.Array):
             import numpy
 
-            dtype = self._code.constant(numpy.dtype(code))
+            dtype = self._code.constant(numpy.dtype(dtype_name(kind.value_type.typename)))
             self._code.add(f"{target} = ndarray(b, {dtype}, {count}, o, {self._order!r})")
         else:
             values = self._code.local()

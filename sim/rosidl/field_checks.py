@@ -51,7 +51,7 @@ def stored(kind: idl.AbstractType) -> Callable[[Any], Any] | None:
     if isinstance(kind, idl.Array):
         import numpy
 
-        dtype = numpy.dtype(code)
+        dtype = numpy.dtype(dtype_name(kind.value_type.typename))
         return lambda value: numpy.array(value, dtype=dtype)
     return lambda value: array.array(code, value)
 
@@ -95,7 +95,8 @@ def array_check(kind: idl.AbstractType) -> Callable[[str, Any], bool] | None:
     if isinstance(kind, idl.Array):
         import numpy
 
-        dtype, name = numpy.dtype(code), dtype_name(kind.value_type.typename)
+        name = dtype_name(kind.value_type.typename)
+        dtype = numpy.dtype(name)
 
         def is_ndarray(field: str, value: Any) -> bool:
             if not isinstance(value, numpy.ndarray):

@@ -9,14 +9,14 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
-from types import ModuleType
-from typing import TYPE_CHECKING
 
 from gz_course.sim.rosidl.packages import forget, packages
 
+TYPE_CHECKING = False  # instead of that of `typing`, which would slow every start
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from importlib.machinery import ModuleSpec
+    from types import ModuleType
 
 _FOLDERS = ("msg", "srv", "action")
 

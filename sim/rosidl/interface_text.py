@@ -222,4 +222,7 @@ def _idl_type(kind: adapter.Type) -> idl.AbstractType:
         return idl.Array(inner, kind.array_size)
     if kind.is_upper_bound:
         return idl.BoundedSequence(inner, kind.array_size)
+    if kind.is_array and isinstance(inner, idl.BoundedWString):
+        # ROS takes the bound of the texts for that of the sequence, too (rosidl_parser 4.6): hashes depend on it.
+        return idl.BoundedSequence(inner, inner.maximum_size)
     return idl.UnboundedSequence(inner) if kind.is_array else inner

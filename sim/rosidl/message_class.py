@@ -139,7 +139,7 @@ def _new_value(kind: idl.AbstractType) -> Callable[[], Any]:
         if field_checks.is_number_array(kind):
             import numpy
 
-            dtype = numpy.dtype(field_checks.TYPE_CODES[kind.value_type.typename])
+            dtype = numpy.dtype(field_checks.dtype_name(kind.value_type.typename))
             return lambda: numpy.zeros(kind.size, dtype=dtype)
         make = _new_value(kind.value_type)
         return lambda: [make() for _ in range(kind.size)]

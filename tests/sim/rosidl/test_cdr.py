@@ -36,12 +36,12 @@ def test_what_is_written_is_read_again(classes, seed):
 def test_alignment_counts_from_the_first_byte(packages):
     (module,) = packages.load({"msg/A.msg": "uint8 a\nfloat64 b\nuint8 c\nuint16[] d\nstring e\nint64[] f\nwstring g"})
     data = encoder(module.A)(module.A(a=1, b=2.0, c=3, d=[4], e="xy", f=[], g="ü"))
-    assert data == struct.pack("<B7xdB3xIH2xI3sxII", 1, 2.0, 3, 1, 4, 3, b"xy\0", 0, 1) + "ü".encode("utf-16-le")
+    assert data == struct.pack("<B7xdB3xIH2xI3sxII", 1, 2.0, 3, 1, 4, 3, b"xy\0", 0, 1) + "ü".encode("utf-32-le")
 
 
 def test_a_sender_of_the_other_byte_order_is_understood(packages):
     (module,) = packages.load({"msg/A.msg": "int32 a\nfloat32[] b\nint16[2] c\nstring d\nwstring e"})
-    data = struct.pack(">iIffhhI2s2xI", 5, 2, 1.5, -2.0, 3, -4, 2, b"x\0", 1) + "ü".encode("utf-16-be")
+    data = struct.pack(">iIffhhI2s2xI", 5, 2, 1.5, -2.0, 3, -4, 2, b"x\0", 1) + "ü".encode("utf-32-be")
     message = decoder(module.A, ">")(data)
     assert (message.a, message.b, message.d, message.e) == (5, array.array("f", [1.5, -2.0]), "x", "ü")
     assert message.c.tolist() == [3, -4] and message.c.dtype == numpy.int16

@@ -162,6 +162,10 @@ def test_a_wrong_value_is_named_by_the_one_who_publishes(ros, modules):
     message.plain17.d = 5
     with pytest.raises(TypeError, match=r"/msg/Plain cannot be sent: in plain17: The 'd' field must be of type 'str'"):
         publisher.publish(message)
+    for field, wrong, wanted in (("plain4", 3, "float"), ("plain0", 1, "bool")):
+        message = made(**{field: wrong})
+        with pytest.raises(TypeError, match=f"cannot be sent: The '{field}' field must be of type '{wanted}'"):
+            publisher.publish(message)
     message = made()
     message.plain5 = 1000
     with pytest.raises(TypeError, match=r"cannot be sent: The 'plain5' field must be an integer in \[-128, 127\]"):
