@@ -12,6 +12,7 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
+from importlib.machinery import PathFinder
 from pathlib import Path, PurePosixPath
 
 from gz_course.sim.ament_cmake import interfaces
@@ -64,6 +65,7 @@ def build(package: Package, prefixes: Sequence[Path]) -> Built:
         paths = interfaces.interface_paths(lists)
         if paths:
             faults = interfaces.check(lists, manifest, paths, prefixes)
+            _remark_on_hidden(lists, manifest)
         _remark_on_absent(lists, prefixes)
         if faults:
             return Built(remarks, faults, [])
@@ -91,6 +93,17 @@ def _check_frame(lists: CMakeLists, manifest: PackageManifest) -> None:
             lists.path,
             lists.python_packages[manifest.name],
         )
+
+
+def _remark_on_hidden(lists: CMakeLists, manifest: PackageManifest) -> None:
+    """Remark on a Python package of the same name, such as that of a compiled package, which is imported instead."""
+    found = PathFinder.find_spec(manifest.name)
+    if found is not None and found.loader is not None:
+        sentence = (
+            f"Python imports '{manifest.name}' from {found.origin}, not from these interfaces; give the package "
+            "another name"
+        )
+        lists.remarks.append(at(lists.path, next(iter(lists.interfaces.values())), sentence))
 
 
 def _remark_on_absent(lists: CMakeLists, prefixes: Sequence[Path]) -> None:

@@ -175,6 +175,12 @@ def test_a_dependency_that_is_missing_in_package_xml_is_told(workspace):
     ]
 
 
+def test_the_name_of_a_compiled_package_is_told(workspace):
+    workspace.name = "std_msgs"
+    (remark,) = workspace.build().remarks
+    assert "CMakeLists.txt:6: Python imports 'std_msgs' from " in remark
+
+
 def test_a_file_that_is_not_there_is_named(workspace):
     workspace.write()
     (workspace.source / "msg/Num.msg").unlink()
