@@ -182,10 +182,11 @@ def test_it_is_a_child_like_any_other():
 
 
 def test_programs_of_the_course():
-    for words in (["ros2", "pkg", "prefix", "rclpy"], ["gz", "topic", "--help"], ["course", "list", "--help"]):
+    bridge = [PYTHON, "-P", "-m", "gz_course.sim.ros_gz_bridge.parameter_bridge", "--help"]
+    for words in (["ros2", "pkg", "prefix", "rclpy"], ["gz", "topic", "--help"], ["course", "list", "--help"], bridge):
         new, warm = both([str(PROGRAMS / words[0]), *words[1:]])
         assert warm == new
-        assert new[1] == 0
+        assert (new[1], new[0][1]) == (0, "")
 
 
 def test_what_a_zygote_cannot_stand_for_is_a_new_process(tmp_path):

@@ -227,6 +227,8 @@ def run(kind, what, blocked):
     """Run a module, a script or a text as `__main__`."""
     signal.pthread_sigmask(signal.SIG_SETMASK, blocked)
     if kind == "-m":
+        if not hasattr(sys.modules.get(what), "__path__"):
+            sys.modules.pop(what, None)  # the module itself is loaded as `__main__`
         runpy._run_module_as_main(what)
         return
     main = sys.modules["__main__"].__dict__
