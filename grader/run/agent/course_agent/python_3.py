@@ -5,8 +5,8 @@ needs a while until it can report anything, so its parent announces it. Event lo
 that wait for a child are reported as waiting, so that simulated time does not stand still for them.
 
 In a process with rclpy, `rclpy_7_1.py` calls `install_threads`: threads and their waits are watched from then on
-(`thread_monitor.py`), and sleeping takes simulated time. What waits in C (a read from a socket, a process that is
-waited for) is not watched, nor what asks the clock in C (`datetime.now()`).
+(`thread_monitor.py`), and sleeping takes simulated time. A wait for another process takes real time. What waits in C (a
+read from a socket) is not watched, nor what asks the clock in C (`datetime.now()`).
 """
 
 from __future__ import annotations
@@ -84,10 +84,11 @@ def install_subprocess() -> None:
         def wait(process: Any, *args: Any, **kwargs: Any) -> Any:
             if process.returncode is None:
                 _wait_begins()
-            try:
-                return method(process, *args, **kwargs)
-            finally:
-                _resume()
+            with nullcontext() if _threads is None else _threads.waiting_for_child():
+                try:
+                    return method(process, *args, **kwargs)
+                finally:
+                    _resume()
 
         return wait
 

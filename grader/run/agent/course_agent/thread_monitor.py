@@ -134,6 +134,12 @@ class ThreadMonitor:
         finally:
             self.end(wait)
 
+    @contextlib.contextmanager
+    def waiting_for_child(self) -> Iterator[None]:
+        """Let the calling thread wait in real time for another process; one that runs a callback counts as at work."""
+        with contextlib.nullcontext() if self.mine() in self.calling else self.waiting():
+            yield
+
     def rouse(self, wait: Wait) -> None:
         """Count a thread as at work whose wait is about to end."""
         with self.lock:
