@@ -143,7 +143,7 @@ def test_an_executable_starts_with_the_course_python_whatever_the_path(path, tmp
     )
     assert (done.returncode, done.stderr) == (0, "")
     name = "parameter_bridge" if path.name == "bridge_node" else path.name  # the same program
-    assert done.stdout.startswith(f"usage: {name}")
+    assert done.stdout.lower().startswith(f"usage: {name}")
 
 
 @pytest.mark.parametrize("path", EXECUTABLES, ids=lambda path: path.name)

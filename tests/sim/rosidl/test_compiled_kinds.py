@@ -8,8 +8,7 @@ from rclpy.serialization import deserialize_message, serialize_message
 
 from gz_course.sim.rosidl.cdr import decoder, encoder
 from gz_course.sim.rosidl.interface_classes import classes_of
-from gz_course.tests.sim.ros_gz_bridge import absent_interfaces, built_interfaces
-from gz_course.tests.sim.rosidl import every_kind
+from gz_course.tests.sim.rosidl import compiled_package, every_kind
 from gz_course.tests.sim.rosidl.messages import as_values, fill, seeded
 
 PACKAGE = "compiled_kinds_msgs"
@@ -27,10 +26,7 @@ def pairs(tmp_path_factory):
         (share / name).parent.mkdir(parents=True, exist_ok=True)
         (share / f"{name}.msg").write_text(text)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(absent_interfaces, "DEFINITIONS", {PACKAGE: texts})
-        patch.setattr(built_interfaces, "BUILT", {PACKAGE: list(texts)})
-        built_interfaces.build(folder)
-        patch.syspath_prepend(folder / "python")
+        patch.syspath_prepend(compiled_package.build(folder, PACKAGE, texts))
         module = importlib.import_module(f"{PACKAGE}.msg")
         names = [name.partition("/")[2] for name in texts]
         yield [(classes_of(share / "msg" / f"{name}.msg", PACKAGE)[name], getattr(module, name)) for name in names]

@@ -259,7 +259,8 @@ def test_what_is_no_python_is_not_waited_for_and_ended(launch):
     assert time.monotonic() - started < 300
 
 
-def test_one_that_does_not_listen_to_ctrl_c_is_named(launch):
+def test_one_that_does_not_listen_to_ctrl_c_is_named(launch, monkeypatch):
+    monkeypatch.setattr("gz_course.grader.kinds.launch.launch_run_loop.FAIR_SHARE", 0.0)
     run = launch(
         """
         gz("sim", "-s", "-r", "shapes.sdf"),
