@@ -28,6 +28,7 @@ class Spinner:
         self._executor = SingleThreadedExecutor(context=node.context)
         self._executor.add_node(node)
         self._thread = threading.Thread(target=self._spin, name="ros_executor", daemon=True)
+        self._ending = False
         self.error = ""
 
     def _spin(self) -> None:
@@ -38,6 +39,8 @@ class Spinner:
         except (ExternalShutdownException, ShutdownException):
             pass
         except Exception as error:
+            if self._ending:  # the executor is taken down while it looks for something to do
+                return
             self.error = first_line(error)
             os.kill(os.getpid(), signal.SIGTERM)
 
@@ -46,6 +49,7 @@ class Spinner:
         return self
 
     def __exit__(self, *_: Any) -> None:
+        self._ending = True
         self._executor.shutdown(timeout_sec=_END_S)
         self._thread.join(_END_S)
 

@@ -92,7 +92,7 @@ def test_messages_pass_both_ways(bridged, ros, inbox, eventually):
 def test_a_signal_ends_it_cleanly_at_any_moment(start, number, moment):
     process = start("/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock")
     process.wait_for(moment)
-    assert process.stop(number) == 0
+    assert process.stop(number) == 0, process.lines
     assert not [line for line in process.lines if "Traceback" in line or "rror" in line]
 
 
