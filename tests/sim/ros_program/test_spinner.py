@@ -1,4 +1,4 @@
-"""The executor beside a program: a callback that raises ends it, and what goes wrong while it is taken down does not."""
+"""The executor beside a program: a callback that raises ends it; what goes wrong while it is taken down does not."""
 
 import os
 import signal
