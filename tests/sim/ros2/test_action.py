@@ -20,17 +20,13 @@ ASKED = {
     "type unknown": ["type", "/robot/cuont"],
     "find": ["find", "example_interfaces/Fibonacci"],
     "find count": ["find", "-c", TYPE],
-    "find nothing": ["find", "tf2_msgs/action/LookupTransform"],
-    "find unknown": ["find", "example_interfaces/action/Fibonaci"],
-    "info": ["info", "-t", "robot/count"],
-    "info count": ["info", "-c", "/robot/count"],
+    "info": ["info", "-c", "robot/count"],
     "info unknown": ["info", "/robot/cuont"],
     "goal": ["send_goal", "/robot/count", TYPE, "order: 3"],
     "aborted": ["send_goal", "robot/count", "example_interfaces/Fibonacci"],
     "rejected": ["send_goal", "/robot/count", TYPE, "{order: -1}"],
     "wrong field": ["send_goal", "/robot/count", TYPE, "{odrer: 3}"],
     "wrong value": ["send_goal", "/robot/count", TYPE, "{order: many}"],
-    "not yaml": ["send_goal", "/robot/count", TYPE, "{order: "],
     "wrong type": ["send_goal", "/robot/count", "tf2_msgs/action/LookupTransform"],
     "no type": ["send_goal", "/robot/count", "example_interfaces/action/Fibonaci"],
     "bad name": ["send_goal", "/a b", TYPE],
@@ -100,7 +96,12 @@ def counter(ros_domain):
 
 @pytest.fixture(scope="module")
 def answers(counter, run_together):
-    return dict(zip(ASKED, run_together(*(["action", *words] for words in ASKED.values())), strict=True))
+    # The clients that send goals would change what the others print.
+    found = {}
+    for sending in (False, True):
+        names = [name for name, words in ASKED.items() if (words[0] == "send_goal") == sending]
+        found |= zip(names, run_together(*(["action", *ASKED[name]] for name in names)), strict=True)
+    return found
 
 
 def test_list_type_and_find(answers):
@@ -110,15 +111,10 @@ def test_list_type_and_find(answers):
     assert answers["type"] == (0, f"{TYPE}\n", "")
     assert answers["find"] == (0, "/robot/count\n", "")
     assert answers["find count"] == (0, "1\n", "")
-    assert answers["find nothing"] == (0, "", "")
 
 
 def test_info(answers):
-    code, text, errors = answers["info"]  # the other commands are clients, too
-    assert (code, errors) == (0, "")
-    clients, servers = rf"(    {CLIENT} \[.+\]\n)*", rf"    {NODE} \[{TYPE}\]\n"
-    assert re.fullmatch(rf"Action: robot/count\nAction clients: \d+\n{clients}Action servers: 1\n{servers}", text)
-    assert re.fullmatch(r"Action: /robot/count\nAction clients: \d+\nAction servers: 1\n", answers["info count"][1])
+    assert answers["info"] == (0, "Action: robot/count\nAction clients: 0\nAction servers: 1\n", "")
     assert answers["info unknown"] == (
         0,
         "Action: /robot/cuont\nAction clients: 0\nAction servers: 0\n",
@@ -147,13 +143,11 @@ def test_a_goal_is_rejected(answers):
     ("asked", "sentence"),
     [
         ("type unknown", "Unknown action '/robot/cuont'; did you mean '/robot/count'?"),
-        ("find unknown", f"The action type '{TYPE[:-3]}ci' is invalid; did you mean '{TYPE}'?"),
         (
             "wrong field",
             "Failed to populate field: Fibonacci_Goal has no field 'odrer', its fields: order; did you mean",
         ),
         ("wrong value", "Failed to populate field: 'order' of Fibonacci_Goal is a whole number (int32), not 'many'"),
-        ("not yaml", "The passed value is not YAML: line "),
         ("wrong type", f"The action /robot/count has the type {TYPE}, not tf2_msgs/action/LookupTransform"),
         ("no type", f"The action type '{TYPE[:-3]}ci' is invalid; did you mean '{TYPE}'?"),
         ("bad name", "'/a b' is not an action name: "),
@@ -166,10 +160,12 @@ def test_what_is_wrong_is_one_sentence(answers, asked, sentence):
     assert len(errors.splitlines()) == 1
 
 
-def test_feedback_is_printed_and_an_interrupt_cancels_the_goal(start, counter):
+def test_an_interrupt_cancels_the_goal(start, ros2, counter):
     command = start("action", "send_goal", "-f", "/robot/count", TYPE, "--stdin", stdin_text="order: 100")
     command.wait_for("Goal accepted")
     command.wait_for("Feedback:", times=2)
+    ends = f"Action clients: 1\n    {CLIENT} [{TYPE}]\nAction servers: 1\n    {NODE} [{TYPE}]\n"
+    assert ros2("action", "info", "-t", "/robot/count") == (0, f"Action: /robot/count\n{ends}", "")
     os.kill(command.process.pid, signal.SIGINT)
     code, text, errors = command.wait()
     assert (code, errors) == (2, "")
@@ -187,8 +183,8 @@ def test_a_name_without_a_server_is_waited_for(start, counter):
 
 
 def test_the_parts_of_an_action_are_hidden(run_together, counter):
-    shown = run_together(["topic", "list"], ["service", "list"], ["topic", "list", "--include-hidden-topics"])
-    assert [("_action" in text) for _, text, _ in shown] == [False, False, True]
+    for _, text, _ in run_together(["topic", "list"], ["service", "list"]):
+        assert "_action" not in text
 
 
 def test_tab_completes_names_and_types(offered, counter):
