@@ -2,7 +2,7 @@
 
 `eval "$(register-python-argcomplete ros2)"` sets it up in bash and zsh. At each Tab the shell runs `ros2` with the
 variable `_ARGCOMPLETE`. Only the verb in question is imported; its arguments are completed by their names with live
-topics, nodes, services and parameters, packages, launch files and interfaces.
+topics, nodes, services, actions and parameters, packages, launch files and interfaces.
 
 Source: https://kislyuk.github.io/argcomplete
 """
@@ -80,7 +80,7 @@ def _live(question: Callable[[Any], Iterable[str]]) -> list[str]:
 
 
 def _types(name: str, names_and_types: str, kind: str) -> Callable[[Given], Iterable[str]]:
-    """Return a function that lists the types of the live topic or service `name`, or all interfaces of a kind."""
+    """Return a function that lists the types of the live topic, service, ... `name`, or all interfaces of a kind."""
 
     def types(given: Given) -> Iterable[str]:
         from gz_course.sim.ros2.interface import interface_names
@@ -136,13 +136,15 @@ def _interfaces(given: Given) -> Iterable[str]:
 
 
 def _values(given: Given) -> Iterable[str]:
-    """Return a message with default values in one line, for editing."""
-    from gz_course.sim.ros2.interface import message_class, service_class
+    """Return a message, request or goal with default values in one line, for editing."""
+    from gz_course.sim.ros2.interface import action_class, message_class, service_class
     from gz_course.sim.ros2.message_text import to_line
 
-    service = given.get("service_type")
-    message = service_class(service).Request() if service else message_class(given["message_type"])()
-    return [to_line(message)]
+    if action := given.get("action_type"):
+        return [to_line(action_class(action).Goal())]
+    if service := given.get("service_type"):
+        return [to_line(service_class(service).Request())]
+    return [to_line(message_class(given["message_type"])())]
 
 
 _COMPLETERS: Mapping[str, Callable[[Given], Iterable[str]]] = MappingProxyType(
@@ -151,6 +153,8 @@ _COMPLETERS: Mapping[str, Callable[[Given], Iterable[str]]] = MappingProxyType(
         "message_type": _types("topic_name", "topics", "msg"),
         "service_name": lambda given: _live(lambda graph: (name for name, _ in graph.services())),
         "service_type": _types("service_name", "services", "srv"),
+        "action_name": lambda given: _live(lambda graph: (name for name, _ in graph.actions())),
+        "action_type": _types("action_name", "actions", "action"),
         "node_name": lambda given: _live(lambda graph: graph.nodes()),
         "parameter_name": _parameters,
         "parameter_names": _parameters,
@@ -160,6 +164,7 @@ _COMPLETERS: Mapping[str, Callable[[Given], Iterable[str]]] = MappingProxyType(
         "launch_arguments": _launch_arguments,
         "type": _interfaces,
         "values": _values,
+        "goal": _values,
     }
 )
 """The function that returns the completions of an argument, by its name in any verb."""

@@ -16,6 +16,7 @@ from types import TracebackType
 from typing import Any, TypeVar
 
 import rclpy
+from rclpy.action.graph import get_action_names_and_types
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
@@ -116,6 +117,8 @@ class Graph:
 
     def destroy(self) -> None:
         """Destroy the node; DDS may block meanwhile."""
+        for waitable in list(self.node.waitables):
+            waitable.destroy()  # such as a client of an action, which a node does not destroy itself
         self.node.destroy_node()
         self._context.try_shutdown()
 
@@ -145,6 +148,10 @@ class Graph:
     def services(self, hidden: bool = False) -> NamesAndTypes:
         """Return services and their types, both sorted."""
         return _shown(self.node.get_service_names_and_types(), hidden)
+
+    def actions(self, hidden: bool = True) -> NamesAndTypes:
+        """Return actions and their types, both sorted; ROS 2 lists hidden ones, too."""
+        return _shown(get_action_names_and_types(self.node), hidden)
 
     def nodes(self, hidden: bool = False) -> list[str]:
         """Return the full names of the nodes, sorted, with duplicates."""

@@ -59,6 +59,11 @@ def service_class(type_name: str) -> Any:
     return _class(type_name, "srv", "service")
 
 
+def action_class(type_name: str) -> Any:
+    """Return the class of an action type. Raises CommandError if there is none of that name."""
+    return _class(type_name, "action", "action")
+
+
 def message_type_name(message: Any) -> str:
     """Return `package/msg/Name` of a message class."""
     return f"{message.__module__.partition('.')[0]}/msg/{message.__name__}"
@@ -67,6 +72,11 @@ def message_type_name(message: Any) -> str:
 def service_type_name(service: Any) -> str:
     """Return `package/srv/Name` of a service class."""
     return f"{service.__module__.partition('.')[0]}/srv/{service.__name__}"
+
+
+def action_type_name(action: Any) -> str:
+    """Return `package/action/Name` of an action class."""
+    return f"{action.__module__.partition('.')[0]}/action/{action.__name__}"
 
 
 def _class(type_name: str, kind: str, noun: str) -> Any:

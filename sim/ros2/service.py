@@ -14,7 +14,7 @@ ANSWER_DEADLINE = 5.0  # [s] for services of parameters, which answer from memor
 
 def service_name(graph: Graph, name: str) -> str:
     """Return the name with its namespace. Raises CommandError for an invalid name."""
-    return full_name(graph, name, is_service=True)
+    return full_name(graph, name, "service")
 
 
 def service_types(graph: Graph, name: str) -> list[str]:

@@ -20,14 +20,15 @@ from gz_course.sim.ros2.graph import Graph
 from gz_course.sim.ros2.interface import message_class
 
 
-def full_name(graph: Graph, name: str, is_service: bool = False) -> str:
-    """Return the name with its namespace. Raises CommandError for an invalid name."""
+def full_name(graph: Graph, name: str, noun: str = "topic") -> str:
+    """Return the name of a topic, service or action with its namespace. Raises CommandError for an invalid name."""
     try:
         expanded = expand_topic_name(name, graph.node.get_name(), graph.node.get_namespace())
-        validate_full_topic_name(expanded, is_service=is_service)
+        validate_full_topic_name(expanded, is_service=noun == "service")
     except (NameValidationException, ValueError) as error:
         reason = str(error).partition(", at ")[0].splitlines()[0]
-        raise CommandError(f"'{name}' is not a {'service' if is_service else 'topic'} name: {reason}") from None
+        article = "an" if noun[0] in "aeiou" else "a"
+        raise CommandError(f"'{name}' is not {article} {noun} name: {reason}") from None
     return expanded
 
 

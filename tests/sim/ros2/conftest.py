@@ -1,6 +1,8 @@
 """Fixtures that run `ros2` as a process in a DDS domain that no other program uses."""
 
+import io
 import os
+import shlex
 import signal
 import subprocess
 import sys
@@ -113,6 +115,25 @@ def start():
 def ros2(start):
     """Run `ros2` to its end; return (exit code, stdout, stderr)."""
     return lambda *arguments, **options: start(*arguments, **options).wait()
+
+
+@pytest.fixture
+def offered(monkeypatch):
+    """Return a function that gives the completions of the last of some words after `ros2`."""
+    import argcomplete
+
+    from gz_course.sim.ros2.completion import complete
+
+    def offered(*words):
+        line = " ".join(["ros2", *(shlex.quote(word) if word else "" for word in words)])
+        monkeypatch.setattr(argcomplete.CompletionFinder, "_init_debug_stream", lambda finder: None)
+        for name, value in (("_ARGCOMPLETE", "1"), ("COMP_LINE", line), ("COMP_POINT", str(len(line)))):
+            monkeypatch.setenv(name, value)
+        written = io.StringIO()
+        complete(output_stream=written, exit_method=lambda code: None)
+        return sorted(word.rstrip(" ") for word in written.getvalue().split("\v") if word)
+
+    return offered
 
 
 @pytest.fixture

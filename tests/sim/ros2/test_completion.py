@@ -1,30 +1,12 @@
 """The completions at a Tab."""
 
-import io
-import shlex
 import subprocess
 import sys
 from pathlib import Path
 
-import argcomplete
 import pytest
 
 from gz_course.sim.ros2.command_line import COMMANDS, found
-from gz_course.sim.ros2.completion import complete
-
-
-@pytest.fixture
-def offered(monkeypatch):
-    def offered(*words):
-        line = " ".join(["ros2", *(shlex.quote(word) if word else "" for word in words)])
-        monkeypatch.setattr(argcomplete.CompletionFinder, "_init_debug_stream", lambda finder: None)
-        for name, value in (("_ARGCOMPLETE", "1"), ("COMP_LINE", line), ("COMP_POINT", str(len(line)))):
-            monkeypatch.setenv(name, value)
-        written = io.StringIO()
-        complete(output_stream=written, exit_method=lambda code: None)
-        return sorted(word.rstrip(" ") for word in written.getvalue().split("\v") if word)
-
-    return offered
 
 
 def test_commands_verbs_and_options(offered):
@@ -45,6 +27,9 @@ def test_packages_executables_and_interfaces(offered):
     assert offered("run", "ros_gz_b") == ["ros_gz_bridge"]
     assert {"lint", "parameter_bridge"} <= set(offered("run", "--prefix", "gdb", "ros_gz_bridge", ""))
     assert offered("interface", "show", "std_msgs/msg/Bo") == ["std_msgs/msg/Bool"]
+    fibonacci = "example_interfaces/action/Fibonacci"
+    assert offered("action", "find", fibonacci[:-3]) == [fibonacci]
+    assert offered("action", "send_goal", "/no_such_action", fibonacci, "") == [r"\{order:\ 0\}"]
     assert offered("topic", "pub", "/no_such_topic", "geometry_msgs/msg/Twist", "") == [
         r"\{linear:\ \{x:\ 0.0,\ y:\ 0.0,\ z:\ 0.0\},\ angular:\ \{x:\ 0.0,\ y:\ 0.0,\ z:\ 0.0\}\}"
     ]
