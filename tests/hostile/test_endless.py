@@ -21,7 +21,7 @@ SOLUTION = (Path(__file__).parents[2] / "solutions/03_teleop/teleop_node.py").re
 NODES = {"answers_itself"}  # the others are imported
 # Outcomes, points and words of the diagnosis that are right.
 EXPECTED = {
-    "always_holds": ({"graded", "timeout", "student_error"}, None, ""),  # what it claims is believed 10,000 times at most
+    "always_holds": ({"graded", "timeout", "student_error"}, None, ""),  # it is believed 10,000 times
     "answers_itself": ({"timeout"}, 0, "more than 10000 messages"),
     "reports_megabytes": ({"graded", "timeout", "protocol"}, None, ""),
     "runs_commands": ({"graded"}, 100, ""),
