@@ -17,13 +17,12 @@ from typing import Any
 
 from .channel import channel
 from .endpoint_description import type_name
-from .executor_monitor import HOLD, HOUSEKEEPING, TOPICS, UNMATCHED_SLICE, ExecutorMonitor
+from .executor_monitor import HOLD, HOUSEKEEPING, TOPICS, ExecutorMonitor
 from .inbox import Kept, fill, has_kept, is_copy, kept
 from .python_3 import install_threads
-from .rclpy_7_1_waits import SERVICE_PATIENCE, nudge, watch_waits
+from .rclpy_7_1_waits import await_once, nudge, watch_waits
 from .rosout_counter import watch_logging
 from .self_check import Reliance, misfits
-from .thread_monitor import monotonic, sleep
 from .tracebacks import print_traceback
 
 VERSION = "7.1"
@@ -276,7 +275,7 @@ def _watch_services(monitor: ExecutorMonitor) -> None:
 
         def send() -> None:
             if monitor.holds:
-                _await_service(client)
+                await_once(client, client.service_is_ready)
             with client._lock, client.handle:
                 if not future.done():
                     sequence = client.handle.send_request(asked)
@@ -318,11 +317,3 @@ def _variables(callback: Any) -> dict[str, Any]:
     """Return the variables of a closure."""
     cells = callback.__closure__ or ()
     return {name: cell.cell_contents for name, cell in zip(callback.__code__.co_freevars, cells, strict=False)}
-
-
-def _await_service(client: Any) -> None:
-    """Wait until discovery has found a service before a client's first request, at most for `SERVICE_PATIENCE`."""
-    deadline = monotonic() + (0.0 if hasattr(client, "course_awaited") else SERVICE_PATIENCE)
-    client.course_awaited = True
-    while not client.service_is_ready() and monotonic() < deadline:
-        sleep(UNMATCHED_SLICE)

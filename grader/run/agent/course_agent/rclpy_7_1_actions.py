@@ -16,11 +16,9 @@ from weakref import WeakValueDictionary
 from .executor_monitor import ExecutorMonitor
 from .inbox import has_kept, kept
 from .rclpy_7_1 import monitor as monitor_of_this_process
-from .rclpy_7_1_waits import SERVICE_LOOK, SERVICE_PATIENCE, await_found, nudge
+from .rclpy_7_1_waits import SERVICE_LOOK, await_found, await_once, nudge
 from .self_check import Reliance, misfits
-from .thread_monitor import monotonic, sleep
 
-EXISTS: Reliance = ("", "")
 RELIED_UPON: dict[str, Reliance] = {
     "rclpy.action.client:ActionClient.__init__": ("", "_node _action_name _action_type _client_handle"),
     "rclpy.action.client:ActionClient.take_data": (
@@ -45,8 +43,8 @@ RELIED_UPON: dict[str, Reliance] = {
 }
 SERVICES = {"goal": "send_goal", "cancel": "cancel_goal", "result": "get_result"}
 # What may be waiting for a client and for a server: the names of their flags.
-CLIENTS_OWN = tuple(f"_is_{what}_ready" for what in ("goal_response", "cancel_response", "result_response"))
-CLIENTS = (*CLIENTS_OWN, "_is_feedback_ready", "_is_status_ready")
+FROM_SERVERS = ("goal_response", "cancel_response", "result_response", "feedback", "status")
+CLIENTS = tuple(f"_is_{what}_ready" for what in FROM_SERVERS)
 SERVERS = tuple(f"_is_{what}_ready" for what in ("goal_request", "cancel_request", "result_request"))
 
 
@@ -137,7 +135,7 @@ def _watch_clients(monitor: ExecutorMonitor) -> None:
 
             def send() -> None:
                 if monitor.holds:
-                    _await_server(client)
+                    await_once(client, client.server_is_ready)
                 inner = method(client, asked, *arguments, **options)
                 if client.server_is_ready():
                     monitor.count(monitor.delivered, f"request {_name(client)}/_action/{service}")
@@ -165,14 +163,6 @@ def _watch_clients(monitor: ExecutorMonitor) -> None:
     ActionClient._cancel_goal_async = held(ActionClient._cancel_goal_async, "cancel_goal", is_handle)
     ActionClient._get_result_async = held(ActionClient._get_result_async, "get_result", is_handle)
     ActionClient.wait_for_server = patient_wait
-
-
-def _await_server(client: Any) -> None:
-    """Wait until discovery has found an action server before a client's first request, for `SERVICE_PATIENCE`."""
-    deadline = monotonic() + (0.0 if hasattr(client, "course_awaited") else SERVICE_PATIENCE)
-    client.course_awaited = True
-    while not client.server_is_ready() and monotonic() < deadline:
-        sleep(0.005)
 
 
 def _watch_servers(monitor: ExecutorMonitor) -> None:

@@ -329,6 +329,14 @@ def _wait_for_services(monitor: ExecutorMonitor) -> None:
     Client.wait_for_service = patient_wait
 
 
+def await_once(client: Any, is_found: Callable[[], bool]) -> None:
+    """Wait until discovery has found the server for a client's first request, at most for `SERVICE_PATIENCE`."""
+    deadline = monotonic() + (0.0 if hasattr(client, "course_awaited") else SERVICE_PATIENCE)
+    client.course_awaited = True
+    while not is_found() and monotonic() < deadline:
+        sleep(UNMATCHED_SLICE)
+
+
 def await_found(monitor: ExecutorMonitor, context: Any, is_found: Callable[[], bool], seconds: float) -> None:
     """Wait until discovery has found a server, at work: at most for some seconds in which nobody else is at work."""
     since = None
