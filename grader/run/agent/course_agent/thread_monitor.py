@@ -9,7 +9,8 @@ A wait with a timeout is a sleep. It ends when the grader orders the one that is
 the same time, that of the thread that was started first. A sleep takes whole milliseconds, at least one.
 
 The clocks of the process (`time.time()` and its kind) go on with simulated time: that of the latest wake-up or
-`/clock`. A thread that asks the time again and again without waiting is made to wait for a millisecond.
+`/clock`. They run fast by `AHEAD`, so that a deadline which was computed in floats is reached when its time has come.
+A thread that asks the time again and again without waiting is made to wait for a millisecond.
 """
 
 from __future__ import annotations
@@ -22,6 +23,10 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 MILLISECOND = 1_000_000  # [ns] of simulated time: the shortest sleep
+# `time.time() + 0.3`, asked 0.3 s later, can be a rounding step in the future, 0.24 us: on a real computer every
+# wake-up is later than that. A clock that gains 100 us in a second shows 1 us more after a tick of 10 ms, and less than
+# a tick more after 100 s.
+AHEAD = 100e-6
 MOST_READS = 1_000  # of the clock without a wait in between
 MOST_POLLS = 3  # of an executor that has nothing to do, without a wait in between
 POLL_PERIOD = 0.01  # [s] of simulated time that the next such poll takes at most
@@ -244,7 +249,7 @@ class ThreadMonitor:
             reads = self._reads[number] = self._reads.get(number, 0) + 1
             if reads > MOST_READS:
                 time.sleep(MILLISECOND / 1e9 / self.rate)
-        return self._bases[name] + round((self.now_ns - self._begin_ns) / self.rate)
+        return self._bases[name] + round((self.now_ns - self._begin_ns) * (1 + AHEAD) / self.rate)
 
     def polls_too_often(self) -> bool:
         """Count a poll of an executor that has nothing to do; return whether the next one must wait."""
