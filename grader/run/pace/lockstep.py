@@ -193,15 +193,24 @@ class LockStep(RealTime):
                 return
 
     def _await_settled(self) -> bool:
-        """Wait until no message is in transit and every process is idle; return False on a timeout."""
+        """Wait until no message is in transit and every process is idle; return False on a timeout.
+
+        How long that took is judged only while it goes on: who had come to rest before this thread got a processor to
+        see it has held nobody up.
+        """
         self._copies = 0
         resend = time.monotonic() + CLOCK_AGAIN
         lost = time.monotonic() + LOST
         strays = time.monotonic() + STRAYS
         self._have_taken()
-        patience = Patience(self.processes.clock, PATIENCE)
-        give_up = Patience(self.processes.clock, PATIENCE if self._failures else LOST_PATIENCE)
+        clock, held_up = self.processes.clock_but_mine, self.held_up
+        patience = Patience(clock, PATIENCE)
+        give_up = Patience(clock, PATIENCE if self._failures else LOST_PATIENCE)
         while not self._settled():
+            self.held_up = held_up + patience.waited()
+            if patience.over():
+                self._fall_out_of_step()
+                return False
             if not self.processes.running:
                 self._take_last_words()
                 return False
@@ -216,9 +225,6 @@ class LockStep(RealTime):
                 strays = now + STRAYS
             if self._is_flooded():
                 return False
-            if patience.over():
-                self._fall_out_of_step()
-                return False
             if self._pending and self._pending[0] == CLOCK and now > resend:
                 _, publisher, message = self._pending
                 publisher.publish(message)
@@ -227,7 +233,7 @@ class LockStep(RealTime):
                 self._send_again()
                 lost = now + LOST
                 if self._copies and not give_up.over():
-                    patience = Patience(self.processes.clock, PATIENCE)
+                    patience, held_up = Patience(clock, PATIENCE), self.held_up
         return True
 
     def _is_flooded(self) -> bool:

@@ -13,6 +13,7 @@ import selectors
 import signal
 import socket
 import subprocess
+import threading
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -47,7 +48,8 @@ class SubmissionProcesses:
     """One running submission: a process and everything it starts.
 
     `exit_code` is that of the first process, None while it runs. `participants` are the processes that have said hello,
-    the first process first. `asked(participant, message)` gets their requests.
+    the first process first. `asked(participant, message)` gets their requests. `clock` is theirs and the grader's;
+    `clock_but_mine` goes on while only the thread that has started them waits for a processor.
     """
 
     def __init__(
@@ -89,6 +91,8 @@ class SubmissionProcesses:
         self.participants: list[Participant] = []
         self._box = BoxProcesses(self._process.pid, self._process.walled, self._apart)
         self.clock = FairClock(lambda: [os.getpid(), *self._members()])
+        # The thread that waits for them looks at them again and again, and each time it waits for a processor.
+        self.clock_but_mine = FairClock(lambda: [os.getpid(), *self._members()], threading.get_native_id())
         self._tree = ProcessTree(self._box.age, self.clock.now)
         self._lines: list[str] = []
         self._line_count = 0
