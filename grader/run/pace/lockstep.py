@@ -187,7 +187,7 @@ class LockStep(RealTime):
             return
         self._pending = None
         while self._holding and (holder := next((p for p in self._participants if _holds(p)), None)) is not None:
-            holder.release()
+            holder.release(self.processes.clock.now())
             self._released += 1
             if self._is_flooded() or not self._await_settled():
                 return

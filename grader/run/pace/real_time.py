@@ -111,7 +111,7 @@ class RealTime:
         for each in self.processes.participants:
             if each.wants_answer and not each.waiting_for_release:
                 if each.progress and each.progress.held:
-                    each.release()
+                    each.release(self.processes.clock.now())
                 else:
                     each.answer()
         return True

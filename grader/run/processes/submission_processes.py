@@ -241,6 +241,8 @@ class SubmissionProcesses:
         self._tree.hear(message)
         if "clock" in message:
             who.tell({"now": self.now_ns})
+        if "time" in message:
+            who.tell({"answer": {"now": self.clock.now()}})
         if "looking" in message:
             others_work = any(p.works and not p.looking for p in self.participants if p is not who)
             who.tell({"answer": {"others": others_work or self._starts(who), "now": self.clock.now()}})
