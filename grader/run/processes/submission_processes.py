@@ -93,7 +93,7 @@ class SubmissionProcesses:
         self.clock = FairClock(lambda: [os.getpid(), *self._members()])
         # The thread that waits for them looks at them again and again, and each time it waits for a processor.
         self.clock_but_mine = FairClock(lambda: [os.getpid(), *self._members()], threading.get_native_id())
-        self._tree = ProcessTree(self._box.age, self.clock.now)
+        self._tree = ProcessTree(self._box.age, self.clock.now, self.clock.delayed)
         self._lines: list[str] = []
         self._line_count = 0
         self._last = b""  # end of what was written beyond the limit
