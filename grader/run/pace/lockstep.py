@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 from gz_course.grader.run.agent.course_agent.executor_monitor import HOUSEKEEPING
 from gz_course.grader.run.agent.course_agent.rosout_counter import ROSOUT
 from gz_course.grader.run.fair_clock import Patience
+from gz_course.grader.run.pace.late_joiners import LateJoiners
 from gz_course.grader.run.pace.matching import can_match, will_match
 from gz_course.grader.run.pace.real_time import LOOK_ROUND, PATIENCE, RealTime
 from gz_course.grader.run.processes.participant import Participant
@@ -49,6 +50,7 @@ class LockStep(RealTime):
         self._holding = holding
         self._sent: Counter[str] = Counter()  # messages that the student's processes must have taken
         self._untaken: Counter[str] = Counter()  # of those and of their own: never taken (or taken and never counted)
+        self._late = LateJoiners()
         self._layout: tuple[int, ...] = ()
         self._participants: list[Participant] = []
         self._pending: tuple[str, Any, Any] | None = None
@@ -81,6 +83,7 @@ class LockStep(RealTime):
             return False
         self._layout = self.processes.layout
         self._participants = self.processes.followed
+        self._late.look(self._participants)
         self._holding |= len(self._participants) > 1
         for each in self._participants if self._holding and not self._free else []:
             if each.progress and not each.progress.holding:
@@ -303,9 +306,10 @@ class LockStep(RealTime):
 
     def _due_to_be_taken(self) -> Counter[str]:
         """Count by topic the messages that the processes must have taken: the simulator's and each other's."""
+        due = self._sent + self._late.due
         if not self._holding:
-            return self._sent
-        due = self._sent + self._total("delivered")
+            return due
+        due += self._total("delivered")
         for topic, count in self._total("published").items():
             if self.ros.listens(topic) or topic == ROSOUT:
                 due[topic] -= count  # one of the readers is the grader

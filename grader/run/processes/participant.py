@@ -157,7 +157,8 @@ class Participant:
                 self._logged, self.waits_for_log = int(message["logged"]), True
             self.uses_ros |= "ros" in message
             self.looking |= "looking" in message
-            self.waits = "waiting" in message
+            if "time" not in message:  # who asks for the time goes on as before
+                self.waits = "waiting" in message
             self._asked(self, message)
         except (ValueError, KeyError, TypeError, AttributeError, RecursionError, OverflowError, OSError):
             return  # not from our agent: an infinite number, or a name that cannot be a file's

@@ -37,6 +37,7 @@ from typing import Any
 from . import grader_requests
 from .channel import Channel
 from .endpoint_description import described, qos_can_match
+from .history import History
 from .inbox import blocked, fill, is_copy
 from .patience import await_found, await_signal
 from .signals import Signal
@@ -77,13 +78,14 @@ class ExecutorMonitor:
         self.lost: Counter[str] = Counter()
         # Topics whose early messages DDS keeps for late joiners: when their publishers were found, in real time [ns].
         self._found_at: dict[str, int] = {}
-        self.spun = False  # whether an executor has ever waited
+        self.spun = False  # whether an executor has waited
         self._lock = threading.RLock()
         self._answered = Signal()
         self._told_time = Signal()
         self.clock_seen: dict[int, int] = {}  # id(TimeSource) -> [ns]
         self._nodes: dict[int, Any] = {}
         self._topic_of: dict[int, str] = {}  # id(subscription) -> topic; asking rcl each time is slow
+        self.history = History(self.topic_of)
         self._layout: tuple[Any, ...] = ()
         self._endpoints: list[dict[str, Any]] = []
         self._reported_endpoints: list[dict[str, Any]] = []
@@ -118,10 +120,7 @@ class ExecutorMonitor:
             self.report()
 
     def count_log(self) -> None:
-        """Count a message that was sent to /rosout. After `MOST_LOGGED`, wait until they have arrived.
-
-        /rosout keeps the last 100 messages only, for a reader that is not found yet or has missed some.
-        """
+        """Count a message that was sent to /rosout, which keeps the last 100; after `MOST_LOGGED`, wait for them."""
         with self._lock:
             self.logged += 1
             full = self.logged - self._confirmed >= MOST_LOGGED
@@ -334,6 +333,7 @@ class ExecutorMonitor:
                 self._endpoints.append(
                     described(name, "subscription", self.topic_of(subscription), subscription, matched)
                 )
+        self.history.look(self._nodes.values())
         now = monotonic()
         waiting = [(e["kind"], e["topic"]) for e in self._endpoints if not e["matched"] and self._is_met(e)]
         self._unmatched_since = {key: self._unmatched_since.get(key, now) for key in waiting}
@@ -385,6 +385,7 @@ class ExecutorMonitor:
                 report["wakes"] = wakes
             if idle and any(True for _ in blocked(self._nodes.values())):
                 report["blocked"] = True
+            report |= self.history.report()
             if self.lost:
                 report["lost"] = self.lost
             if self._found_at:

@@ -131,6 +131,7 @@ def _watch_messages(monitor: ExecutorMonitor) -> None:
     def emit(publisher: Any, message: Any) -> None:
         readers = publisher.get_subscription_count()
         publish(publisher, message)
+        monitor.history.count(publisher)
         if readers:
             topic = monitor.topic_of(publisher)
             monitor.count(monitor.delivered, topic, readers)
@@ -147,6 +148,7 @@ def _watch_messages(monitor: ExecutorMonitor) -> None:
         if publisher.qos_profile.durability.name == "TRANSIENT_LOCAL":
             monitor.announce_early(topic)
             publish(publisher, message)
+            monitor.history.count(publisher)
             return
         for subscription in monitor.local_subscriptions(topic):
             if subscription.msg_type is publisher.msg_type and hears(subscription, publisher):
