@@ -36,3 +36,17 @@ def test_a_deadline_in_floats_is_reached_when_its_time_has_come_and_not_before(b
     assert threads.after(left) == (begin + wait) * MILLISECOND
     assert shown(begin + wait - 1) < end
     assert shown(begin + wait) >= end and shown(begin + wait) - start >= seconds
+
+
+def test_what_a_process_computes_before_its_first_node_takes_no_time_and_what_it_sleeps_does():
+    """A node that measures from the start of its program sees the same on a slow machine."""
+    threads = ThreadMonitor()
+    threads.enter(threads.expect())
+    assert threads.clock_ns("time", lambda: 7_000) == 7_000
+    with threads.waiting():
+        time.sleep(0.001)
+    slept = threads._slept_ns
+    assert slept >= MILLISECOND
+    threads.start(0, 1.0)
+    assert threads.clock_ns("time", lambda: 10**9) == 7_000 + slept
+    assert threads.clock_ns("monotonic", lambda: 0) <= time.monotonic_ns()
