@@ -1,8 +1,9 @@
 """Reservation of a ROS domain for one run, so that two gradings on one machine never receive each other's messages.
 
-The reservation is an abstract unix socket: it needs no file and disappears with the process that holds it.
+The reservation is an abstract unix socket: it needs no file and disappears with the process that holds it. Others, such
+as a bridge in some terminal, reserve nothing; a domain in which they listen is taken last.
 
-Source: unix(7), "Abstract sockets".
+Source: unix(7), "Abstract sockets"; Linux, Documentation/networking/proc_net_tcp.rst (udp has the same columns).
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from __future__ import annotations
 import os
 import random
 import socket
+from pathlib import Path
 from types import TracebackType
 
 from gz_course.grader.errors import InfrastructureError
@@ -28,7 +30,7 @@ class Domain:
         order = list(DOMAINS)
         random.Random(os.getpid()).shuffle(order)
         # Others who speak in a domain would be taken for the submission where the network is shared.
-        for candidate in sorted(order, key=_is_in_use):
+        for candidate in sorted(order, key=_domains_in_use().__contains__):
             try:
                 self._lock.bind(f"\0gz-ros2-course-domain-{candidate}")
             except OSError:
@@ -53,11 +55,20 @@ class Domain:
         self.release()
 
 
-def _is_in_use(domain: int) -> bool:
-    """Whether a participant listens for others in a domain, in the network this process is in."""
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-        try:
-            probe.bind(("", FIRST_PORT + PORTS_PER_DOMAIN * domain))
-        except OSError:
-            return True
-    return False
+def _domains_in_use() -> set[int]:
+    """Return the domains in which a participant listens, in the network this process is in.
+
+    The first port of a domain is for multicast, which nobody uses who looks for others on this machine only; each
+    participant has two more ports of its own.
+    """
+    ports = {port for table in ("udp", "udp6") for port in _bound_ports(Path("/proc/thread-self/net", table))}
+    return {(port - FIRST_PORT) // PORTS_PER_DOMAIN for port in ports if port >= FIRST_PORT}
+
+
+def _bound_ports(table: Path) -> list[int]:
+    """Return the local ports in one of the kernel's tables of sockets; none if it has no such table."""
+    try:
+        rows = table.read_text().splitlines()[1:]
+    except OSError:
+        return []
+    return [int(row.split()[1].rpartition(":")[2], 16) for row in rows]

@@ -21,10 +21,11 @@ _NS = 1e-9
 
 
 class FairClock:
-    """Counts time [s] from 0. `processes()` returns the ids of the processes to follow."""
+    """Counts time [s] from 0. `processes()` returns the ids of those to follow, without their thread `apart`."""
 
-    def __init__(self, processes: Callable[[], Iterable[int]]) -> None:
+    def __init__(self, processes: Callable[[], Iterable[int]], apart: int | None = None) -> None:
         self._processes = processes
+        self._apart = apart
         self._now = 0.0
         self._idle = 0.0
         self._delayed = 0.0
@@ -50,6 +51,7 @@ class FairClock:
 
     def _look(self) -> None:
         threads = dict(_threads(self._processes()))
+        threads.pop((os.getpid(), self._apart or 0), None)
         now = time.monotonic()
         if self._threads is not None:
             passed = min(now - self._looked, LONGEST_STEP)
@@ -82,12 +84,16 @@ class Patience:
 
     def over(self) -> bool:
         """Return whether the wait has lasted too long."""
+        return self.waited() > self._seconds
+
+    def waited(self) -> float:
+        """Return for how long it has lasted [s], but for the while that costs nothing."""
         if self._since is None:
             if time.monotonic() - self._began < SAMPLE:
-                return False
+                return 0.0
             self._since = self._clock.now()
             self._seconds -= SAMPLE
-        return self._clock.now() - self._since > self._seconds
+        return self._clock.now() - self._since
 
 
 def _threads(processes: Iterable[int]) -> Iterable[tuple[tuple[int, int], tuple[int, int]]]:

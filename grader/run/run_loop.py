@@ -37,9 +37,9 @@ from gz_course.sim.gz.sim.world import World
 from gz_course.sim.gz.transport import Node, NodeOptions, Scope
 
 MOST_MESSAGES = 20_000  # of one topic that are recorded; the rest is counted
-# A run may take 2 x its simulated time + 10 s: of processor time in the student's processes, and of their clock beside
-# what the grader itself computes. A machine that does not give it so much processor time in 20 times as much wall time
-# is given up.
+# A run may take 2 x its simulated time + 10 s: of processor time in the student's processes, of waiting for them, and
+# of their clock beside what the grader itself computes. A machine that does not give it so much processor time in 20
+# times as much wall time is given up.
 TIME_FACTOR, TIME_GRACE = 2.0, 10.0
 MACHINES_FACTOR = 20.0
 LOOK_AGAIN = 1.0  # [s] of wall time between two looks at that
@@ -152,7 +152,8 @@ class RunLoop:
         self._out_of_time |= self._pace.flooded
         if (now := time.monotonic()) > self._look_at:
             own = time.process_time() - self._own_before
-            self._out_of_time |= self._is_slow(self._processes.clock.now() - self._clock_before - own)
+            waited = self._processes.clock.now() - self._clock_before - own
+            self._out_of_time |= self._is_slow(max(waited, self._pace.held_up))
             self._give_up_after(now - self._started, own)
             self._look_at = now + LOOK_AGAIN
 

@@ -2,11 +2,14 @@
 
     python -m gz_course.tests.determinism [GRADINGS] [NAME ...]
 
-The nodes are the folders of `tests/grader/run/styles/`. Half of the gradings run beside busy processes. Prints a table
-and ends with exit code 1 if a name has more than one score or more than one hash, or was not graded.
+The nodes are the folders of `tests/grader/run/styles/`. Every second round of gradings runs beside busy processes. The
+table is printed after each round; exit code 1 says that a name has more than one score or more than one hash, or was
+not graded. Each grading is noted in a file below `build/determinism/`; a second call with the same code goes on where
+the first one ended.
 """
 
 import contextlib
+import hashlib
 import json
 import os
 import subprocess
@@ -19,12 +22,15 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
 from statistics import median
+from typing import Any
 
 from gz_course.grader.exercise import Exercise, exercise_names, find_exercise
 from gz_course.grader.run.sandbox import choose, level_module
 
 ROOT = Path(__file__).parents[2]
 STYLES = ROOT / "tests/grader/run/styles"
+DECIDES = ("grader", "sim", "exercises", "solutions", "tests/grader/run/styles")  # what a score depends on
+NOTED = ROOT / "build/determinism"
 GRADINGS, BUSY = 200, 8
 # A grading that never ends is a fault, too; on a busy machine one may take minutes.
 LONGEST = 3600.0  # [s]
@@ -46,14 +52,14 @@ class Row:
     def same(self) -> bool:
         return len(self.scores) == len(self.hashes) == 1 and not self.faults
 
-    def take(self, told: str | dict, busy: bool, seconds: float) -> None:
-        """Take over a report, or the reason why there is none."""
-        self.seconds[busy].append(seconds)
-        if isinstance(told, str):
-            self.faults.append(told)
+    def take(self, noted: dict[str, Any]) -> None:
+        """Take over what was noted of a grading (`graded`)."""
+        self.seconds[noted["busy"]].append(noted["seconds"])
+        if "fault" in noted:
+            self.faults.append(noted["fault"])
             return
-        self.scores[f"{told['score']:g}"] += 1
-        self.hashes[" ".join(trial["truth_sha256"][:12] for trial in told["trials"])] += 1
+        self.scores[f"{noted['score']:g}"] += 1
+        self.hashes[noted["hash"]] += 1
 
 
 def rows() -> list[Row]:
@@ -66,8 +72,8 @@ def rows() -> list[Row]:
     return found
 
 
-def graded(row: Row, level: str) -> tuple[str | dict, float]:
-    """Grade once, as a program of its own; return the report or why there is none, and the wall time [s]."""
+def graded(row: Row, level: str, busy: bool) -> dict[str, Any]:
+    """Grade once, as a program of its own; return what is noted of it: score and hash, or why there are none."""
     with tempfile.TemporaryDirectory(prefix="determinism-") as place:
         report = Path(place, "report.json")
         # Of a solution's folder the file alone: its variants have files of the same name.
@@ -79,10 +85,18 @@ def graded(row: Row, level: str) -> tuple[str | dict, float]:
         done = subprocess.run(
             [*command, "--sandbox", level], cwd=ROOT, capture_output=True, text=True, timeout=LONGEST, check=False
         )
-        seconds = time.monotonic() - began
+        noted = {"name": row.name, "busy": busy, "seconds": round(time.monotonic() - began, 2)}
         if done.returncode not in (0, 1):
-            return f"exit code {done.returncode}: {done.stderr.strip()[-300:]}", seconds
-        return json.loads(report.read_text()), seconds
+            return noted | {"fault": f"exit code {done.returncode}: {done.stderr.strip()[-300:]}"}
+        told = json.loads(report.read_text())
+        lost = [check["id"] for check in told["checks"] if check["points"] < check["max_points"]]
+        return noted | {
+            "score": told["score"],
+            "hash": " ".join(trial["truth_sha256"][:12] for trial in told["trials"]),
+            "outcome": told["outcome"],
+            "lost": lost,
+            "pace": told["pace"],
+        }
 
 
 @contextlib.contextmanager
@@ -98,11 +112,37 @@ def busy_machine(count: int) -> Iterator[None]:
             each.wait()
 
 
-def grade_all(found: list[Row], gradings: int, busy: bool, level: str, jobs: int) -> None:
-    todo = [row for _ in range(gradings) for row in found]
-    with ThreadPoolExecutor(jobs) as pool:
-        for row, (told, seconds) in zip(todo, pool.map(lambda row: graded(row, level), todo), strict=True):
-            row.take(told, busy, seconds)
+def note_file(level: str) -> Path:
+    """Return the file in which the gradings of this code are noted."""
+    code = hashlib.sha256()
+    for path in sorted(each for part in DECIDES for each in (ROOT / part).rglob("*")):
+        if path.is_file() and "__pycache__" not in path.parts:
+            code.update(f"{path.relative_to(ROOT)} {path.stat().st_size}\n".encode() + path.read_bytes())
+    return NOTED / f"{level}-{code.hexdigest()[:12]}.jsonl"
+
+
+def take_noted(found: list[Row], file: Path) -> int:
+    """Take over the gradings of an earlier call; return how many."""
+    by_name, lines = {row.name: row for row in found}, file.read_bytes().splitlines() if file.exists() else []
+    count = 0
+    for line in lines:
+        with contextlib.suppress(ValueError):  # the last one was not written to its end
+            noted = json.loads(line)
+            if row := by_name.get(noted["name"]):
+                row.take(noted)
+                count += 1
+    return count
+
+
+def grade_round(todo: list[Row], busy: bool, level: str, jobs: int, file: Path) -> None:
+    """Grade each once, and note it."""
+    with ThreadPoolExecutor(jobs) as pool, file.open("a") as notes:
+        try:
+            for row, noted in zip(todo, pool.map(lambda row: graded(row, level, busy), todo), strict=True):
+                row.take(noted)
+                print(json.dumps(noted), file=notes, flush=True)
+        finally:
+            pool.shutdown(cancel_futures=True)
 
 
 def print_table(found: list[Row]) -> None:
@@ -126,11 +166,22 @@ def main() -> int:
     found = [row for row in rows() if not arguments or any(name in row.name for name in arguments)]
     level = choose()
     jobs = len(os.sched_getaffinity(0)) if level_module(level).PRIVATE_NETWORK else 1
-    print(f"{len(found)} submissions, {gradings} gradings each, {jobs} at a time at level {level}", flush=True)
-    grade_all(found, gradings - gradings // 2, False, level, jobs)
-    with busy_machine(BUSY):
-        grade_all(found, gradings // 2, True, level, jobs)
-    print_table(found)
+    file = note_file(level)
+    file.parent.mkdir(parents=True, exist_ok=True)
+    before = take_noted(found, file)
+    print(f"{len(found)} submissions, {gradings} gradings each, {jobs} at a time at level {level}")
+    print(f"noted in {file.relative_to(ROOT)}" + (f", which holds {before}" if before else ""), flush=True)
+    for number in range(1, gradings + 1):
+        busy = number % 2 == 0
+        wanted = number // 2 if busy else (number + 1) // 2
+        if todo := [row for row in found if len(row.seconds[busy]) < wanted]:
+            with busy_machine(BUSY if busy else 0):
+                grade_round(todo, busy, level, jobs, file)
+            print(f"\nafter {number} of {gradings} gradings")
+            print_table(found)
+            sys.stdout.flush()
+    if before and not todo:
+        print_table(found)
     return 0 if all(row.same for row in found) else 1
 
 

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 from gz_course.grader.run.agent.course_agent.executor_monitor import HOUSEKEEPING
 from gz_course.grader.run.agent.course_agent.rosout_counter import ROSOUT
 from gz_course.grader.run.fair_clock import Patience
+from gz_course.grader.run.pace.late_joiners import LateJoiners
 from gz_course.grader.run.pace.matching import can_match, will_match
 from gz_course.grader.run.pace.real_time import LOOK_ROUND, PATIENCE, RealTime
 from gz_course.grader.run.processes.participant import Participant
@@ -49,6 +50,7 @@ class LockStep(RealTime):
         self._holding = holding
         self._sent: Counter[str] = Counter()  # messages that the student's processes must have taken
         self._untaken: Counter[str] = Counter()  # of those and of their own: never taken (or taken and never counted)
+        self._late = LateJoiners()
         self._layout: tuple[int, ...] = ()
         self._participants: list[Participant] = []
         self._pending: tuple[str, Any, Any] | None = None
@@ -81,6 +83,7 @@ class LockStep(RealTime):
             return False
         self._layout = self.processes.layout
         self._participants = self.processes.followed
+        self._late.look(self._participants)
         self._holding |= len(self._participants) > 1
         for each in self._participants if self._holding and not self._free else []:
             if each.progress and not each.progress.holding:
@@ -187,21 +190,30 @@ class LockStep(RealTime):
             return
         self._pending = None
         while self._holding and (holder := next((p for p in self._participants if _holds(p)), None)) is not None:
-            holder.release()
+            holder.release(self.processes.clock.now())
             self._released += 1
             if self._is_flooded() or not self._await_settled():
                 return
 
     def _await_settled(self) -> bool:
-        """Wait until no message is in transit and every process is idle; return False on a timeout."""
+        """Wait until no message is in transit and every process is idle; return False on a timeout.
+
+        How long that took is judged only while it goes on: who had come to rest before this thread got a processor to
+        see it has held nobody up.
+        """
         self._copies = 0
         resend = time.monotonic() + CLOCK_AGAIN
         lost = time.monotonic() + LOST
         strays = time.monotonic() + STRAYS
         self._have_taken()
-        patience = Patience(self.processes.clock, PATIENCE)
-        give_up = Patience(self.processes.clock, PATIENCE if self._failures else LOST_PATIENCE)
+        clock, held_up = self.processes.clock_but_mine, self.held_up
+        patience = Patience(clock, PATIENCE)
+        give_up = Patience(clock, PATIENCE if self._failures else LOST_PATIENCE)
         while not self._settled():
+            self.held_up = held_up + patience.waited()
+            if patience.over():
+                self._fall_out_of_step()
+                return False
             if not self.processes.running:
                 self._take_last_words()
                 return False
@@ -216,9 +228,6 @@ class LockStep(RealTime):
                 strays = now + STRAYS
             if self._is_flooded():
                 return False
-            if patience.over():
-                self._fall_out_of_step()
-                return False
             if self._pending and self._pending[0] == CLOCK and now > resend:
                 _, publisher, message = self._pending
                 publisher.publish(message)
@@ -227,7 +236,7 @@ class LockStep(RealTime):
                 self._send_again()
                 lost = now + LOST
                 if self._copies and not give_up.over():
-                    patience = Patience(self.processes.clock, PATIENCE)
+                    patience, held_up = Patience(clock, PATIENCE), self.held_up
         return True
 
     def _is_flooded(self) -> bool:
@@ -297,9 +306,10 @@ class LockStep(RealTime):
 
     def _due_to_be_taken(self) -> Counter[str]:
         """Count by topic the messages that the processes must have taken: the simulator's and each other's."""
+        due = self._sent + self._late.due
         if not self._holding:
-            return self._sent
-        due = self._sent + self._total("delivered")
+            return due
+        due += self._total("delivered")
         for topic, count in self._total("published").items():
             if self.ros.listens(topic) or topic == ROSOUT:
                 due[topic] -= count  # one of the readers is the grader

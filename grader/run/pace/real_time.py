@@ -36,6 +36,7 @@ class RealTime:
         self.ros = ros
         self.ros.look = self._look_who_was_found
         self.paced_ticks = 0
+        self.held_up = 0.0  # [s] for which the processes were waited for that had not come to rest
         self.flooded = False  # whether more was sent at one simulated time than is allowed
         self._due: float | None = None
         self._delayed = 0.0  # [s] by which the clock of the processes had stood still when the last tick was paced
@@ -110,7 +111,7 @@ class RealTime:
         for each in self.processes.participants:
             if each.wants_answer and not each.waiting_for_release:
                 if each.progress and each.progress.held:
-                    each.release()
+                    each.release(self.processes.clock.now())
                 else:
                     each.answer()
         return True

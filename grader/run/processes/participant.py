@@ -111,13 +111,13 @@ class Participant:
             self.progress = replace(self.progress, idle=False)
             self.tell({"arrived": True})
 
-    def release(self) -> None:
-        """Order it to send one of the messages it holds."""
+    def release(self, now: float) -> None:
+        """Order it to send one of the messages it holds, at a time [s] of the run."""
         if self.progress is not None:
             sent = sum(self.progress.published.values()) + sum(self.progress.delivered.values())
             self._vain, self._sent = (self._vain + 1 if sent == self._sent else 0), sent
             self._released = self.progress.released + 1
-            self.tell({"release": 1})
+            self.tell({"release": now})
 
     def wake(self, now_ns: int, every: bool = False) -> None:
         """Order it to let simulated time go on to `now_ns` and to wake the sleeper due first, or every one due."""
@@ -157,7 +157,8 @@ class Participant:
                 self._logged, self.waits_for_log = int(message["logged"]), True
             self.uses_ros |= "ros" in message
             self.looking |= "looking" in message
-            self.waits = "waiting" in message
+            if "time" not in message:  # who asks for the time goes on as before
+                self.waits = "waiting" in message
             self._asked(self, message)
         except (ValueError, KeyError, TypeError, AttributeError, RecursionError, OverflowError, OSError):
             return  # not from our agent: an infinite number, or a name that cannot be a file's

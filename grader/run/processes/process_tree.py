@@ -36,11 +36,18 @@ class ProcessTree:
     """All processes that the submission has reported, by their process id in the sandbox; `now()` is the time [s].
 
     `age(pid)` [s] of wall time is that of a process in the box, None if there is none: a report alone holds nobody up.
+    `delayed()` [s] is for how long `now()` has stood still, which makes a process look too old to have just started.
     """
 
-    def __init__(self, age: Callable[[int], float | None], now: Callable[[], float] = time.monotonic) -> None:
+    def __init__(
+        self,
+        age: Callable[[int], float | None],
+        now: Callable[[], float] = time.monotonic,
+        delayed: Callable[[], float] = lambda: 0.0,
+    ) -> None:
         self._age = age
         self._now = now
+        self._delayed = delayed
         self._processes: dict[int, StartedProcess] = {}
 
     def hear(self, message: dict[str, Any]) -> None:
@@ -63,7 +70,7 @@ class ProcessTree:
         if before is not None and self._lives(before):
             return
         state = "shell" if program in SHELLS else "starting" if program.startswith("python") else "silent"
-        waited = age is not None and age < START_UP
+        waited = age is not None and age < START_UP + self._delayed()
         self._processes[pid] = StartedProcess(pid, state if waited else "silent", self._now(), ours=ours)
 
     def _lives(self, child: StartedProcess) -> bool:

@@ -42,6 +42,8 @@ class Progress:
     lost: dict[str, int] = field(default_factory=dict)  # published before anybody had found the publisher
     # topic -> [ns] of real time: what it published earlier is only for those who join late and ask for it
     found_at: dict[str, int] = field(default_factory=dict)
+    kept: dict[str, int] = field(default_factory=dict)  # topic -> messages that its publishers keep for late joiners
+    asked: dict[str, tuple[int, ...]] = field(default_factory=dict)  # topic -> how many of them each subscription takes
     endpoints: tuple[Endpoint, ...] = ()
 
     @staticmethod
@@ -68,6 +70,8 @@ class Progress:
                 blocked=raw.get("blocked") is True,
                 lost=_counts(raw.get("lost", {})),
                 found_at=_counts(raw.get("found_at", {})),
+                kept=_counts(raw.get("kept", {})),
+                asked={str(topic): tuple(map(_count, depths)) for topic, depths in raw.get("asked", {}).items()},
                 endpoints=tuple(_endpoint(e) for e in raw["endpoints"])
                 if "endpoints" in raw
                 else before.endpoints

@@ -13,6 +13,7 @@ import selectors
 import signal
 import socket
 import subprocess
+import threading
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -47,7 +48,8 @@ class SubmissionProcesses:
     """One running submission: a process and everything it starts.
 
     `exit_code` is that of the first process, None while it runs. `participants` are the processes that have said hello,
-    the first process first. `asked(participant, message)` gets their requests.
+    the first process first. `asked(participant, message)` gets their requests. `clock` is theirs and the grader's;
+    `clock_but_mine` goes on while only the thread that has started them waits for a processor.
     """
 
     def __init__(
@@ -89,7 +91,9 @@ class SubmissionProcesses:
         self.participants: list[Participant] = []
         self._box = BoxProcesses(self._process.pid, self._process.walled, self._apart)
         self.clock = FairClock(lambda: [os.getpid(), *self._members()])
-        self._tree = ProcessTree(self._box.age, self.clock.now)
+        # The thread that waits for them looks at them again and again, and each time it waits for a processor.
+        self.clock_but_mine = FairClock(lambda: [os.getpid(), *self._members()], threading.get_native_id())
+        self._tree = ProcessTree(self._box.age, self.clock.now, self.clock.delayed)
         self._lines: list[str] = []
         self._line_count = 0
         self._last = b""  # end of what was written beyond the limit
@@ -237,6 +241,8 @@ class SubmissionProcesses:
         self._tree.hear(message)
         if "clock" in message:
             who.tell({"now": self.now_ns})
+        if "time" in message:
+            who.tell({"answer": {"now": self.clock.now(), "delayed": self.clock.delayed()}})
         if "looking" in message:
             others_work = any(p.works and not p.looking for p in self.participants if p is not who)
             who.tell({"answer": {"others": others_work or self._starts(who), "now": self.clock.now()}})

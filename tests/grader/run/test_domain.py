@@ -59,7 +59,43 @@ def only_two(monkeypatch):
     monkeypatch.setattr(module, "DOMAINS", range(pair[0], pair[1] + 1, pair[1] - pair[0]))
 
 
-def test_a_domain_in_which_somebody_speaks_comes_last(only_two):
+SPEAK = """
+import sys
+import rclpy
+rclpy.init()
+node = rclpy.create_node("left_over")
+print(flush=True)
+sys.stdin.read()
+"""
+
+
+@pytest.fixture
+def speaker(monkeypatch):
+    """Start a node in a domain that looks for others on this machine only, as a bridge that somebody has left."""
+    started = []
+
+    def start(number):
+        monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
+        monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+        process = subprocess.Popen([sys.executable, "-c", SPEAK], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        started.append(process)
+        process.stdout.readline()
+
+    yield start
+    for process in started:
+        process.kill()
+        process.communicate()
+
+
+def test_a_domain_in_which_somebody_speaks_comes_last(only_two, speaker):
+    with Domain() as one:
+        number = one.id
+    speaker(number)
+    with Domain() as quiet, Domain() as loud:
+        assert quiet.id != number == loud.id
+
+
+def test_a_domain_in_which_somebody_listens_to_all_the_network_comes_last(only_two):
     with Domain() as one:
         number = one.id
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as listening:

@@ -49,6 +49,19 @@ def test_a_delay_that_is_known_late_is_subtracted_later(clock):
     assert shown == pytest.approx([0.0, 0.5, 0.5, 0.5])
 
 
+def test_a_thread_apart_may_wait_for_a_processor_while_the_others_sleep(monkeypatch):
+    """On a busy machine, who looks again and again waits all the time; that says nothing about whom it waits for."""
+    wall, mine = [0.0], (os.getpid(), 7)
+    monkeypatch.setattr(fair_clock.time, "monotonic", lambda: wall[0])
+    monkeypatch.setattr(fair_clock, "SAMPLE", 0.0)
+    monkeypatch.setattr(fair_clock, "_threads", lambda _: [(mine, (0, round(wall[0] * 1e9))), ((1, 1), (0, 0))])
+    all_of_them, but_mine = FairClock(lambda: [1]), FairClock(lambda: [1], apart=7)
+    for _ in range(5):
+        all_of_them.now(), but_mine.now()
+        wall[0] += 1.0
+    assert (all_of_them.now(), but_mine.now()) == (0.0, 5.0)
+
+
 def test_beside_busy_processes_a_busy_process_gets_its_time():
     """Two processes that share one processor have half of the time each, and their clocks show that."""
     processor = {min(os.sched_getaffinity(0))}

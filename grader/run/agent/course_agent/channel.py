@@ -1,7 +1,8 @@
 """The connection of a process in the sandbox to the grader: one socket for whole messages in both directions.
 
 Each message is JSON: `hello` first, then reports (`rclpy_7_1.py`). A thread passes the grader's messages to the
-callback given to `listen`. If the grader ends, the process goes on without it.
+callback given to `listen`; before there is one, `receive` returns them. If the grader ends, the process goes on without
+it.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ class Channel:
     """A connection that sends `hello` at once; `open` is False once the other end is gone."""
 
     def __init__(self, path: str) -> None:
-        self.open = False
+        self.open = self.listening = False
         self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         with contextlib.suppress(OSError):
             self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, LARGEST)
@@ -47,21 +48,25 @@ class Channel:
         """Call `heard` in a thread with every message, and with None after the last."""
 
         def run() -> None:
-            while True:
-                try:
-                    data = self._socket.recv(LARGEST)
-                except OSError:
-                    data = b""
-                if not data:
-                    break
-                heard(json.loads(data))
-            self.open = False
+            while (message := self.receive()) is not None:
+                heard(message)
             heard(None)
 
         if self.open:
+            self.listening = True
             threading.Thread(target=run, name="grader", daemon=True).start()
         else:
             heard(None)
+
+    def receive(self) -> dict[str, Any] | None:
+        """Wait for the next message; None after the last."""
+        try:
+            data = self._socket.recv(LARGEST) if self.open else b""
+        except OSError:
+            data = b""
+        self.open &= bool(data)
+        message: dict[str, Any] | None = json.loads(data) if data else None
+        return message
 
     def _leave(self) -> None:
         """Drop the connection in a forked process: it belongs to the parent."""

@@ -37,7 +37,9 @@ from typing import Any
 from . import grader_requests
 from .channel import Channel
 from .endpoint_description import described, qos_can_match
+from .history import History
 from .inbox import blocked, fill, is_copy
+from .patience import await_found, await_signal
 from .signals import Signal
 from .thread_monitor import ThreadMonitor, monotonic, sleep, time_ns
 
@@ -48,9 +50,10 @@ HOLD = "COURSE_HOLD"
 SIMULATED_CLOCKS = "COURSE_SIMULATED_CLOCKS"
 UNMATCHED_SLICE = 0.005  # [s] between two looks at an unmatched publisher; DDS gives no event we could wait for
 MOST_LOGGED = 50  # messages on /rosout that are under way
-LOG_PATIENCE = 30.0  # [s] for the grader to receive them; it may be starting up
-FLUSH_PATIENCE = 10.0  # [s] for the grader to receive the last messages before a publisher is destroyed
-MATCH_PATIENCE = 5.0  # [s] after which a publisher counts as unmatched
+# [s] of the run's clock: for the grader to receive them, which may be starting up; for it to receive the last messages
+# before a publisher is destroyed; and for a publisher to be matched before it publishes.
+LOG_PATIENCE, FLUSH_PATIENCE, MATCH_PATIENCE = 30.0, 10.0, 5.0
+LOOKING = 5.0  # [s] for which a process looks by itself whether an endpoint has matched; the grader asks for longer
 NEVER = 1 << 62  # [ns] of real time
 HOUSEKEEPING = ("/rosout", "/parameter_events")  # topics of every node, which lock-step ignores
 
@@ -69,19 +72,20 @@ class ExecutorMonitor:
         self.logged = 0  # messages sent to /rosout
         self._confirmed = 0  # of those: known to have arrived, or waited for in vain
         self._log_confirmed = Signal()
-        self._held: deque[Callable[[], None]] = deque()
+        self._held: deque[tuple[Callable[[], None], Callable[[float], bool]]] = deque()  # what to send, `may_leave`
         self._holding = holding
         self._released = 0
         self.lost: Counter[str] = Counter()
         # Topics whose early messages DDS keeps for late joiners: when their publishers were found, in real time [ns].
         self._found_at: dict[str, int] = {}
-        self.spun = False  # whether an executor has ever waited
+        self.spun = False  # whether an executor has waited
         self._lock = threading.RLock()
         self._answered = Signal()
         self._told_time = Signal()
         self.clock_seen: dict[int, int] = {}  # id(TimeSource) -> [ns]
         self._nodes: dict[int, Any] = {}
         self._topic_of: dict[int, str] = {}  # id(subscription) -> topic; asking rcl each time is slow
+        self.history = History(self.topic_of)
         self._layout: tuple[Any, ...] = ()
         self._endpoints: list[dict[str, Any]] = []
         self._reported_endpoints: list[dict[str, Any]] = []
@@ -106,20 +110,17 @@ class ExecutorMonitor:
         with self._lock:
             counter[name] += number
 
-    def hold(self, send: Callable[[], None]) -> None:
-        """Queue a message to be sent, or send it at once if holding is off."""
+    def hold(self, send: Callable[[], None], may_leave: Callable[[float], bool] = lambda now: True) -> None:
+        """Queue a message to be sent, once `may_leave` at a time [s] of the run; send it at once if holding is off."""
         if not self.holds:
             send()
             return
-        self._held.append(send)
+        self._held.append((send, may_leave))
         if self.threads.idle:  # sent by a thread that is not watched, so nobody will report it
             self.report()
 
     def count_log(self) -> None:
-        """Count a message that was sent to /rosout. After `MOST_LOGGED`, wait until they have arrived.
-
-        /rosout keeps the last 100 messages only, for a reader that is not found yet or has missed some.
-        """
+        """Count a message that was sent to /rosout, which keeps the last 100; after `MOST_LOGGED`, wait for them."""
         with self._lock:
             self.logged += 1
             full = self.logged - self._confirmed >= MOST_LOGGED
@@ -128,8 +129,7 @@ class ExecutorMonitor:
         if full and self._channel.open:
             self._log_confirmed.clear()
             self._channel.send({"logged": self.logged})
-            with self.threads.at_work():
-                self._log_confirmed.wait(LOG_PATIENCE)
+            await_signal(self.threads, self._log_confirmed, LOG_PATIENCE)
 
     def _obey(self, order: dict[str, Any] | None) -> None:
         """Carry out an order of the grader; None means that the grader is gone. Called in a thread."""
@@ -166,7 +166,7 @@ class ExecutorMonitor:
             if "real" in order:
                 self.threads.release_all()
         elif "release" in order:
-            self._send_next()
+            self._release(order["release"])
             self.report()
         elif "again" in order:
             self.again.add(order["again"])
@@ -182,9 +182,17 @@ class ExecutorMonitor:
         while self._held:
             self._send_next()
 
+    def _release(self, now: float) -> None:
+        """Send the first message, or none while that may not leave yet: then the order comes again."""
+        if self._held and not self._held[0][1](now):
+            self._released += 1
+            sleep(UNMATCHED_SLICE)
+        else:
+            self._send_next()
+
     def _send_next(self) -> None:
         with contextlib.suppress(IndexError):
-            send = self._held.popleft()
+            send, _ = self._held.popleft()
             with contextlib.suppress(Exception):  # its publisher may be destroyed already, as in a process that ends
                 send()
         self._released += 1
@@ -203,9 +211,7 @@ class ExecutorMonitor:
             return True
         publisher.course_found = "awaited"
         if self._is_met(described("", "publisher", self.topic_of(publisher), publisher, 0)):
-            deadline = monotonic() + MATCH_PATIENCE
-            while not publisher.get_subscription_count() and monotonic() < deadline:
-                sleep(UNMATCHED_SLICE)
+            await_found(self.threads, lambda: self._channel.open, publisher.get_subscription_count, MATCH_PATIENCE)
         return True
 
     def add_node(self, node: Any) -> None:
@@ -303,7 +309,7 @@ class ExecutorMonitor:
     def impatient(self) -> bool:
         """Return whether an endpoint may still be about to match."""
         now = monotonic()
-        return any(now - since < MATCH_PATIENCE for since in self._unmatched_since.values())
+        return any(now - since < LOOKING for since in self._unmatched_since.values())
 
     def _now(self) -> tuple[Any, ...]:
         """Return a value that changes when an endpoint comes or goes."""
@@ -327,6 +333,7 @@ class ExecutorMonitor:
                 self._endpoints.append(
                     described(name, "subscription", self.topic_of(subscription), subscription, matched)
                 )
+        self.history.look(self._nodes.values())
         now = monotonic()
         waiting = [(e["kind"], e["topic"]) for e in self._endpoints if not e["matched"] and self._is_met(e)]
         self._unmatched_since = {key: self._unmatched_since.get(key, now) for key in waiting}
@@ -339,9 +346,7 @@ class ExecutorMonitor:
         self._answered.clear()
         self._flushes += 1
         self.report(flushing=True)
-        with self.threads.at_work():
-            answered = self._answered.wait(FLUSH_PATIENCE)
-        if answered:
+        if await_signal(self.threads, self._answered, FLUSH_PATIENCE):
             self._flushed = self._sent()
         while self._held:  # not released by the grader in time
             self._send_next()
@@ -380,6 +385,7 @@ class ExecutorMonitor:
                 report["wakes"] = wakes
             if idle and any(True for _ in blocked(self._nodes.values())):
                 report["blocked"] = True
+            report |= self.history.report()
             if self.lost:
                 report["lost"] = self.lost
             if self._found_at:

@@ -2,7 +2,8 @@
 
 `import_hooks.py` calls `install_subprocess` and `install_asyncio` when those modules are imported. A new Python process
 needs a while until it can report anything, so its parent announces it. Event loops (`ros2 launch` is one) and processes
-that wait for a child are reported as waiting, so that simulated time does not stand still for them.
+that wait for a child are reported as waiting, so that simulated time does not stand still for them. Timers of such a
+loop (how long a launch waits after Ctrl-C before it escalates) follow the clock of the run, which the grader keeps.
 
 In a process with rclpy, `rclpy_7_1.py` calls `install_threads`: threads and their waits are watched from then on
 (`thread_monitor.py`), and sleeping takes simulated time. A wait for another process takes real time. What waits in C (a
@@ -31,6 +32,7 @@ SUBPROCESS: dict[str, Reliance] = {
     "subprocess:Popen._communicate": ("self input endtime orig_timeout", ""),
 }
 ASYNCIO: dict[str, Reliance] = {
+    "asyncio.base_events:BaseEventLoop.time": ("self", "time monotonic"),
     "asyncio.base_events:BaseEventLoop._run_once": ("self", "_scheduled _ready _stopping _selector _process_events"),
     "asyncio.events:TimerHandle.__init__": ("", "_when"),
     "asyncio.events:Handle.__init__": ("", "_cancelled"),
@@ -54,6 +56,7 @@ THREADS: dict[str, Reliance] = {
 CLOCKS = ("time", "monotonic", "perf_counter")
 
 _waiting = False
+_delayed: list[float] = []  # [s] for which the clock of the run had stood still, at first and as last asked for
 _threads: ThreadMonitor | None = None
 
 
@@ -104,9 +107,16 @@ def install_asyncio() -> None:
 
     _check(ASYNCIO)
     loops: Any = base_events.BaseEventLoop
-    once = loops._run_once
+    once, loop_time = loops._run_once, loops.time
     writer: Any = selector_events.BaseSelectorEventLoop
     write = writer._write_to_self
+
+    def fair_time(loop: Any) -> float:
+        """Return the time without what the run waited for a processor; the grader is asked when a timer is due."""
+        shown: float = loop_time(loop) - (_delayed[-1] - _delayed[0] if _delayed else 0.0)
+        if loop._scheduled and loop._scheduled[0]._when <= shown and _in_real_time() and _ask_for_delay():
+            shown = loop_time(loop) - (_delayed[-1] - _delayed[0])
+        return shown
 
     def noted_write(loop: Any) -> None:
         if _threads is not None and (wait := getattr(loop, "course_wait", None)) is not None:
@@ -128,6 +138,8 @@ def install_asyncio() -> None:
         loop._process_events(events)
 
     def told_run_once(loop: Any) -> None:
+        if not _delayed and _in_real_time():
+            _ask_for_delay()
         simulated = _threads is not None and _threads.simulated and _threads.mine() is not None
         if not loop._ready and not loop._stopping and simulated:
             assert _threads is not None
@@ -144,8 +156,23 @@ def install_asyncio() -> None:
                 _wait_begins()
         once(loop)
 
-    loops._run_once = told_run_once
+    loops._run_once, loops.time = told_run_once, fair_time
     writer._write_to_self = noted_write
+
+
+def _in_real_time() -> bool:
+    return _threads is None or not _threads.simulated
+
+
+def _ask_for_delay() -> bool:
+    """Ask the grader for how long the clock of the run has stood still; return whether it has told that."""
+    from .grader_requests import ask
+
+    told = ask({"time": True}) if channel().open else {}
+    if "delayed" in told:
+        _delayed.append(told["delayed"])
+        del _delayed[1:-1]
+    return "delayed" in told
 
 
 def _resume() -> None:

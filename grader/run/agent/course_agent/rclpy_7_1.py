@@ -20,7 +20,7 @@ from .endpoint_description import type_name
 from .executor_monitor import HOLD, HOUSEKEEPING, TOPICS, ExecutorMonitor
 from .inbox import Kept, fill, has_kept, is_copy, kept
 from .python_3 import install_threads
-from .rclpy_7_1_waits import await_once, nudge, watch_waits
+from .rclpy_7_1_waits import may_ask, nudge, watch_waits
 from .rosout_counter import watch_logging
 from .self_check import Reliance, misfits
 from .tracebacks import print_traceback
@@ -131,6 +131,7 @@ def _watch_messages(monitor: ExecutorMonitor) -> None:
     def emit(publisher: Any, message: Any) -> None:
         readers = publisher.get_subscription_count()
         publish(publisher, message)
+        monitor.history.count(publisher)
         if readers:
             topic = monitor.topic_of(publisher)
             monitor.count(monitor.delivered, topic, readers)
@@ -147,6 +148,7 @@ def _watch_messages(monitor: ExecutorMonitor) -> None:
         if publisher.qos_profile.durability.name == "TRANSIENT_LOCAL":
             monitor.announce_early(topic)
             publish(publisher, message)
+            monitor.history.count(publisher)
             return
         for subscription in monitor.local_subscriptions(topic):
             if subscription.msg_type is publisher.msg_type and hears(subscription, publisher):
@@ -274,8 +276,6 @@ def _watch_services(monitor: ExecutorMonitor) -> None:
         future.add_done_callback(client.remove_pending_request)
 
         def send() -> None:
-            if monitor.holds:
-                await_once(client, client.service_is_ready)
             with client._lock, client.handle:
                 if not future.done():
                     sequence = client.handle.send_request(asked)
@@ -283,7 +283,7 @@ def _watch_services(monitor: ExecutorMonitor) -> None:
             if client.service_is_ready():
                 monitor.count(monitor.delivered, f"request {client.service_name}")
 
-        monitor.hold(send)
+        monitor.hold(send, may_ask(client, client.service_is_ready))
         return future
 
     def watched_respond(service: Any, response: Any, header: Any) -> None:

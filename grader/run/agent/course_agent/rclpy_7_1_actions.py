@@ -15,8 +15,9 @@ from weakref import WeakValueDictionary
 
 from .executor_monitor import ExecutorMonitor
 from .inbox import has_kept, kept
+from .patience import await_found
 from .rclpy_7_1 import monitor as monitor_of_this_process
-from .rclpy_7_1_waits import SERVICE_LOOK, await_found, await_once, nudge
+from .rclpy_7_1_waits import SERVICE_LOOK, may_ask, nudge
 from .self_check import Reliance, misfits
 
 RELIED_UPON: dict[str, Reliance] = {
@@ -134,15 +135,13 @@ def _watch_clients(monitor: ExecutorMonitor) -> None:
             answered.add_done_callback(lambda future: client.remove_future(future))
 
             def send() -> None:
-                if monitor.holds:
-                    await_once(client, client.server_is_ready)
                 inner = method(client, asked, *arguments, **options)
                 if client.server_is_ready():
                     monitor.count(monitor.delivered, f"request {_name(client)}/_action/{service}")
                 inner.add_done_callback(lambda future: answered.set_result(future.result()))
                 _nudge_ends(monitor, _name(client))
 
-            monitor.hold(send)
+            monitor.hold(send, may_ask(client, client.server_is_ready))
             return answered
 
         return call
@@ -150,7 +149,7 @@ def _watch_clients(monitor: ExecutorMonitor) -> None:
     wait = ActionClient.wait_for_server
 
     def patient_wait(client: Any, timeout_sec: float | None = None) -> bool:
-        await_found(monitor, client._node.context, client.server_is_ready, SERVICE_LOOK)
+        await_found(monitor.threads, client._node.context.ok, client.server_is_ready, SERVICE_LOOK)
         return bool(wait(client, timeout_sec))
 
     def is_goal(client: Any, goal: Any) -> bool:

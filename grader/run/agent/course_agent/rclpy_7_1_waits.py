@@ -6,23 +6,21 @@ and who ends a wait counts its thread as at work again (`thread_monitor.py`).
 
 from __future__ import annotations
 
-import math
 import threading
 from collections.abc import Callable
 from typing import Any
 
 from . import inbox
 from .executor_monitor import UNMATCHED_SLICE, ExecutorMonitor
-from .grader_requests import ask
+from .patience import await_found
 from .rclpy_7_1_coroutines import watch_coroutines
 from .signals import Signal
-from .thread_monitor import POLL_PERIOD, Wait, monotonic, sleep
+from .thread_monitor import POLL_PERIOD, Wait, monotonic
 
-# [s] for a service to be found: before a client's first request is sent, and before a wait for it takes simulated time.
-# The second is counted by the grader's fair clock, once nobody else is at work. Both are shorter than what the grader
-# waits for a node (`pace/real_time.py`, PATIENCE).
+# [s] of the run's clock for a service to be found: before a client's first request is sent, and before a wait for it
+# takes simulated time; the second once nobody else is at work, and shorter than what the grader waits for a node
+# (`pace/real_time.py`, PATIENCE).
 SERVICE_PATIENCE, SERVICE_LOOK = 2.5, 1.0
-SERVICE_SLICE = 0.01  # [s] between two looks
 POOL_START = 0.01  # [s] for a pool to start a callback; a pool whose threads are all busy does not
 
 
@@ -323,29 +321,20 @@ def _wait_for_services(monitor: ExecutorMonitor) -> None:
     wait = Client.wait_for_service
 
     def patient_wait(client: Any, timeout_sec: float | None = None) -> bool:
-        await_found(monitor, client.context, client.service_is_ready, SERVICE_LOOK)
+        await_found(monitor.threads, client.context.ok, client.service_is_ready, SERVICE_LOOK)
         return bool(wait(client, timeout_sec))
 
     Client.wait_for_service = patient_wait
 
 
-def await_once(client: Any, is_found: Callable[[], bool]) -> None:
-    """Wait until discovery has found the server for a client's first request, at most for `SERVICE_PATIENCE`."""
-    deadline = monotonic() + (0.0 if hasattr(client, "course_awaited") else SERVICE_PATIENCE)
-    client.course_awaited = True
-    while not is_found() and monotonic() < deadline:
-        sleep(UNMATCHED_SLICE)
+def may_ask(client: Any, is_found: Callable[[], bool]) -> Callable[[float], bool]:
+    """Return a test whether a client's request may leave, given the run's time [s].
 
+    It may when discovery has found the server, or has looked for it since the first request for `SERVICE_PATIENCE`.
+    """
 
-def await_found(monitor: ExecutorMonitor, context: Any, is_found: Callable[[], bool], seconds: float) -> None:
-    """Wait until discovery has found a server, at work: at most for some seconds in which nobody else is at work."""
-    since = None
-    with monitor.threads.at_work():
-        while context.ok() and not is_found():
-            told = ask({"looking": True})
-            now = told.get("now", math.inf)
-            if since is None or told.get("others"):
-                since = now
-            if now - since >= seconds or "error" in told:
-                return
-            sleep(SERVICE_SLICE)
+    def may(now: float) -> bool:
+        client.course_looks_since = getattr(client, "course_looks_since", now)
+        return is_found() or now - client.course_looks_since >= SERVICE_PATIENCE
+
+    return may

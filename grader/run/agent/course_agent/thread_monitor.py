@@ -9,7 +9,9 @@ A wait with a timeout is a sleep. It ends when the grader orders the one that is
 the same time, that of the thread that was started first. A sleep takes whole milliseconds, at least one.
 
 The clocks of the process (`time.time()` and its kind) go on with simulated time: that of the latest wake-up or
-`/clock`. A thread that asks the time again and again without waiting is made to wait for a millisecond.
+`/clock`. They begin where the process has last seen them: what it computes before its first node takes no time, what
+it sleeps does. They run fast by `AHEAD`, so that a deadline which was computed in floats is reached when its time has
+come. A thread that asks the time again and again without waiting is made to wait for a millisecond.
 """
 
 from __future__ import annotations
@@ -22,6 +24,10 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 MILLISECOND = 1_000_000  # [ns] of simulated time: the shortest sleep
+# `time.time() + 0.3`, asked 0.3 s later, can be a rounding step in the future, 0.24 us: on a real computer every
+# wake-up is later than that. A clock that gains 100 us in a second shows 1 us more after a tick of 10 ms, and less than
+# a tick more after 100 s.
+AHEAD = 100e-6
 MOST_READS = 1_000  # of the clock without a wait in between
 MOST_POLLS = 3  # of an executor that has nothing to do, without a wait in between
 POLL_PERIOD = 0.01  # [s] of simulated time that the next such poll takes at most
@@ -57,6 +63,8 @@ class ThreadMonitor:
         self.calling: set[int] = set()  # threads that run a callback
         self._begin_ns = 0
         self._bases: dict[str, int] = {}
+        self._slept_ns = 0  # what the first thread has waited in real time
+        self._seen: dict[str, tuple[int, int]] = {}  # clock -> what it last showed [ns], and `_slept_ns` then
         self._numbers: dict[int, int] = {}  # ident -> number
         self._next = 0
         self._working: set[int] = set()
@@ -128,11 +136,13 @@ class ThreadMonitor:
     @contextlib.contextmanager
     def waiting(self) -> Iterator[None]:
         """Let the calling thread wait in real time."""
-        wait = self.begin(None, lambda: None)
+        wait, began = self.begin(None, lambda: None), monotonic()
         try:
             yield
         finally:
             self.end(wait)
+            if self.mine() == 0:
+                self._slept_ns += round((monotonic() - began) * 1e9)
 
     @contextlib.contextmanager
     def waiting_for_child(self) -> Iterator[None]:
@@ -222,7 +232,9 @@ class ThreadMonitor:
         with self.lock:
             self.now_ns = self._begin_ns = now_ns
             self.rate = rate
-            self._bases = {name: getattr(time, f"{name}_ns")() for name in ("time", "monotonic", "perf_counter")}
+            for name in ("time", "monotonic", "perf_counter"):
+                seen, slept = self._seen.get(name, (0, 0))
+                self._bases[name] = seen + self._slept_ns - slept if seen else getattr(time, f"{name}_ns")()
             self.simulated = True
 
     def tell(self, now_ns: int) -> None:
@@ -238,13 +250,15 @@ class ThreadMonitor:
     def clock_ns(self, name: str, real: Callable[[], int]) -> int:
         """Return what a clock of the time module shows [ns]."""
         if not self.simulated:
-            return real()
+            shown = real()
+            self._seen[name] = (shown, self._slept_ns)
+            return shown
         number = self.mine()
         if number is not None:
             reads = self._reads[number] = self._reads.get(number, 0) + 1
             if reads > MOST_READS:
                 time.sleep(MILLISECOND / 1e9 / self.rate)
-        return self._bases[name] + round((self.now_ns - self._begin_ns) / self.rate)
+        return self._bases[name] + round((self.now_ns - self._begin_ns) * (1 + AHEAD) / self.rate)
 
     def polls_too_often(self) -> bool:
         """Count a poll of an executor that has nothing to do; return whether the next one must wait."""

@@ -1,4 +1,4 @@
-"""A process that waits for an answer of the grader is at work, so that simulated time does not go on without it."""
+"""Questions to the grader: who waits for an answer is at work, and who runs an event loop asks for the run's clock."""
 
 import subprocess
 import sys
@@ -28,7 +28,7 @@ answering.start()
 python_3.install_threads(monitor)
 from gz_course.grader.run.agent.course_agent import grader_requests
 
-grader_requests.channel = lambda: SimpleNamespace(send=asked.append)
+grader_requests.channel = lambda: SimpleNamespace(send=asked.append, listening=True)
 assert grader_requests.ask({"worlds": True}) == {"done": True}
 print(idle)
 """
@@ -37,3 +37,29 @@ print(idle)
 def test_who_waits_for_an_answer_is_at_work():
     done = subprocess.run([sys.executable, "-c", ASK], capture_output=True, text=True, timeout=300)
     assert (done.stdout.strip(), done.stderr) == ("[False]", "")
+
+
+LOOP = """
+import asyncio, time
+from gz_course.grader.run.agent.course_agent import grader_requests, python_3
+from types import SimpleNamespace
+
+delayed, asked = iter([7.0, 7.1, 7.2, *[7.3] * 100]), []
+orders = [{"ping": True}]  # what nobody listens to is skipped
+
+def receive():
+    return orders.pop() if orders else {"answer": {"now": 1.0, "delayed": next(delayed)}}
+
+stub = SimpleNamespace(open=True, listening=False, send=asked.append, receive=receive)
+python_3.channel = grader_requests.channel = lambda: stub
+python_3.install_asyncio()
+began = time.monotonic()
+asyncio.run(asyncio.sleep(0.05))
+print(time.monotonic() - began >= 0.35, asked[0], 4 <= asked.count({"time": True}) < 20)
+"""
+
+
+def test_timers_of_an_event_loop_do_not_count_what_a_busy_machine_takes():
+    """Of a launch, which escalates some seconds after Ctrl-C, for instance."""
+    done = subprocess.run([sys.executable, "-c", LOOP], capture_output=True, text=True, timeout=300)
+    assert (done.stdout.strip(), done.stderr) == ("True {'time': True} True", "")

@@ -216,7 +216,7 @@ def sending(monkeypatch):
                 listener.progress = replace(listener.progress, taken={"/camera": 1})
 
         student = SimpleNamespace(
-            clock=SimpleNamespace(now=time.monotonic, delayed=lambda: 0.0),
+            clock=(clock := SimpleNamespace(now=time.monotonic, delayed=lambda: 0.0)), clock_but_mine=clock,
             running=True, starting=False, layout=(1,), endpoints=(), participants=[listener], followed=[listener],
             wait=lambda seconds: listener.answer(),
         )  # fmt: skip

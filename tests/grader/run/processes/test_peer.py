@@ -139,6 +139,12 @@ def test_only_a_young_process_that_exists_is_waited_for(age, waits):
     assert tree.changing is waits
 
 
+def test_who_has_waited_for_a_processor_since_it_started_is_young():
+    tree = ProcessTree(lambda pid: START_UP + 1, delayed=lambda: 2.0)
+    tree.hear({"started": {"pid": 7, "program": "python3"}})
+    assert tree.changing
+
+
 def test_who_is_said_to_start_again_and_again_is_waited_for_once():
     ages = iter([0.0, START_UP + 1, START_UP + 1, START_UP + 1])
     tree = ProcessTree(lambda pid: next(ages))

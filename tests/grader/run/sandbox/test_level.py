@@ -1,6 +1,7 @@
 """Which level is taken: what is asked for, what is demanded, what works, and what is remembered of it."""
 
 import json
+from types import SimpleNamespace
 
 import pytest
 
@@ -125,7 +126,16 @@ def test_every_level_is_a_file_and_says_what_it_is():
 
 
 def test_a_probe_that_hears_nothing_says_so():
-    assert probe.try_level("D", 0.0) == probe.SILENT.format(seconds=0)
+    assert probe.try_level("D", -1.0) == probe.SILENT.format(seconds=-1)  # no patience at all
+
+
+def test_a_probe_on_a_machine_that_stands_still_is_waited_for(monkeypatch):
+    """The clock of a probe that waits for a processor stands still."""
+    looks = []
+    monkeypatch.setattr(probe, "_patience", lambda pid, seconds: SimpleNamespace(over=lambda: looks.append(pid)))
+    monkeypatch.setattr(probe, "LOOK_AGAIN", 0.01)
+    monkeypatch.setattr(probe.sys, "executable", "/bin/echo")  # instead of a probe; ends with what it was told
+    assert probe.try_level("D", 0.0) == "" and len(set(looks)) == 1
 
 
 def test_a_level_that_lacks_something_says_what(monkeypatch):

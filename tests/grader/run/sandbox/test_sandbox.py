@@ -23,9 +23,11 @@ def sandbox(tmp_path, monkeypatch):
 def test_the_environment_is_cleared_but_for_what_is_needed(sandbox, monkeypatch):
     monkeypatch.setenv("SECRET_TOKEN", "swordfish")
     monkeypatch.setenv("PYTHONPATH", "/somewhere")
+    monkeypatch.setenv("PATH", "/usr/bin:/bin")
     monkeypatch.setenv("ROS_DOMAIN_ID", "7")
     monkeypatch.setenv("FASTDDS_DEFAULT_PROFILES_FILE", "/somewhere.xml")
     given = sandbox.student_environment()
+    assert given["PATH"].partition(":")[0] == str(Path(sys.executable).parent)  # `python3` is the course's
     assert not {"SECRET_TOKEN", "PYTHONPATH", "FASTDDS_DEFAULT_PROFILES_FILE", "COURSE_ROOT"} & given.keys()
     assert given["ROS_DOMAIN_ID"] == "42"
     assert "127.0.0.1" in Path(given["FASTRTPS_DEFAULT_PROFILES_FILE"]).read_text()

@@ -184,3 +184,13 @@ def test_any_text_of_a_world_is_read_or_refused_in_words(text):
         assert WorldText.read(text).sensors == ()
     except ValueError as error:
         assert "SDF" in str(error)
+
+
+def test_a_clock_that_is_too_fast_and_goes_back():
+    """Of what arrived, and when: how often it really comes in a second of this machine is no matter."""
+    side = RosSide(seconds=1.5, clock=[(20.0 + n / 1000, 7 * 10**9 + n % 500 * 10**6) for n in range(1200)])
+    said = {each.kind: each.sentence for each in findings(System(side, GzSide()))}
+    assert said["clock_goes_back"].startswith("/clock went back from 7.499 s to 7.000 s")
+    assert said["clock_rate"] == "/clock comes 1000 times a second, which keeps every Python node busy."
+    side.clock = [(arrived, n * 10**7) for n, (arrived, _) in enumerate(side.clock[::4])]
+    assert not {each.kind for each in findings(System(side, GzSide()))} & {"clock_goes_back", "clock_rate"}

@@ -186,32 +186,6 @@ def _clock():
     return Clock
 
 
-def test_a_clock_that_is_too_fast_and_goes_back(broken):
-    from rosgraph_msgs.msg import Clock
-
-    node = broken.node("ticker")
-    publisher, stop = node.create_publisher(Clock, "/clock", 10), threading.Event()
-
-    def tick():
-        count = 0
-        while not stop.wait(0.001):
-            message = Clock()
-            message.clock.sec, message.clock.nanosec = divmod(count * 10**6, 5 * 10**8)  # back every half second
-            message.clock.sec = 7
-            publisher.publish(message)
-            count += 1
-
-    thread = threading.Thread(target=tick)
-    thread.start()
-    try:
-        told = broken.diagnose(1.5)
-    finally:
-        stop.set()
-        thread.join(DEADLINE)
-    assert told.sentence("clock_goes_back").startswith("/clock went back from 7.499 s to 7.000 s")
-    assert "times a second, which keeps every Python node busy." in told.sentence("clock_rate")
-
-
 def test_a_world_slower_than_the_wall_clock(broken):
     broken.world(inside="", factor=0.25)
     told = broken.diagnose(1.5)

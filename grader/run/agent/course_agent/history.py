@@ -1,0 +1,58 @@
+"""What the publishers of this process keep for those who join late, and which of its subscriptions ask for that.
+
+DDS hands it over when the two are connected, whatever the time is. The grader computes from these numbers how many
+messages every subscription will get, and lets simulated time stand still until it has taken them (`late_joiners.py`).
+Only reliable endpoints count: to others nothing is handed over again.
+
+Source: DDS 1.4, 2.2.3.4 DURABILITY and 2.2.3.18 HISTORY.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterable
+from typing import Any
+
+ALL = 1 << 30  # the depth of an endpoint that keeps all
+
+
+class History:
+    """Counts by topic what is kept and asked for; `topic_of(endpoint)` is its resolved topic."""
+
+    def __init__(self, topic_of: Callable[[Any], str]) -> None:
+        self._topic_of = topic_of
+        self._kept: Counter[str] = Counter()
+        self._asked: dict[str, list[int]] = {}
+
+    def count(self, publisher: Any) -> None:
+        """Count a message that was published."""
+        depth = getattr(publisher, "course_keeps", None)
+        if depth is None:
+            depth = publisher.course_keeps = kept_depth(publisher.qos_profile)
+            publisher.course_kept = 0
+        if publisher.course_kept < depth:
+            publisher.course_kept += 1
+            self._kept[self._topic_of(publisher)] += 1
+
+    def look(self, nodes: Iterable[Any]) -> None:
+        """Look at the endpoints anew, because some have come or gone."""
+        self._kept.clear()
+        self._asked.clear()
+        for node in nodes:
+            for publisher in list(node.publishers):
+                if kept_depth(publisher.qos_profile):  # who keeps nothing yet is known from now on
+                    self._kept[self._topic_of(publisher)] += getattr(publisher, "course_kept", 0)
+            for subscription in list(node.subscriptions):
+                if depth := kept_depth(subscription.qos_profile):
+                    self._asked.setdefault(self._topic_of(subscription), []).append(depth)
+
+    def report(self) -> dict[str, Any]:
+        """Return its part of a report."""
+        return ({"kept": self._kept} if self._kept else {}) | ({"asked": self._asked} if self._asked else {})
+
+
+def kept_depth(qos: Any) -> int:
+    """Return how many messages an endpoint keeps for those who join late, or asks for when it does."""
+    if qos.durability.name != "TRANSIENT_LOCAL" or qos.reliability.name == "BEST_EFFORT":
+        return 0
+    return ALL if qos.history.name == "KEEP_ALL" else max(1, qos.depth)

@@ -1,0 +1,36 @@
+"""How many kept messages DDS hands over to subscriptions of the submission that join late: they must be taken, too.
+
+A transient-local publisher keeps its last messages for subscriptions that ask for them and are connected later. Both
+sides report numbers (`agent/course_agent/history.py`); a pair counts once, when it is seen for the first time.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+
+from gz_course.grader.run.processes.participant import Participant
+
+
+class LateJoiners:
+    """`due` counts by topic the kept messages that subscriptions get, or have got."""
+
+    def __init__(self) -> None:
+        self.due: Counter[str] = Counter()
+        self._asking: Counter[tuple[int, str]] = Counter()  # subscriptions of a process that were seen on a topic
+        self._keeping: set[tuple[int, str]] = set()  # processes that were seen to keep something on a topic
+
+    def look(self, participants: Iterable[Participant]) -> None:
+        """Count the pairs that are new."""
+        reports = [(each.number, each.progress) for each in participants if each.progress]
+        keeping = [(number, topic, kept) for number, report in reports for topic, kept in report.kept.items()]
+        asking = [(number, topic, depths) for number, report in reports for topic, depths in report.asked.items()]
+        for publisher, topic, kept in keeping:
+            is_new = (publisher, topic) not in self._keeping
+            for subscriber, asked, depths in asking:
+                if asked == topic:
+                    new = depths if is_new else depths[self._asking[subscriber, topic] :]
+                    self.due[topic] += sum(min(kept, depth) for depth in new)
+        self._keeping.update((number, topic) for number, topic, _ in keeping)
+        for number, topic, depths in asking:
+            self._asking[number, topic] = len(depths)
