@@ -25,6 +25,7 @@ import zmq
 
 from gz_course.sim.gz.msgs.discovery_pb2 import Discovery
 from gz_course.sim.gz.transport import naming
+from gz_course.sim.gz.transport.advertisement import Advertisement
 from gz_course.sim.gz.transport.discovery import HEARTBEAT_S
 from gz_course.sim.gz.transport.dispatcher import Dispatcher
 from gz_course.sim.gz.transport.environment import DEFAULT_IP, NetworkSettings, complain
@@ -32,7 +33,6 @@ from gz_course.sim.gz.transport.inlet import Inlet
 from gz_course.sim.gz.transport.message_info import MessagePublisher
 from gz_course.sim.gz.transport.options import UNTHROTTLED, Scope
 from gz_course.sim.gz.transport.outlet import Outlet
-from gz_course.sim.gz.transport.publisher import Publisher
 from gz_course.sim.gz.transport.subscription import Subscription
 from gz_course.sim.gz.transport.switchboard import SWITCHBOARD
 from gz_course.sim.gz.transport.topic_discovery import TopicDiscovery
@@ -100,19 +100,19 @@ class Network:
         """Send a message to the processes that subscribe to the fully qualified topic."""
         self._outlet.send(name, data, type_name)
 
-    def advertise(self, publisher: Publisher) -> None:
+    def advertise(self, publisher: Advertisement) -> None:
         self._discovery.advertise(self._record(publisher))
 
-    def unadvertise(self, publisher: Publisher) -> None:
+    def unadvertise(self, publisher: Advertisement) -> None:
         self._discovery.unadvertise(self._record(publisher))
 
     def subscribe(self, subscription: Subscription) -> None:
         """Connect a subscription to present and future publishers of its topic."""
-        self._do(lambda: self._connect_known(subscription))
+        self.do(lambda: self._connect_known(subscription))
 
     def unsubscribe(self, subscription: Subscription) -> None:
         """Notify publishers that a subscription, already removed from the switchboard, has ended."""
-        self._do(lambda: self._disconnect(subscription))
+        self.do(lambda: self._disconnect(subscription))
 
     def listening_processes(self, name: str, type_name: str) -> int:
         """Return how many other processes would receive a message of this topic and type now."""
@@ -146,6 +146,12 @@ class Network:
         self._discovery.wait_for_answers()
         return _listed(self._discovery.all_known()), _listed(self._discovery.subscribers())
 
+    def do(self, command: Callable[[], None]) -> None:
+        """Call a function in the I/O thread, soon; takes no lock, so a finalizer may call it."""
+        if self._open:
+            self._commands.append(command)
+            self._wake()
+
     def close(self) -> None:
         """Notify the other processes, stop the threads and close the sockets."""
         if not self._open:
@@ -178,11 +184,6 @@ class Network:
             self._services.discovery.close()
         self._wake_sender.close()
         self._wake_receiver.close()
-
-    def _do(self, command: Callable[[], None]) -> None:
-        if self._open:
-            self._commands.append(command)
-            self._wake()
 
     def _wake(self) -> None:
         with contextlib.suppress(OSError):  # full: it will wake up anyway; closed: it has stopped
@@ -271,7 +272,7 @@ class Network:
             return [self._record(each) for each in SWITCHBOARD.networked_publishers(topic)]
         return [self._record(each) for each in SWITCHBOARD.all_publishers() if each.scope != Scope.PROCESS]
 
-    def _record(self, publisher: Publisher) -> Discovery.Publisher:
+    def _record(self, publisher: Advertisement) -> Discovery.Publisher:
         record = Discovery.Publisher(
             topic=publisher.name,
             address=self.address,
@@ -321,6 +322,11 @@ def joined() -> Network:
     Raises OSError if not even 127.0.0.1 can be used.
     """
     return _network or _create()
+
+
+def present() -> Network | None:
+    """Return the network of this process, or None if it has joined none."""
+    return _network
 
 
 def _create() -> Network:

@@ -154,7 +154,7 @@ def _simulate(values: argparse.Namespace, stop: threading.Event) -> int:
     from gz_course.sim.gz.sim.errors import LOG, SimError
     from gz_course.sim.gz.sim.server import Server
     from gz_course.sim.gz.sim.world import World
-    from gz_course.sim.gz.transport import Node
+    from gz_course.sim.gz.transport import Node, NodeOptions
 
     try:
         world = World.load(
@@ -169,7 +169,7 @@ def _simulate(values: argparse.Namespace, stop: threading.Event) -> int:
         sys.stderr.write(f"gz sim: {error}\n")
         return 1
     try:
-        node = Node()
+        node = Node(NodeOptions(synchronous=True))
     except (OSError, RuntimeError, ValueError) as error:
         sys.stderr.write(f"gz sim: the transport cannot be opened ({error}); check GZ_IP and GZ_PARTITION\n")
         return 1

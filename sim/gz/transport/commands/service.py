@@ -41,6 +41,8 @@ def add_arguments(parser: Parser) -> None:
 def run(values: argparse.Namespace) -> int:
     """Run `gz service`; return the exit code. Raises ValueError for invalid names, types and texts."""
     with Node() as node:
+        if values.service is not None:
+            node.options.qualified(values.service, "service")
         if values.list:
             for service in node.service_list():
                 print(service)

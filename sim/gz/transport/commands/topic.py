@@ -53,6 +53,8 @@ def add_arguments(parser: Parser) -> None:
 def run(values: argparse.Namespace) -> int:
     """Run `gz topic`; return the exit code. Raises ValueError for invalid names, types and texts."""
     with Node() as node:
+        if values.topic is not None:
+            node.options.qualified(values.topic)
         if values.list:
             for topic in node.topic_list():
                 print(topic)
