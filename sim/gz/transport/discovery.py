@@ -54,6 +54,7 @@ class DiscoveryChannel:
         """
         self.process_uuid = process_uuid
         self._settings = settings
+        self._version = datagram.STATISTICS_VERSION if settings.topic_statistics else datagram.WIRE_VERSION
         self._target = (settings.group, port)
         self._own = own
         self._on_advertise = on_advertise
@@ -140,7 +141,7 @@ class DiscoveryChannel:
         self._send(message)
 
     def _message(self, kind: int) -> Discovery:
-        return Discovery(version=datagram.WIRE_VERSION, process_uuid=self.process_uuid, type=kind)
+        return Discovery(version=self._version, process_uuid=self.process_uuid, type=kind)
 
     def _send_about_process(self, kind: int) -> None:
         self.send(kind, Discovery.Publisher(process_uuid=self.process_uuid, scope=Discovery.Publisher.ALL))
@@ -169,7 +170,7 @@ class DiscoveryChannel:
                 return
             except OSError:  # closed by another thread, or a late error of an earlier send
                 return
-            message = datagram.decode(data)
+            message = datagram.decode(data, self._version)
             if message is None or message.process_uuid == self.process_uuid or message.flags.relay:
                 continue
             if not within_reach(source[0], self._settings.ip):

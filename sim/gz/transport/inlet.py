@@ -28,11 +28,16 @@ _RECONNECT_MS, _RECONNECT_MOST_MS = 100, 2000
 
 
 class Arrival(NamedTuple):
-    """A message of another process: fully qualified topic, serialized message, type name."""
+    """A message of another process."""
 
     name: bytes
+    """Fully qualified topic."""
+    sender: bytes
+    """Address of the sending process."""
     data: bytes
     type_name: bytes
+    stamp: bytes
+    """Time and number for statistics, or empty."""
 
 
 class Inlet:
@@ -129,7 +134,7 @@ class Inlet:
                 while more(_MORE):
                     frames.append(receive())
             if len(frames) >= _FRAMES:
-                return Arrival(frames[0], frames[2], frames[3])
+                return Arrival(*frames[:_FRAMES], frames[_FRAMES] if len(frames) > _FRAMES else b"")
 
     def close(self) -> None:
         self.socket.close()

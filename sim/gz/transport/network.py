@@ -36,6 +36,7 @@ from gz_course.sim.gz.transport.outlet import Outlet
 from gz_course.sim.gz.transport.subscription import Subscription
 from gz_course.sim.gz.transport.switchboard import SWITCHBOARD
 from gz_course.sim.gz.transport.topic_discovery import TopicDiscovery
+from gz_course.sim.gz.transport.topic_statistics import StatisticsTable
 
 if TYPE_CHECKING:
     from gz_course.sim.gz.transport.service_network import ServiceNetwork
@@ -50,6 +51,7 @@ class Network:
     def __init__(self, settings: NetworkSettings) -> None:
         """Open the sockets and start the threads. Raises OSError if no network can be used."""
         self.process_uuid = str(uuid.uuid4())
+        self.statistics = StatisticsTable()
         self._open = True
         self._settings = settings
         self._services: ServiceNetwork | None = None
@@ -58,7 +60,13 @@ class Network:
         self._notified: dict[tuple[str, str, str, str], float] = {}
         self._context: zmq.Context[zmq.Socket[bytes]] = zmq.Context()
         try:
-            self._outlet = Outlet(self._context, settings.ip, settings.send_high_water_mark, SWITCHBOARD.notify)
+            self._outlet = Outlet(
+                self._context,
+                settings.ip,
+                settings.send_high_water_mark,
+                SWITCHBOARD.notify,
+                settings.topic_statistics,
+            )
         except zmq.ZMQError as error:
             self._context.destroy(linger=0)
             raise OSError(error.errno, f"address {settings.ip} cannot be bound ({error})") from error
@@ -78,7 +86,7 @@ class Network:
             self._context.destroy(linger=0)
             raise
         self._inlet = Inlet(self._context, settings.receive_high_water_mark)
-        self._dispatcher = Dispatcher(SWITCHBOARD, self._inlet)
+        self._dispatcher = Dispatcher(SWITCHBOARD, self._inlet, self.statistics)
         self._wake_sender, self._wake_receiver = socket.socketpair()
         self._wake_sender.setblocking(False)
         self._wake_receiver.setblocking(False)

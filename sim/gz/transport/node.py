@@ -24,11 +24,12 @@ from gz_course.sim.gz.transport.environment import complain
 from gz_course.sim.gz.transport.local_delivery import LOCAL_DELIVERY
 from gz_course.sim.gz.transport.message_info import MessageInfo, MessagePublisher, ServicePublisher
 from gz_course.sim.gz.transport.node_services import NodeServices
+from gz_course.sim.gz.transport.node_statistics import NodeStatistics
+from gz_course.sim.gz.transport.node_topics import known_publishers, publishers_and_subscribers
 from gz_course.sim.gz.transport.options import (
     AdvertiseMessageOptions,
     AdvertiseServiceOptions,
     NodeOptions,
-    Scope,
     SubscribeOptions,
 )
 from gz_course.sim.gz.transport.publisher import Publisher
@@ -36,6 +37,7 @@ from gz_course.sim.gz.transport.reach import network_for, present_network_for
 from gz_course.sim.gz.transport.service import TIMED_OUT, CallResult
 from gz_course.sim.gz.transport.subscription import GENERIC_TYPE, Subscription
 from gz_course.sim.gz.transport.switchboard import SWITCHBOARD
+from gz_course.sim.gz.transport.topic_statistics import TopicStatistics
 from gz_course.sim.gz.transport.type_name import for_fortress, type_name
 
 DEFAULT_TIMEOUT_MS = 1000
@@ -58,8 +60,9 @@ class Node:
         self._services = NodeServices(self._options, self._uuid)
         self._publishers: list[Publisher] = []
         self._subscriptions: list[Subscription] = []
+        self._statistics = NodeStatistics(self._options.scope)
         self._open = True
-        self._finalizer = weakref.finalize(self, _forget, self._subscriptions, self._services)
+        self._finalizer = weakref.finalize(self, _forget, self._subscriptions, self._services, self._statistics)
         self._finalizer.atexit = False  # the network says farewell at exit
 
     @property
@@ -208,45 +211,41 @@ class Node:
         published, subscribed = self.publishers_and_subscribers()
         return [each for each in published if each.topic == plain], [each for each in subscribed if each.topic == plain]
 
+    def enable_stats(
+        self, topic: str, enable: bool, publication_topic: str = "/statistics", publication_rate: int = 1
+    ) -> bool:
+        """Begin or end statistics of a topic; return False if its name is not valid.
+
+        They are published on `publication_topic` as gz.msgs.Metric, at most `publication_rate` times per second, when
+        messages of other processes arrive. As in Gazebo all processes need GZ_TRANSPORT_TOPIC_STATISTICS=1 for it.
+        """
+        self._check_open()
+        if (name := self._qualified(topic)) is None:
+            return False
+        self._statistics.disable(name)
+        if enable:
+            options = AdvertiseMessageOptions(msgs_per_sec=publication_rate)
+            self._statistics.enable(name, self.advertise(publication_topic, "gz.msgs.Metric", options))
+        return True
+
+    def topic_stats(self, topic: str) -> TopicStatistics | None:
+        """Return the statistics of a topic; None if they are not enabled or no message has arrived since."""
+        name = self._qualified(topic)
+        return None if name is None else self._statistics.get(name)
+
     def known_publishers(self, topic: str) -> list[MessagePublisher]:
         """Return the known publishers of a topic; does not wait, so a new one may be missing.
 
         A publisher of a killed process leaves the list after about 3 [s]. Not in the official binding.
         """
-        name = self._options.qualified(topic)
-        found = [
-            MessagePublisher(each.topic, "", each.type_name, "", each.node_uuid, each.scope)
-            for each in SWITCHBOARD.all_publishers()
-            if each.name == name
-        ]
-        if network := network_for(self._options.scope):
-            found += network.known_publishers(name)
-        return found
+        return known_publishers(self._options, topic)
 
     def publishers_and_subscribers(self) -> tuple[list[MessagePublisher], list[MessagePublisher]]:
         """Return the publishers and the subscribers of all topics of the partition; waits like topic_list().
 
         Not in the official binding.
         """
-        process, address = "", ""
-        published: list[tuple[str, MessagePublisher]] = []
-        subscribed: list[tuple[str, MessagePublisher]] = []
-        if network := network_for(self._options.scope):
-            process, address = network.process_uuid, network.address
-            published, subscribed = network.known_elsewhere()
-
-        def named(each: Advertisement | Subscription) -> tuple[str, MessagePublisher]:
-            reachable = address if each.scope != Scope.PROCESS else ""
-            topic = naming.split(each.name)[1]
-            return each.name, MessagePublisher(topic, reachable, each.type_name, process, each.node_uuid, each.scope)
-
-        published += map(named, SWITCHBOARD.all_publishers())
-        subscribed += map(named, SWITCHBOARD.all_subscriptions())
-        own = naming.partition_prefix(self._options.partition)
-        return (
-            [info for name, info in published if name.startswith(own)],
-            [info for name, info in subscribed if name.startswith(own)],
-        )
+        return publishers_and_subscribers(self._options)
 
     def advertise_service(
         self,
@@ -350,6 +349,7 @@ class Node:
         for subscription in list(self._subscriptions):
             self._end(subscription)
         self._services.close()
+        self._statistics.close()
 
     def __enter__(self) -> Node:
         return self
@@ -367,16 +367,17 @@ class Node:
             raise RuntimeError("This node is closed: create a new Node() to advertise or subscribe again.")
 
 
-def _forget(subscriptions: list[Subscription], services: NodeServices) -> None:
+def _forget(subscriptions: list[Subscription], services: NodeServices, statistics: NodeStatistics) -> None:
     """End a node to which nobody refers any more; runs at any moment, so the tables are changed elsewhere."""
     for subscription in subscriptions:
         subscription.active = False
-    LOCAL_DELIVERY.end_later(lambda: _withdraw(subscriptions, services))
+    LOCAL_DELIVERY.end_later(lambda: _withdraw(subscriptions, services, statistics))
 
 
-def _withdraw(subscriptions: list[Subscription], services: NodeServices) -> None:
+def _withdraw(subscriptions: list[Subscription], services: NodeServices, statistics: NodeStatistics) -> None:
     for subscription in subscriptions:
         SWITCHBOARD.remove_subscription(subscription)
         if network := present_network_for(subscription.scope):
             network.unsubscribe(subscription)
     services.close()
+    statistics.close()

@@ -3,7 +3,7 @@
 Publishers call send() from any thread; the I/O thread calls take_notices() when the descriptor is readable. An XPUB
 socket reports the topics that connected processes subscribe to, so that a publisher can tell whether its first message
 will arrive. The reports are kept for each connection, so that nobody can end the subscription of another. Frames of a
-message: topic, own address, bytes, type name.
+message: topic, own address, bytes, type name, and, where statistics are on, its time and number.
 
 Source: https://github.com/gazebosim/gz-transport/blob/gz-transport13/src/NodeShared.cc (NodeShared::Publish)
 """
@@ -15,6 +15,8 @@ import threading
 from collections.abc import Callable
 
 import zmq
+
+from gz_course.sim.gz.transport.topic_statistics import STAMP, now_ms
 
 _NO_COPY_FROM_BYTES = 65536
 _MORE, _EVENTS, _READABLE = int(zmq.SNDMORE), int(zmq.EVENTS), int(zmq.POLLIN)  # plain ints are faster
@@ -32,8 +34,13 @@ class Outlet:
         ip: str,
         high_water_mark: int,
         on_change: Callable[[], None],
+        statistics: bool = False,
     ) -> None:
-        """Bind a free port of `ip`; `on_change()` is called without a lock when the subscriptions change."""
+        """Bind a free port of `ip`; `on_change()` is called without a lock when the subscriptions change.
+
+        With `statistics` each message has a fifth frame with its time and number.
+        """
+        self._numbers: dict[bytes, int] | None = {} if statistics else None
         self._on_change = on_change
         self._lock = threading.Lock()
         self._listeners: dict[bytes, set[Connection]] = {}
@@ -70,7 +77,13 @@ class Outlet:
             send(name, _MORE)
             send(self._address_on_wire, _MORE)
             send(data, _MORE, len(data) < _NO_COPY_FROM_BYTES)
-            send(type_name)
+            if self._numbers is None:
+                send(type_name)
+            else:
+                number = self._numbers.get(name, 0)
+                self._numbers[name] = number + 1
+                send(type_name, _MORE)
+                send(STAMP.pack(now_ms(), number))
             # sending may consume the signal of the edge-triggered descriptor, so its cause is checked here
             changed = self._drain()
         if changed:
