@@ -57,7 +57,7 @@ class Network:
         self._services: ServiceNetwork | None = None
         self._services_lock = threading.Lock()
         self._commands: deque[Callable[[], None]] = deque()
-        self._notified: dict[tuple[str, str, str, str], float] = {}
+        self._notified: dict[tuple[str, str, str], dict[str, float]] = {}
         self._context: zmq.Context[zmq.Socket[bytes]] = zmq.Context()
         try:
             self._outlet = Outlet(
@@ -245,11 +245,9 @@ class Network:
             self._inlet.ignore(subscription.name)
         if not any(each.node_uuid == subscription.node_uuid for each in left):
             self._discovery.send_end_connection(subscription.name, subscription.node_uuid)
-            self._notified = {
-                key: when
-                for key, when in self._notified.items()
-                if key[0] != subscription.name or key[3] != subscription.node_uuid
-            }
+            for key, nodes in self._notified.items():
+                if key[0] == subscription.name:
+                    nodes.pop(subscription.node_uuid, None)
 
     def _on_advertise(self, record: Discovery.Publisher, is_new: bool) -> None:
         kind = record.msg_pub.msg_type
@@ -260,18 +258,18 @@ class Network:
 
     def _notify(self, record: Discovery.Publisher, node_uuid: str, again: bool = True) -> None:
         """Notify a publisher of a subscriber; repeated every second, because datagrams can be lost."""
-        key = (record.topic, record.process_uuid, record.node_uuid, node_uuid)
+        nodes = self._notified.setdefault((record.topic, record.process_uuid, record.node_uuid), {})
         now = time.monotonic()
-        if again or now - self._notified.get(key, 0.0) > 0.9 * HEARTBEAT_S:
-            self._notified[key] = now
+        if again or now - nodes.get(node_uuid, 0.0) > 0.9 * HEARTBEAT_S:
+            nodes[node_uuid] = now
             self._discovery.send_new_connection(record, node_uuid)
 
     def _on_gone(self, records: list[Discovery.Publisher]) -> None:
-        gone = {(record.topic, record.process_uuid, record.node_uuid) for record in records}
-        self._notified = {key: when for key, when in self._notified.items() if key[:3] not in gone}
-        still_there = {record.address for record in self._discovery.all_known()}
-        for address in {record.address for record in records} - still_there:
-            self._inlet.leave_soon(address)
+        for record in records:
+            self._notified.pop((record.topic, record.process_uuid, record.node_uuid), None)
+        for address in {record.address for record in records}:
+            if not self._discovery.is_known_address(address):
+                self._inlet.leave_soon(address)
 
     # Publishers and subscriptions of this process
 
