@@ -201,6 +201,8 @@ class Bridge:
         publisher = self._gz_publishers.get(name)
         if publisher is None:
             publisher = self._gz_node.advertise(topic, pair.gz_class, AdvertiseMessageOptions())
+            if not publisher.valid():
+                raise ValueError(f"gz.transport does not advertise the topic {topic!r}")
             self._gz_publishers[name] = publisher
         elif publisher.type_name != pair.gz_type:
             raise ValueError(f"the Gazebo topic {topic} carries {publisher.type_name} already, not {pair.gz_type}")

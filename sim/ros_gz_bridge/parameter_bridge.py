@@ -72,6 +72,7 @@ def main(argv: list[str] | None = None) -> int:
 def _bridge(node: Node, texts: list[str]) -> int:
     """Set the bridges up, wait for a signal, take them down."""
     from gz_course.sim.gz.transport import Node as GzNode
+    from gz_course.sim.gz.transport import NodeOptions
     from gz_course.sim.ros_gz_bridge import bridged_topics, parameters
     from gz_course.sim.ros_gz_bridge.bridge import Bridge, BridgeError, HeaderOverrides
     from gz_course.sim.ros_gz_bridge.watch import Watch, Watcher
@@ -93,7 +94,7 @@ def _bridge(node: Node, texts: list[str]) -> int:
     overrides = HeaderOverrides(
         frame_id=given.values["override_frame_id"], wall_time=given.values["override_timestamps_with_wall_time"]
     )
-    with GzNode() as gz_node:
+    with GzNode(NodeOptions(synchronous=True)) as gz_node:  # GzEcho takes an echo inside publish
         for line in parameters.creation_lines(config):
             logger.info(line)
         try:

@@ -15,7 +15,7 @@ OURS = [name.replace("gz.", "ignition.") for name in type_names()]
 NEWER = {
     f"ignition.msgs.{name}"
     for name in (
-        *("AirFlowSensor", "AirSpeed", "AirSpeedSensor", "CameraTrack", "DataLoadPathOptions", "Dataframe"),
+        *("AirSpeed", "AirSpeedSensor", "CameraTrack", "DataLoadPathOptions", "Dataframe"),
         *("DVLBeamState", "DVLKinematicEstimate", "DVLRangeEstimate", "DVLTrackingTarget", "DVLVelocityTracking"),
         *("EntityPlugin_V", "EntityWrench", "EntityWrenchMap", "Lens", "MaterialColor", "WheelSlipParametersCmd"),
         *("Parameter", "ParameterDeclaration", "ParameterDeclarations"),

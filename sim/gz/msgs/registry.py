@@ -12,7 +12,7 @@ import threading
 from pathlib import Path
 from typing import Any
 
-from google.protobuf import message_factory
+from google.protobuf import any_pb2, message_factory
 from google.protobuf.descriptor_pool import DescriptorPool
 from google.protobuf.message import Message
 
@@ -51,6 +51,9 @@ def _load(stem: str) -> None:
     path = PROTO_FOLDER / f"{stem}.proto"
     file = read_proto(path.read_text(encoding="utf-8"), f"{_IMPORT_PREFIX}{stem}.proto", str(path))
     for imported in file.dependency:
+        if imported == any_pb2.DESCRIPTOR.name:
+            _pool.AddSerializedFile(any_pb2.DESCRIPTOR.serialized_pb)
+            continue
         _load(imported.removeprefix(_IMPORT_PREFIX).removesuffix(".proto"))
     _pool.AddSerializedFile(file.SerializeToString())
     _loaded.add(stem)

@@ -50,7 +50,7 @@ class _Generator:
             if child.tag == "joint" and not any(joint.element is child for joint in description.joints):
                 continue  # one of its models was removed
             if child.tag not in _ROOTS:
-                written.children.append(self._physics(child) if child.tag == "physics" else _copy(child))
+                written.children.append(self._physics(child) if child.tag == "physics" else absolute_copy(child))
                 continue
             model = next((each for each in models if _came_from(each.element, each.name, child)), None)
             light = next((each for each in lights if _came_from(each.element, each.name, child)), None)
@@ -68,7 +68,7 @@ class _Generator:
 
     def _physics(self, element: Element) -> Element:
         """Write the present step size and real-time factor."""
-        made = _copy(element)
+        made = absolute_copy(element)
         description = self._world.description
         for tag, value in (
             ("max_step_size", repr(description.step_size_ns * 1e-9)),
@@ -82,7 +82,7 @@ class _Generator:
     def _model(self, model: Model, source: Element) -> Element:
         pose = self._world.truth.pose(model.name)
         if source.tag == "include" and (not self._expand or model.version != self._version):
-            made = _placed(_copy(source), pose, self._version)
+            made = _placed(absolute_copy(source), pose, self._version)
             made.children = [child for child in made.children if child.tag not in ("name", "placement_frame")]
             made.children.insert(0, Element("name", text=model.name))
             return made
@@ -93,15 +93,15 @@ class _Generator:
                 ".".join(map(str, model.version)),
                 ".".join(map(str, self._version)),
             )
-        made = _placed(_copy(model.element), pose, self._version)
+        made = _placed(absolute_copy(model.element), pose, self._version)
         made.attributes["name"] = model.name
         made.attributes.pop("placement_frame", None)
         return made
 
     def _light(self, light: Light, source: Element) -> Element:
         if source.tag == "include" and not self._expand:
-            return _placed(_copy(source), light.pose, self._version)
-        made = _placed(_copy(light.element), light.pose, self._version)
+            return _placed(absolute_copy(source), light.pose, self._version)
+        made = _placed(absolute_copy(light.element), light.pose, self._version)
         made.attributes |= {"name": light.name, "type": light.kind}
         for tag, value in (
             ("diffuse", " ".join(map(repr, (*light.diffuse, 1.0)))),
@@ -137,11 +137,11 @@ def _placed(element: Element, pose: Pose, version: tuple[int, int]) -> Element:
     return element
 
 
-def _copy(element: Element) -> Element:
+def absolute_copy(element: Element) -> Element:
     """Copy an element; a relative `<uri>` becomes absolute, because the text has no file."""
     made = copy.copy(element)
     made.attributes = dict(element.attributes)
-    made.children = [_copy(child) for child in element.children]
+    made.children = [absolute_copy(child) for child in element.children]
     if element.tag == "uri" and "://" not in element.text and not element.text.startswith(("/", "<")):
         beside = Path(element.file).resolve().parent / element.text
         if beside.exists():

@@ -20,6 +20,7 @@ from gz_course.sim.gz.transport.options import (
 )
 from gz_course.sim.gz.transport.publisher import Publisher
 from gz_course.sim.gz.transport.service import CallResult
+from gz_course.sim.gz.transport.topic_statistics import TopicStatistics
 
 __all__ = [
     "UNTHROTTLED",
@@ -35,4 +36,5 @@ __all__ = [
     "Scope",
     "ServicePublisher",
     "SubscribeOptions",
+    "TopicStatistics",
 ]

@@ -12,6 +12,8 @@ from gz_course.sim.gz.msgs.discovery_pb2 import Discovery
 
 WIRE_VERSION = 10
 """The protocol version of gz-transport 11 to 15."""
+STATISTICS_VERSION = 110
+"""The version of processes that send statistics of topics."""
 MAX_DATAGRAM_BYTES = 65535
 _LENGTH_BYTES = 2
 
@@ -28,7 +30,7 @@ def encode(message: Discovery) -> bytes:
     return len(body).to_bytes(_LENGTH_BYTES, "little") + body
 
 
-def decode(data: bytes) -> Discovery | None:
+def decode(data: bytes, version: int = WIRE_VERSION) -> Discovery | None:
     """Return the message in a datagram, or None if the datagram is not one of this protocol and version."""
     if len(data) < _LENGTH_BYTES or int.from_bytes(data[:_LENGTH_BYTES], "little") != len(data) - _LENGTH_BYTES:
         return None
@@ -36,6 +38,6 @@ def decode(data: bytes) -> Discovery | None:
         message = Discovery.FromString(data[_LENGTH_BYTES:])
     except DecodeError:
         return None
-    if message.version != WIRE_VERSION or not message.process_uuid:
+    if message.version != version or not message.process_uuid:
         return None
     return message

@@ -1,7 +1,8 @@
 """Discovery by multicast: finds the publishers or services of other processes, and announces those of this process.
 
 A DiscoveryChannel is one UDP port with heartbeats, announcements, questions ("who has this topic?") and farewells. It
-runs in the I/O thread; any thread may send and look up. topic_discovery.py adds what only topics have.
+runs in the I/O thread; any thread may send and look up. topic_discovery.py adds what only topics have, peers.py limits
+what invented processes can fill.
 
 Source: https://github.com/gazebosim/gz-transport/blob/gz-transport13/include/gz/transport/Discovery.hh
 """
@@ -13,6 +14,7 @@ import errno
 import socket
 import threading
 import time
+from collections import Counter
 from collections.abc import Callable, Iterable
 
 from gz_course.sim.gz.msgs.discovery_pb2 import Discovery
@@ -20,15 +22,19 @@ from gz_course.sim.gz.transport import datagram, naming
 from gz_course.sim.gz.transport.address import is_loopback, is_of_this_machine, is_usable, within_reach
 from gz_course.sim.gz.transport.environment import NetworkSettings, complain
 from gz_course.sim.gz.transport.options import Scope
+from gz_course.sim.gz.transport.peers import Peers
 
 HEARTBEAT_S = 1.0
 SILENCE_LIMIT_S = 3.0
 COMPLETE_AFTER_S = HEARTBEAT_S + 0.1
 """Time [s] within which every other process has sent a heartbeat, so that the list is complete."""
-_RECEIVE_BUFFER_BYTES = 1 << 20
+_RECEIVE_BUFFER_BYTES = 8 << 20
+_SO_RCVBUFFORCE = 33  # Linux, for root: beyond net.core.rmem_max
 _MOST_AT_ONCE = 1000
-_MOST_PROCESSES, _MOST_TOPICS, _MOST_OF_ONE_TOPIC = 2000, 20_000, 1000
-"""Limits of the tables, above those of any real network, so that forged messages cannot fill the memory."""
+_MOST_OF_ONE_TOPIC = 1000
+_LONGEST_UUID, _LONGEST_ADDRESS = 100, 300
+_RECORD_BYTES = 500
+"""Size of an entry of the tables without its names."""
 _CHECK_EVERY_S = 0.1
 
 RecordKey = tuple[str, str, str]
@@ -54,13 +60,16 @@ class DiscoveryChannel:
         """
         self.process_uuid = process_uuid
         self._settings = settings
+        self._version = datagram.STATISTICS_VERSION if settings.topic_statistics else datagram.WIRE_VERSION
         self._target = (settings.group, port)
         self._own = own
         self._on_advertise = on_advertise
         self._on_gone = on_gone
         self._lock = threading.RLock()
         self._records: dict[str, dict[RecordKey, Discovery.Publisher]] = {}
-        self._last_heard: dict[str, float] = {}
+        self._topics_of: dict[str, set[str]] = {}
+        self._addresses: Counter[str] = Counter()
+        self._peers = Peers()
         self._started = time.monotonic()
         self._next_heartbeat = self._next_check = self._started
         self._open = True
@@ -74,6 +83,8 @@ class DiscoveryChannel:
             udp.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             udp.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
             udp.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, _RECEIVE_BUFFER_BYTES)
+            with contextlib.suppress(OSError):
+                udp.setsockopt(socket.SOL_SOCKET, _SO_RCVBUFFORCE, _RECEIVE_BUFFER_BYTES)
             udp.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, interface)
             group = socket.inet_aton(self._settings.group)
             udp.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, group + interface)
@@ -113,6 +124,11 @@ class DiscoveryChannel:
         with self._lock:
             return [record for group in self._records.values() for record in group.values()]
 
+    def is_known_address(self, address: str) -> bool:
+        """Return whether a known publisher or service has this address."""
+        with self._lock:
+            return self._addresses[address] > 0
+
     def seconds_until_complete(self) -> float:
         """Return the time [s] until all_known() is complete, 0 if it is."""
         return max(0.0, self._started + COMPLETE_AFTER_S - time.monotonic())
@@ -140,7 +156,7 @@ class DiscoveryChannel:
         self._send(message)
 
     def _message(self, kind: int) -> Discovery:
-        return Discovery(version=datagram.WIRE_VERSION, process_uuid=self.process_uuid, type=kind)
+        return Discovery(version=self._version, process_uuid=self.process_uuid, type=kind)
 
     def _send_about_process(self, kind: int) -> None:
         self.send(kind, Discovery.Publisher(process_uuid=self.process_uuid, scope=Discovery.Publisher.ALL))
@@ -169,15 +185,20 @@ class DiscoveryChannel:
                 return
             except OSError:  # closed by another thread, or a late error of an earlier send
                 return
-            message = datagram.decode(data)
+            message = datagram.decode(data, self._version)
             if message is None or message.process_uuid == self.process_uuid or message.flags.relay:
                 continue
             if not within_reach(source[0], self._settings.ip):
                 continue
-            if message.process_uuid not in self._last_heard and len(self._last_heard) >= _MOST_PROCESSES:
+            if len(message.process_uuid) > _LONGEST_UUID:
                 continue
-            self._last_heard[message.process_uuid] = time.monotonic()
+            self.hear(message.process_uuid)
             self.handle(message, source[0])
+
+    def hear(self, process_uuid: str) -> None:
+        """Record that a process was heard, which may mean to forget another."""
+        if (forgotten := self._peers.hear(process_uuid, time.monotonic())) is not None:
+            self._forget_process(forgotten)
 
     def handle(self, message: Discovery, source_ip: str) -> None:
         """Process one message of another process."""
@@ -204,6 +225,8 @@ class DiscoveryChannel:
             return False
         if record.scope == Scope.HOST and not is_of_this_machine(source_ip):
             return False
+        if len(record.node_uuid) > _LONGEST_UUID or len(record.address) > _LONGEST_ADDRESS:
+            return False
         if message.type == Discovery.ADVERTISE and not is_usable(record.address, self._settings.ip):
             return False
         try:
@@ -214,39 +237,57 @@ class DiscoveryChannel:
 
     def _remember(self, record: Discovery.Publisher) -> None:
         key = (record.process_uuid, record.node_uuid, record.address)
+        before = self._records.get(record.topic, {}).get(key)
+        if before is None and not self._peers.has_room(record.process_uuid, _size(record)):
+            return
+        gone: list[Discovery.Publisher] = []
         with self._lock:
-            if record.topic not in self._records and len(self._records) >= _MOST_TOPICS:
-                return
             group = self._records.setdefault(record.topic, {})
-            is_new = key not in group
-            if is_new and len(group) >= _MOST_OF_ONE_TOPIC:
-                return
+            if before is not None:
+                self._remove(group, key)
+            elif len(group) >= _MOST_OF_ONE_TOPIC:
+                gone.append(self._remove(group, next(iter(group))))
             group[key] = record
-        self._on_advertise(record, is_new)
+            self._addresses[record.address] += 1
+            self._topics_of.setdefault(record.process_uuid, set()).add(record.topic)
+            self._peers.charge(record.process_uuid, _size(record))
+        if gone:
+            self._on_gone(gone)
+        while (forgotten := self._peers.too_much(keep=record.process_uuid)) is not None:
+            self._forget_process(forgotten)
+        self._on_advertise(record, before is None)
+
+    def _remove(self, group: dict[RecordKey, Discovery.Publisher], key: RecordKey) -> Discovery.Publisher:
+        record = group.pop(key)
+        self._addresses[record.address] -= 1
+        if self._addresses[record.address] <= 0:
+            del self._addresses[record.address]
+        self._peers.charge(record.process_uuid, -_size(record))
+        return record
 
     def _forget_record(self, record: Discovery.Publisher) -> None:
-        self._forget(
-            lambda each: each.process_uuid == record.process_uuid and each.node_uuid == record.node_uuid,
-            [record.topic],
-        )
+        self._forget(record.process_uuid, [record.topic], record.node_uuid)
 
     def _forget_process(self, process_uuid: str) -> None:
-        self._last_heard.pop(process_uuid, None)
         self.forget_subscribers_of(process_uuid)
-        self._forget(lambda each: each.process_uuid == process_uuid, list(self._records))
+        self._forget(process_uuid, list(self._topics_of.get(process_uuid, ())))
+        self._topics_of.pop(process_uuid, None)
+        self._peers.forget(process_uuid)
 
     def forget_subscribers_of(self, process_uuid: str) -> None:
         """Forget the subscribers of a process that has ended; this class keeps none."""
 
-    def _forget(self, condition: Callable[[Discovery.Publisher], bool], topics: list[str]) -> None:
+    def _forget(self, process_uuid: str, topics: list[str], node_uuid: str | None = None) -> None:
         gone: list[Discovery.Publisher] = []
         with self._lock:
             for topic in topics:
                 group = self._records.get(topic, {})
-                for key in [key for key, record in group.items() if condition(record)]:
-                    gone.append(group.pop(key))
+                for key in [key for key in group if key[0] == process_uuid and node_uuid in (None, key[1])]:
+                    gone.append(self._remove(group, key))
                 if not group:
                     self._records.pop(topic, None)
+                if not any(key[0] == process_uuid for key in group):
+                    self._topics_of.get(process_uuid, set()).discard(topic)
         if gone:
             self._on_gone(gone)
 
@@ -259,13 +300,11 @@ class DiscoveryChannel:
             for record in self._own(None):
                 self.advertise(record)
         if now >= self._next_check:
-            self._next_check = now + HEARTBEAT_S
-            for process_uuid, heard in list(self._last_heard.items()):
-                if now - heard > SILENCE_LIMIT_S:
-                    self._forget_process(process_uuid)
-                else:
-                    self._next_check = min(self._next_check, heard + SILENCE_LIMIT_S)
-            self._next_check = max(self._next_check, now + _CHECK_EVERY_S)
+            for process_uuid in self._peers.silent(now - SILENCE_LIMIT_S):
+                self._forget_process(process_uuid)
+            oldest = self._peers.oldest_message()
+            due = now + HEARTBEAT_S if oldest is None else min(now + HEARTBEAT_S, oldest + SILENCE_LIMIT_S)
+            self._next_check = max(due, now + _CHECK_EVERY_S)
         return max(0.001, min(self._next_heartbeat, self._next_check) - now + 0.001)
 
     # Closing
@@ -281,3 +320,7 @@ class DiscoveryChannel:
         self._open = False
         with contextlib.suppress(OSError):
             self._socket.close()
+
+
+def _size(record: Discovery.Publisher) -> int:
+    return record.ByteSize() + _RECORD_BYTES

@@ -16,6 +16,7 @@ from gz_course.sim.gz.transport.environment import complain
 from gz_course.sim.gz.transport.inlet import Arrival, Inlet
 from gz_course.sim.gz.transport.message_info import MessageInfo
 from gz_course.sim.gz.transport.switchboard import Switchboard
+from gz_course.sim.gz.transport.topic_statistics import StatisticsTable
 
 _MOST_DESCRIBED = 1000
 
@@ -23,8 +24,9 @@ _MOST_DESCRIBED = 1000
 class Dispatcher:
     """The thread that reads messages from the inlet."""
 
-    def __init__(self, switchboard: Switchboard, inlet: Inlet) -> None:
+    def __init__(self, switchboard: Switchboard, inlet: Inlet, statistics: StatisticsTable) -> None:
         self._switchboard = switchboard
+        self._statistics = statistics
         self._inlet = inlet
         self._described: dict[tuple[bytes, bytes], tuple[str, MessageInfo]] = {}
         self._open = True
@@ -80,6 +82,8 @@ class Dispatcher:
             if found is None:
                 return
         name, info = found
+        if arrival.stamp:
+            self._statistics.record(name, arrival.sender, arrival.stamp)
         for subscription in self._switchboard.networked_subscriptions(name):
             subscription.deliver(arrival.data, info)
 

@@ -36,6 +36,7 @@ class EchoQueue:
 
     def __init__(self, node: Node, topic: str) -> None:
         """Subscribe. Raises ValueError if the topic name is invalid."""
+        node.options.qualified(topic)
         self._node, self._topic = node, topic
         self._queue: queue.Queue[Arrival] = queue.Queue(_WAITING)
         self._ended = threading.Event()

@@ -26,7 +26,6 @@ DEFAULT_SERVICE_PORT = 10318
 DEFAULT_HIGH_WATER_MARK = 1000
 _NOT_IMPLEMENTED = (
     "GZ_RELAY",
-    "GZ_TRANSPORT_TOPIC_STATISTICS",
     "GZ_TRANSPORT_USERNAME",
     "GZ_TRANSPORT_PASSWORD",
 )
@@ -68,6 +67,7 @@ class NetworkSettings:
     service_port: int = DEFAULT_SERVICE_PORT
     send_high_water_mark: int = DEFAULT_HIGH_WATER_MARK
     receive_high_water_mark: int = DEFAULT_HIGH_WATER_MARK
+    topic_statistics: bool = False
 
     @classmethod
     def from_environment(cls, environment: Mapping[str, str] | None = None) -> NetworkSettings:
@@ -91,6 +91,7 @@ class NetworkSettings:
             service_port=service_port,
             send_high_water_mark=_number(environment, "GZ_TRANSPORT_SNDHWM", DEFAULT_HIGH_WATER_MARK, 0, 2**31 - 1),
             receive_high_water_mark=_number(environment, "GZ_TRANSPORT_RCVHWM", DEFAULT_HIGH_WATER_MARK, 0, 2**31 - 1),
+            topic_statistics=environment.get("GZ_TRANSPORT_TOPIC_STATISTICS", "") == "1",
         )
 
 

@@ -24,15 +24,21 @@ _LARGEST_FRAME = 1 << 30
 _FRAMES = 4
 _MORE, _NO_WAIT = int(zmq.RCVMORE), int(zmq.NOBLOCK)  # plain ints are faster
 _MOST_UNUSABLE = 1000
+_MOST_CONNECTIONS = 256
 _RECONNECT_MS, _RECONNECT_MOST_MS = 100, 2000
 
 
 class Arrival(NamedTuple):
-    """A message of another process: fully qualified topic, serialized message, type name."""
+    """A message of another process."""
 
     name: bytes
+    """Fully qualified topic."""
+    sender: bytes
+    """Address of the sending process."""
     data: bytes
     type_name: bytes
+    stamp: bytes
+    """Time and number for statistics, or empty."""
 
 
 class Inlet:
@@ -48,7 +54,7 @@ class Inlet:
         self.socket.setsockopt(zmq.MAXMSGSIZE, _LARGEST_FRAME)
         self._descriptor = int(self.socket.getsockopt(zmq.FD))
         self._was_used = False
-        self._connected: set[str] = set()
+        self._connected: dict[str, None] = {}  # the last entry is the most recently advertised address
         self._unusable: set[str] = set()
         self._leaving: dict[str, float] = {}
         self._filters: set[str] = set()
@@ -81,7 +87,11 @@ class Inlet:
                     self._unusable.add(address)
                     complain(f"The publisher of {name} has an address that cannot be used: {address[:100]!r}.")
                 return False
-            self._connected.add(address)
+            if len(self._connected) >= _MOST_CONNECTIONS:
+                self._leave(next(iter(self._leaving), next(iter(self._connected))))
+        else:
+            del self._connected[address]
+        self._connected[address] = None
         return True
 
     def _connect(self, address: str) -> bool:
@@ -112,10 +122,13 @@ class Inlet:
         now = time.monotonic()
         leaving = [address for address, due in self._leaving.items() if now >= due]
         for address in leaving:
-            del self._leaving[address]
-            self._connected.discard(address)
-            with self._using():
-                self.socket.disconnect(address)
+            self._leave(address)
+
+    def _leave(self, address: str) -> None:
+        self._leaving.pop(address, None)
+        self._connected.pop(address, None)
+        with self._using(), contextlib.suppress(zmq.ZMQError):
+            self.socket.disconnect(address)
 
     def receive(self) -> Arrival | None:
         """Return the next message, or None if there is none; does not block."""
@@ -129,7 +142,7 @@ class Inlet:
                 while more(_MORE):
                     frames.append(receive())
             if len(frames) >= _FRAMES:
-                return Arrival(frames[0], frames[2], frames[3])
+                return Arrival(*frames[:_FRAMES], frames[_FRAMES] if len(frames) > _FRAMES else b"")
 
     def close(self) -> None:
         self.socket.close()

@@ -25,6 +25,7 @@ import zmq
 
 from gz_course.sim.gz.msgs.discovery_pb2 import Discovery
 from gz_course.sim.gz.transport import naming
+from gz_course.sim.gz.transport.advertisement import Advertisement
 from gz_course.sim.gz.transport.discovery import HEARTBEAT_S
 from gz_course.sim.gz.transport.dispatcher import Dispatcher
 from gz_course.sim.gz.transport.environment import DEFAULT_IP, NetworkSettings, complain
@@ -32,10 +33,10 @@ from gz_course.sim.gz.transport.inlet import Inlet
 from gz_course.sim.gz.transport.message_info import MessagePublisher
 from gz_course.sim.gz.transport.options import UNTHROTTLED, Scope
 from gz_course.sim.gz.transport.outlet import Outlet
-from gz_course.sim.gz.transport.publisher import Publisher
 from gz_course.sim.gz.transport.subscription import Subscription
 from gz_course.sim.gz.transport.switchboard import SWITCHBOARD
 from gz_course.sim.gz.transport.topic_discovery import TopicDiscovery
+from gz_course.sim.gz.transport.topic_statistics import StatisticsTable
 
 if TYPE_CHECKING:
     from gz_course.sim.gz.transport.service_network import ServiceNetwork
@@ -50,15 +51,22 @@ class Network:
     def __init__(self, settings: NetworkSettings) -> None:
         """Open the sockets and start the threads. Raises OSError if no network can be used."""
         self.process_uuid = str(uuid.uuid4())
+        self.statistics = StatisticsTable()
         self._open = True
         self._settings = settings
         self._services: ServiceNetwork | None = None
         self._services_lock = threading.Lock()
         self._commands: deque[Callable[[], None]] = deque()
-        self._notified: dict[tuple[str, str, str, str], float] = {}
+        self._notified: dict[tuple[str, str, str], dict[str, float]] = {}
         self._context: zmq.Context[zmq.Socket[bytes]] = zmq.Context()
         try:
-            self._outlet = Outlet(self._context, settings.ip, settings.send_high_water_mark, SWITCHBOARD.notify)
+            self._outlet = Outlet(
+                self._context,
+                settings.ip,
+                settings.send_high_water_mark,
+                SWITCHBOARD.notify,
+                settings.topic_statistics,
+            )
         except zmq.ZMQError as error:
             self._context.destroy(linger=0)
             raise OSError(error.errno, f"address {settings.ip} cannot be bound ({error})") from error
@@ -78,7 +86,7 @@ class Network:
             self._context.destroy(linger=0)
             raise
         self._inlet = Inlet(self._context, settings.receive_high_water_mark)
-        self._dispatcher = Dispatcher(SWITCHBOARD, self._inlet)
+        self._dispatcher = Dispatcher(SWITCHBOARD, self._inlet, self.statistics)
         self._wake_sender, self._wake_receiver = socket.socketpair()
         self._wake_sender.setblocking(False)
         self._wake_receiver.setblocking(False)
@@ -100,19 +108,19 @@ class Network:
         """Send a message to the processes that subscribe to the fully qualified topic."""
         self._outlet.send(name, data, type_name)
 
-    def advertise(self, publisher: Publisher) -> None:
+    def advertise(self, publisher: Advertisement) -> None:
         self._discovery.advertise(self._record(publisher))
 
-    def unadvertise(self, publisher: Publisher) -> None:
+    def unadvertise(self, publisher: Advertisement) -> None:
         self._discovery.unadvertise(self._record(publisher))
 
     def subscribe(self, subscription: Subscription) -> None:
         """Connect a subscription to present and future publishers of its topic."""
-        self._do(lambda: self._connect_known(subscription))
+        self.do(lambda: self._connect_known(subscription))
 
     def unsubscribe(self, subscription: Subscription) -> None:
         """Notify publishers that a subscription, already removed from the switchboard, has ended."""
-        self._do(lambda: self._disconnect(subscription))
+        self.do(lambda: self._disconnect(subscription))
 
     def listening_processes(self, name: str, type_name: str) -> int:
         """Return how many other processes would receive a message of this topic and type now."""
@@ -146,6 +154,12 @@ class Network:
         self._discovery.wait_for_answers()
         return _listed(self._discovery.all_known()), _listed(self._discovery.subscribers())
 
+    def do(self, command: Callable[[], None]) -> None:
+        """Call a function in the I/O thread, soon; takes no lock, so a finalizer may call it."""
+        if self._open:
+            self._commands.append(command)
+            self._wake()
+
     def close(self) -> None:
         """Notify the other processes, stop the threads and close the sockets."""
         if not self._open:
@@ -178,11 +192,6 @@ class Network:
             self._services.discovery.close()
         self._wake_sender.close()
         self._wake_receiver.close()
-
-    def _do(self, command: Callable[[], None]) -> None:
-        if self._open:
-            self._commands.append(command)
-            self._wake()
 
     def _wake(self) -> None:
         with contextlib.suppress(OSError):  # full: it will wake up anyway; closed: it has stopped
@@ -236,11 +245,9 @@ class Network:
             self._inlet.ignore(subscription.name)
         if not any(each.node_uuid == subscription.node_uuid for each in left):
             self._discovery.send_end_connection(subscription.name, subscription.node_uuid)
-            self._notified = {
-                key: when
-                for key, when in self._notified.items()
-                if key[0] != subscription.name or key[3] != subscription.node_uuid
-            }
+            for key, nodes in self._notified.items():
+                if key[0] == subscription.name:
+                    nodes.pop(subscription.node_uuid, None)
 
     def _on_advertise(self, record: Discovery.Publisher, is_new: bool) -> None:
         kind = record.msg_pub.msg_type
@@ -251,18 +258,18 @@ class Network:
 
     def _notify(self, record: Discovery.Publisher, node_uuid: str, again: bool = True) -> None:
         """Notify a publisher of a subscriber; repeated every second, because datagrams can be lost."""
-        key = (record.topic, record.process_uuid, record.node_uuid, node_uuid)
+        nodes = self._notified.setdefault((record.topic, record.process_uuid, record.node_uuid), {})
         now = time.monotonic()
-        if again or now - self._notified.get(key, 0.0) > 0.9 * HEARTBEAT_S:
-            self._notified[key] = now
+        if again or now - nodes.get(node_uuid, 0.0) > 0.9 * HEARTBEAT_S:
+            nodes[node_uuid] = now
             self._discovery.send_new_connection(record, node_uuid)
 
     def _on_gone(self, records: list[Discovery.Publisher]) -> None:
-        gone = {(record.topic, record.process_uuid, record.node_uuid) for record in records}
-        self._notified = {key: when for key, when in self._notified.items() if key[:3] not in gone}
-        still_there = {record.address for record in self._discovery.all_known()}
-        for address in {record.address for record in records} - still_there:
-            self._inlet.leave_soon(address)
+        for record in records:
+            self._notified.pop((record.topic, record.process_uuid, record.node_uuid), None)
+        for address in {record.address for record in records}:
+            if not self._discovery.is_known_address(address):
+                self._inlet.leave_soon(address)
 
     # Publishers and subscriptions of this process
 
@@ -271,7 +278,7 @@ class Network:
             return [self._record(each) for each in SWITCHBOARD.networked_publishers(topic)]
         return [self._record(each) for each in SWITCHBOARD.all_publishers() if each.scope != Scope.PROCESS]
 
-    def _record(self, publisher: Publisher) -> Discovery.Publisher:
+    def _record(self, publisher: Advertisement) -> Discovery.Publisher:
         record = Discovery.Publisher(
             topic=publisher.name,
             address=self.address,
@@ -321,6 +328,11 @@ def joined() -> Network:
     Raises OSError if not even 127.0.0.1 can be used.
     """
     return _network or _create()
+
+
+def present() -> Network | None:
+    """Return the network of this process, or None if it has joined none."""
+    return _network
 
 
 def _create() -> Network:

@@ -74,7 +74,7 @@ class NodeServices:
         """Call a service with a serialized request; wait at most `timeout_ms` [ms] for the response."""
         name = self._options.qualified(service, "service")
         if isinstance(timeout_ms, bool) or not isinstance(timeout_ms, int) or timeout_ms < 0:
-            raise ValueError(f"timeout_ms is {timeout_ms!r}, but a whole number of milliseconds was expected.")
+            raise ValueError(f"timeout is {timeout_ms!r}, but a whole number of milliseconds was expected.")
         for offered in SWITCHBOARD.services(name):
             if offered.matches(request_type, response_type):
                 return offered.answer(request)

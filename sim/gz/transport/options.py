@@ -29,6 +29,14 @@ def _checked_rate(rate: int) -> int:
     return rate
 
 
+def _checked_name(name: str, what: str, present: str) -> str:
+    try:
+        return naming.check(name, what, may_be_empty=True)
+    except ValueError as error:
+        environment.complain(f"{error} It stays {present!r}.")
+        return present
+
+
 Options = TypeVar("Options", bound="_Options")
 
 
@@ -133,21 +141,31 @@ class SubscribeOptions(_Options):
 
 
 class NodeOptions(_Options):
-    """Options of a node: partition, namespace, topic remappings and a scope, which the official binding does not have.
+    """Options of a node: partition, namespace, topic remappings; and, not in the official binding, scope and
+    `synchronous`.
 
-    With `scope=Scope.PROCESS` the node uses no socket and no thread, and communicates only within its process.
-    Raises ValueError with the broken rule for invalid names.
+    With `scope=Scope.PROCESS` the node uses no socket and no thread, and communicates only within its process. With
+    `synchronous`, which that scope includes, the callbacks of its subscriptions run in the publisher's thread before
+    publish() returns, if the publisher is in this process; in Gazebo, and by default, they run in a thread of their
+    own. As in the official binding a property is left as it was, with a line on stderr, if a new value is not valid;
+    the constructor raises ValueError.
     """
 
     def __init__(
-        self, partition: str | NodeOptions | None = None, namespace: str = "", scope: Scope = Scope.ALL
+        self,
+        partition: str | NodeOptions | None = None,
+        namespace: str = "",
+        scope: Scope = Scope.ALL,
+        synchronous: bool = False,
     ) -> None:
         if isinstance(partition, NodeOptions):
             vars(self).update(vars(partition.__copy__()))
             return
-        self.partition = environment.default_partition() if partition is None else partition
-        self.namespace = namespace
+        partition = environment.default_partition() if partition is None else partition
+        self._partition = naming.check(partition, "partition", may_be_empty=True)
+        self._namespace = naming.check(namespace, "namespace", may_be_empty=True)
         self.scope = Scope(scope)
+        self.synchronous = synchronous or self.scope == Scope.PROCESS
         self._remappings: dict[str, str] = {}
 
     @property
@@ -157,7 +175,7 @@ class NodeOptions(_Options):
 
     @partition.setter
     def partition(self, partition: str) -> None:
-        self._partition = naming.check(partition, "partition", may_be_empty=True)
+        self._partition = _checked_name(partition, "partition", self._partition)
 
     @property
     def namespace(self) -> str:
@@ -166,12 +184,14 @@ class NodeOptions(_Options):
 
     @namespace.setter
     def namespace(self, namespace: str) -> None:
-        self._namespace = naming.check(namespace, "namespace", may_be_empty=True)
+        self._namespace = _checked_name(namespace, "namespace", self._namespace)
 
     def add_topic_remap(self, from_topic: str, to_topic: str) -> bool:
-        """Remap `from_topic` to `to_topic`; return False if `from_topic` already is remapped."""
-        naming.check(from_topic, "topic")
-        naming.check(to_topic, "topic")
+        """Remap `from_topic` to `to_topic`; return False if `from_topic` already is remapped or a name is not valid."""
+        for name in (from_topic, to_topic):
+            if (rule := naming.broken_rule(name, may_be_empty=False)) is not None:
+                environment.complain(f"The topic {from_topic!r} is not remapped: the name {name!r} {rule}.")
+                return False
         if from_topic in self._remappings:
             return False
         self._remappings[from_topic] = to_topic

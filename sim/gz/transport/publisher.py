@@ -1,11 +1,13 @@
 """A publisher sends messages on one topic.
 
-publish() serializes a message once, passes the bytes to the network if another process subscribes, and calls every
-subscription of this process in the caller's thread before it returns.
+publish() serializes a message once, passes the bytes to the network if another process subscribes, and queues them for
+the subscriptions of this process (`local_delivery`). Synchronous subscriptions are called in the caller's thread before
+it returns.
 """
 
 from __future__ import annotations
 
+import weakref
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
@@ -13,9 +15,12 @@ from google.protobuf.message import Message
 
 from gz_course.sim.gz.msgs.fortress import converted, same_type
 from gz_course.sim.gz.transport import naming
+from gz_course.sim.gz.transport.advertisement import Advertisement
 from gz_course.sim.gz.transport.environment import complain
+from gz_course.sim.gz.transport.local_delivery import LOCAL_DELIVERY
 from gz_course.sim.gz.transport.message_info import MessageInfo
-from gz_course.sim.gz.transport.options import AdvertiseMessageOptions, Scope
+from gz_course.sim.gz.transport.options import UNTHROTTLED, Scope
+from gz_course.sim.gz.transport.reach import present_network_for
 from gz_course.sim.gz.transport.switchboard import SWITCHBOARD
 from gz_course.sim.gz.transport.throttle import Throttle
 
@@ -24,68 +29,66 @@ if TYPE_CHECKING:
 
 
 class Publisher:
-    """The result of Node.advertise(), closed by close() or with its node."""
+    """The result of Node.advertise(). It ends with close(), or when neither its node nor the program refers to it."""
 
-    def __init__(
-        self,
-        name: str,
-        type_name: str,
-        node_uuid: str,
-        scope: Scope,
-        options: AdvertiseMessageOptions,
-    ) -> None:
-        """`name` is fully qualified. Use Node.advertise() instead of calling this."""
+    def __init__(self, advertisement: Advertisement | None = None) -> None:
+        """Use Node.advertise() instead of calling this; without an advertisement the publisher is not valid."""
+        self._advertisement = advertisement
+        self._open = advertisement is not None
         self._joined: Callable[[], Network] | None = None  # None: other processes are not reached
-        if scope != Scope.PROCESS:
+        self._message_class: type[Message] | None = None  # class of the first message, to check further ones faster
+        if advertisement is None:
+            self.name, self.type_name, self.node_uuid, self.topic = "", "", "", ""
+            self._throttle = Throttle(UNTHROTTLED)
+            return
+        self._finalizer = weakref.finalize(self, _forget, advertisement)
+        self._finalizer.atexit = False  # the network says farewell at exit
+        if advertisement.scope != Scope.PROCESS:
             from gz_course.sim.gz.transport import network
 
             self._joined = network.joined
-        self.name = name
-        self.type_name = type_name
-        self.node_uuid = node_uuid
-        self.scope = scope
-        self.msgs_per_sec = options.msgs_per_sec
-        self.throttled = options.throttled
-        self._name_on_wire, self._type_on_wire = name.encode(), type_name.encode()
-        self._message_class: type[Message] | None = None  # class of the first message, to check further ones faster
-        self._partition, self.topic = naming.split(name)
-        self._throttle = Throttle(options.msgs_per_sec)
-        self._open = True
+        self.name = advertisement.name
+        self.type_name = advertisement.type_name
+        self.node_uuid = advertisement.node_uuid
+        self.throttled = advertisement.throttled
+        self._name_on_wire, self._type_on_wire = self.name.encode(), self.type_name.encode()
+        self._partition, self.topic = naming.split(self.name)
+        self._throttle = Throttle(advertisement.msgs_per_sec)
 
     def valid(self) -> bool:
-        """Return whether it can publish: True until close()."""
+        """Return whether it can publish: True until close(), False if the topic could not be advertised."""
         return self._open
 
-    def publish(self, message: Message) -> bool:
-        """Send a message; callbacks of the same process have returned when this returns.
+    def publish(self, proto_msg: Message) -> bool:
+        """Send a message. Callbacks are called in other threads, except those of synchronous nodes of this process.
 
         Return True also without subscribers and if the rate limit dropped the message; False if the message has another
         type than advertised, with a line on stderr, or if the publisher is closed.
         """
-        if type(message) is self._message_class:
-            return self._send(message.SerializeToString())
-        if not isinstance(message, Message):
+        if type(proto_msg) is self._message_class:
+            return self._send(proto_msg.SerializeToString())
+        if not isinstance(proto_msg, Message):
             raise TypeError(
-                f"publish() on topic [{self.topic}] was given a {type(message).__name__}, "
+                f"publish() on topic [{self.topic}] was given a {type(proto_msg).__name__}, "
                 f"but a {self.type_name} message was expected."
             )
-        if message.DESCRIPTOR.full_name == self.type_name:
-            self._message_class = type(message)
-        return self.publish_raw(message.SerializeToString(), message.DESCRIPTOR.full_name)
+        if proto_msg.DESCRIPTOR.full_name == self.type_name:
+            self._message_class = type(proto_msg)
+        return self.publish_raw(proto_msg.SerializeToString(), proto_msg.DESCRIPTOR.full_name)
 
-    def publish_raw(self, data: bytes, type_name: str) -> bool:
+    def publish_raw(self, msg_data: bytes, msg_type: str) -> bool:
         """Send a message that is already serialized; otherwise like publish()."""
         if not self._open:
             return False
-        if type_name != self.type_name:
-            if same_type(type_name, self.type_name):  # one of them is the Fortress name
-                return self.publish_raw(converted(data, type_name, self.type_name), self.type_name)
+        if msg_type != self.type_name:
+            if same_type(msg_type, self.type_name):  # one of them is the Fortress name
+                return self.publish_raw(converted(msg_data, msg_type, self.type_name), self.type_name)
             complain(
                 f"The topic [{self.topic}] was advertised with type {self.type_name}, "
-                f"so a message of type {type_name} was not published on it."
+                f"so a message of type {msg_type} was not published on it."
             )
             return False
-        return self._send(data)
+        return self._send(msg_data)
 
     def _send(self, data: bytes) -> bool:
         if not self._open:
@@ -97,8 +100,12 @@ class Publisher:
         group = SWITCHBOARD.subscriptions(self.name)
         if group:
             info = MessageInfo(self.topic, self.type_name, self._partition, True)
+            queued = [each for each in group if not each.synchronous]
+            if queued:
+                LOCAL_DELIVERY.deliver(queued, data, info, self.node_uuid)
             for subscription in group:
-                subscription.deliver(data, info, self.node_uuid)
+                if subscription.synchronous:
+                    subscription.deliver(data, info, self.node_uuid)
         return True
 
     def has_connections(self) -> bool:
@@ -120,17 +127,18 @@ class Publisher:
 
     def close(self) -> None:
         """Stop publishing and notify the other processes; closing twice does nothing."""
-        if not self._open:
+        if not self._open or self._advertisement is None:
             return
-        self._open = False
-        SWITCHBOARD.remove_publisher(self)
+        self._open = self._advertisement.open = False
+        self._finalizer.detach()
+        SWITCHBOARD.remove_publisher(self._advertisement)
         if self._joined is not None:
-            self._joined().unadvertise(self)
+            self._joined().unadvertise(self._advertisement)
 
     def _connections(self) -> int:
         if not self._open:
             return 0
-        here = sum(each.accepts(self.type_name) for each in SWITCHBOARD.subscriptions(self.name))
+        here = sum(each.active and each.accepts(self.type_name) for each in SWITCHBOARD.subscriptions(self.name))
         if self._joined is None:
             return here
         return here + self._joined().listening_processes(self.name, self.type_name)
@@ -138,3 +146,15 @@ class Publisher:
     def __repr__(self) -> str:
         state = "" if self._open else ", closed"
         return f"<Publisher {self.topic} [{self.type_name}]{state}>"
+
+
+def _forget(advertisement: Advertisement) -> None:
+    """End a publisher to which nobody refers any more; runs at any moment, so the tables are changed elsewhere."""
+    advertisement.open = False
+    LOCAL_DELIVERY.end_later(lambda: _withdraw(advertisement))
+
+
+def _withdraw(advertisement: Advertisement) -> None:
+    SWITCHBOARD.remove_publisher(advertisement)
+    if network := present_network_for(advertisement.scope):
+        network.unadvertise(advertisement)

@@ -17,3 +17,12 @@ def network_for(scope: Scope) -> Network | None:
     from gz_course.sim.gz.transport import network
 
     return network.joined()
+
+
+def present_network_for(scope: Scope) -> Network | None:
+    """Return the network of this process if it has joined one already and the scope requires it."""
+    if scope == Scope.PROCESS:
+        return None
+    from gz_course.sim.gz.transport import network
+
+    return network.present()

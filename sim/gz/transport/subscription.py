@@ -1,7 +1,7 @@
 """A subscription: selects messages by type and options and calls its callback.
 
-Messages come from publishers of the same process (in the publisher's thread, before publish() returns) or from the
-dispatcher thread (from other processes). The callback always gets its own copy.
+Messages of the same process come from the thread of `local_delivery` (synchronous ones from the publisher's thread,
+before publish() returns), those of other processes from the dispatcher thread. The callback always gets its own copy.
 """
 
 from __future__ import annotations
@@ -37,6 +37,7 @@ class Subscription:
         options: SubscribeOptions,
         callback: Callable[..., Any],
         message_type: type[Message] | None = None,
+        synchronous: bool = False,
     ) -> None:
         """`name` is fully qualified; without `message_type` the callback gets (bytes, MessageInfo)."""
         self.name = name
@@ -44,6 +45,7 @@ class Subscription:
         self.node_uuid = node_uuid
         self.scope = scope
         self.active = True
+        self.synchronous = synchronous
         self._ignore_own_node = options.ignore_local_messages
         self._throttled = options.throttled
         self._throttle = Throttle(options.msgs_per_sec)

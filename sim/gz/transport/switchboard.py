@@ -1,7 +1,8 @@
 """The publishers, subscriptions and services of this process.
 
-Messages within the process go from a publisher through this table to callbacks in the same thread; the network uses it
-for announcements and for the delivery of received messages. Readers get immutable tuples and need no lock.
+A publisher finds the subscriptions of its process here; the network uses the table for announcements and for the
+delivery of received messages. Publishers stand here as their `Advertisement`. Readers get immutable tuples and need no
+lock.
 """
 
 from __future__ import annotations
@@ -11,11 +12,11 @@ import threading
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from gz_course.sim.gz.transport.advertisement import Advertisement
 from gz_course.sim.gz.transport.options import Scope
 from gz_course.sim.gz.transport.subscription import Subscription
 
 if TYPE_CHECKING:
-    from gz_course.sim.gz.transport.publisher import Publisher
     from gz_course.sim.gz.transport.service import Service
 
 
@@ -26,32 +27,32 @@ class Switchboard:
         self._changed = threading.Condition(threading.Lock())
         self._subscriptions: dict[str, tuple[Subscription, ...]] = {}
         self._networked: dict[str, tuple[Subscription, ...]] = {}
-        self._publishers: dict[str, tuple[Publisher, ...]] = {}
+        self._publishers: dict[str, tuple[Advertisement, ...]] = {}
         self._services: dict[str, tuple[Service, ...]] = {}
 
     def subscriptions(self, name: str) -> tuple[Subscription, ...]:
         """Return the subscriptions of a topic, oldest first."""
         return self._subscriptions.get(name, ())
 
-    def publishers(self, name: str) -> tuple[Publisher, ...]:
+    def publishers(self, name: str) -> tuple[Advertisement, ...]:
         """Return the publishers of a topic, oldest first."""
         return self._publishers.get(name, ())
 
     def all_subscriptions(self) -> list[Subscription]:
         with self._changed:
-            return [each for group in self._subscriptions.values() for each in group]
+            return [each for group in self._subscriptions.values() for each in group if each.active]
 
-    def all_publishers(self) -> list[Publisher]:
+    def all_publishers(self) -> list[Advertisement]:
         with self._changed:
-            return [each for group in self._publishers.values() for each in group]
+            return [each for group in self._publishers.values() for each in group if each.open]
 
     def networked_subscriptions(self, name: str) -> tuple[Subscription, ...]:
         """Return the subscriptions of a topic whose scope includes other processes."""
         return self._networked.get(name, ())
 
-    def networked_publishers(self, name: str) -> tuple[Publisher, ...]:
+    def networked_publishers(self, name: str) -> tuple[Advertisement, ...]:
         """Return the publishers of a topic whose scope includes other processes."""
-        return tuple(each for each in self.publishers(name) if each.scope != Scope.PROCESS)
+        return tuple(each for each in self.publishers(name) if each.open and each.scope != Scope.PROCESS)
 
     def add_subscription(self, subscription: Subscription) -> None:
         with self._changed:
@@ -74,18 +75,18 @@ class Switchboard:
             else:
                 table.pop(name, None)
 
-    def add_publisher(self, publisher: Publisher) -> None:
+    def add_publisher(self, publisher: Advertisement) -> None:
         """Add a publisher. Raises ValueError if its node already has one on this topic."""
         with self._changed:
             group = self._publishers.get(publisher.name, ())
-            if any(each.node_uuid == publisher.node_uuid for each in group):
+            if any(each.open and each.node_uuid == publisher.node_uuid for each in group):
                 raise ValueError(
                     f"The topic {publisher.topic!r} is already advertised by this node: "
                     "one node may advertise a topic once; use the publisher it returned, or close it first."
                 )
             self._publishers[publisher.name] = (*group, publisher)
 
-    def remove_publisher(self, publisher: Publisher) -> None:
+    def remove_publisher(self, publisher: Advertisement) -> None:
         with self._changed:
             group = self._publishers.get(publisher.name, ())
             rest = tuple(each for each in group if each is not publisher)
@@ -93,6 +94,7 @@ class Switchboard:
                 self._publishers[publisher.name] = rest
             else:
                 self._publishers.pop(publisher.name, None)
+            self._changed.notify_all()
 
     def services(self, name: str) -> tuple[Service, ...]:
         """Return the services of a name, oldest first."""

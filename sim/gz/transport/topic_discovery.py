@@ -19,6 +19,8 @@ from gz_course.sim.gz.transport.discovery import DiscoveryChannel
 from gz_course.sim.gz.transport.environment import NetworkSettings
 from gz_course.sim.gz.transport.subscription import GENERIC_TYPE, Subscription
 
+_MOST_SUBSCRIBERS, _MOST_LISTED_BYTES = 1000, 8_000_000
+"""Limits against invented subscribers: of one topic of this process, and of a list of all."""
 ANSWER_TIME_S = 0.1
 """Time [s] for which answers to a request for subscribers are collected; their number is not known in advance."""
 
@@ -48,6 +50,8 @@ class TopicDiscovery(DiscoveryChannel):
         self._table_lock = threading.Lock()
         self._connected: dict[str, dict[SubscriberKey, str]] = {}
         self._listed: dict[str, dict[SubscriberKey, Discovery.Publisher]] = {}
+        self._listed_bytes = 0
+        self._with_subscribers: set[str] = set()  # the processes in the two tables
 
     def subscriber_processes(self, topic: str, type_name: str) -> int:
         """Return how many other processes subscribe to this process's publisher of this topic and type."""
@@ -61,6 +65,7 @@ class TopicDiscovery(DiscoveryChannel):
         """Request the subscriptions of all processes; subscribers() returns the answers."""
         with self._table_lock:
             self._listed.clear()
+            self._listed_bytes = 0
         self._send_about_process(Discovery.SUBSCRIBERS_REQ)
 
     def wait_for_answers(self) -> None:
@@ -122,10 +127,20 @@ class TopicDiscovery(DiscoveryChannel):
         record, key = message.pub, (message.pub.process_uuid, message.pub.node_uuid)
         if message.type == Discovery.SUBSCRIBERS_REP:
             with self._table_lock:
-                self._listed.setdefault(record.topic, {})[key] = record
+                self._listed_bytes += record.ByteSize()
+                if self._listed_bytes <= _MOST_LISTED_BYTES:
+                    self._listed.setdefault(record.topic, {})[key] = record
+                    self._with_subscribers.add(record.process_uuid)
         elif message.type == Discovery.NEW_CONNECTION and record.msg_pub.ctrl == self.process_uuid:
+            if not any(True for _ in self._own(record.topic)):
+                return
             with self._table_lock:
-                self._connected.setdefault(record.topic, {})[key] = record.msg_pub.msg_type
+                group = self._connected.setdefault(record.topic, {})
+                group.pop(key, None)
+                if len(group) >= _MOST_SUBSCRIBERS:
+                    del group[next(iter(group))]
+                group[key] = record.msg_pub.msg_type
+                self._with_subscribers.add(record.process_uuid)
             self._on_subscribers()
         elif message.type == Discovery.END_CONNECTION and record.msg_pub.ctrl in (self.process_uuid, ""):
             with self._table_lock:
@@ -135,12 +150,15 @@ class TopicDiscovery(DiscoveryChannel):
 
     def forget_subscribers_of(self, process_uuid: str) -> None:
         """Forget the subscribers of a process that has ended."""
+        if process_uuid not in self._with_subscribers:
+            return
         tables: tuple[dict[str, dict[SubscriberKey, Any]], ...] = (self._connected, self._listed)
         with self._table_lock:
             for table in tables:
                 for topic in list(table):
                     for key in [key for key in table[topic] if key[0] == process_uuid]:
                         _drop(table, topic, key)
+            self._with_subscribers.discard(process_uuid)
         self._on_subscribers()
 
 

@@ -1,4 +1,4 @@
-"""List the models of a running world and look at one: `gz model --list`, `gz model -m robot -p`.
+"""List the models of a running world and look at one: `gz model --list`, `gz model -m robot -p`, `-s lidar`.
 
 Models come from the service `/world/W/scene/info`, poses from the topic `/world/W/pose/info`, both of SceneBroadcaster.
 
@@ -26,8 +26,9 @@ def add_arguments(parser: Parser) -> None:
     parser.add_argument("-p", "--pose", action="store_true", help="its pose only: position (m), roll pitch yaw (rad)")
     parser.add_argument("-l", "--link", metavar="NAME", nargs="?", const="", help="its links, or one of them")
     parser.add_argument("-j", "--joint", metavar="NAME", nargs="?", const="", help="its joints, or one of them")
+    parser.add_argument("-s", "--sensor", metavar="NAME", nargs="?", const="", help="its sensors, or one of them")
     parser.commands("--list", "--model")
-    for option in ("--pose", "--link", "--joint"):
+    for option in ("--pose", "--link", "--joint", "--sensor"):
         parser.needs(option, "--model")
 
 
@@ -96,18 +97,37 @@ def _pose_now(node: Node, world: str, model: Any) -> Any:
 def _print_model(model: Any, pose: Any, values: argparse.Namespace) -> None:
     print(f"Model: [{model.id}]\n  - Name: {model.name}")
     print(f"  - Pose [ XYZ (m) ] [ RPY (rad) ]:\n    {_position(pose)}\n    {_angles(pose)}")
-    if values.link is not None or values.joint is None:
+    everything = values.link is None and values.joint is None and values.sensor is None
+    if values.link is not None or everything:
         links = model.link if not values.link else [_named(model.link, values.link, "it has no link")]
         for link in links:
             print(f"  - Link [{link.id}]\n    - Name: {link.name}\n    - Parent: {model.name} [{model.id}]")
             print(f"    - Pose [ XYZ (m) ] [ RPY (rad) ]:\n      {_position(link.pose)}\n      {_angles(link.pose)}")
-    if values.joint is not None or values.link is None:
+    if values.sensor is not None or everything:
+        _print_sensors(model, values.sensor or "")
+    if values.joint is not None or everything:
         joints = model.joint if not values.joint else [_named(model.joint, values.joint, "it has no joint")]
         for joint in joints:
             print(
                 f"  - Joint [{joint.id}]\n    - Name: {joint.name}\n    - Type: {joint.Type.Name(joint.type).lower()}"
             )
             print(f"    - Parent Link: {joint.parent}\n    - Child Link: {joint.child}")
+
+
+def _print_sensors(model: Any, name: str) -> None:
+    found = [(link, sensor) for link in model.link for sensor in link.sensor]
+    if name:
+        wanted = _named([sensor for _, sensor in found], name, "it has no sensor")
+        found = [(link, sensor) for link, sensor in found if sensor is wanted]
+    for link, sensor in found:
+        print(f"  - Sensor [{sensor.id}]\n    - Name: {sensor.name}\n    - Parent: {link.name} [{link.id}]")
+        print(f"    - Pose [ XYZ (m) ] [ RPY (rad) ]:\n      {_position(sensor.pose)}\n      {_angles(sensor.pose)}")
+        print(f"    - Type: {sensor.type}\n    - Update rate (Hz): {sensor.update_rate:g}\n    - Topic: {sensor.topic}")
+        if sensor.HasField("camera"):
+            camera = sensor.camera
+            print(f"    - Horizontal field of view (rad): {camera.horizontal_fov:g}")
+            print(f"    - Image width (px): {camera.image_size.x:g}\n    - Image height (px): {camera.image_size.y:g}")
+            print(f"    - Near clip (m): {camera.near_clip:g}\n    - Far clip (m): {camera.far_clip:g}")
 
 
 def _position(pose: Any) -> str:

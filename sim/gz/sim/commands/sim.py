@@ -52,7 +52,7 @@ def add_arguments(parser: Parser) -> None:
         "--initial-sim-time", type=positive_number, default=0.0, metavar="S", help="simulated time to start at [s]"
     )
     parser.add_argument("--strict", action="store_true", help="refuse a world that causes warnings")
-    recording = parser.add_argument_group("recording (read it with gz log)")
+    recording = parser.add_argument_group("recording (read it with gz tlog)")
     recording.add_argument("--record", action="store_true", help="record poses into ~/.gz/sim/log/TIME/state.tlog")
     recording.add_argument("--record-path", metavar="FOLDER", help="record into this folder")
     recording.add_argument(
@@ -71,7 +71,9 @@ def add_arguments(parser: Parser) -> None:
         parser.add_argument(option, metavar=metavar, help="accepted, changes nothing here")
     for option in _ACCEPTED_FLAGS:
         parser.add_argument(option, action="store_true", help="accepted, changes nothing here")
-    parser.add_argument("--playback", metavar="FOLDER", help="refused: recordings are read with gz log")
+    parser.add_argument(
+        "--playback", metavar="FOLDER", help="refused: gz tlog reads recordings, gz log plays them back"
+    )
     parser.add_argument("--versions", action=Version, help="the same as --version")
 
 
@@ -98,12 +100,15 @@ def run(values: argparse.Namespace) -> int:
     if values.gui:
         refused = "-g asks for Gazebo's window, which is not part of this simulator; use -s"
     elif values.playback is not None:
-        refused = "--playback is not done here; look into a recording with gz log -i, or run the world again"
+        refused = "--playback is not done here; look into a recording with gz tlog -i, or run the world again"
     elif values.file is None:
         refused = "which world? Name a file or a built-in world, for example: gz sim -r lidar_room.sdf"
     if refused:
         sys.stderr.write(f"gz sim: {refused}\n")
         return 2
+    for option in (*_ACCEPTED, *_ACCEPTED_FLAGS):
+        if getattr(values, option.removeprefix("--").replace("-", "_")):
+            logging.getLogger("gz.sim").warning("%s changes nothing here", option)
     try:
         return _simulate(values, stop)
     except Exception as error:  # an internal error of the simulator
@@ -154,7 +159,7 @@ def _simulate(values: argparse.Namespace, stop: threading.Event) -> int:
     from gz_course.sim.gz.sim.errors import LOG, SimError
     from gz_course.sim.gz.sim.server import Server
     from gz_course.sim.gz.sim.world import World
-    from gz_course.sim.gz.transport import Node
+    from gz_course.sim.gz.transport import Node, NodeOptions
 
     try:
         world = World.load(
@@ -169,7 +174,7 @@ def _simulate(values: argparse.Namespace, stop: threading.Event) -> int:
         sys.stderr.write(f"gz sim: {error}\n")
         return 1
     try:
-        node = Node()
+        node = Node(NodeOptions(synchronous=True))
     except (OSError, RuntimeError, ValueError) as error:
         sys.stderr.write(f"gz sim: the transport cannot be opened ({error}); check GZ_IP and GZ_PARTITION\n")
         return 1

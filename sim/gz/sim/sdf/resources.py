@@ -108,6 +108,17 @@ def find_model(uri: str, relative_to: Path | None) -> Path:
     )
 
 
+def find_resource(uri: str) -> Path:
+    """Return the file or folder that a `<uri>` refers to: for `model://NAME` the folder of the model.
+
+    Raises `ResourceError` with the nearest name if there is none.
+    """
+    for candidate in _candidates(uri, None):
+        if _exists(candidate):
+            return candidate
+    return find_model(uri, None)
+
+
 def find_file(uri: str, relative_to: Path | None) -> Path:
     """Return the mesh or image that a `<uri>` refers to, in the notations of `find_model`.
 

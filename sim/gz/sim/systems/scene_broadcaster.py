@@ -262,9 +262,11 @@ class SceneBroadcaster(System):
         made, message = self._answer(self._full_step, self._step_map)(request)
         if made and self._node is not None:
             try:
-                self._node.request(request.data, message, self._step_map, self._empty)
+                self._node.options.qualified(request.data, "service")
             except ValueError as error:
                 LOG.error("state_async of world '%s' was asked for: %s", self._world.name, error)
+            else:
+                self._node.request(request.data, message, self._step_map, self._empty)
         return self._empty()
 
 

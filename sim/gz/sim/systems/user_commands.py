@@ -2,9 +2,9 @@
 
 Services `/world/W/create`, `create_multiple`, `remove`, `set_pose`, `set_pose_vector`, `light_config`, `visual_config`,
 `set_physics`, `set_spherical_coordinates`, `enable_collision`, `disable_collision` and `wheel_slip`. As in Gazebo each
-answers true as soon as the command is queued, and has a variant `/blocking` that answers when it is done. Failures are
-logged in one sentence. The commands are in `entity_commands` and `property_commands`. SDF is parsed in the transport
-thread, and the world is changed between two steps.
+answers true at once and puts the command into the queue, whatever it holds; its variant `/blocking` answers when it is
+done, false if it failed. Failures are logged in one sentence. The commands are in `entity_commands` and
+`property_commands`; the world is changed between two steps.
 
 Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/user_commands/UserCommands.cc
 """
@@ -55,15 +55,14 @@ class UserCommands(System):
         world = self._world
 
         def serve(message: Any) -> Any:
+            if not blocking:
+                world.requests.put(logged(lambda: command(world, message)(), service))
+                return self._answer(data=True)
             try:
-                work = command(world, message)
-                if blocking:
-                    world.requests.call(work)
+                world.requests.call(command(world, message))
             except SimError as error:
                 LOG.error("%s: %s", service, error)
                 return self._answer(data=False)
-            if not blocking:
-                world.requests.put(logged(work, service))
             return self._answer(data=True)
 
         return serve

@@ -1,7 +1,7 @@
 """Look at services and call them: `gz service -l`, `gz service -s /world/default/control ...`.
 
-The output is that of the tool of Gazebo Harmonic. Every failed call ends with exit code 1; if no provider answered, the
-nearest service or the right types are named.
+The output is that of the tool of Gazebo Harmonic. A failed call ends with exit code 1, not with Gazebo's 0; if no
+provider answered, the nearest service or the right types are named.
 
 Source: https://github.com/gazebosim/gz-transport/blob/gz-transport13/src/cmd/service_main.cc
 """
@@ -41,6 +41,8 @@ def add_arguments(parser: Parser) -> None:
 def run(values: argparse.Namespace) -> int:
     """Run `gz service`; return the exit code. Raises ValueError for invalid names, types and texts."""
     with Node() as node:
+        if values.service is not None:
+            node.options.qualified(values.service, "service")
         if values.list:
             for service in node.service_list():
                 print(service)
@@ -59,7 +61,7 @@ def _info(node: Node, service: str) -> int:
         return 0
     print(f"No service providers on service [{service}]")
     _report(f"there is no service [{service}]{_nearest_service(node, service)}")
-    return 1
+    return 0
 
 
 def _call(node: Node, values: argparse.Namespace) -> int:

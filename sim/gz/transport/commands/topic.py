@@ -1,7 +1,7 @@
 """Look at topics and publish on them: `gz topic -l`, `gz topic -e -t /odom`.
 
-The output is that of the tool of Gazebo Harmonic, with two differences: an unknown topic or type prints one line on
-stderr and returns 1, and `-p` ends only after the message has been sent.
+Output and exit codes are those of the tool of Gazebo Harmonic, with two differences: what is not there is told in one
+line on stderr too, and `-p` ends only after the message has been sent, with exit code 1 if nobody could receive it.
 
 Source: https://github.com/gazebosim/gz-transport/blob/gz-transport13/src/cmd/topic_main.cc
 """
@@ -29,6 +29,7 @@ _SUBSCRIBERS_WITHIN_S = 1.5
 _SUBSCRIBERS_SETTLE_S = 0.3
 _WINDOW = 10
 _FORTRESS = "ignition.msgs."
+_WAITING = "still waiting for somebody who publishes"
 
 
 def add_arguments(parser: Parser) -> None:
@@ -53,6 +54,8 @@ def add_arguments(parser: Parser) -> None:
 def run(values: argparse.Namespace) -> int:
     """Run `gz topic`; return the exit code. Raises ValueError for invalid names, types and texts."""
     with Node() as node:
+        if values.topic is not None:
+            node.options.qualified(values.topic)
         if values.list:
             for topic in node.topic_list():
                 print(topic)
@@ -75,10 +78,9 @@ def _info(node: Node, topic: str) -> int:
                 print(f"  {each.addr}, {each.msg_type_name}")
         else:
             print(f"No {kind.lower()} on topic [{topic}]")
-    if publishers or subscribers:
-        return 0
-    _report(f"there is no topic [{topic}]{_nearest_topic(node, topic) or '; see gz topic -l'}")
-    return 1
+    if not (publishers or subscribers):
+        _report(f"there is no topic [{topic}]{_nearest_topic(node, topic) or '; see gz topic -l'}")
+    return 0
 
 
 def _echo(node: Node, values: argparse.Namespace) -> int:
@@ -101,10 +103,12 @@ def _echo(node: Node, values: argparse.Namespace) -> int:
                     break
                 elif time.monotonic() >= look_at:
                     look_at = math.inf
-                    _report_unpublished(node, values.topic, printed)
+                    _report_unpublished(node, values.topic, printed, _WAITING)
     except KeyboardInterrupt:
         return 0
-    return 1 if not printed and values.duration is not None and not _published(node, values.topic) else 0
+    if values.duration is not None:
+        _report_unpublished(node, values.topic, printed, "nobody published")
+    return 0
 
 
 def _decoded(arrival: Arrival, topic: str) -> Message | None:
@@ -131,7 +135,7 @@ def _frequency(node: Node, topic: str) -> int:
                     return 0
                 elif time.monotonic() >= look_at:
                     look_at = math.inf
-                    _report_unpublished(node, topic, len(times))
+                    _report_unpublished(node, topic, len(times), _WAITING)
     except KeyboardInterrupt:
         return 0
 
@@ -175,13 +179,9 @@ def _is_other(subscriber: MessagePublisher, type_name: str) -> bool:
     return canonical_name(subscriber.msg_type_name) != canonical_name(type_name)
 
 
-def _published(node: Node, topic: str) -> bool:
-    return bool(node.topic_info(topic)[0])
-
-
-def _report_unpublished(node: Node, topic: str, heard: int) -> None:
-    if not heard and not _published(node, topic):
-        _report(f"still waiting for somebody who publishes on [{topic}]{_nearest_topic(node, topic)}")
+def _report_unpublished(node: Node, topic: str, heard: int, what: str) -> None:
+    if not heard and not node.topic_info(topic)[0]:
+        _report(f"{what} on [{topic}]{_nearest_topic(node, topic)}")
 
 
 def _nearest_topic(node: Node, topic: str) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import threading
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -12,6 +13,8 @@ from google.protobuf import text_format
 
 from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
 from gz_course.sim.gz.msgs.empty_pb2 import Empty
+from gz_course.sim.gz.msgs.gui_pb2 import GUI
+from gz_course.sim.gz.msgs.log_playback_control_pb2 import LogPlaybackControl
 from gz_course.sim.gz.msgs.sdf_generator_config_pb2 import SdfGeneratorConfig
 from gz_course.sim.gz.msgs.server_control_pb2 import ServerControl
 from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
@@ -197,9 +200,7 @@ def test_resource_paths(running: Running, node: Node, tmp_path: Any, monkeypatch
     folder.mkdir()
     (folder / "model.sdf").write_text("<sdf version='1.9'/>")
     asked = StringMsg(data="model://chair")
-    assert node.request("/gazebo/resource_paths/resolve", asked, StringMsg, StringMsg, 20_000)[1].data == str(
-        folder / "model.sdf"
-    )
+    assert node.request("/gazebo/resource_paths/resolve", asked, StringMsg, StringMsg, 20_000)[1].data == str(folder)
     asked.data = "model://char"
     assert not node.request("/gazebo/resource_paths/resolve", asked, StringMsg, StringMsg, 20_000)[0]
 
@@ -221,3 +222,37 @@ def test_requests_beside_a_running_world_are_all_answered(running: Running, node
     for thread in threads:
         thread.join(DEADLINE)
     assert answers == [True] * 90
+
+
+def test_added_resource_paths_are_told(node: Node, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("GZ_SIM_RESOURCE_PATH", "/models")
+    told: list[Any] = []
+    world = World.from_string("<sdf version='1.9'><world name='w'/></sdf>")
+    Server(world, node)
+    node.subscribe(StringMsg_V, "/gazebo/resource_paths", told.append)
+    node.request("/gazebo/resource_paths/add", StringMsg_V(data=[str(tmp_path)]), StringMsg_V, Empty, 20_000)
+    assert [list(each.data) for each in told] == [["/models", str(tmp_path)]]
+    world.close()
+
+
+def test_the_gui_of_the_world_and_playback_that_is_none(node: Node, caplog: pytest.LogCaptureFixture) -> None:
+    world = World.from_string(
+        "<sdf version='1.9'><world name='w'><gui fullscreen='1'><plugin name='3D View' filename='MinimalScene'>"
+        "<ambient_light>0.4 0.4 0.4</ambient_light></plugin></gui></world></sdf>"
+    )
+    server = Server(world, node)
+    done, gui = node.request("/world/w/gui/info", None, Empty, GUI, 20_000)
+    assert done and gui.fullscreen
+    (plugin,) = gui.plugin
+    assert (plugin.name, plugin.filename) == ("3D View", "MinimalScene")
+    assert plugin.innerxml == "<ambient_light>0.4 0.4 0.4</ambient_light>"
+
+    def playback(**request: Any) -> Any:
+        message = LogPlaybackControl(**request)
+        return node.request("/world/w/playback/control", message, LogPlaybackControl, Boolean, 20_000)
+
+    assert playback(pause=True) == (True, Boolean(data=True))
+    assert server.paused
+    assert playback(rewind=True) == (True, Boolean(data=False))
+    assert "rewind is for the playback of a recording" in caplog.text
+    world.close()

@@ -97,6 +97,14 @@ for line in sys.stdin:
             topic = order["topic"]
             node.subscribe(StringMsg, topic, lambda message, topic=topic: say(heard=[topic, message.data]))
             say(answer=True)
+        case "measure":
+            topic = order["topic"]
+            node.enable_stats(topic, True)
+            node.subscribe(StringMsg, topic, lambda message, topic=topic: say(heard=[topic, message.data]))
+            say(answer=True)
+        case "measured":
+            counted = node.topic_stats(order["topic"])
+            say(answer=[counted.age.count, counted.dropped_message_count])
         case "unsubscribe":
             say(answer=node.unsubscribe(order["topic"]))
         case "threads":

@@ -7,7 +7,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from gz_course.sim.gz.msgs.discovery_pb2 import Discovery
-from gz_course.sim.gz.transport import discovery
+from gz_course.sim.gz.transport import discovery, peers
 from gz_course.sim.gz.transport.environment import NetworkSettings
 from gz_course.sim.gz.transport.topic_discovery import TopicDiscovery
 
@@ -179,6 +179,7 @@ def test_nobody_speaks_for_another_process(channel):
 
 
 def test_connections_are_counted_for_the_process_they_name(channel, told):
+    told.own = [about(Discovery.ADVERTISE, process=OWN).pub]
     channel.handle(about(Discovery.NEW_CONNECTION, ctrl="another process"), "127.0.0.1")
     assert channel.subscriber_processes(TOPIC, "gz.msgs.StringMsg") == 0
     channel.handle(about(Discovery.NEW_CONNECTION, ctrl=OWN, node="a"), "127.0.0.1")
@@ -190,6 +191,56 @@ def test_connections_are_counted_for_the_process_they_name(channel, told):
     channel.handle(about(Discovery.END_CONNECTION, ctrl="", node="b"), "127.0.0.1")
     assert channel.subscriber_processes(TOPIC, "gz.msgs.StringMsg") == 0
     assert told.subscribers_changed == 4
+
+
+def test_invented_processes_do_not_displace_real_ones(channel, clock, monkeypatch):
+    monkeypatch.setattr(peers, "MOST_PROCESSES", 20)
+    hear(channel, monkeypatch, about(Discovery.ADVERTISE))
+    clock.now += 1.0
+    hear(channel, monkeypatch, about(Discovery.ADVERTISE))
+    for number in range(100):
+        hear(channel, monkeypatch, about(Discovery.ADVERTISE, f"@/p@/{number}", process=f"invented {number}"))
+    assert TOPIC in known(channel)
+    assert len(known(channel)) == 20
+    hear(channel, monkeypatch, about(Discovery.ADVERTISE, "@/p@/late", process="a real one that comes late"))
+    assert {TOPIC, "@/p@/late"} <= set(known(channel))
+    clock.now += 3.1
+    channel.tick()
+    assert known(channel) == []
+    assert len(channel._peers) == len(channel._topics_of) == len(channel._addresses) == 0
+
+
+def test_long_invented_names_do_not_fill_the_memory(channel, told, monkeypatch):
+    monkeypatch.setattr(peers, "MOST_BYTES", 500_000)
+    monkeypatch.setattr(peers, "MOST_BYTES_OF_ONE", 200_000)
+    long = "@/p@/" + 60_000 * "x"
+    for number in range(30):
+        hear(channel, monkeypatch, about(Discovery.ADVERTISE, f"{long}{number}", process=f"invented {number}"))
+        hear(channel, monkeypatch, about(Discovery.ADVERTISE, f"{long}{number}", process="one of many words"))
+        hear(channel, monkeypatch, about(Discovery.NEW_CONNECTION, f"{long}{number}", ctrl=OWN))
+        hear(channel, monkeypatch, Discovery(version=10, process_uuid=f"{long}{number}", type=Discovery.HEARTBEAT))
+    assert sum(len(topic) for topic in known(channel)) <= 500_000
+    assert sum(record.process_uuid == "one of many words" for record in channel.all_known()) <= 3
+    assert channel.subscribers() == []
+    assert all(len(process) < 100 for process in channel._peers._new)
+
+
+def test_many_publishers_of_one_topic_displace_the_silent_ones(channel, monkeypatch):
+    monkeypatch.setattr(discovery, "_MOST_OF_ONE_TOPIC", 5)
+    for number in range(10):
+        hear(channel, monkeypatch, about(Discovery.ADVERTISE, process=f"invented {number}"))
+        hear(channel, monkeypatch, about(Discovery.ADVERTISE))
+    assert OTHER in {record.process_uuid for record in channel.known(TOPIC)}
+    assert len(channel.known(TOPIC)) == 5
+
+
+def test_an_address_is_known_until_its_last_publisher_has_gone(channel):
+    channel.handle(about(Discovery.ADVERTISE), "127.0.0.1")
+    channel.handle(about(Discovery.ADVERTISE, process="a thief of the address"), "127.0.0.1")
+    channel.handle(Discovery(version=10, process_uuid="a thief of the address", type=Discovery.BYE), "127.0.0.1")
+    assert channel.is_known_address("tcp://127.0.0.1:5")
+    channel.handle(about(Discovery.UNADVERTISE), "127.0.0.1")
+    assert not channel.is_known_address("tcp://127.0.0.1:5")
 
 
 fields = st.text(max_size=20)

@@ -55,7 +55,7 @@ def test_equal_ports_are_moved_apart(both, service, capsys):
     assert f"services use {service}" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("name", ["GZ_RELAY", "GZ_TRANSPORT_TOPIC_STATISTICS", "GZ_TRANSPORT_USERNAME"])
+@pytest.mark.parametrize("name", ["GZ_RELAY", "GZ_TRANSPORT_USERNAME"])
 def test_what_is_not_supported_is_said(name, capsys):
     assert NetworkSettings.from_environment({name: "1"}) == NetworkSettings()
     assert name in capsys.readouterr().err

@@ -57,7 +57,7 @@ def test_scope():
         options.scope = 7
 
 
-def test_remappings():
+def test_remappings(capsys):
     options = NodeOptions()
     assert options.topic_remap("/a") == (False, "")
     assert options.add_topic_remap("/a", "/b")
@@ -66,8 +66,17 @@ def test_remappings():
     other = NodeOptions(options)
     other.add_topic_remap("/d", "/e")
     assert options.topic_remap("/d") == (False, "")
-    with pytest.raises(ValueError, match="must not contain a space"):
-        options.add_topic_remap("/x", "/y z")
+    assert not options.add_topic_remap("/x", "/y z")
+    assert "must not contain a space" in capsys.readouterr().err
+
+
+def test_a_name_that_is_not_valid_leaves_the_option_as_it_was(capsys):
+    options = NodeOptions(partition="class", namespace="robot")
+    options.partition, options.namespace = "a@b", "x//y"
+    assert (options.partition, options.namespace) == ("class", "robot")
+    first, second = capsys.readouterr().err.splitlines()
+    assert "It stays 'class'" in first
+    assert "'//'" in second
 
 
 @pytest.fixture

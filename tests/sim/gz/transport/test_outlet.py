@@ -1,5 +1,6 @@
 """The sending socket alone, with subscribers made of plain sockets."""
 
+import socket
 import time
 
 import pytest
@@ -55,7 +56,7 @@ def until(condition, outlet):
     deadline = time.monotonic() + 120
     while not condition():
         assert time.monotonic() < deadline
-        poller.poll(20000)
+        poller.poll(50)  # ZeroMQ closes a connection a little after its notice
         outlet.take_notices()
 
 
@@ -104,3 +105,43 @@ def test_after_closing_nothing_is_sent(outlet, subscribe):
         outlet.close()
         outlet.send(TOPIC, b"data", b"gz.msgs.StringMsg")
         outlet.take_notices()
+
+
+def test_nobody_ends_the_subscription_of_another(outlet, subscribe):
+    """A peer that ends what it never began, again and again, silences nobody."""
+    with subscribe() as legitimate:
+        until(lambda: outlet.listeners(TOPIC) == 1, outlet)
+        with zmtp_peer(outlet.address) as raw:
+            for _ in range(3):
+                raw.sendall(frame(b"\x00" + TOPIC))
+            raw.sendall(frame(b"\x01@/p@/after"))
+            until(lambda: outlet.listeners(b"@/p@/after") == 1, outlet)
+            assert outlet.listeners(TOPIC) == 1
+            for _ in range(2):
+                raw.sendall(frame(b"\x01" + TOPIC))
+            until(lambda: outlet.listeners(TOPIC) == 2, outlet)
+            raw.sendall(frame(b"\x00" + TOPIC) * 5 + frame(b"\x01@/p@/end"))
+            until(lambda: outlet.listeners(b"@/p@/end") == 1, outlet)
+            assert outlet.listeners(TOPIC) == 1
+            raw.sendall(frame(b"\x01" + TOPIC))
+            until(lambda: outlet.listeners(TOPIC) == 2, outlet)
+        until(lambda: outlet.listeners(TOPIC) == 1 and outlet.listeners(b"@/p@/end") == 0, outlet)
+        outlet.send(TOPIC, b"data", b"gz.msgs.StringMsg")
+        assert legitimate.recv_multipart()[2] == b"data"
+
+
+def frame(body):
+    return bytes((0, len(body))) + body
+
+
+def zmtp_peer(address):
+    """Return a TCP connection that has greeted as a SUB socket of ZMTP 3.0, whose frames are written by hand.
+
+    Source: https://rfc.zeromq.org/spec/23/
+    """
+    host, port = address.removeprefix("tcp://").rsplit(":", 1)
+    raw = socket.create_connection((host, int(port)), timeout=120)
+    raw.sendall(b"\xff" + bytes(8) + b"\x7f\x03\x00" + b"NULL".ljust(20, b"\0") + bytes(32))
+    ready = b"\x05READY\x0bSocket-Type\x00\x00\x00\x03SUB"
+    raw.sendall(bytes((4, len(ready))) + ready)
+    return raw

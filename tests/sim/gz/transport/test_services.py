@@ -121,7 +121,7 @@ def test_one_node_offers_a_service_once(node):
         node.advertise_service("/shout", StringMsg, Int32, upper)
 
 
-def test_names_follow_the_rules_namespace_and_remapping():
+def test_names_follow_the_rules_namespace_and_remapping(capsys):
     options = NodeOptions(namespace="robot", scope=Scope.PROCESS)
     options.add_topic_remap("/old", "/new")
     with Node(options) as node:
@@ -131,20 +131,20 @@ def test_names_follow_the_rules_namespace_and_remapping():
         assert ask(node, "/robot/shout")[0]
         with pytest.raises(ValueError, match="service name '/a b' is not valid: it must not contain a space"):
             node.advertise_service("/a b", StringMsg, StringMsg, upper)
-        with pytest.raises(ValueError, match="service name '' is not valid"):
-            ask(node, "")
+        assert not ask(node, "")[0]
+        assert "service name '' is not valid" in capsys.readouterr().err
 
 
-def test_wrong_arguments_are_named(node):
+def test_wrong_arguments_are_named(node, capsys):
     with pytest.raises(TypeError, match="cannot be called"):
         node.advertise_service("/a", StringMsg, StringMsg, 3)
     with pytest.raises(TypeError, match="message class"):
         node.advertise_service("/a", int, StringMsg, upper)
     with pytest.raises(ValueError, match=r"no message type 'gz.msgs.Twost'.*gz.msgs.Twist"):
         node.advertise_service("/a", "gz.msgs.Twost", StringMsg, upper)
-    with pytest.raises(TypeError, match="is a Empty, but the request type was given as gz"):
-        node.request("/a", Empty(), StringMsg, StringMsg, 10)
-    with pytest.raises(ValueError, match="timeout_ms is -1"):
+    assert node.request("/a", Empty(), StringMsg, StringMsg, 10) == (False, StringMsg())
+    assert "is a gz.msgs.Empty, but the request type was given as gz" in capsys.readouterr().err
+    with pytest.raises(ValueError, match="timeout is -1"):
         node.request("/a", StringMsg(), StringMsg, StringMsg, -1)
     assert node.service_list() == []
 

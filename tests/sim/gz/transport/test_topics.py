@@ -1,4 +1,4 @@
-"""Topics within one process: delivery before publish() returns, copies, types, options, errors."""
+"""Topics within one process: synchronous delivery, copies, types, options, errors. See also test_local_delivery.py."""
 
 import threading
 
@@ -13,7 +13,7 @@ from gz_course.sim.gz.transport.options import UNTHROTTLED
 
 @pytest.fixture(params=[Scope.PROCESS, Scope.ALL], ids=["process", "all"])
 def node(request):
-    with Node(NodeOptions(scope=request.param)) as each:
+    with Node(NodeOptions(scope=request.param, synchronous=True)) as each:
         yield each
 
 
@@ -40,7 +40,7 @@ def test_everybody_gets_a_copy_of_his_own(node):
 def test_nodes_of_one_process_hear_one_another_whatever_their_scope(node):
     heard = []
     for scope in (Scope.PROCESS, Scope.ALL):
-        with Node(NodeOptions(scope=scope)) as other:
+        with Node(NodeOptions(scope=scope, synchronous=True)) as other:
             other.subscribe(StringMsg, "/chat", heard.append)
             node.advertise(f"/chat{int(scope)}", StringMsg)
             publisher = other.advertise("/back", StringMsg)
@@ -168,21 +168,31 @@ def test_an_impossible_rate_is_refused(rate):
         SubscribeOptions(msgs_per_sec=rate)
 
 
-def test_a_node_advertises_a_topic_once(node):
+def test_a_node_advertises_a_topic_once(node, capsys):
     publisher = node.advertise("/chat", StringMsg)
-    with pytest.raises(ValueError, match="already advertised"):
-        node.advertise("/chat", Twist)
+    second = node.advertise("/chat", Twist)
+    assert "already advertised" in capsys.readouterr().err
+    assert (second.valid(), second.publish(Twist()), second.has_connections()) == (False, False, False)
+    second.close()
+    assert publisher.valid()
     publisher.close()
     assert not publisher.valid()
     assert publisher.publish(StringMsg()) is False
     assert node.advertise("/chat", Twist).valid()
 
 
-def test_names_that_break_a_rule_are_refused(node):
-    with pytest.raises(ValueError, match="a space"):
-        node.advertise("/my chat", StringMsg)
-    with pytest.raises(ValueError, match="'//'"):
-        node.subscribe(StringMsg, "//chat", print)
+def test_names_that_break_a_rule_are_refused_in_a_line(node, capsys):
+    assert not node.advertise("/my chat", StringMsg).valid()
+    assert "a space" in capsys.readouterr().err
+    assert node.subscribe(StringMsg, "//chat", print) is False
+    assert "'//'" in capsys.readouterr().err
+    assert node.unsubscribe("/a b") is False
+    assert node.topic_info("/a b") == ([], [])
+    assert node.service_info("/a b") == []
+    assert node.request("/a b", StringMsg(), StringMsg, StringMsg, 10) == (False, StringMsg())
+    assert len(capsys.readouterr().err.splitlines()) == 4
+    assert node.request("/chat", Twist(), StringMsg, StringMsg, 10) == (False, StringMsg())
+    assert "is a gz.msgs.Twist" in capsys.readouterr().err
     with pytest.raises(ValueError, match="partition name 'a@b'"):
         NodeOptions(partition="a@b")
     assert (node.advertised_topics(), node.subscribed_topics()) == ([], [])

@@ -22,7 +22,10 @@ def partition(monkeypatch: pytest.MonkeyPatch) -> None:
 
 WORLD = """<sdf version='1.10'><world name='a small world'><model name='arm'><static>1</static>
 <pose>1 2 3 0 0 0.5</pose>
-<link name='base'/><link name='upper'/><joint name='elbow' type='revolute'><parent>base</parent><child>upper</child>
+<link name='base'><sensor name='eye' type='camera'><pose>0 0 1 0 0 0</pose><update_rate>5</update_rate>
+<topic>eye</topic><camera><image><width>64</width><height>48</height></image></camera></sensor>
+<sensor name='ear' type='imu'/></link>
+<link name='upper'/><joint name='elbow' type='revolute'><parent>base</parent><child>upper</child>
 <axis><xyz>0 0 1</xyz></axis></joint></model></world></sdf>"""
 
 
@@ -49,6 +52,13 @@ def test_list_and_look(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["model", "-m", "arm"]) == 0
     out = capsys.readouterr().out
     assert "Name: arm" in out and "Name: upper" in out and "Name: elbow" in out and "Type: revolute" in out
+    assert "Name: eye" in out and "Name: ear" in out
+    assert main(["model", "-m", "arm", "-s", "eye"]) == 0
+    out = capsys.readouterr().out
+    assert "- Name: eye" in out and "Image width (px): 64" in out and "Update rate (Hz): 5" in out
+    assert "[0.000000 0.000000 1.000000]" in out and "Name: ear" not in out and "Link [" not in out
+    assert main(["model", "-m", "arm", "-s", "eyes"]) == 1
+    assert "did you mean 'eye'" in capsys.readouterr().err
     assert main(["model", "-m", "arn"]) == 1
     assert "did you mean 'arm'" in capsys.readouterr().err
 

@@ -39,7 +39,7 @@ def test_info_names_addresses_and_types(gz, node, shout):
 
 def test_info_on_an_unknown_service_names_the_nearest(gz, shout):
     code, out, error = gz("service", "-i", "-s", "/shoot").end()
-    assert (code, out) == (1, "No service providers on service [/shoot]\n")
+    assert (code, out) == (0, "No service providers on service [/shoot]\n")
     assert error == "gz service: there is no service [/shoot]; did you mean '/shout'?\n"
 
 

@@ -1,0 +1,69 @@
+"""`gz sdf`: worlds, models and URDF files that are valid or not, and what is printed of them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from gz_course.sim.gz.command import main
+from gz_course.sim.gz.sim.world import World
+
+WORLD = """<sdf version="1.10"><world name="w">
+<include><uri>part</uri><name>first</name><pose>1 0 0 0 0 0</pose></include>
+<model name="outer"><static>1</static><link name="l"/><include merge="true"><uri>part</uri></include></model>
+<include><uri>model://nothing_of_this_name</uri></include>
+</world></sdf>"""
+PART = """<sdf version="1.10"><model name="part"><static>1</static><link name="base"><visual name="v"><geometry><mesh>
+<uri>part.obj</uri></mesh></geometry></visual></link></model></sdf>"""
+
+
+@pytest.fixture
+def world(tmp_path: Path) -> Path:
+    folder = tmp_path / "part"
+    folder.mkdir()
+    (folder / "model.sdf").write_text(PART)
+    (folder / "part.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    path = tmp_path / "w.sdf"
+    path.write_text(WORLD)
+    return path
+
+
+def test_check(world: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["sdf", "-k", str(tmp_path / "part" / "model.sdf")]) == 0
+    assert capsys.readouterr() == ("Valid.\n", "")
+    assert main(["sdf", "--check", str(world)]) == 0
+    out, error = capsys.readouterr()
+    assert out == "Valid.\n" and error.count("\n") == 1 and "nothing_of_this_name" in error
+    world.write_text(
+        '<sdf version="1.10"><world name="w">\n<model name="m"><link name="a"/><link name="a"/></model></world></sdf>'
+    )
+    assert main(["sdf", "-k", str(world)]) == 255
+    out, error = capsys.readouterr()
+    assert out == "" and error.startswith(f"gz sdf: {world}:2: ")
+    assert main(["sdf", "-k", str(tmp_path / "none.sdf")]) == 255
+    assert "there is no file" in capsys.readouterr().err
+
+
+def test_print_replaces_includes(world: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["sdf", "-p", str(world)]) == 0
+    out, error = capsys.readouterr()
+    assert out.startswith('<?xml version="1.0" ?>\n<sdf version="1.10">\n  <world name="w">\n    <model name="first">')
+    assert str(tmp_path / "part" / "part.obj") in out and "<pose>1 0 0 0 0 0</pose>" in out
+    assert 'merge="true"' in out and "merge" in error  # kept, and told
+    printed = World.from_string(out.replace("<uri>part</uri>", f"<uri>{tmp_path / 'part'}</uri>"))
+    assert "first" in printed.model_names(static=True)
+    printed.close()
+    assert main(["sdf", "-p", str(world), "-i"]) == 0
+    assert capsys.readouterr().out.count("<include") == 3
+
+
+def test_print_converts_a_urdf(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "robot.urdf"
+    path.write_text(
+        "<robot name='r'><link name='base'><inertial><mass value='1'/>"
+        "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link></robot>"
+    )
+    assert main(["sdf", "-p", str(path)]) == 0
+    out = capsys.readouterr().out
+    assert '<model name="r">' in out and '<link name="base">' in out
