@@ -10,12 +10,13 @@ import numpy as np
 from gz_course.grader.film.stage import Stage, pose_at
 from gz_course.grader.record.bodies import chain_of
 from gz_course.grader.record.reading import Recording
+from gz_course.sim.rviz2.drawing import laser_scan, odometry
 
 if TYPE_CHECKING:
     from PIL.Image import Image
     from PIL.ImageDraw import ImageDraw
 
-SCAN, PATH = (230, 60, 200), (255, 150, 0)
+SCAN, PATH = laser_scan.COLOUR, odometry.PATH_COLOUR
 GRID, GRID_STEP, GRID_COLOUR = 6.0, 0.2, (178, 182, 186)  # [m]
 PATH_STEPS = 400  # points of the path that are drawn
 PASSED, FAILED, TEXT, PAPER = (30, 130, 60), (190, 30, 30), (30, 30, 30), (255, 255, 255)

@@ -9,6 +9,7 @@ import numpy as np
 import rerun as rr
 
 from gz_course.grader.record.recorder import Recorder
+from gz_course.sim.rviz2.drawing import laser_scan
 
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.world import World
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 FIRST_SCAN_NS = 200_000_000  # a first scan that comes so early is shown from the beginning [ns]
 LINK_TICKS = 5  # ticks between two poses of links such as wheels
 UNITS = {"linear_x": " [m/s]", "angular_z": " [rad/s]", "distance": " [m]", "yaw": " [rad]"}
-SCAN_COLOR = np.array([[230, 60, 200, 255]], dtype=np.uint8)
+SCAN_COLOR = np.array([[*laser_scan.COLOUR, 255]], dtype=np.uint8)
 GROUND_SIZE = 20.0  # [m] side of the square drawn for an infinite plane
 FACETS = 100_000  # a surface of more triangles is drawn without shading
 
@@ -111,7 +112,7 @@ class Scene:
             entity = f"/world/{at.model}/{at.link}/{at.name}"
             self._lidars[sensor.topic] = f"{entity}/scan"
             recorder.static(entity, transform(at.pose))
-            recorder.static(f"{entity}/scan", rr.Points3D.from_fields(colors=SCAN_COLOR, radii=0.02))
+            recorder.static(f"{entity}/scan", rr.Points3D.from_fields(colors=SCAN_COLOR, radii=laser_scan.RADIUS))
 
     def tick(self) -> None:
         """Log truth and poses at the recorder's present time."""
@@ -176,11 +177,7 @@ class Scene:
         entity = self._lidars.get(gz_topic)
         if entity is None:
             return
-        ranges = np.asarray(scan.ranges, dtype=np.float64)
-        angles = scan.angle_min + scan.angle_increment * np.arange(len(ranges))
-        seen = np.isfinite(ranges)
-        flat = np.stack([ranges[seen] * np.cos(angles[seen]), ranges[seen] * np.sin(angles[seen])], axis=1)
-        points = np.pad(flat, ((0, 0), (0, 1)))
+        points = laser_scan.points(scan)
         if entity not in self._has_scanned and self._recorder.now_ns <= self._began_ns + FIRST_SCAN_NS:
             self._recorder.points(entity, points, self._began_ns)
         self._has_scanned.add(entity)
