@@ -14,9 +14,9 @@ LOOK_AGAIN_S = 0.2
 ENDS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
-def open_browser(address: str) -> None:
-    """Print the address of a page, and open it in a browser if there is a desktop."""
-    opened = has_display() and webbrowser.open(address)
+def open_browser(address: str, *, wanted: bool = True) -> None:
+    """Print the address of a page, and open it in a browser if there is a desktop and it is `wanted`."""
+    opened = wanted and has_display() and webbrowser.open(address)
     print(f"{'shown' if opened else 'open this page in a browser'}: {address}", flush=True)
     print("Ctrl-C ends it", flush=True)
 

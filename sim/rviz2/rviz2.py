@@ -33,12 +33,11 @@ MISSING_AFTER = 10  # looks at the graph, before topics that nobody publishes ar
 def parser(program: str = NAME) -> argparse.ArgumentParser:
     """Return the parser of the program's own arguments."""
     made = _Parser(prog=program, add_help=False, description="Shows what ROS says, live, in Rerun.")
-    made.add_argument(
-        "topics", nargs="*", metavar="TOPIC", help="topics or patterns; all if none is given"
-    )
+    made.add_argument("topics", nargs="*", metavar="TOPIC", help="topics or patterns; all if none is given")
     made.add_argument("--plot", action="append", default=[], metavar="TOPIC/FIELD", help="a field to plot; repeatable")
     made.add_argument("-f", "--fixed-frame", default="", metavar="FRAME", help="the frame to look from")
     made.add_argument("--web", action="store_true", help="in a browser instead of a window; of this machine only")
+    made.add_argument("--no-browser", action="store_true", help="with --web: open no browser, print the address only")
     made.add_argument("--save", type=Path, metavar="FILE.rrd", help="write a file instead of showing anything")
     made.add_argument("-d", "--display-config", metavar="FILE", help="RViz's configuration; not read here")
     return made
@@ -81,7 +80,7 @@ def watch(node: Node, given: argparse.Namespace) -> int:
             viewer = stack.enter_context(Viewer(web=given.web or not has_display()))
             stream.connect_grpc(viewer.stream_url)
             if viewer.web:
-                open_browser(viewer.address)
+                open_browser(viewer.address, wanted=not given.no_browser)
         stack.callback(stream.disconnect)
         canvas = Canvas(stream, lambda sentence: print(f"{NAME}: {sentence}", file=sys.stderr, flush=True))
 
