@@ -46,7 +46,7 @@ def bodies(recording: Recording) -> list[Body]:
             corners = _corners(shape, facts)
             chain = chain_of(recording, entity)
             if len(corners) and not _is_ground(corners):
-                found.append(Body(entity, entity.split("/")[1], corners, _rgba(shape, facts), chain))
+                found.append(Body(entity, entity.split("/")[1], corners, rgba(shape, facts), chain))
     return sorted(found, key=lambda body: body.entity)
 
 
@@ -61,7 +61,7 @@ def placed(points: np.ndarray, chain: tuple[Poses, ...], time_ns: int) -> np.nda
     """Transform points (n, 3) from the innermost frame of a chain to the world frame, at a time [ns]."""
     for poses in reversed(chain):
         index = max(int(np.searchsorted(poses.times, time_ns, side="right")) - 1, 0)
-        points = points @ _rotation(poses.quaternions[index]).T + poses.positions[index]
+        points = points @ rotation(poses.quaternions[index]).T + poses.positions[index]
     return points
 
 
@@ -122,13 +122,14 @@ def _is_ground(corners: np.ndarray) -> bool:
     return bool(size[2] <= FLAT and min(size[:2]) > 1.0)
 
 
-def _rgba(shape: str, facts: dict) -> tuple[int, int, int, int]:
+def rgba(shape: str, facts: dict) -> tuple[int, int, int, int]:
+    """Return the colour 0..255 of a shape from the static components of its entity."""
     packed = facts.get("Mesh3D:albedo_factor" if shape == "Mesh3D" else f"{shape}:colors", 0x808080FF)
     red, green, blue, alpha = int(packed).to_bytes(4, "big")
     return red, green, blue, alpha
 
 
-def _rotation(quaternion: np.ndarray) -> np.ndarray:
+def rotation(quaternion: np.ndarray) -> np.ndarray:
     """Return the rotation matrix (3, 3) of a unit quaternion x, y, z, w."""
     x, y, z, w = (float(v) for v in quaternion)
     return np.array(

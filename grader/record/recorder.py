@@ -65,6 +65,8 @@ class Recorder:
             batcher_config=rr.ChunkBatcherConfig.NEVER(),  # the default batches by wall time
         )
         self.stream.save(self.part, default_blueprint=blueprint(robot), write_footer=True)
+        self._robot = robot
+        self._track: list[np.ndarray] = []  # the corners of the box in which the robot drove
         self.now_ns = 0
         self._named: set[str] = set()
         self._said: dict[str, str] = {}
@@ -98,6 +100,10 @@ class Recorder:
         positions.append(tuple(position))
         w, x, y, z = quaternion_wxyz
         quaternions.append((x, y, z, w))
+        if entity == f"/world/{self._robot}":
+            place = np.asarray(positions[-1], dtype=float)
+            low, high = self._track or (place, place)
+            self._track = [np.minimum(low, place), np.maximum(high, place)]
 
     def text(self, entity: str, line: str, level: str = "INFO") -> None:
         times, lines, levels = self._texts[entity]
@@ -128,10 +134,10 @@ class Recorder:
         times.append(self.now_ns)
         rows.append(np.asarray(values, dtype=np.float64))
 
-    def points(self, entity: str, positions: np.ndarray) -> None:
-        """Log a cloud of points (n, 3) [m]."""
+    def points(self, entity: str, positions: np.ndarray, at_ns: int | None = None) -> None:
+        """Log a cloud of points (n, 3) [m], at the present time or at another one [ns]."""
         times, clouds = self._points[entity]
-        times.append(self.now_ns)
+        times.append(self.now_ns if at_ns is None else at_ns)
         clouds.append(np.asarray(positions, dtype=np.float32))
 
     def name(self, entity: str, name: str) -> None:
@@ -173,6 +179,16 @@ class Recorder:
         for pending in (self._scalars, self._poses, self._texts, self._arrays, self._points, self._pictures):
             pending.clear()
         self.stream.flush()
+
+    def title(self, title: str) -> None:
+        """Set the name under which the viewer lists the recording."""
+        self.stream.send_recording_name(title)
+        self.stream.flush()
+
+    def tell_story(self, failures: Sequence[float]) -> None:
+        """Set the layout in which the viewer opens the recording; `failures` are when checks failed [s]."""
+        track = tuple(tuple(float(v) for v in corner) for corner in self._track)
+        self.stream.send_blueprint(blueprint(self._robot, track or None, failures))
 
     def states(self, entity: str, times_ns: Sequence[int], states: Sequence[str]) -> None:
         """Log named states, each with the time [ns] at which it begins."""

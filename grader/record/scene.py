@@ -9,13 +9,15 @@ import numpy as np
 import rerun as rr
 
 from gz_course.grader.record.recorder import Recorder
+from gz_course.sim.rviz2.drawing import laser_scan
 
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.world import World
 
+FIRST_SCAN_NS = 200_000_000  # a first scan that comes so early is shown from the beginning [ns]
 LINK_TICKS = 5  # ticks between two poses of links such as wheels
 UNITS = {"linear_x": " [m/s]", "angular_z": " [rad/s]", "distance": " [m]", "yaw": " [rad]"}
-SCAN_COLOR = np.array([[230, 60, 200, 255]], dtype=np.uint8)
+SCAN_COLOR = np.array([[*laser_scan.COLOUR, 255]], dtype=np.uint8)
 GROUND_SIZE = 20.0  # [m] side of the square drawn for an infinite plane
 FACETS = 100_000  # a surface of more triangles is drawn without shading
 
@@ -101,13 +103,16 @@ class Scene:
                 recorder.static(
                     entity, transform(world.truth.pose(model).inverse() * world.truth.link_pose(model, link))
                 )
+        self._began_ns = recorder.now_ns
+        self._has_scanned: set[str] = set()
+        self._log_poses()
         self._lidars: dict[str, str] = {}  # Gazebo topic -> entity
         for sensor in world.systems.sensors():
             at = sensor.description
             entity = f"/world/{at.model}/{at.link}/{at.name}"
             self._lidars[sensor.topic] = f"{entity}/scan"
             recorder.static(entity, transform(at.pose))
-            recorder.static(f"{entity}/scan", rr.Points3D.from_fields(colors=SCAN_COLOR, radii=0.02))
+            recorder.static(f"{entity}/scan", rr.Points3D.from_fields(colors=SCAN_COLOR, radii=laser_scan.RADIUS))
 
     def tick(self) -> None:
         """Log truth and poses at the recorder's present time."""
@@ -143,11 +148,22 @@ class Scene:
             recorder.pose(f"/world/{model}", (x, y, z), (qw, qx, qy, qz))
             self._path[model].append((x, y, z))
         if self._ticks % LINK_TICKS == 0:
-            for (model, link), entity in self._links.items():
-                if model in self._models:
-                    pose = world.truth.pose(model).inverse() * world.truth.link_pose(model, link)
-                    recorder.pose(entity, pose.position, pose.quaternion)
+            self._log_links()
         self._ticks += 1
+
+    def _log_poses(self) -> None:
+        """Log where everything is before the first tick, so that the view is right from the beginning."""
+        for model in self._models:
+            pose = self._world.truth.pose(model)
+            self._recorder.pose(f"/world/{model}", pose.position, pose.quaternion)
+        self._log_links()
+
+    def _log_links(self) -> None:
+        truth = self._world.truth
+        for (model, link), entity in self._links.items():
+            if model in self._models:
+                pose = truth.pose(model).inverse() * truth.link_pose(model, link)
+                self._recorder.pose(entity, pose.position, pose.quaternion)
 
     def finish(self) -> None:
         """Log the path that each model took."""
@@ -161,11 +177,11 @@ class Scene:
         entity = self._lidars.get(gz_topic)
         if entity is None:
             return
-        ranges = np.asarray(scan.ranges, dtype=np.float64)
-        angles = scan.angle_min + scan.angle_increment * np.arange(len(ranges))
-        seen = np.isfinite(ranges)
-        flat = np.stack([ranges[seen] * np.cos(angles[seen]), ranges[seen] * np.sin(angles[seen])], axis=1)
-        self._recorder.points(entity, np.pad(flat, ((0, 0), (0, 1))))
+        points = laser_scan.points(scan)
+        if entity not in self._has_scanned and self._recorder.now_ns <= self._began_ns + FIRST_SCAN_NS:
+            self._recorder.points(entity, points, self._began_ns)
+        self._has_scanned.add(entity)
+        self._recorder.points(entity, points)
 
 
 def transform(pose: Any) -> Any:

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import rerun as rr
 
 from gz_course.grader.record.recorder import Recorder
-from gz_course.grader.score.score import Score
+from gz_course.grader.score.score import CheckResult, Score
 
-STATES = rr.StateConfiguration(
-    values=["wait", "pass", "fail"],
-    labels=["not decided", "passed", "failed"],
-    colors=np.array([[110, 110, 110, 255], [40, 160, 70, 255], [200, 50, 50, 255]], dtype=np.uint8),
-)
-
+COLORS = np.array([[110, 110, 110, 255], [40, 160, 70, 255], [200, 50, 50, 255]], dtype=np.uint8)
 TAIL = 0.5  # [s] recorded beyond the end, so that a verdict given at the end is visible
 
 
@@ -26,7 +23,7 @@ def write_verdicts(recorder: Recorder, score: Score, max_score: float, end_s: fl
         if times[0] > 0:
             times, states = [0, *times], ["wait", *states]
         times, states = [*times, round((end_s + TAIL) * 1e9)], [*states, states[-1]]
-        recorder.static(entity, STATES)
+        recorder.static(entity, _states(check.spec.title))
         recorder.states(entity, times, states)
         for number, band in enumerate(check.finding.bands):
             span = [round(band.start * 1e9), round(band.end * 1e9)]
@@ -40,6 +37,7 @@ def write_verdicts(recorder: Recorder, score: Score, max_score: float, end_s: fl
             f"{check.spec.title}: {verdict}; {check.finding.measured}",
             "INFO" if check.finding.passed else "ERROR",
         )
+    recorder.tell_story([at for check in score.checks if (at := _failed_at(check, end_s)) is not None])
     recorder.properties(
         "result",
         score=float(score.points),
@@ -48,3 +46,15 @@ def write_verdicts(recorder: Recorder, score: Score, max_score: float, end_s: fl
         diagnosis=score.diagnosis,
         truth_sha256=score.truth_sha256,
     )
+
+
+def _states(title: str) -> Any:
+    """Return how the states of a check are shown: the lane of a check is named by its id, so the title is in them."""
+    labels = [f"{state}: {title}" for state in ("not decided", "passed", "failed")]
+    return rr.StateConfiguration(values=["wait", "pass", "fail"], labels=labels, colors=COLORS)
+
+
+def _failed_at(check: CheckResult, end_s: float) -> float | None:
+    if check.finding.passed:
+        return None
+    return end_s if check.finding.at_s is None else check.finding.at_s

@@ -19,6 +19,7 @@ def write_properties(
     recorder: Recorder, exercise: Exercise, submission: Submission, trial: Trial, facts: dict[str, Any]
 ) -> None:
     """Store what was graded, with which parameters and versions, and what became of the node (`facts`)."""
+    recorder.title(_title(exercise, submission, trial))
     recorder.properties(
         "run",
         exercise=exercise.name,
@@ -35,3 +36,8 @@ def write_properties(
         facts=json.dumps(facts, sort_keys=True),
     )
     recorder.properties("versions", **{name: version(package) for name, package in PACKAGES.items()})
+
+
+def _title(exercise: Exercise, submission: Submission, trial: Trial) -> str:
+    title = f"{exercise.title}: {shown(submission.main)}"
+    return title if trial.place[1] == 1 else f"{title}, {trial.name}"

@@ -11,7 +11,16 @@ from gz_course.sim.ros2.command_line import COMMANDS, found
 
 PAGE = (Path(__file__).parents[2] / "docs" / "full_install.md").read_text()
 HERE = [line.split("|")[1] for line in PAGE.splitlines() if line.startswith("| `")]
-OURS = ("ros_gz_bridge", "ros_gz_image", "ros_gz_sim", "robot_state_publisher", "tf2_ros", "tf2_tools")
+OURS = (
+    "ros_gz_bridge",
+    "ros_gz_image",
+    "ros_gz_sim",
+    "robot_state_publisher",
+    "rviz2",
+    "teleop_twist_keyboard",
+    "tf2_ros",
+    "tf2_tools",
+)
 WITH_VERBS = [name for name, path in found(COMMANDS).items() if path.is_dir()]
 
 
