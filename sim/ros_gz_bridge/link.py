@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 import time
 from collections import Counter
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +17,7 @@ from rclpy.publisher import Publisher
 from rclpy.qos import QoSPolicyKind
 from rclpy.qos_overriding_options import QoSOverridingOptions
 
-from gz_course.sim.gz.transport import MessageInfo
+from gz_course.sim.gz.transport import MessageInfo, SubscribeOptions
 from gz_course.sim.ros_gz_bridge.echo_filter import EchoAwarePublisher, EchoFilter
 from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, BridgeError, EntryStatus, ServiceEntry
 from gz_course.sim.ros_gz_bridge.qos_profile import PUBLISHER_POLICIES, qos
@@ -53,14 +52,9 @@ class Link:
         self.gz_topic = bridge._gz_name(row.entry.gz_topic)
         self._pair = row.pair
         self._status = row.status
-        self._hears_itself = False
         self._closed = False
         self._unreported: Counter[str] = Counter()
         self._said_at: float | None = None
-
-    def look_for_echoes(self, others: Iterable[Link]) -> None:
-        """Record whether a link of the other direction, one of `others`, uses the same Gazebo topic."""
-        self._hears_itself = any(other.gz_topic == self.gz_topic for other in others)
 
     def _count(self, field: str) -> None:
         with self._bridge._status_lock:
@@ -118,10 +112,12 @@ class GzToRos(Link):
         if not self.subscribed:
             self.subscribed = True
             gz_node, topic = self._bridge._gz_node, self.entry.gz_topic
+            # The bridge's own messages would be bridged back.
+            options = SubscribeOptions(ignore_local_messages=True)
             if self._bridge._threaded:
-                done = gz_node.subscribe_raw(topic, self._on_data, self._pair.gz_type)
+                done = gz_node.subscribe_raw(topic, self._on_data, self._pair.gz_type, options)
             else:
-                done = gz_node.subscribe(self._pair.gz_class, topic, self._on_message)
+                done = gz_node.subscribe(self._pair.gz_class, topic, self._on_message, options)
             if not done:
                 raise BridgeError([sentence(self.entry, f"cannot subscribe to the Gazebo topic {topic}")])
 
@@ -164,9 +160,6 @@ class GzToRos(Link):
 
     def _on_message(self, gz: Any) -> None:
         if not self.connected:
-            return
-        if self._hears_itself and self._bridge._gz_echo.is_echo(self.gz_topic, gz):
-            self._count("echoes")
             return
         try:
             ros = self._pair.to_ros(gz)
@@ -258,12 +251,7 @@ class RosToGz(Link):
         except Exception as error:
             self._drop(pair.ros_type, self.entry.ros_topic, str(error))
             return
-        if self._hears_itself:
-            with self._bridge._gz_echo.publishing(self.gz_topic, gz):
-                taken = self._publisher.publish(gz)
-        else:
-            taken = self._publisher.publish(gz)
-        if taken:
+        if self._publisher.publish(gz):
             self._count("ros_to_gz")
             self._bridge._announce(pair)
         else:
