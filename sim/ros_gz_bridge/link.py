@@ -21,6 +21,7 @@ from gz_course.sim.gz.transport import MessageInfo, SubscribeOptions
 from gz_course.sim.ros_gz_bridge.echo_filter import EchoAwarePublisher, EchoFilter
 from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, BridgeError, EntryStatus, ServiceEntry
 from gz_course.sim.ros_gz_bridge.qos_profile import PUBLISHER_POLICIES, qos
+from gz_course.sim.ros_gz_bridge.remarks import converted
 from gz_course.sim.ros_gz_bridge.type_pairs import TypePair
 from gz_course.sim.ros_gz_bridge.worker import HEAVY_BYTES, Worker
 
@@ -66,6 +67,12 @@ class Link:
             self._status.dropped += 1
             self._status.last_error = fault
             self._unreported[fault] += 1
+        self.say_unsaid()
+
+    def _note(self, ros_or_gz_type: str, topic: str, remarks: list[str]) -> None:
+        """Warn about what was sent on incompletely."""
+        with self._bridge._status_lock:
+            self._unreported.update(f"{ros_or_gz_type} on {topic} was bridged, but {text}" for text in remarks)
         self.say_unsaid()
 
     def say_unsaid(self, at_once: bool = False) -> None:
@@ -162,7 +169,7 @@ class GzToRos(Link):
         if not self.connected:
             return
         try:
-            ros = self._pair.to_ros(gz)
+            ros, remarks = converted(self._pair.to_ros, gz)
             self._override_header(ros)
         except Exception as error:
             self._drop(self._pair.gz_type, self.entry.gz_topic, str(error))
@@ -174,6 +181,8 @@ class GzToRos(Link):
                 raise
             return
         self._count("gz_to_ros")
+        if remarks:
+            self._note(self._pair.gz_type, self.entry.gz_topic, remarks)
 
     def _override_header(self, ros: Any) -> None:
         header = getattr(ros, "header", None)
@@ -247,13 +256,15 @@ class RosToGz(Link):
             self._drop(pair.ros_type, self.entry.ros_topic, f"{fault}; only finite numbers can be commanded")
             return
         try:
-            gz = pair.to_gz(ros)
+            gz, remarks = converted(pair.to_gz, ros)
         except Exception as error:
             self._drop(pair.ros_type, self.entry.ros_topic, str(error))
             return
         if self._publisher.publish(gz):
             self._count("ros_to_gz")
             self._bridge._announce(pair)
+            if remarks:
+                self._note(pair.ros_type, self.entry.ros_topic, remarks)
         else:
             self._drop(pair.ros_type, self.entry.ros_topic, f"gz.transport refused it on {self.entry.gz_topic}")
 

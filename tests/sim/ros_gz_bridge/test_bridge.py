@@ -1,5 +1,6 @@
 """The running bridge, over real DDS and a Gazebo node of this process."""
 
+import itertools
 import math
 import threading
 
@@ -104,11 +105,28 @@ def test_a_command_that_is_not_finite_is_dropped_counted_and_reported_once_a_sec
 def test_a_message_that_cannot_be_converted_is_dropped_with_its_reason(stage):
     bridge = stage.bridge(stage.entry(("sensor_msgs/msg/Image", "gz.msgs.Image"), Direction.GZ_TO_ROS))
     publisher = stage.gz.advertise(stage.topic, GzImage)
-    publisher.publish(GzImage(pixel_format_type="RGB_FLOAT32"))
+    publisher.publish(GzImage(width=9, height=1, step=9, pixel_format_type="L_INT8", data=b"x"))
     publisher.publish(GzImage(width=1, height=1, step=1, pixel_format_type="L_INT8", data=b"x"))
     (status,) = bridge.status()
     assert (status.dropped, status.gz_to_ros) == (1, 1)
-    assert f"gz.msgs.Image on {stage.topic} was not bridged: the pixel format RGB_FLOAT32" in status.last_error
+    assert f"gz.msgs.Image on {stage.topic} was not bridged: an image of 9x1 mono8 pixels" in status.last_error
+
+
+def test_a_message_that_fits_in_part_is_bridged_with_a_warning(stage, eventually, capfd):
+    errors = []
+
+    def said(words):
+        errors.append(capfd.readouterr().err)
+        return words in "".join(errors)
+
+    bridge = stage.bridge(stage.entry(("sensor_msgs/msg/Image", "gz.msgs.Image")), monotonic=itertools.count().__next__)
+    stage.gz.advertise(stage.topic, GzImage).publish(GzImage(pixel_format_type="RGB_FLOAT32"))
+    assert said(f"gz.msgs.Image on {stage.topic} was bridged, but the pixel format RGB_FLOAT32")
+    stage.ros_publisher(Image).publish(Image(encoding="yuv422"))
+    warning = f"sensor_msgs/msg/Image on {stage.topic} was bridged, but the encoding 'yuv422'"
+    eventually(lambda: said(warning), "the warning")
+    (status,) = bridge.status()
+    assert (status.gz_to_ros, status.ros_to_gz, status.dropped) == (1, 1, 0)
 
 
 def test_frame_and_stamp_can_be_overridden(stage):
