@@ -8,17 +8,20 @@ import pytest
 from geometry_msgs.msg import Twist, TwistStamped
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import Image, LaserScan
+from sensor_msgs.msg import Image, JointState, LaserScan
 
 from gz_course.sim.gz.msgs.clock_pb2 import Clock as GzClock
 from gz_course.sim.gz.msgs.image_pb2 import Image as GzImage
 from gz_course.sim.gz.msgs.laserscan_pb2 import LaserScan as GzLaserScan
+from gz_course.sim.gz.msgs.model_pb2 import Model as GzModel
 from gz_course.sim.gz.msgs.twist_pb2 import Twist as GzTwist
 from gz_course.sim.gz.transport import MessageInfo
 from gz_course.sim.ros_gz_bridge.arguments import read_arguments
 from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, BridgeError, Direction, HeaderOverrides
 from gz_course.sim.ros_gz_bridge.qos_profile import QOS_PROFILES
 from gz_course.tests.sim.ros_gz_bridge.stage import SCAN, TWIST, with_and_without_threads
+
+JOINTS = ("sensor_msgs/msg/JointState", "gz.msgs.Model")
 
 
 @with_and_without_threads
@@ -220,6 +223,21 @@ def endpoints(stage):
         stage.gz_bridge.advertised_topics(),
         stage.gz_bridge.subscribed_topics(),
     )
+
+
+@with_and_without_threads
+def test_every_message_of_a_burst_reaches_a_subscription_with_room(stage, inbox, eventually, threaded):
+    bridge = stage.bridge(stage.entry(JOINTS, Direction.GZ_TO_ROS), threaded=threaded)
+    box = inbox()
+    stage.ros_subscription(JointState, box, 1000)
+    eventually(lambda: bridge._to_ros[0].publisher.get_subscription_count() == 1, "the bridge knows its subscriber")
+    publisher = stage.gz.advertise(stage.topic, GzModel)
+    for number in range(100):
+        state = GzModel()
+        state.joint.add(name="j").axis1.position = number
+        publisher.publish(state)
+    assert [message.position[0] for message in box.wait(100)] == list(range(100))
+    assert bridge.status()[0].gz_to_ros == 100
 
 
 @with_and_without_threads
