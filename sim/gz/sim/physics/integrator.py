@@ -1,10 +1,11 @@
 """The integrator of a world, chosen when its model is compiled.
 
 Worlds with servos need an integrator that is implicit in velocity: `discrete`, or `implicitfast` where shapes bounce,
-because `discrete` takes energy out of a contact. Both are of first order: a tumbling body loses 2 % of its energy in
-10 s at steps of 1 ms, a double pendulum a quarter in 30 s. Worlds of few bodies without servos and without strong
-springs and dampers are integrated by the Runge-Kutta method of fourth order, which loses less than 0.01 %, in four
-times the processor time.
+because `discrete` takes energy out of a contact. Sensors of forces and accelerations reckon back to the start of the
+step, which only these two allow. Both are of first order: a tumbling body loses 2 % of its energy in 10 s at steps of
+1 ms, a double pendulum a quarter in 30 s. Worlds of few bodies without servos, sensors, and strong springs and dampers
+are integrated by the Runge-Kutta method of fourth order, which loses less than 0.01 %, in four times the processor
+time.
 
 Source: https://mujoco.readthedocs.io/en/stable/computation/index.html (numerical integration)
 """
@@ -22,7 +23,7 @@ _STIFF = 0.05  # change of a velocity by a damper or spring in one step, relativ
 def choose(model: mujoco.MjModel) -> None:
     """Set the integrator of a compiled model to Runge-Kutta if that is stable."""
     moving = int((model.body_weldid > 0).sum())
-    if 0 < moving <= MOST_BODIES and not _is_servoed(model) and not _is_stiff(model):
+    if 0 < moving <= MOST_BODIES and not (model.nsite or _is_servoed(model) or _is_stiff(model)):
         model.opt.integrator = mujoco.mjtIntegrator.mjINT_RK4
 
 

@@ -88,3 +88,8 @@ def test_a_body_without_restitution_on_either_side_does_not_bounce() -> None:
     assert world.truth.pose("box").position[2] == pytest.approx(0.1, abs=0.002)
     with pytest.raises(SdfError, match="<restitution_coefficient> must be from 0 to 1, got 2"):
         World.from_string(WORLD.format(step=0.001, inside=PLANE.format(e=2)))
+
+
+def test_only_wheels_one_behind_the_other_skid() -> None:
+    assert four_wheels(0.4, 0.5, 0.1, 20.0, 0.001).model.npair == 4
+    assert four_wheels(0.0, 0.5, 0.1, 20.0, 0.001).model.npair == 0, "twin wheels on one axle"

@@ -56,5 +56,6 @@ def test_what_is_stiff_or_driven_keeps_the_integrator_that_holds_it() -> None:
     assert pendulum("<dynamics><damping>100</damping></dynamics>").model.opt.integrator == kinds.mjINT_DISCRETE
     springy = "<dynamics><spring_stiffness>1e6</spring_stiffness></dynamics>"
     assert pendulum(springy).model.opt.integrator == kinds.mjINT_DISCRETE
+    assert World.load("sensors.sdf").model.opt.integrator == kinds.mjINT_DISCRETE
     assert World.load("lidar_room.sdf").model.opt.integrator == kinds.mjINT_DISCRETE
     assert World.load("empty.sdf").model.opt.integrator == kinds.mjINT_DISCRETE
