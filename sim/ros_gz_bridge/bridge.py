@@ -20,7 +20,7 @@ from rclpy.timer import Timer
 
 from gz_course.sim.gz.transport import AdvertiseMessageOptions, naming
 from gz_course.sim.gz.transport import Node as GzNode
-from gz_course.sim.ros_gz_bridge.echo_filter import EchoFilter, GzEcho
+from gz_course.sim.ros_gz_bridge.echo_filter import EchoFilter, delivered
 from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, BridgeError, EntryStatus, HeaderOverrides, ServiceEntry
 from gz_course.sim.ros_gz_bridge.link import GzToRos, RosToGz, Row, error_text, sentence
 from gz_course.sim.ros_gz_bridge.ros_listener import RosListener
@@ -74,7 +74,6 @@ class Bridge:
         self._publish = publish or _publish_now
         self._heard = heard
         self._overrides = overrides or HeaderOverrides()
-        self._gz_echo = GzEcho()
         self._announced: set[tuple[str, str]] = set()
         self._to_ros: list[GzToRos] = []
         self._to_gz: list[RosToGz] = []
@@ -171,10 +170,6 @@ class Bridge:
                 left_out(entry, sentence(entry, text))
         elif errors:
             raise BridgeError([sentence(entry, text) for entry, text in errors])
-        for incoming in self._to_ros:
-            incoming.look_for_echoes(self._to_gz)
-        for outgoing in self._to_gz:
-            outgoing.look_for_echoes(self._to_ros)
         for link in self._links():
             if not link.entry.lazy:
                 link.connect()
@@ -236,17 +231,21 @@ def _echo_filters(rows: list[Row]) -> list[tuple[Row, EchoFilter]]:
         if row.entry.direction.to_ros:
             depths[row.ros_topic] = depths.get(row.ros_topic, 0) + row.entry.publisher_queue
     listening = [row for row in rows if row.entry.direction.to_gz and row.ros_topic in depths]
-    capacities = [depths[row.ros_topic] + row.entry.subscriber_queue + _ECHO_MARGIN for row in listening]
-    return [(row, EchoFilter(_content_of(row.pair), n)) for row, n in zip(listening, capacities, strict=True)]
+    filters = []
+    for row in listening:
+        arrived, sent = contents(row.pair)
+        capacity = depths[row.ros_topic] + row.entry.subscriber_queue + _ECHO_MARGIN
+        filters.append((row, EchoFilter(arrived, sent, capacity)))
+    return filters
 
 
-def _content_of(pair: TypePair) -> Callable[[Any], bytes]:
-    """Return the function that converts a ROS message to the content an echo filter compares: the bytes for Gazebo."""
+def contents(pair: TypePair) -> tuple[Callable[[Any], bytes], Callable[[Any], bytes]]:
+    """Return what an echo filter compares, the bytes for Gazebo: of a message that arrived, and of one to be sent."""
 
-    def content(ros: Any) -> bytes:
+    def arrived(ros: Any) -> bytes:
         try:
-            return bytes(pair.to_gz(ros).SerializeToString())
+            return bytes(pair.to_gz(ros).SerializeToString(deterministic=True))
         except Exception:  # such messages are dropped and need not be distinguished
             return b""
 
-    return content
+    return arrived, lambda ros: arrived(delivered(ros))

@@ -1,10 +1,12 @@
-"""Filters that keep a bridge from bridging its own messages back.
+"""The filter that keeps a bridge from bridging its own ROS messages back.
 
 A bidirectional entry publishes on a ROS topic to which it also subscribes, so DDS delivers its own messages to it. In
 rclpy a subscription cannot ignore its own node, and the sender of a message is unknown. `EchoFilter` therefore
 recognises an echo by three properties together:
 
-* content: the bytes that the message would become on the Gazebo side;
+* content: the bytes that the message would become on the Gazebo side. Those of a message sent are taken from what DDS
+will deliver: it rounds numbers to float32 where the type of the message says so, and ends a text at its first null
+character;
 * time: DDS stamps a message during `publish`, so the stamp of an echo lies between the times before and after that
 call (all from the system clock, rounded to 1 µs);
 * number: one arrival for each publication.
@@ -13,8 +15,8 @@ Messages of other publishers therefore pass, even with the same content, because
 window. If such a message is sent within the microseconds of `publish`, it cannot be distinguished from the echo, and
 one of the two passes. An echo that DDS dropped leaves a record whose window no later stamp can match.
 
-If the system clock is set back during `publish`, one message is bridged back once; it does not circulate, because
-`GzEcho` filters on the Gazebo side.
+If the system clock is set back during `publish`, one message is bridged back once; it does not circulate, because on
+the Gazebo side a bridge does not hear its own node (`link.GzToRos`).
 """
 
 from __future__ import annotations
@@ -28,6 +30,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from rclpy.publisher import Publisher
+from rclpy.serialization import deserialize_message, serialize_message
 
 _ROUNDING_NS = 1000
 
@@ -42,12 +45,20 @@ class _Publication:
 class EchoFilter:
     """The filter of one ROS subscription for messages published by the same bridge. Thread-safe.
 
-    `content` converts a ROS message to the bytes that are compared. `capacity` is the maximum number of publications
-    that may not have arrived yet: the sum of the depths of the publishers and of the subscription.
+    `content` converts a ROS message that has arrived to the bytes that are compared, `sent_content` one before it is
+    sent. `capacity` is the maximum number of publications that may not have arrived yet: the sum of the depths of the
+    publishers and of the subscription.
     """
 
-    def __init__(self, content: Callable[[Any], bytes], capacity: int, now: Callable[[], int] = time.time_ns) -> None:
+    def __init__(
+        self,
+        content: Callable[[Any], bytes],
+        sent_content: Callable[[Any], bytes],
+        capacity: int,
+        now: Callable[[], int] = time.time_ns,
+    ) -> None:
         self._content = content
+        self._sent_content = sent_content
         self._now = now
         self._published: deque[_Publication] = deque(maxlen=capacity)
         self._lock = threading.Lock()
@@ -55,7 +66,7 @@ class EchoFilter:
     @contextlib.contextmanager
     def publishing(self, message: Any) -> Iterator[None]:
         """Record `message` around the call that hands it to DDS."""
-        publication = _Publication(self._content(message), self._now() - _ROUNDING_NS)
+        publication = _Publication(self._sent_content(message), self._now() - _ROUNDING_NS)
         with self._lock:
             self._published.append(publication)
         try:
@@ -66,17 +77,22 @@ class EchoFilter:
     def is_echo(self, message: Any, source_timestamp: int) -> bool:
         """Return whether `message`, stamped by DDS at `source_timestamp` [ns since 1970], is from this bridge."""
         with self._lock:
-            if not self._published:
-                return False
+            in_time = [each for each in self._published if _sent_at(each, source_timestamp)]
+        if not in_time:
+            return False
         content = self._content(message)
         with self._lock:
-            for publication in self._published:
-                end = publication.not_after
-                in_time = publication.not_before <= source_timestamp and (end is None or source_timestamp <= end)
-                if in_time and publication.content == content:
+            for publication in in_time:
+                if publication.content == content and publication in self._published:
                     self._published.remove(publication)
                     return True
         return False
+
+
+def _sent_at(publication: _Publication, stamp: int) -> bool:
+    """Return whether DDS may have stamped a publication with `stamp` [ns]."""
+    end = publication.not_after
+    return publication.not_before <= stamp and (end is None or stamp <= end)
 
 
 class EchoAwarePublisher(Publisher):
@@ -95,33 +111,6 @@ class EchoAwarePublisher(Publisher):
             super().publish(msg)
 
 
-class GzEcho:
-    """The filter for Gazebo topics within the bridge's own process, where delivery happens inside `publish`.
-
-    While a message is being published, its content is kept for this thread; an arrival in the same thread on the same
-    topic with that content is the echo. Messages of other publishers of the process pass.
-    """
-
-    def __init__(self) -> None:
-        self._local = threading.local()
-
-    def _current(self) -> list[tuple[str, bytes]]:
-        if not hasattr(self._local, "current"):
-            self._local.current = []
-        return self._local.current
-
-    @contextlib.contextmanager
-    def publishing(self, topic: str, message: Any) -> Iterator[None]:
-        """Record `message` around the call that publishes it on the Gazebo `topic`."""
-        current = self._current()
-        mark = (topic, message.SerializeToString())
-        current.append(mark)
-        try:
-            yield
-        finally:
-            current.remove(mark)
-
-    def is_echo(self, topic: str, message: Any) -> bool:
-        """Return whether `message`, arriving on `topic` in this thread, is the one the bridge is publishing."""
-        current = self._current()
-        return bool(current) and (topic, message.SerializeToString()) in current
+def delivered(message: Any) -> Any:
+    """Return the ROS message as a subscriber gets it."""
+    return deserialize_message(serialize_message(message), type(message))

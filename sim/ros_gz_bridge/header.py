@@ -17,7 +17,7 @@ from builtin_interfaces.msg import Duration as RosDuration
 from builtin_interfaces.msg import Time as RosTime
 from std_msgs.msg import Header as RosHeader
 
-from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError
+from gz_course.sim.ros_gz_bridge.remarks import remark
 
 FRAME_ID = "frame_id"
 CHILD_FRAME_ID = "child_frame_id"
@@ -27,23 +27,26 @@ _INT32 = range(-(2**31), 2**31)
 def fill_stamp(gz_time: Any, ros_time: RosTime | RosDuration) -> None:
     """Write a `gz.msgs.Time` or `Duration` (sec int64, nsec int32) into a ROS one (sec int32, nanosec uint32).
 
-    Raises ConversionError if the seconds do not fit or the nanoseconds are negative.
+    What does not fit is reduced to 32 bits, as in C++.
     """
     sec, nsec = gz_time.sec, gz_time.nsec
     if sec not in _INT32 or nsec < 0:
-        raise ConversionError(f"the stamp {sec} s {nsec} ns does not fit a ROS time")
+        ros_time.sec, ros_time.nanosec = _int32(sec), nsec % 2**32
+        remark(f"the stamp {sec} s {nsec} ns does not fit a ROS time; it became {ros_time.sec} s {ros_time.nanosec} ns")
+        return
     ros_time.sec, ros_time.nanosec = sec, nsec
 
 
 def copy_stamp(ros_time: RosTime | RosDuration, gz_time: Any) -> None:
-    """Write a ROS time or duration into a `gz.msgs.Time` or `Duration`.
+    """Write a ROS time or duration into a `gz.msgs.Time` or `Duration`; too many nanoseconds become negative."""
+    sec, nanosec = ros_time.sec, ros_time.nanosec
+    gz_time.sec, gz_time.nsec = sec, _int32(nanosec)
+    if gz_time.nsec < 0:
+        remark(f"the stamp {sec} s {nanosec} ns does not fit a Gazebo time; it became {sec} s {gz_time.nsec} ns")
 
-    Raises ConversionError if the nanoseconds do not fit 31 bits.
-    """
-    if ros_time.nanosec >= 2**31:
-        raise ConversionError(f"the stamp {ros_time.sec} s {ros_time.nanosec} ns does not fit a Gazebo time")
-    gz_time.sec = ros_time.sec
-    gz_time.nsec = ros_time.nanosec
+
+def _int32(number: int) -> int:
+    return (number + 2**31) % 2**32 - 2**31
 
 
 def frame_to_ros(name: str) -> str:
@@ -51,13 +54,14 @@ def frame_to_ros(name: str) -> str:
     return name.replace("::", "/")
 
 
-def header_value(gz_header: Any, key: str) -> str:
-    """Return the frame stored under `key`, in the spelling of ROS: the last one of several, an empty text if there is
-    none.
+def header_value(gz_header: Any, key: str, first: bool = False) -> str:
+    """Return the frame stored under `key`, in the spelling of ROS: the last one of several, or the `first`.
+
+    A key without value does not count. The text is empty if there is none.
     """
-    for entry in reversed(gz_header.data):
-        if entry.key == key:
-            return frame_to_ros(entry.value[0]) if entry.value else ""
+    for entry in gz_header.data if first else reversed(gz_header.data):
+        if entry.key == key and entry.value:
+            return frame_to_ros(entry.value[0])
     return ""
 
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 import time
 from collections import Counter
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -18,10 +17,11 @@ from rclpy.publisher import Publisher
 from rclpy.qos import QoSPolicyKind
 from rclpy.qos_overriding_options import QoSOverridingOptions
 
-from gz_course.sim.gz.transport import MessageInfo
+from gz_course.sim.gz.transport import MessageInfo, SubscribeOptions
 from gz_course.sim.ros_gz_bridge.echo_filter import EchoAwarePublisher, EchoFilter
 from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, BridgeError, EntryStatus, ServiceEntry
 from gz_course.sim.ros_gz_bridge.qos_profile import PUBLISHER_POLICIES, qos
+from gz_course.sim.ros_gz_bridge.remarks import converted
 from gz_course.sim.ros_gz_bridge.type_pairs import TypePair
 from gz_course.sim.ros_gz_bridge.worker import HEAVY_BYTES, Worker
 
@@ -53,14 +53,9 @@ class Link:
         self.gz_topic = bridge._gz_name(row.entry.gz_topic)
         self._pair = row.pair
         self._status = row.status
-        self._hears_itself = False
         self._closed = False
         self._unreported: Counter[str] = Counter()
         self._said_at: float | None = None
-
-    def look_for_echoes(self, others: Iterable[Link]) -> None:
-        """Record whether a link of the other direction, one of `others`, uses the same Gazebo topic."""
-        self._hears_itself = any(other.gz_topic == self.gz_topic for other in others)
 
     def _count(self, field: str) -> None:
         with self._bridge._status_lock:
@@ -72,6 +67,12 @@ class Link:
             self._status.dropped += 1
             self._status.last_error = fault
             self._unreported[fault] += 1
+        self.say_unsaid()
+
+    def _note(self, ros_or_gz_type: str, topic: str, remarks: list[str]) -> None:
+        """Warn about what was sent on incompletely."""
+        with self._bridge._status_lock:
+            self._unreported.update(f"{ros_or_gz_type} on {topic} was bridged, but {text}" for text in remarks)
         self.say_unsaid()
 
     def say_unsaid(self, at_once: bool = False) -> None:
@@ -118,10 +119,12 @@ class GzToRos(Link):
         if not self.subscribed:
             self.subscribed = True
             gz_node, topic = self._bridge._gz_node, self.entry.gz_topic
+            # The bridge's own messages would be bridged back.
+            options = SubscribeOptions(ignore_local_messages=True)
             if self._bridge._threaded:
-                done = gz_node.subscribe_raw(topic, self._on_data, self._pair.gz_type)
+                done = gz_node.subscribe_raw(topic, self._on_data, self._pair.gz_type, options)
             else:
-                done = gz_node.subscribe(self._pair.gz_class, topic, self._on_message)
+                done = gz_node.subscribe(self._pair.gz_class, topic, self._on_message, options)
             if not done:
                 raise BridgeError([sentence(self.entry, f"cannot subscribe to the Gazebo topic {topic}")])
 
@@ -165,11 +168,8 @@ class GzToRos(Link):
     def _on_message(self, gz: Any) -> None:
         if not self.connected:
             return
-        if self._hears_itself and self._bridge._gz_echo.is_echo(self.gz_topic, gz):
-            self._count("echoes")
-            return
         try:
-            ros = self._pair.to_ros(gz)
+            ros, remarks = converted(self._pair.to_ros, gz)
             self._override_header(ros)
         except Exception as error:
             self._drop(self._pair.gz_type, self.entry.gz_topic, str(error))
@@ -181,6 +181,8 @@ class GzToRos(Link):
                 raise
             return
         self._count("gz_to_ros")
+        if remarks:
+            self._note(self._pair.gz_type, self.entry.gz_topic, remarks)
 
     def _override_header(self, ros: Any) -> None:
         header = getattr(ros, "header", None)
@@ -254,18 +256,15 @@ class RosToGz(Link):
             self._drop(pair.ros_type, self.entry.ros_topic, f"{fault}; only finite numbers can be commanded")
             return
         try:
-            gz = pair.to_gz(ros)
+            gz, remarks = converted(pair.to_gz, ros)
         except Exception as error:
             self._drop(pair.ros_type, self.entry.ros_topic, str(error))
             return
-        if self._hears_itself:
-            with self._bridge._gz_echo.publishing(self.gz_topic, gz):
-                taken = self._publisher.publish(gz)
-        else:
-            taken = self._publisher.publish(gz)
-        if taken:
+        if self._publisher.publish(gz):
             self._count("ros_to_gz")
             self._bridge._announce(pair)
+            if remarks:
+                self._note(pair.ros_type, self.entry.ros_topic, remarks)
         else:
             self._drop(pair.ros_type, self.entry.ros_topic, f"gz.transport refused it on {self.entry.gz_topic}")
 

@@ -24,7 +24,7 @@ _GZ_PREFIXES = ("ignition.msgs.", "gz_msgs.", "ign_msgs.")
 
 
 class ConversionError(ValueError):
-    """A message that the other side cannot hold, for instance because its stamp is out of range."""
+    """A message that cannot be converted, for instance because its parts contradict each other."""
 
 
 class UnknownPairError(ValueError):

@@ -11,6 +11,7 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING, Any
 
+from gz_course.sim.ros_gz_bridge.remarks import converted
 from gz_course.sim.ros_program.errors import UsageError, first_line
 from gz_course.sim.ros_program.parameters import read_parameters
 from gz_course.sim.ros_program.program import run
@@ -85,7 +86,7 @@ class ImageTopic:
         self._gz_node = gz_node
         self._topic = topic
         self._logger = node.get_logger()
-        self._dropping = False
+        self._said = ""
         self._connected = False
         self._publisher = node.create_publisher(self._pair.ros_class, topic, profile)
 
@@ -108,14 +109,18 @@ class ImageTopic:
 
     def _on_image(self, image: Any) -> None:
         try:
-            converted = self._pair.to_ros(image)
+            picture, remarks = converted(self._pair.to_ros, image)
         except ValueError as error:
-            if not self._dropping:
-                self._logger.warning(f"images on {self._topic} are not bridged: {error}")
-            self._dropping = True
+            self._warn(f"images on {self._topic} are not bridged: {error}")
             return
-        self._dropping = False
-        self._publisher.publish(converted)
+        self._warn(f"images on {self._topic} are bridged, but {remarks[0]}" if remarks else "")
+        self._publisher.publish(picture)
+
+    def _warn(self, sentence: str) -> None:
+        """Log a sentence that differs from that of the last image."""
+        if sentence and sentence != self._said:
+            self._logger.warning(sentence)
+        self._said = sentence
 
 
 def qos_profile(name: str) -> QoSProfile:

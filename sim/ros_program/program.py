@@ -34,7 +34,8 @@ def run(
     """Call `work(node, arguments without ROS's own)`; return its exit code, 2 for a UsageError, 1 for a Failure.
 
     A `lasting` program ends with `wait_for_signal` and exit code 0; another one is interrupted by SIGINT and SIGTERM
-    wherever it is, with exit code 130. A program that sends `images` gets a larger segment of shared memory.
+    wherever it is, with exit code 130. A program that sends `images` gets a larger segment of shared memory. Why a
+    lasting program could not start also stands in ROS's folder of logs (`last_words`).
     """
     argv = sys.argv if argv is None else [program, *argv]
     if {"-h", "--help", "-help"} & set(argv[1:]):
@@ -49,10 +50,14 @@ def run(
         for number in STOP_SIGNALS:
             signal.signal(number, _interrupt)
     try:
+        if lasting:
+            _remember(program, ())
         return _with_node(node_name, work, argv, images)
     except UsageError as error:
         for sentence in error.sentences:
             print(f"{program}: {sentence}", file=sys.stderr)
+        if lasting:
+            _remember(program, error.sentences)
         return 2
     except Failure as error:
         print(f"{program}: {error}", file=sys.stderr)
@@ -60,6 +65,26 @@ def run(
     except KeyboardInterrupt:
         print(f"{program}: interrupted", file=sys.stderr)
         return _INTERRUPTED
+
+
+def _remember(program: str, sentences: tuple[str, ...]) -> None:
+    """Leave the last words of the program, or forget those of the last start if there are none."""
+    import os
+    import time
+
+    from rclpy.logging import get_logging_directory
+
+    from gz_course.sim.gz.transport.environment import default_partition
+    from gz_course.sim.ros_program.last_words import LastWords, forget, leave
+
+    text = os.environ.get("ROS_DOMAIN_ID", "")
+    domain = int(text) if text.isdigit() else 0
+    words = LastWords(program, os.getpid(), time.time(), domain, default_partition(), sentences)
+    with contextlib.suppress(Exception):  # ROS finds no folder for logs
+        if sentences:
+            leave(get_logging_directory(), words)
+        else:
+            forget(get_logging_directory(), words.place)
 
 
 def _interrupt(*_: object) -> None:

@@ -15,9 +15,10 @@ import tempfile
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+from gz_course.sim.ros_program.abandoned_segments import FOLDER, remove_abandoned_segments
+
 SEGMENT_BYTES = 32 * 1024 * 1024
 """Size of the segment [byte], enough for five images of 1920x1080. The memory is used from the start."""
-_FOLDER = Path("/dev/shm")
 _SHARE = 8  # maximum share of a segment in the free shared memory: one eighth
 _SETTING = "FASTRTPS_DEFAULT_PROFILES_FILE"
 _NEWER_SETTING = "FASTDDS_DEFAULT_PROFILES_FILE"
@@ -53,7 +54,11 @@ _PROFILE = """\
 
 @contextlib.contextmanager
 def segment_for_images() -> Iterator[None]:
-    """Give nodes that are created inside a segment of `SEGMENT_BYTES`, if it fits and the user has not set up DDS."""
+    """Give nodes that are created inside a segment of `SEGMENT_BYTES`, if it fits and the user has not set up DDS.
+
+    The segments of killed processes are removed first.
+    """
+    remove_abandoned_segments()
     if _is_set_up(os.environ) or _free_bytes() < _SHARE * SEGMENT_BYTES:
         yield
         return
@@ -96,7 +101,7 @@ def _is_set_up(environment: Mapping[str, str]) -> bool:
 
 def _free_bytes() -> int:
     try:
-        free = os.statvfs(_FOLDER)
+        free = os.statvfs(FOLDER)
     except OSError:  # no shared memory: DDS uses the network
         return 0
     return free.f_bavail * free.f_frsize

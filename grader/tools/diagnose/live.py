@@ -71,6 +71,8 @@ def diagnose(seconds: float = 2.0) -> Diagnosis:
 def observe(seconds: float) -> System:
     """Observe both sides at the same time. Raises InfrastructureError as `diagnose` does."""
     from gz_course.grader.tools.diagnose import gz_side, ros_side
+    from gz_course.grader.tools.diagnose.distant import distant_processes
+    from gz_course.grader.tools.diagnose.ended import ended_programs
     from gz_course.grader.tools.diagnose.stopped import stopped_processes
     from gz_course.sim.ros2.errors import CommandError
 
@@ -89,4 +91,5 @@ def observe(seconds: float) -> System:
             found = gz.result()
         except OSError as error:
             raise InfrastructureError(f"Gazebo's transport cannot be used: {error}") from None
-    return System(ros, found, stopped_processes(ros.domain, found.partition))
+    place = (ros.domain, found.partition)
+    return System(ros, found, stopped_processes(*place), distant_processes(*place), ended_programs(*place))

@@ -14,6 +14,7 @@ from gz_course.grader.tools.diagnose.world_text import WorldText
 from gz_course.sim.did_you_mean import nearest_name
 from gz_course.sim.gz.transport import MessagePublisher, ServicePublisher
 from gz_course.sim.ros_gz_bridge.entry import BridgeEntry
+from gz_course.sim.ros_program.last_words import LastWords
 
 OTHER_TYPE = 0.8
 """Least similarity of a name that may be the intended one although its type differs."""
@@ -135,13 +136,25 @@ class StoppedProcess:
     command: str
 
 
+@dataclass(frozen=True)
+class DistantProcess:
+    """A process of this user in the same Gazebo partition and another ROS domain, with its command line."""
+
+    pid: int
+    command: str
+    domain: int
+
+
 @dataclass
 class System:
-    """Both sides at one moment, and the stopped processes that belong to them."""
+    """Both sides at one moment, and the processes that belong to them: stopped, in another domain, or ended."""
 
     ros: RosSide
     gz: GzSide
     stopped: list[StoppedProcess] = field(default_factory=list)
+    distant: list[DistantProcess] = field(default_factory=list)
+    ended: list[LastWords] = field(default_factory=list)
+    """Programs that ended at their start and were not started again since."""
 
     def __post_init__(self) -> None:
         self._bridge_nodes = {bridge.node for bridge in self.ros.bridges}

@@ -18,6 +18,7 @@ import mujoco
 from gz_course.sim.gz.sim.editing.editor import Editor
 from gz_course.sim.gz.sim.entities import Entities
 from gz_course.sim.gz.sim.errors import LOG, Diagnostics, SimError
+from gz_course.sim.gz.sim.physics import integrator, overlaps
 from gz_course.sim.gz.sim.physics.builder import build_spec
 from gz_course.sim.gz.sim.physics.compiler import compile_world
 from gz_course.sim.gz.sim.physics.instability import UNSTABLE, why_unstable
@@ -88,6 +89,7 @@ class World:
         self.systems.add_world((*description.plugins, *server_plugins))
         for model in description.models:
             self.systems.add(model)
+        self._told: set[frozenset[str]] = set()
         self._build()
         self.systems.bind()
         self.systems.start()
@@ -180,19 +182,43 @@ class World:
         """Return all warnings about this world, one sentence each."""
         return self.diagnostics.warnings
 
-    def _build(self) -> None:
-        """Build MuJoCo's model and its state at time zero; keep the present ones if MuJoCo rejects the model."""
+    def _build(self, before: tuple[mujoco.MjModel, mujoco.MjData] | None = None) -> None:
+        """Build MuJoCo's model, with its state at time zero or that of `before` where both name the same.
+
+        The present ones are kept if MuJoCo rejects the model.
+        """
         spec = build_spec(self.description, self.systems.servos, self.diagnostics)
         mujoco.set_mju_user_warning(lambda text: LOG.warning("physics: %s", text))
-        self.model, self.data = compile_world(spec, self.description, self.diagnostics)
-        mujoco.mj_forward(self.model, self.data)
-        self.truth.bind(self.model, self.data)
+        model, data = self._compile(spec, before)
+        found = overlaps.find(model, data)
+        if found:
+            self._tell_overlaps(found)
+            overlaps.add_pairs(spec, model, data, found)
+            model, data = self._compile(spec, before)
+        self.model, self.data = model, data
+        self._overlaps = overlaps.Overlaps(model, found)
+        self.truth.bind(model, data)
+
+    def _compile(
+        self, spec: mujoco.MjSpec, before: tuple[mujoco.MjModel, mujoco.MjData] | None
+    ) -> tuple[mujoco.MjModel, mujoco.MjData]:
+        model, data = compile_world(spec, self.description, self.diagnostics)
+        integrator.choose(model)
+        mujoco.mj_forward(model, data)
+        if before is not None:
+            copy_state(*before, model, data)
+        return model, data
+
+    def _tell_overlaps(self, found: list[overlaps.Overlap]) -> None:
+        for one, other, depth in found:
+            if frozenset((one, other)) not in self._told:
+                self._told.add(frozenset((one, other)))
+                text = f"'{one}' and '{other}' are {depth:.3g} m inside each other; they are pushed apart slowly, "
+                self.diagnostics.doubt("", f"{text}at {overlaps.FASTEST:g} m/s at most; place them apart")
 
     def rebuild(self) -> None:
         """Rebuild MuJoCo's model from the changed description; the state of unchanged entities is kept exactly."""
-        model, data = self.model, self.data
-        self._build()
-        copy_state(model, data, self.model, self.data)
+        self._build((self.model, self.data))
         self.systems.bind()
 
     def continue_from(self, sim_time_ns: int) -> None:
@@ -229,7 +255,7 @@ class World:
         while done < n:
             if waiting:
                 requests.serve()
-            model, data = self.model, self.data
+            model, data, colliding = self.model, self.data, self._overlaps
             pre_updates, post_updates = systems.pre_updates, systems.post_updates
             origin_ns, step_ns = self._origin_ns, self.description.step_size_ns
             requests.enter_step()
@@ -243,6 +269,8 @@ class World:
                     for pre_update in pre_updates:
                         pre_update(info)
                     advance(model, data)
+                    if colliding.active:
+                        colliding.relax(data)
                     truth.stale = True  # a system may have refreshed the poses before the step
                     for post_update in post_updates:
                         post_update(info)
@@ -293,6 +321,7 @@ class World:
             self.systems.bind()
             self.systems.connect_new()
         else:
+            self._overlaps.restart()
             mujoco.mj_resetData(self.model, self.data)
             mujoco.mj_forward(self.model, self.data)
 

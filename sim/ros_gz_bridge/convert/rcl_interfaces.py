@@ -11,7 +11,7 @@ from rcl_interfaces.msg import ParameterType, ParameterValue
 
 from gz_course.sim.gz.msgs.any_pb2 import Any as GzAny
 from gz_course.sim.ros_gz_bridge.fields import Part, message_pair
-from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError
+from gz_course.sim.ros_gz_bridge.remarks import remark
 
 _INT32 = (-(2**31), 2**31 - 1)
 # Gazebo type and its field, ROS type and its field.
@@ -51,13 +51,14 @@ def copy_value(ros: ParameterValue, gz: Any) -> bool:
 def _fill(gz: Any, ros: ParameterValue) -> None:
     if not fill_value(gz, ros):
         name = GzAny.ValueType.Name(gz.type) if gz.type in GzAny.ValueType.values() else f"number {gz.type}"
-        raise ConversionError(f"a ROS parameter cannot hold a gz.msgs.Any of type {name}")
+        remark(f"a ROS parameter cannot hold a gz.msgs.Any of type {name}; it is sent without a value")
 
 
 def _copy(ros: ParameterValue, gz: Any) -> None:
     if not copy_value(ros, gz):
         name = _ROS_NAMES.get(ros.type, f"number {ros.type}")
-        raise ConversionError(f"gz.msgs.Any cannot hold a parameter of type {name}")
+        gz.type = GzAny.NONE
+        remark(f"gz.msgs.Any cannot hold a parameter of type {name}; it is sent without a value")
 
 
 message_pair("rcl_interfaces/msg/ParameterValue", "gz.msgs.Any", Part(ParameterValue, _fill, _copy))

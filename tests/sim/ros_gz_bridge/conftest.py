@@ -118,6 +118,15 @@ def ros(ros_domain):
     running.close()
 
 
+@pytest.fixture
+def stage(ros, eventually):
+    from gz_course.tests.sim.ros_gz_bridge.stage import Stage
+
+    new = Stage(ros, eventually)
+    yield new
+    new.close()
+
+
 class Process:
     """A running parameter_bridge with its log lines as they arrive."""
 

@@ -81,7 +81,7 @@ def test_a_picture_without_a_ros_format_is_told(programs, bridge):
         image = picture(1)
         image.pixel_format_type = PixelFormatType.UNKNOWN_PIXEL_FORMAT
         publisher.publish(image)
-        program.wait_for("images on /odd are not bridged: the pixel format")
+        program.wait_for("images on /odd are bridged, but the pixel format")
 
 
 @pytest.mark.parametrize(

@@ -26,8 +26,6 @@ from gz_course.sim.gz.sim.spherical_coordinates import SphericalCoordinates
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.world import World
 
-DEEP_M = 0.01
-"""Penetration [m] of a new model into another one above which a warning is given."""
 SHORTEST_STEP_NS, LONGEST_STEP_NS = 1_000, 100_000_000
 SPAWNED_FILE = "<spawned>"
 
@@ -112,7 +110,6 @@ class Editor:
             self._world.rebuild()
             raise
         self._world.systems.check_sensors(model)
-        self._check_overlap(model)
 
     def _rebuild_or_undo(self, undo: Callable[[], object]) -> None:
         try:
@@ -134,20 +131,6 @@ class Editor:
         while f"{name}_{number}" in taken:
             number += 1
         return f"{name}_{number}"
-
-    def _check_overlap(self, model: Model) -> None:
-        """Warn if a model starts deep inside others, because the physics pushes it out."""
-        prefix = f"{model.name}::"
-        physics, data = self._world.model, self._world.data
-        for contact in data.contact[: data.ncon]:
-            names = [mujoco.mj_id2name(physics, mujoco.mjtObj.mjOBJ_GEOM, int(geom)) or "" for geom in contact.geom]
-            own = [each for each in names if each.startswith(prefix)]
-            if contact.dist < -DEEP_M and len(own) == 1:
-                other = next(each for each in names if not each.startswith(prefix)).split("::")[0]
-                self._world.diagnostics.warn(
-                    "", f"model '{model.name}' starts {-contact.dist:.3f} m inside '{other}', which pushes it out"
-                )
-                return
 
     def remove(self, name: str) -> None:
         """Remove a model or a light from the running world, with its systems and their topics.

@@ -18,6 +18,7 @@ import numpy as np
 
 from gz_course.sim.gz.sim.errors import Diagnostics
 from gz_course.sim.gz.sim.physics import recipe
+from gz_course.sim.gz.sim.physics.contact_pairs import add_pairs
 from gz_course.sim.gz.sim.physics.geoms import COLLISION_GROUP, SITE_GROUP, VISUAL_GROUP, VISUAL_SUFFIX, Geoms
 from gz_course.sim.gz.sim.physics.joints import (
     add_gearbox,
@@ -90,6 +91,9 @@ class _Builder:
         self._servos = servos
         self._diagnostics = diagnostics
         self._step = world.step_size_ns * 1e-9
+        self._bounces = any(
+            part.restitution > 0.0 for m in world.models for link in m.links for part in link.collisions
+        )
         self._spec = mujoco.MjSpec()
         self._geoms = Geoms(self._spec, world, diagnostics)
         self._links = link_map(world.models)
@@ -106,7 +110,7 @@ class _Builder:
             )
         if len(self._links) > _MANY_LINKS:
             spec.memory = _WORKSPACE[0] + _WORKSPACE[1] * len(self._links)
-        recipe.apply_options(spec, self._step, world.gravity)
+        recipe.apply_options(spec, self._step, world.gravity, bounces=self._bounces)
         spec.visual.headlight.ambient = world.ambient
         for light in world.lights:
             add_light(spec.worldbody, light.name, Pose(), light)
@@ -120,6 +124,7 @@ class _Builder:
         for model in world.models:
             if not model.static:
                 self._finish(model)
+        add_pairs(spec, self._geoms.shapes, self._step)
         return spec
 
     def _is_fixed(self, link: str) -> bool:
@@ -200,7 +205,7 @@ class _Builder:
 
     def _add_link(self, name: str, model: Model, link: Link) -> None:
         if model.static:
-            self._add_parts(self._spec.worldbody, model, link, model.pose * link.pose, wheel=False)
+            self._add_parts(self._spec.worldbody, model, link, model.pose * link.pose, wheel=None)
             return
         edge = self._tree.carried.get(name)
         pose = model.pose * link.pose
@@ -217,7 +222,9 @@ class _Builder:
         if edge is not None:
             wheels = (s for s in self._servos.get(model.name, []) if s.kind == WHEEL)
             servo = next((s for s in wheels if s.joint == edge.joint.name), None)
-            armature = recipe.wheel_armature(model.mass(), servo.sharing, servo.radius) if servo else 0.0
+            armature = 0.0
+            if servo is not None and self._bounces:
+                armature = recipe.wheel_armature(model.mass(), servo.sharing, servo.radius)
             add_joint(self._spec, body, edge.name, edge.joint, armature, self._step)
             if edge.joint.kind not in ("fixed", "gearbox"):
                 self._tree.built[edge.name] = edge.joint
@@ -225,7 +232,7 @@ class _Builder:
             body.add_freejoint(name=name + "#free")
         body.gravcomp = 0.0 if link.gravity else 1.0
         self._set_inertia(body, link)
-        self._add_parts(body, model, link, Pose(), wheel=servo is not None)
+        self._add_parts(body, model, link, Pose(), wheel=servo)
 
     @staticmethod
     def _set_inertia(body: mujoco.MjsBody, link: Link) -> None:
@@ -281,12 +288,20 @@ class _Builder:
             link = self._tree.carried[link].parent
         return link.rpartition("::")[0]
 
-    def _add_parts(self, body: mujoco.MjsBody, model: Model, link: Link, base: Pose, *, wheel: bool) -> None:
+    def _add_parts(
+        self, body: mujoco.MjsBody, model: Model, link: Link, base: Pose, *, wheel: JointServo | None
+    ) -> None:
         name = scoped(model, link.name)
         moving = not model.static
         for collision in link.collisions:
             self._geoms.add_collision(
-                body, f"{name}::{collision.name}", base, collision, wheel=wheel, moving=moving and not link.static
+                body,
+                f"{name}::{collision.name}",
+                base,
+                collision,
+                model,
+                wheel=wheel,
+                moving=moving and not link.static,
             )
         for visual in link.visuals:
             self._geoms.add_visual(body, f"{name}::{visual.name}", base, visual, moving=moving and not link.static)

@@ -11,8 +11,10 @@ import numpy as np
 
 from gz_course.sim.gz.sim.errors import Diagnostics
 from gz_course.sim.gz.sim.physics import recipe
+from gz_course.sim.gz.sim.physics.contact_pairs import Shape
+from gz_course.sim.gz.sim.physics.servos import JointServo
 from gz_course.sim.gz.sim.pose import Pose, Vector, quaternion_between
-from gz_course.sim.gz.sim.sdf.description import Collision, Geometry, TriangleMesh, Visual, WorldDescription
+from gz_course.sim.gz.sim.sdf.description import Collision, Geometry, Model, TriangleMesh, Visual, WorldDescription
 
 COLLISION_GROUP = 3
 VISUAL_GROUP = 1
@@ -20,6 +22,8 @@ SITE_GROUP = 5
 VISUAL_SUFFIX = "#visual"
 _UNDERGROUND = 1.0
 """Thickness [m] of the ground below the lowest point of a heightmap."""
+_TYRE = 0.002
+"""Length of the capsule of a tyre that skids, relative to its diameter."""
 _PLATE = 0.001
 """Half the thickness [m] of a plane that moves."""
 
@@ -53,17 +57,31 @@ class Geoms:
         self._ranks = recipe.friction_ranks(collision.mu for collision in collisions)
         self._meshes: dict[tuple[TriangleMesh, int], str] = {}
         self._fields: dict[TriangleMesh, str] = {}
+        self.shapes: list[Shape] = []
+        """The collisions that were added."""
 
     def add_collision(
-        self, body: mujoco.MjsBody, name: str, base: Pose, part: Collision, *, wheel: bool, moving: bool
+        self,
+        body: mujoco.MjsBody,
+        name: str,
+        base: Pose,
+        part: Collision,
+        model: Model,
+        *,
+        wheel: JointServo | None,
+        moving: bool,
     ) -> None:
-        """Add a collision; `base` is the pose of its link in the body.
+        """Add a collision of a model; `base` is the pose of its link in the body.
 
-        The cylinder of a driven `wheel` becomes an ellipsoid.
+        The cylinder of a driven `wheel` becomes an ellipsoid, or a short capsule if it skids (`contact_pairs`).
         """
         geometry = part.geometry
         pose = base * part.pose
-        if wheel and geometry.kind == "cylinder":
+        skids = wheel is not None and wheel.skids and geometry.kind == "cylinder"
+        if skids:
+            x, y, _ = geometry.size
+            geometry = Geometry("capsule", (x, y, _TYRE * x))
+        elif wheel is not None and geometry.kind == "cylinder":
             # An ellipsoid has one contact point, in the middle plane of the wheel, so that the wheel separation is
             # exact.
             geometry = Geometry("ellipsoid", geometry.size)
@@ -75,6 +93,7 @@ class Geoms:
             geom = self._add(body, each, pose, geometry, moving, piece=number)
             if geometry.kind == "plane" and not moving:
                 geom.size = (0.0, 0.0, 1.0)  # infinite
+            self.shapes.append(Shape(each, part, model, moving, skids))
             geom.group = COLLISION_GROUP
             geom.contype = geom.conaffinity = part.bitmask
             geom.solref = self._solref

@@ -8,6 +8,7 @@ Source: https://mujoco.readthedocs.io/en/stable/modeling.html (solver parameters
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 
 import mujoco
@@ -28,18 +29,22 @@ CONTACT_IMPEDANCE = (0.95, 0.97)
 radius, which is also the error of its speed; with MuJoCo's defaults it is up to 0.7 % at steps of 4 ms.
 """
 
-DISCRETE = True
-"""True for MuJoCo's `discrete` integrator. False selects `implicitfast` and a rotor inertia of the wheels, with the
-same results.
+SKIDDING = 0.1
+"""Friction of a tyre along its axle, relative to the friction in the direction in which it rolls, for robots that must
+skid to turn. A robot that is L long and W wide between its tyres turns with 1 / (1 + (SKIDDING L / W)^2) of the
+commanded rate.
 """
 
+BOUNCE_STEPS = 8.0
+"""Duration of a bounce, in steps."""
 
-def apply_options(spec: mujoco.MjSpec, step: float, gravity: tuple[float, float, float]) -> None:
-    """Set time step [s], gravity [m/s^2], integrator and friction cone of a spec."""
+
+def apply_options(spec: mujoco.MjSpec, step: float, gravity: tuple[float, float, float], *, bounces: bool) -> None:
+    """Set time step [s], gravity [m/s^2], integrator and friction cone of a spec; shapes of the world may bounce."""
     option = spec.option
     option.timestep = step
     option.gravity = gravity
-    option.integrator = mujoco.mjtIntegrator.mjINT_DISCRETE if DISCRETE else mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST if bounces else mujoco.mjtIntegrator.mjINT_DISCRETE
     option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     option.impratio = 10.0
     spec.compiler.degree = False
@@ -52,6 +57,26 @@ def contact_solref(step: float) -> tuple[float, float]:
     Less damping ejects bodies that start inside the ground; more damping lets light robots rock at steps of 4 ms.
     """
     return max(0.004, 2.0 * step), 2.0
+
+
+def bouncing_solref(step: float, restitution: float) -> tuple[float, float]:
+    """Return time constant [s] and damping ratio of a contact that returns a body with `restitution` times its speed.
+
+    The contact is a damped spring that cannot pull: the body leaves it when the force ends.
+    """
+    low, high = 1e-4, 1.0 / math.sqrt(2.0)
+    for _ in range(50):
+        ratio = (low + high) / 2.0
+        low, high = (ratio, high) if _returned(ratio) > restitution else (low, ratio)
+    frequency = math.pi / (BOUNCE_STEPS * step * math.sqrt(1.0 - ratio * ratio))
+    return 1.0 / (ratio * frequency), ratio
+
+
+def _returned(ratio: float) -> float:
+    """Return the fraction of its speed with which a body leaves a spring of this damping ratio."""
+    root = math.sqrt(1.0 - ratio * ratio)
+    angle = math.pi - math.atan2(2.0 * ratio * root, 1.0 - 2.0 * ratio * ratio)
+    return math.exp(-ratio / root * angle)
 
 
 def friction_ranks(coefficients: Iterable[float]) -> dict[float, int]:
@@ -85,5 +110,5 @@ def strongest_push(inverse_inertia: float) -> float:
 
 
 def wheel_armature(mass: float, sharing: int, radius: float) -> float:
-    """Return the rotor inertia [kg m^2] of a wheel joint; zero with the discrete integrator."""
-    return 0.0 if DISCRETE else mass / sharing * radius * radius
+    """Return the rotor inertia [kg m^2] of a wheel joint, which it needs with the integrator `implicitfast`."""
+    return mass / sharing * radius * radius

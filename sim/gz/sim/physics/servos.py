@@ -42,7 +42,7 @@ class JointServo:
     """A system's request to drive a joint.
 
     `joint` is the scoped name, `radius` [m] that of a wheel, `sharing` the number of driven wheels, `effort` [N m or N]
-    the maximum force, `axis` 1 the second axis of a joint that has two.
+    the maximum force, `axis` 1 the second axis of a joint that has two. A wheel that `skids` moves sideways in turns.
     """
 
     joint: str
@@ -51,6 +51,7 @@ class JointServo:
     sharing: int = 1
     effort: float = math.inf
     axis: int = 0
+    skids: bool = False
 
     @property
     def actuator(self) -> str:

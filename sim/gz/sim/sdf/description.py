@@ -52,7 +52,7 @@ class Geometry:
 @dataclass(eq=False)
 class Collision:
     """A collision shape: `mu` is the friction coefficient, `bitmask` decides which pairs can touch, `density` is in
-    [kg/m^3].
+    [kg/m^3]. Two shapes bounce off each other with the product of their `restitution`, each 0 to 1.
     """
 
     name: str
@@ -62,6 +62,7 @@ class Collision:
     mu: float = 1.0
     bitmask: int = 0xFF
     density: float = 1000.0
+    restitution: float = 0.0
 
 
 @dataclass(eq=False)

@@ -17,7 +17,7 @@ from gz_course.sim.gz.sim.sdf.frames import Scope
 from gz_course.sim.gz.sim.sdf.geometry import read_geometry
 from gz_course.sim.gz.sim.sdf.inertia import WATER, automatic_inertial, is_automatic, read_inertial
 from gz_course.sim.gz.sim.sdf.lights import read_light
-from gz_course.sim.gz.sim.sdf.materials import read_bitmask, read_colour, read_friction
+from gz_course.sim.gz.sim.sdf.materials import read_bitmask, read_colour, read_friction, read_restitution
 from gz_course.sim.gz.sim.sdf.resources import Resources
 from gz_course.sim.gz.sim.sdf.sensors import part_pose, read_sensor
 
@@ -66,7 +66,8 @@ def _add_shape(
     if part.tag == "collision":
         friction = read_friction(part, diagnostics)
         density = part.number("density", WATER)
-        link.collisions.append(Collision(part.name, pose, geometry, part, friction, read_bitmask(part), density))
+        surface = (friction, read_bitmask(part), density, read_restitution(part))
+        link.collisions.append(Collision(part.name, pose, geometry, part, *surface))
     else:
         link.visuals.append(Visual(part.name, pose, geometry, part, read_colour(part, diagnostics)))
 

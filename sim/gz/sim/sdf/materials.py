@@ -1,6 +1,6 @@
 """Reads `<material>` and `<surface>`: the colour of a `<visual>`, friction and bitmask of a `<collision>`.
 
-Warns about textures, direction-dependent friction and bouncing, which are not simulated.
+Warns about textures and direction-dependent friction, which are not simulated.
 
 Source: SDFormat, elements `<material>` and `<surface>`, http://sdformat.org/spec
 Source: gazebo-classic, media/materials/scripts/gazebo.material (names of scripts)
@@ -132,9 +132,6 @@ def read_friction(collision: Element, diagnostics: Diagnostics) -> float:
         raise (surface or collision).error(f"friction <mu> must not be negative, got {mu:g}")
     if surface is not None:
         _warn_of_directions(surface, mu, collision.name, diagnostics)
-    bounce = collision.find("surface/bounce")
-    if bounce is not None and bounce.number("restitution_coefficient", 0.0) > 0.0:
-        diagnostics.warn(bounce.where, f"<bounce> is not simulated, collision '{collision.name}' does not bounce")
     contact = collision.find("surface/contact")
     if contact is not None and contact.flag("collide_without_contact", False):
         text = f"<collide_without_contact> is not simulated, collision '{collision.name}' pushes what it touches"
@@ -154,9 +151,19 @@ def _warn_of_directions(surface: Element, mu: float, name: str, diagnostics: Dia
     for tag in ("slip1", "slip2"):
         slip = surface.number(tag, 0.0)
         if slip > 0.0 and math.isfinite(slip):
-            text = f"<{tag}> {slip:g} of collision '{name}' is ignored: wheels slip by their friction only"
+            text = f"<{tag}> {slip:g} of collision '{name}' is ignored: wheels that must skid to turn slide sideways "
+            text += "easily, all others slip by their friction only"
             diagnostics.warn(surface.where, text)
             break
+
+
+def read_restitution(collision: Element) -> float:
+    """Return the restitution coefficient of a `<collision>`, 0 to 1; its `<threshold>` is ignored, as in Gazebo."""
+    bounce = collision.find("surface/bounce")
+    value = bounce.number("restitution_coefficient", 0.0) if bounce is not None else 0.0
+    if not 0.0 <= value <= 1.0:
+        raise (bounce or collision).error(f"<restitution_coefficient> must be from 0 to 1, got {value:g}")
+    return value
 
 
 def read_bitmask(collision: Element) -> int:

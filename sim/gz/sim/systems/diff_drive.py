@@ -60,7 +60,8 @@ class DiffDrive(System):
         left, right = (_joints(model, plugin, side) for side in ("left_joint", "right_joint"))
         radius = _positive(plugin.element, "wheel_radius", 0.2)
         wheels = left + right
-        return [JointServo(joint, WHEEL, radius, len(wheels)) for joint in wheels]
+        skids = any(_skids(model, side, radius) for side in (left, right))
+        return [JointServo(joint, WHEEL, radius, len(wheels), skids=skids) for joint in wheels]
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
         scope = ModelScope(world, model, plugin, self.name)
@@ -84,14 +85,6 @@ class DiffDrive(System):
         if both:
             text = f"DiffDrive of model '{scope.full_name}' has joint '{both[0]}' on the left and on the right; "
             world.diagnostics.warn(element.where, f"{text}name another joint in one of them")
-        for side in self._sides:
-            if _skids(model, side, radius):
-                text = f"DiffDrive of model '{scope.full_name}' has wheels one behind the other: it must skid to turn; "
-                text += "friction is the same in all directions here (<slip1>, <slip2>, <mu2> have no effect), so it "
-                text += "turns with a third (as long as wide) to nine tenths of the commanded rate; "
-                text += "use two wheels and casters"
-                world.diagnostics.warn(element.where, text)
-                break
         self._odometry = WheelOdometry(separation, radius)
 
     @property

@@ -42,7 +42,7 @@ def fill_frames(gz: Any, ros: Any) -> None:
     Source: REP-105, https://www.ros.org/reps/rep-0105.html
     """
     fill_header(gz.header, ros.header)
-    ros.child_frame_id = header_value(gz.header, CHILD_FRAME_ID)
+    ros.child_frame_id = header_value(gz.header, CHILD_FRAME_ID, first=True)
 
 
 def copy_frames(ros: Any, gz: Any) -> None:

@@ -12,9 +12,11 @@ from typing import Any
 from rcl_interfaces.msg import Parameter, ParameterValue
 from ros_gz_interfaces.msg import ParamVec
 
+from gz_course.sim.gz.msgs.any_pb2 import Any as GzAny
 from gz_course.sim.ros_gz_bridge.convert.rcl_interfaces import copy_value, fill_value
 from gz_course.sim.ros_gz_bridge.fields import Part, message_pair
 from gz_course.sim.ros_gz_bridge.header import copy_header, fill_header
+from gz_course.sim.ros_gz_bridge.remarks import remark
 from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError
 
 _DEEPEST = 50  # protobuf does not parse more than 100 nested messages
@@ -37,7 +39,8 @@ def _nest(params: Iterable[tuple[str, ParameterValue]], gz: Any, depth: int = 0)
     own, children = _grouped(params, "child")
     for name, value in own:
         if not copy_value(value, gz.params[name]):
-            raise ConversionError(f"the parameter {name} is a list; gz.msgs.Param holds single values only")
+            gz.params[name].type = GzAny.NONE
+            remark(f"the parameter {name} is a list; gz.msgs.Param holds single values only, so it is sent without one")
     for child in children:
         _nest(child, gz.children.add(), depth + 1)
 

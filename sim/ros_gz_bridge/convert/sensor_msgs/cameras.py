@@ -15,6 +15,7 @@ from gz_course.sim.gz.msgs.camera_info_pb2 import CameraInfo as GzCameraInfo
 from gz_course.sim.gz.msgs.image_pb2 import PixelFormatType
 from gz_course.sim.ros_gz_bridge.fields import Part, message_pair
 from gz_course.sim.ros_gz_bridge.header import copy_header, fill_header
+from gz_course.sim.ros_gz_bridge.remarks import remark
 from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError
 
 ENCODINGS = {
@@ -40,12 +41,15 @@ _MODEL_NAMES = {number: name for name, number in _MODELS.items()}
 
 
 def _fill_image(gz: Any, ros: Image) -> None:
-    """Write pixels row by row; rows keep their padding."""
+    """Write pixels row by row; rows keep their padding. An image of another format has no pixels in ROS."""
     encoding = _FORMATS.get(gz.pixel_format_type)
     if encoding is None:
         number = gz.pixel_format_type
         name = PixelFormatType.Name(number) if number in PixelFormatType.values() else f"number {number}"
-        raise ConversionError(f"the pixel format {name} has no ROS encoding (known: {', '.join(ENCODINGS)})")
+        remark(f"the pixel format {name} has no ROS encoding (known: {', '.join(ENCODINGS)}), so the pixels are lost")
+        fill_header(gz.header, ros.header)
+        ros.height, ros.width = gz.height, gz.width
+        return
     step = gz.step or gz.width * ENCODINGS[encoding][1]
     data = gz.data  # every access copies the bytes
     _check_pixels(gz.width, gz.height, step, len(data), encoding)
@@ -57,9 +61,11 @@ def _fill_image(gz: Any, ros: Image) -> None:
 
 def _copy_image(ros: Image, gz: Any) -> None:
     if ros.encoding not in ENCODINGS:
-        raise ConversionError(
-            f"the encoding {ros.encoding!r} has no Gazebo pixel format (known: {', '.join(ENCODINGS)})"
-        )
+        known = ", ".join(ENCODINGS)
+        remark(f"the encoding {ros.encoding!r} has no Gazebo pixel format (known: {known}), so the pixels are lost")
+        copy_header(ros.header, gz.header)
+        gz.width, gz.height = ros.width, ros.height
+        return
     if ros.is_bigendian and ros.encoding in _WIDE:
         raise ConversionError(f"the numbers of a {ros.encoding} image are big-endian; Gazebo's are little-endian")
     _check_pixels(ros.width, ros.height, ros.step, len(ros.data), ros.encoding)
@@ -82,14 +88,16 @@ def _fill_info(gz: Any, ros: CameraInfo) -> None:
     """Write size, distortion, and the row-major matrices K (3, 3), R (3, 3) and P (3, 4).
 
     A matrix that Gazebo leaves out is zero, which in ROS means an uncalibrated camera. Binning and region stay unset.
+    A distortion of another model keeps its coefficients without its name.
     """
     fill_header(gz.header, ros.header)
     ros.width, ros.height = gz.width, gz.height
     if gz.HasField("distortion"):
         model = gz.distortion.model
-        if model not in _MODEL_NAMES:
-            raise ConversionError(f"the distortion model number {model} is unknown (known: {', '.join(_MODELS)})")
-        ros.distortion_model = _MODEL_NAMES[model]
+        if model in _MODEL_NAMES:
+            ros.distortion_model = _MODEL_NAMES[model]
+        else:
+            remark(f"the distortion model number {model} is unknown (known: {', '.join(_MODELS)}), so it has no name")
         ros.d = array("d", gz.distortion.k)
     ros.k = _matrix("K", gz.intrinsics.k, 9)
     ros.r = _matrix("R", gz.rectification_matrix, 9)
@@ -99,13 +107,13 @@ def _fill_info(gz: Any, ros: CameraInfo) -> None:
 def _copy_info(ros: CameraInfo, gz: Any) -> None:
     copy_header(ros.header, gz.header)
     gz.width, gz.height = ros.width, ros.height
-    if ros.distortion_model or len(ros.d):
-        if ros.distortion_model not in _MODELS:
-            raise ConversionError(
-                f"the distortion model {ros.distortion_model!r} is not Gazebo's (known: {', '.join(_MODELS)})"
-            )
+    gz.distortion.SetInParent()
+    if ros.distortion_model in _MODELS:
         gz.distortion.model = _MODELS[ros.distortion_model]
-        gz.distortion.k.extend(ros.d)
+    elif ros.distortion_model or len(ros.d):
+        known = ", ".join(_MODELS)
+        remark(f"the distortion model {ros.distortion_model!r} is not Gazebo's (known: {known}); plumb_bob was sent")
+    gz.distortion.k.extend(ros.d)
     gz.intrinsics.k.extend(ros.k)
     gz.rectification_matrix.extend(ros.r)
     gz.projection.p.extend(ros.p)

@@ -13,6 +13,7 @@ from sensor_msgs.msg import LaserScan, PointCloud2, PointField, Range
 
 from gz_course.sim.ros_gz_bridge.fields import Part, message_pair
 from gz_course.sim.ros_gz_bridge.header import copy_header, fill_header, fill_stamp, frame_to_ros
+from gz_course.sim.ros_gz_bridge.remarks import remark
 from gz_course.sim.ros_gz_bridge.type_pairs import ConversionError
 
 
@@ -20,7 +21,7 @@ def _fill_scan(gz: Any, ros: LaserScan) -> None:
     """Write the ranges [m] of the middle layer by angle [rad]; a ray without return is infinite on both sides.
 
     A Gazebo scan may have several layers, a ROS scan has one. The frame is in the field `frame` instead of the header.
-    The times between rays are unknown and stay 0.
+    The times between rays are unknown and stay 0. The angle of the last ray is `angle_max`.
     """
     ranges, intensities, count = gz.ranges, gz.intensities, gz.count
     start = (gz.vertical_count // 2) * count
@@ -37,6 +38,7 @@ def _fill_scan(gz: Any, ros: LaserScan) -> None:
 
 
 def _copy_scan(ros: LaserScan, gz: Any) -> None:
+    """Write all rays; the original leaves out the last one, because it counts the steps between the rays."""
     _copy_frame(ros, gz)
     gz.angle_min, gz.angle_max, gz.angle_step = ros.angle_min, ros.angle_max, ros.angle_increment
     gz.range_min, gz.range_max, gz.count = ros.range_min, ros.range_max, len(ros.ranges)
@@ -75,11 +77,8 @@ def _fill_cloud(gz: Any, ros: PointCloud2) -> None:
     """Write points as bytes, with the fields that describe them; Gazebo numbers types from 0, ROS from 1."""
     fill_header(gz.header, ros.header)
     for field in gz.field:
-        _check_type(field.name, field.datatype + 1)
-    ros.fields = [
-        PointField(name=field.name, offset=field.offset, datatype=field.datatype + 1, count=field.count)
-        for field in gz.field
-    ]
+        datatype = _known_type(field.name, field.datatype + 1)
+        ros.fields.append(PointField(name=field.name, offset=field.offset, datatype=datatype, count=field.count))
     ros.height, ros.width, ros.point_step, ros.row_step = gz.height, gz.width, gz.point_step, gz.row_step
     ros.is_bigendian, ros.is_dense = gz.is_bigendian, gz.is_dense
     ros.data.frombytes(gz.data)  # an assignment would copy the bytes three times
@@ -88,18 +87,19 @@ def _fill_cloud(gz: Any, ros: PointCloud2) -> None:
 def _copy_cloud(ros: PointCloud2, gz: Any) -> None:
     copy_header(ros.header, gz.header)
     for field in ros.fields:
-        _check_type(field.name, field.datatype)
-        gz.field.add(name=field.name, offset=field.offset, datatype=field.datatype - 1, count=field.count)
+        datatype = _known_type(field.name, field.datatype) - 1
+        gz.field.add(name=field.name, offset=field.offset, datatype=datatype, count=field.count)
     gz.height, gz.width, gz.point_step, gz.row_step = ros.height, ros.width, ros.point_step, ros.row_step
     gz.is_bigendian, gz.is_dense = ros.is_bigendian, ros.is_dense
     gz.data = bytes(ros.data)
 
 
-def _check_type(field: str, datatype: int) -> None:
-    if not PointField.INT8 <= datatype <= PointField.FLOAT64:
-        raise ConversionError(
-            f"the field {field!r} of the points is of the unknown type number {datatype} (ROS: 1 to 8)"
-        )
+def _known_type(field: str, datatype: int) -> int:
+    """Return ROS's number of a type, INT8 for an unknown one."""
+    if PointField.INT8 <= datatype <= PointField.FLOAT64:
+        return datatype
+    remark(f"the field {field!r} of the points is of the unknown type number {datatype} (ROS: 1 to 8); INT8 was sent")
+    return int(PointField.INT8)
 
 
 message_pair("sensor_msgs/msg/LaserScan", "gz.msgs.LaserScan", Part(LaserScan, _fill_scan, _copy_scan))

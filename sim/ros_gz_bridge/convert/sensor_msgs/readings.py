@@ -71,10 +71,10 @@ def _copy_joints(ros: msg.JointState, gz: Any) -> None:
 
 
 def _fill_battery(gz: Any, ros: msg.BatteryState) -> None:
-    """Write voltage [V], current [A], charge and capacity [Ah] and percentage [0..1]; unknown values are NaN."""
+    """Write voltage [V], current [A], charge and capacity [Ah], percentage [0..1]; NaN as design capacity."""
     fill_header(gz.header, ros.header)
     _copy_charge(gz, ros)
-    ros.temperature = ros.design_capacity = math.nan
+    ros.design_capacity = math.nan
     ros.power_supply_health = msg.BatteryState.POWER_SUPPLY_HEALTH_UNKNOWN
     ros.power_supply_technology = msg.BatteryState.POWER_SUPPLY_TECHNOLOGY_UNKNOWN
     ros.present = True

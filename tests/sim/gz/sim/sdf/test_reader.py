@@ -203,7 +203,6 @@ def body(inside: str, link: str = "") -> str:
     [
         (body("<friction><ode><mu>1</mu><mu2>0.5</mu2></ode></friction>"), "friction is the same in all directions"),
         (body("<friction><ode><mu>1</mu><mu2>1</mu2><slip1>0.1</slip1></ode></friction>"), "<slip1> 0.1"),
-        (body("<bounce><restitution_coefficient>0.5</restitution_coefficient></bounce>"), "does not bounce"),
         (body("<contact><collide_without_contact>1</collide_without_contact></contact>"), "pushes what it touches"),
         (body("", "<kinematic>true</kinematic>"), "not held kinematic"),
         (body("", "<velocity_decay><linear>0.1</linear></velocity_decay>"), "<velocity_decay>"),

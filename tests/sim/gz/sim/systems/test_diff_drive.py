@@ -20,6 +20,9 @@ from gz_course.sim.gz.sim.systems.diff_drive import DiffDrive
 from gz_course.sim.gz.sim.world import World
 from gz_course.sim.gz.transport import Node
 
+BALL = """<model name='ball'><pose>5 5 0.1 0 0 0</pose><link name='l'><collision name='c'>
+  <geometry><sphere><radius>0.1</radius></sphere></geometry>
+  <surface><bounce><restitution_coefficient>1</restitution_coefficient></bounce></surface></collision></link></model>"""
 ROBOT = (BUILT_IN_MODELS / "two_wheel_robot" / "model.sdf").read_text()
 
 
@@ -67,10 +70,8 @@ def test_steady_speed_is_what_was_commanded(linear: float, angular: float) -> No
     assert chord == pytest.approx(expected, rel=0.005, abs=2e-3)
 
 
-@pytest.mark.parametrize("integrator", [True, False])
-def test_both_integrators_of_the_recipe_drive_alike(integrator: bool, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gz_course.sim.gz.sim.physics.recipe.DISCRETE", integrator)
-    world = robot_world()
+def test_a_world_in_which_something_bounces_drives_alike() -> None:
+    world = robot_world(lambda robot: robot + BALL)
     drive_of(world).command(0.5, 0.1)
     world.step(4000)
     velocity = world.truth.velocity("two_wheel_robot")

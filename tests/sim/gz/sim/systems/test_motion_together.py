@@ -173,21 +173,3 @@ def test_a_robot_inside_another_model_has_the_topics_of_its_own_name(node: Node)
     node.advertise("/model/inner/cmd_vel", Twist).publish(command)
     made.step(1000)
     assert made.truth.velocity("outer").angular[2] == pytest.approx(0.2, rel=0.01)
-
-
-def test_wheels_one_behind_the_other_are_warned_about() -> None:
-    model = ROBOTS[2].sdf()
-    start = model.index("<link name='left_wheel'>")
-    wheels = model[start : model.index("</joint>", model.index("right_joint")) + len("</joint>")]
-    rear = wheels.replace("left_", "rear_left_").replace("right_", "rear_right_").replace("<pose>0 ", "<pose>-0.4 ")
-    four = model.replace(wheels, wheels + rear).replace(
-        "<left_joint>",
-        "<left_joint>rear_left_joint</left_joint><right_joint>rear_right_joint</right_joint><left_joint>",
-    )
-    made = world("<include><uri>model://ground_plane</uri></include>" + four)
-    assert ["one behind the other" in text for text in made.warnings] == [True]
-    twins = model.replace(wheels, wheels + rear.replace("<pose>-0.4 ", "<pose>0 ")).replace(
-        "<left_joint>",
-        "<left_joint>rear_left_joint</left_joint><right_joint>rear_right_joint</right_joint><left_joint>",
-    )
-    assert world(twins).warnings == []

@@ -61,9 +61,9 @@ def test_speed_is_the_mean_of_ten_steps(node: Node) -> None:
     heard = listen(node, made)
     made.step(100)
     assert len(heard) == 99  # the first step only initializes it
-    # Falling: v(n) = -g n dt, the mean of the last ten is that of 4.5 steps ago.
-    assert heard[-1].twist.linear.z == pytest.approx(-9.8 * 0.001 * (100 - 4.5), rel=1e-6)
-    assert heard[0].twist.linear.z == pytest.approx(-9.8 * 0.001 * 2, rel=1e-6)
+    # Falling: z = -g t^2 / 2, so the mean of the last ten steps is the speed five steps ago.
+    assert heard[-1].twist.linear.z == pytest.approx(-9.8 * 0.001 * (100 - 5), rel=1e-6)
+    assert heard[0].twist.linear.z == pytest.approx(-9.8 * 0.001 * 1.5, rel=1e-6)
 
 
 def test_who_comes_late_hears_the_same(node: Node) -> None:

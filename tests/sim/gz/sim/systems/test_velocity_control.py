@@ -66,7 +66,7 @@ def test_a_command_acts_one_step_later_and_holds() -> None:
 def test_without_a_command_gravity_acts_within_a_step_only() -> None:
     made = world(box())
     made.step(1000)
-    assert made.truth.pose("box").position[2] == pytest.approx(5.0 - 9.8e-3, rel=1e-4)
+    assert made.truth.pose("box").position[2] == pytest.approx(5.0 - 4.9e-3, rel=1e-5)
 
 
 def test_initial_velocities_come_again_after_a_reset() -> None:
