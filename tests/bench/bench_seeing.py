@@ -68,18 +68,20 @@ def sensor_of(world: World):
     return next(system for system in world.systems if system.name == "Sensors").sensors[0]
 
 
-def bare(world: World, *, normals: bool = False) -> Callable[[], None]:
+def bare(world: World) -> Callable[[], None]:
     """MuJoCo's ray cast alone, with the rays of the world's sensor."""
-    caster = sensor_of(world).caster
-    hits = caster.cast()
-    count, rays, origin = len(hits.rays), hits.rays.ravel().copy(), hits.origin.copy()
+    sensor = sensor_of(world)
+    position, quaternion = sensor.caster.pose()
+    axes = np.zeros(9)
+    mujoco.mju_quat2Mat(axes, quaternion)
+    rays = (sensor.directions @ axes.reshape(3, 3).T).ravel()
+    count = len(rays) // 3
     geom, distance = np.zeros(count, dtype=np.int32), np.zeros(count)
-    normal = np.zeros(3 * count) if normals else None
     groups = np.array((0, 1, 0, 0, 0, 0), dtype=np.uint8)
 
     def cast() -> None:
         mujoco.mj_multiRay(
-            world.model, world.data, origin, rays, groups, True, -1, geom, distance, normal, count, 100.0
+            world.model, world.data, position, rays, groups, True, -1, geom, distance, None, count, 100.0
         )  # fmt: skip
 
     return cast
