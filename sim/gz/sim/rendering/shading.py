@@ -18,11 +18,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gz_course.sim.gz.sim.physics.builder import VISUAL_GROUP
+from gz_course.sim.gz.sim.physics.geoms import looks_of
 from gz_course.sim.gz.sim.rendering.facing import Seen
 from gz_course.sim.gz.sim.rendering.geom_parts import geom_parts
 from gz_course.sim.gz.sim.rendering.lamps import Lamp, shade, shade_by_meshes
+from gz_course.sim.gz.sim.rendering.texturing import Textures
 from gz_course.sim.gz.sim.rendering.tile_caster import View, in_blocks
-from gz_course.sim.gz.sim.sdf.description import Light
+from gz_course.sim.gz.sim.sdf.description import Light, Visual
+from gz_course.sim.gz.sim.sdf.textures import Pixels
 
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
@@ -52,7 +55,12 @@ class Shader:
         self._specular = np.zeros((model.ngeom, 3), dtype=np.float32)
         self._shininess = np.full(model.ngeom, _SHININESS, dtype=np.float32)
         self._casts = np.ones(model.ngeom, dtype=np.bool_)
-        for geom, _, _, part in geom_parts(self._world, VISUAL_GROUP):
+        images: dict[int, Pixels] = {}
+        for geom, _, _, part, number in geom_parts(self._world, VISUAL_GROUP):
+            if isinstance(part, Visual):
+                texture = looks_of(part)[number].texture
+                if texture is not None:
+                    images[geom] = texture
             self._casts[geom] = part.element.flag("cast_shadows", True)
             for tag, table in (("emissive", self._emission), ("specular", self._specular)):
                 stated = part.element.find(f"material/{tag}")
@@ -61,6 +69,7 @@ class Shader:
             exponent = part.element.number("material/shininess", 0.0)
             if 0.0 < exponent < math.inf:
                 self._shininess[geom] = exponent
+        self._textures = Textures(model, images)
         self._described = self._lights()
 
     def _lights(self) -> dict[str, Light]:
@@ -116,6 +125,8 @@ class Shader:
             for lamp, strength in lights:
                 light += strength * lamp.diffuse[channel]
             np.multiply(light, colour[channel][shape], out=result[channel])
+        self._textures.colour(view, seen, result)
+        for channel in range(3):
             if emission[channel].any():
                 result[channel] += emission[channel][shape]
         if specular.any() and lights:
@@ -181,8 +192,9 @@ class Shader:
         return lamps
 
     def _solid(self, lamp: Lamp, view: View, casters: NDArray[np.intp]) -> NDArray[np.intp]:
-        """Leave out planes that face the lamp: what they could shadow is below them."""
+        """Leave out meshes, which MuJoCo traces, and planes that face the lamp: what they could shadow is below them."""
         surfaces = view.surfaces
+        casters = casters[~surfaces.traced[casters]]
         up = surfaces.rotation[casters][:, :, 2]
         if lamp.position is None:
             faces = up @ lamp.direction <= 0.0

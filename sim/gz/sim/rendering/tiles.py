@@ -32,6 +32,10 @@ class Tiles:
         self.rays = np.ascontiguousarray(np.moveaxis(directions[self._pixels], 2, 0), dtype=np.float32)
         """The directions (3, tiles, pixels) in the camera's frame."""
         self.near, self.far = self.cut(near), self.cut(far)
+        middle = index[height // 2]
+        ahead = directions[middle[width // 2]], directions[middle[max(width // 2 - 1, 0)]]
+        self.pixel = float(np.linalg.norm(ahead[0] - ahead[1])) or 1.0
+        """The angle [rad] between neighbouring pixels in the middle of the picture."""
         mean = directions[self._pixels].mean(axis=1)
         self.axes = mean / np.linalg.norm(mean, axis=1, keepdims=True)
         """The middle of each tile (tiles, 3), as a unit vector."""

@@ -69,7 +69,7 @@ class Viewpoint:
             return []
         return [
             geom
-            for geom, _, _, part in geom_parts(self._world, VISUAL_GROUP)
+            for geom, _, _, part, _ in geom_parts(self._world, VISUAL_GROUP)
             if not part.element.integer("visibility_flags", ALL_BITS) & self._mask
         ]
 

@@ -1,7 +1,7 @@
 """Packs a description together with the files it names, so that it can be read without these files.
 
 `gz.sim.sdf.assets` reads the result. URDF is converted to SDF, xacro is expanded, meshes and images are decoded; every
-`<uri>` of an `<include>`, `<mesh>` or `<heightmap>` becomes the address of an asset. Elements keep their file and line
+`<uri>` of an `<include>`, `<mesh>` or `<heightmap>` and every `<albedo_map>` becomes the address of an asset. Elements keep their file and line
 for messages, in the same attributes as those of an expanded xacro file.
 """
 
@@ -65,13 +65,19 @@ class _Packer:
                 self._resolve(element, self._mesh)
             elif element.tag == "heightmap":
                 self._resolve(element, self._image)
+            elif element.tag == "albedo_map":
+                self._name(element, element, self._texture)
             waiting.extend(element.children)
         root.attributes[FILES_ATTRIBUTE] = json.dumps(list(files))
         return self._keep(to_xml(root).encode(), "sdf")
 
     def _resolve(self, owner: Element, packed: Callable[[str, Element], str]) -> None:
         uri = owner.find("uri")
-        if uri is None or not uri.text:
+        if uri is not None:
+            self._name(uri, owner, packed)
+
+    def _name(self, uri: Element, owner: Element, packed: Callable[[str, Element], str]) -> None:
+        if not uri.text:
             return
         try:
             uri.text = packed(uri.text, owner)
@@ -99,6 +105,9 @@ class _Packer:
 
     def _image(self, uri: str, heightmap: Element) -> str:
         return self._keep(image_bytes(FILES.read_image(FILES.find_file(uri, heightmap.folder))), "grey")
+
+    def _texture(self, uri: str, material: Element) -> str:
+        return self._keep(image_bytes(FILES.read_texture(FILES.find_file(uri, material.folder))), "rgb")
 
     def _keep(self, data: bytes, kind: str) -> str:
         name = address(data, kind)

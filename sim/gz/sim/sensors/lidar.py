@@ -104,7 +104,7 @@ class Lidar(SensorBase):
         self.caster.bind()
         # The additional last entry is for rays without a hit (geom -1).
         self._retro = np.zeros(self.world.model.ngeom + 1)
-        for geom, _, _, part in geom_parts(self.world, self._group):
+        for geom, _, _, part, _ in geom_parts(self.world, self._group):
             self._retro[geom] = part.element.number("laser_retro", 0.0)
 
     def topic_suffix(self) -> str:
