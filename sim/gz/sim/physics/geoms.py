@@ -149,7 +149,8 @@ class Geoms:
         vertices, triangles, uv = surface.vertices.astype(np.float64), surface.triangles, surface.uv
         if piece < _WHOLE and surface.look is not None:
             rows = surface.look == _WHOLE - 1 - piece
-            used, triangles = np.unique(triangles[rows], return_inverse=True)
+            used, flat = np.unique(triangles[rows], return_inverse=True)
+            triangles = flat.astype(np.int32)
             vertices, uv = vertices[used], None if uv is None else uv[rows]
         if uv is not None:
             mesh.usertexcoord = uv.ravel()

@@ -4,6 +4,7 @@ The ray-casting cameras take the pixels of `tex_data`, too. A plane has its text
 the places that its file states; on every other shape it is repeated on the six sides of a cube round the shape.
 
 Source: https://mujoco.readthedocs.io/en/stable/XMLreference.html#asset-material, #asset-texture
+Source: OpenGL 4.6 specification, section 8.13 (selection of cube map images)
 """
 
 from __future__ import annotations
@@ -11,11 +12,27 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
-from gz_course.sim.gz.sim.sdf.description import Look, Visual
+from gz_course.sim.gz.sim.sdf.description import Look, Visual, WorldDescription
 from gz_course.sim.gz.sim.sdf.element import Element
 
 _MOST_SHININESS = 128.0
 """OpenGL's largest exponent, which is MuJoCo's shininess 1."""
+
+
+ZENITH, HORIZON = (0.30, 0.52, 0.85), (0.80, 0.88, 0.95)
+"""The colours of the sky above and at the horizon."""
+_SKY_SIDE = 64
+_TURNS = 1, -1, 2, 0, -1, 1
+"""Quarter turns of the sides of a cube that make the texture upright on its walls."""
+
+
+def add_sky(spec: mujoco.MjSpec, world: WorldDescription) -> None:
+    """Add what a viewer shows behind everything: the sky of `<scene>`, or its background colour."""
+    sky = world.element.find("scene/sky") is not None
+    made = spec.add_texture(name="sky", type=mujoco.mjtTexture.mjTEXTURE_SKYBOX)
+    made.builtin = mujoco.mjtBuiltin.mjBUILTIN_GRADIENT if sky else mujoco.mjtBuiltin.mjBUILTIN_FLAT
+    made.rgb1, made.rgb2 = (ZENITH, HORIZON) if sky else (world.background, world.background)
+    made.width = made.height = _SKY_SIDE if sky else 2
 
 
 class Materials:
@@ -55,12 +72,12 @@ class Materials:
             made.nchannel = 3
             side = pixels
             if not flat:
-                # The sides of a cube are squares below each other.
+                # The sides +x -x +y -y +z -z of a cube are squares below each other, each turned as OpenGL reads it.
                 rows, columns = pixels.shape[:2]
                 length = max(rows, columns)
                 square = np.arange(length)
                 side = pixels[square * rows // length][:, square * columns // length]
-                side = np.concatenate([side] * 6)
+                side = np.concatenate([np.rot90(side, turns) for turns in _TURNS])
             made.height, made.width = side.shape[:2]
             made.data = side.tobytes()
         return self._textures[key]

@@ -63,7 +63,7 @@ class CameraSensor(SensorBase):
         near = self.pinhole.near / along if self.near_hides else np.zeros(len(along))
         self._along = along
         tiles = Tiles(self.pinhole.width, self.pinhole.height, self.directions, near, self.pinhole.far / along)
-        mask = camera.integer("visibility_mask", ALL_BITS)
+        mask = camera.mask("visibility_mask", ALL_BITS)
         self.caster = TileCaster(world, description, tiles, mask)
         self.publishers: dict[str, Any] = {}
         self._info: Any = None

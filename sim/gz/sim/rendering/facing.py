@@ -28,8 +28,8 @@ class Seen:
         self.points: Values = self.rays * view.depth[block]
         # The last entry is for rays without a hit, whose code is -1.
         table = np.zeros((3, 8 * len(surfaces.ids) + 1), np.float32)
-        for face in range(6):
-            table[:, face:-1:8] = (surfaces.rotation[:, :, face // 2] * (1.0 if face % 2 else -1.0)).T
+        for side in range(6):
+            table[:, side:-1:8] = (surfaces.rotation[:, :, side // 2] * (1.0 if side % 2 else -1.0)).T
         self._table = table
         face = self.code & 7
         self._round: Places = np.nonzero((face >= ROUND) & (self.code >= 0))  # type: ignore[assignment]

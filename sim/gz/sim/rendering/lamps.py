@@ -71,7 +71,7 @@ class Lamp:
             x, y, z = self.direction.astype(np.float32)
             cosine = -(toward[0] * x + toward[1] * y + toward[2] * z)
             inside = np.clip((cosine - np.float32(outer)) / np.float32(max(inner - outer, 1e-6)), 0.0, 1.0)
-            strength *= inside ** np.float32(falloff) if falloff != 1.0 else inside
+            strength *= np.where(inside > 0.0, inside ** np.float32(falloff), np.float32(0.0))
 
 
 def shade(

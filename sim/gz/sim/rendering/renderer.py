@@ -92,6 +92,7 @@ class GlRenderer:
         visual.offheight = max(visual.offheight, pinhole.height)
         self._context.make_current()
         self._scene = mujoco.MjvScene(model, maxgeom=model.ngeom + 100)
+        self._scene.flags[mujoco.mjtRndFlag.mjRND_SKYBOX] = 0  # `Shader.background` fills what is empty
         self._drawing = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100.value)
         mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, self._drawing)
 
@@ -122,7 +123,9 @@ class GlRenderer:
         mujoco.mjr_readPixels(self._pixels, self._depth, self._rectangle, self._drawing)
         colours = np.flipud(self._pixels).reshape(-1, 3).T.astype(np.float32) / np.float32(255.0)
         empty = np.flatnonzero(np.flipud(self._depth).ravel() >= 1.0)
-        colours[:, empty] = self._shader.background(axes.reshape(3, 3) @ self._camera.directions[empty].T)
+        colours[:, empty] = self._shader.background(
+            (axes.reshape(3, 3) @ self._camera.directions[empty].T).astype(np.float32)
+        )
         return colours
 
 

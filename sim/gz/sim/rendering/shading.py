@@ -11,7 +11,7 @@ Source: Blinn's highlights, https://en.wikipedia.org/wiki/Blinn%E2%80%93Phong_re
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import mujoco
 import numpy as np
@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from gz_course.sim.gz.sim.physics.builder import VISUAL_GROUP
 from gz_course.sim.gz.sim.physics.geoms import looks_of
+from gz_course.sim.gz.sim.physics.materials import HORIZON, ZENITH
 from gz_course.sim.gz.sim.rendering.facing import Seen
 from gz_course.sim.gz.sim.rendering.geom_parts import geom_parts
 from gz_course.sim.gz.sim.rendering.lamps import Lamp, shade, shade_by_meshes
@@ -32,8 +33,6 @@ if TYPE_CHECKING:
 
 Colours = NDArray[np.float32]
 
-_ZENITH = np.array((0.30, 0.52, 0.85))
-_HORIZON = np.array((0.80, 0.88, 0.95))
 _SHININESS = 32.0
 """The exponent of highlights on materials that state none."""
 
@@ -142,8 +141,9 @@ class Shader:
     def _add_highlights(
         self, view: View, seen: Seen, specular: Colours, lights: list[tuple[Lamp, Colours]], result: Colours
     ) -> None:
-        places = np.nonzero(specular.any(axis=0)[seen.code >> 3])
-        at = (slice(None), *places)
+        shiny: NDArray[np.bool_] = np.any(specular, axis=0)
+        places = np.nonzero(shiny[seen.code >> 3])
+        at: Any = (slice(None), *places)
         shape = seen.code[places] >> 3
         exponent = self._shininess[view.surfaces.ids[shape]]
         there, facing, rays = seen.points[at], seen.normal[at], seen.rays[at]
@@ -161,7 +161,8 @@ class Shader:
         if not self._sky:
             return np.repeat(self._background[:, None], rays.shape[1], axis=1)
         height = np.sqrt(np.clip(rays[2], 0.0, 1.0))
-        return (_HORIZON[:, None] + height * (_ZENITH - _HORIZON)[:, None]).astype(np.float32)
+        low, high = np.array(HORIZON), np.array(ZENITH)
+        return (low[:, None] + height * (high - low)[:, None]).astype(np.float32)
 
     def _lamps(self, view: View) -> list[Lamp]:
         """Return the lights that are on, in the camera's frame."""
@@ -192,7 +193,7 @@ class Shader:
         return lamps
 
     def _solid(self, lamp: Lamp, view: View, casters: NDArray[np.intp]) -> NDArray[np.intp]:
-        """Leave out meshes, which MuJoCo traces, and planes that face the lamp: what they could shadow is below them."""
+        """Leave out meshes, which MuJoCo traces, and planes that face the lamp: they shadow only what is below them."""
         surfaces = view.surfaces
         casters = casters[~surfaces.traced[casters]]
         up = surfaces.rotation[casters][:, :, 2]

@@ -2,8 +2,8 @@
 
 Every shape but the plane is convex, so that a ray is inside of it between two distances. All coordinates are in the
 frame of the shape; a point or direction is three arrays x, y, z that broadcast against each other and against `size`,
-MuJoCo's half sizes. Distances are in [m] for directions of length 1. For a ray that misses, `entry <= exit` is false: the
-entry is behind the exit, or both are NaN. The caller silences NumPy's warnings about that.
+MuJoCo's half sizes. Distances are in [m] for directions of length 1. For a ray that misses, `entry <= exit` is false:
+the entry is behind the exit, or both are NaN. The caller silences NumPy's warnings about that.
 
 Source: https://en.wikipedia.org/wiki/Slab_method
 Source: https://mujoco.readthedocs.io/en/stable/XMLreference.html#body-geom-size (meaning of the sizes)
@@ -69,7 +69,7 @@ def _ellipsoid(origin: Triple, direction: Triple, size: Triple) -> Interval:
     square = dx * dx + dy * dy + dz * dz
     shift = -(ox * dx + oy * dy + oz * dz) / square
     ox, oy, oz = ox + shift * dx, oy + shift * dy, oz + shift * dz
-    half = np.sqrt((1.0 - (ox * ox + oy * oy + oz * oz)) / square)
+    half: Values = np.sqrt((1.0 - (ox * ox + oy * oy + oz * oz)) / square)
     return shift - half, shift + half, ROUND
 
 
@@ -79,7 +79,7 @@ def _tube(origin: Triple, direction: Triple, radius: Values) -> tuple[Values, Va
     square = dx * dx + dy * dy + _TINY
     shift = -(ox * dx + oy * dy) / square
     ox, oy = ox + shift * dx, oy + shift * dy
-    half = np.sqrt((radius * radius - (ox * ox + oy * oy)) / square)
+    half: Values = np.sqrt((radius * radius - (ox * ox + oy * oy)) / square)
     return shift - half, shift + half
 
 

@@ -79,7 +79,7 @@ class Surfaces:
     def met_by(self, bundles: Bundles, of: Indices, groups: Bundles | None = None) -> tuple[Indices, Indices]:
         """Return the pairs of bundles and shapes that may meet, sorted by bundle; `of` are the shapes to look at.
 
-        No pair is missing; some do not meet. `groups` are bundles that enclose each GROUP of `bundles`, looked at first.
+        No pair is missing; some do not meet. `groups` are bundles round each GROUP of `bundles`, looked at first.
         """
         coarse = bundles if groups is None else groups
         if not len(of) or not len(bundles.start):

@@ -11,6 +11,7 @@ Source: https://en.wikipedia.org/wiki/Mipmap
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -82,8 +83,7 @@ class Textures:
             geom = int(view.surfaces.ids[index]) if index >= 0 else -1
             if geom not in self._of:
                 continue
-            places = np.nonzero(shape == index)
-            at = (slice(None), *places)
+            at: Any = (slice(None), *np.nonzero(shape == index))
             points = seen.points[at]
             surfaces = view.surfaces
             local = surfaces.inverse[index] @ (points - surfaces.position[index, :, None].astype(np.float32))
@@ -173,9 +173,7 @@ def _in_mesh(model: mujoco.MjModel, geom: int, points: NDArray[np.float64]) -> t
     return found[:, 0].astype(np.float32), found[:, 1].astype(np.float32)
 
 
-def _close(
-    model: mujoco.MjModel, mesh: int, points: NDArray[np.float64]
-) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def _close(model: mujoco.MjModel, mesh: int, points: NDArray[np.float64]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Return pairs of a point and a triangle whose bounding box in MuJoCo's tree of the mesh is next to it."""
     start, count = int(model.mesh_bvhadr[mesh]), int(model.mesh_bvhnum[mesh])
     box = model.bvh_aabb[start : start + count]

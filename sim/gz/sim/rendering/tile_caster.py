@@ -167,7 +167,8 @@ def _cones_round(tiles: Tiles, group: Indices, reach: float) -> Bundles:
     count = int(group[-1]) + 1
     axes = np.stack([np.bincount(group, tiles.axes[:, axis]) for axis in range(3)], axis=1)
     length = np.linalg.norm(axes, axis=1, keepdims=True)
-    axes = np.where(length > 1e-6, axes / np.maximum(length, 1e-6), (1.0, 0.0, 0.0))
+    ahead = np.array((1.0, 0.0, 0.0))
+    axes = np.where(length > 1e-6, axes / np.maximum(length, 1e-6), ahead).astype(np.float64)
     away = np.arccos(np.clip(np.einsum("ti,ti->t", axes[group], tiles.axes), -1.0, 1.0)) + tiles.angles
     angles = np.zeros(count)
     np.maximum.at(angles, group, away)
@@ -177,11 +178,11 @@ def _cones_round(tiles: Tiles, group: Indices, reach: float) -> Bundles:
     return Bundles(start, axes, radius, np.tan(wide), np.full(count, reach))
 
 
-def turned(inverse: NDArray[np.float32], vectors: NDArray[np.float32]) -> Triple:
+def turned(inverse: NDArray[np.float32], vectors: NDArray[np.float32] | Triple) -> Triple:
     """Return vectors (3, k, p) in other frames, `inverse` (k, 3, 3)."""
     x, y, z = vectors
     row = inverse[..., None]
-    return tuple(row[:, i, 0] * x + row[:, i, 1] * y + row[:, i, 2] * z for i in range(3))  # type: ignore[return-value]
+    return tuple(row[:, i, 0] * x + row[:, i, 1] * y + row[:, i, 2] * z for i in range(3))
 
 
 def spread(values: NDArray[np.float32]) -> Triple:

@@ -70,7 +70,7 @@ class Viewpoint:
         return [
             geom
             for geom, _, _, part, _ in geom_parts(self._world, VISUAL_GROUP)
-            if not part.element.integer("visibility_flags", ALL_BITS) & self._mask
+            if not part.element.mask("visibility_flags", ALL_BITS) & self._mask
         ]
 
     def pose(self) -> tuple[Floats, Floats]:

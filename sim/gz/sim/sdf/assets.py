@@ -23,8 +23,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gz_course.sim.gz.sim.errors import ResourceError
-from gz_course.sim.gz.sim.sdf.heightmap import MOST_PIXELS
 from gz_course.sim.gz.sim.sdf.description import Look
+from gz_course.sim.gz.sim.sdf.heightmap import MOST_PIXELS
 from gz_course.sim.gz.sim.sdf.meshes import Mesh
 from gz_course.sim.gz.sim.sdf.textures import LARGEST, Pixels
 
@@ -127,7 +127,7 @@ class Assets:
         look = taken.numbers("<i4", (faces,)) if many else None
         looks = tuple(taken.look() for _ in range(min(many, faces)))
         taken.end()
-        if not faces or many > faces or (look is not None and not (0 <= look.min() and look.max() < many)):
+        if not faces or many > faces or (look is not None and not (look.min() >= 0 and look.max() < many)):
             raise ResourceError("a mesh was handed over in pieces that do not fit")
         if not np.all(np.abs(vertices) <= _LARGEST) or not (uv is None or np.all(np.abs(uv) <= _LARGEST)):
             raise ResourceError(f"a mesh has a vertex that is not finite or is farther than {_LARGEST:g} away")

@@ -58,7 +58,8 @@ def triangles_of(path: Path, data: bytes, notes: list[str]) -> list[Part]:
             ]
         else:
             left = [_MOST_INSTANCES]
-            parts = [part for node in document.scene.nodes for part in _walk(path, node, np.eye(4), "", 0, left, look_of)]
+            walks = (_walk(path, node, np.eye(4), "", 0, left, look_of) for node in document.scene.nodes)
+            parts = [part for walk in walks for part in walk]
         scale = document.assetInfo.unitmeter or 1.0
     except (ResourceError, MemoryError):
         raise

@@ -1,9 +1,9 @@
-"""Reads mesh files as vertices and triangles: STL (binary and ASCII), OBJ and, with the extra `collada`, COLLADA.
+"""Reads mesh files as vertices, triangles and looks: STL (binary and ASCII), OBJ, glTF and, with the extra `collada`,
+COLLADA.
 
 `<scale>` is not applied here, so that a file is read once for all its sizes.
 
 Source: https://www.fabbers.com/tech/STL_Format
-Source: https://paulbourke.net/dataformats/obj/
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ from gz_course.sim.gz.sim.sdf.description import Look
 Vertices = NDArray[np.float64]
 Triangles = NDArray[np.int32]
 
-READABLE = (".stl", ".obj", ".dae")
-_UNREAD = (".glb", ".gltf", ".ply", ".fbx", ".3ds", ".blend", ".msh", ".off", ".x3d", ".wrl")
-_MOST_BYTES = 256 * 1024 * 1024
+READABLE = (".stl", ".obj", ".dae", ".gltf", ".glb")
+_UNREAD = (".ply", ".fbx", ".3ds", ".blend", ".msh", ".off", ".x3d", ".wrl")
+MOST_BYTES = 256 * 1024 * 1024
 PLAIN = Look((0.7, 0.7, 0.7, 1.0))
 """The look of a part of a mesh that has none, beside parts that have one."""
 _LARGEST = 1e9  # larger coordinates come from damaged files, and their squares overflow a float32
@@ -39,8 +39,8 @@ class Mesh:
     """A triangle surface: `vertices` (n, 3) float64 [m] as in the file, unscaled; `triangles` (m, 3) int32 vertex
     indices, counter-clockwise seen from outside. Both are read-only.
 
-    `uv` (m, 3, 2), `looks` and `look` (m,) are those of `gz.sim.sdf.description.TriangleMesh`; a file without colours has
-    none. `notes` are sentences about what was left out.
+    `uv` (m, 3, 2), `looks` and `look` (m,) are those of `gz.sim.sdf.description.TriangleMesh`; a file without colours
+    has none. `notes` are sentences about what was left out.
     """
 
     vertices: Vertices
@@ -63,11 +63,16 @@ class Part:
     uv: list[tuple[tuple[float, float], ...]] | NDArray[np.float64] | None = None
     look: Look | None = None
 
+    def add(self, triangles: Iterable[tuple[int, int, int]]) -> None:
+        """Add triangles to a part whose triangles are a list."""
+        assert isinstance(self.triangles, list)
+        self.triangles.extend(triangles)
+
 
 def read_mesh(path: Path, submesh: str = "", center: bool = False) -> Mesh:
     """Read a mesh file, whose format is that of its suffix.
 
-    `submesh` selects the part of that name (OBJ: object or group; COLLADA: node or geometry; ASCII STL: solid).
+    `submesh` selects the part of that name (OBJ: object or group; COLLADA, glTF: node or geometry; ASCII STL: solid).
     `center` moves the selection so that the middle of its bounding box is the origin. Raises `ResourceError` with the
     file and, for text formats, the line if the file is missing, damaged, too large, empty or of another format.
     """
@@ -85,6 +90,10 @@ def read_mesh(path: Path, submesh: str = "", center: bool = False) -> Mesh:
         from gz_course.sim.gz.sim.sdf.obj_mesh import read_obj
 
         vertices, parts = read_obj(path, data, notes)
+    elif kind in (".gltf", ".glb"):
+        from gz_course.sim.gz.sim.sdf.gltf_mesh import read_gltf
+
+        vertices, parts = read_gltf(path, data, notes)
     else:
         vertices, parts = _stl(path, data)
     if submesh:
@@ -104,8 +113,8 @@ def _bytes_of(path: Path) -> bytes:
             hint = did_you_mean(path.name, siblings, listing="meshes in that folder are")
             raise ResourceError(f"{path}: there is no such mesh file{hint}")
         size = path.stat().st_size
-        if size > _MOST_BYTES:
-            raise ResourceError(f"{path}: the mesh has {size // 2**20} MiB, at most {_MOST_BYTES // 2**20} are read")
+        if size > MOST_BYTES:
+            raise ResourceError(f"{path}: the mesh has {size // 2**20} MiB, at most {MOST_BYTES // 2**20} are read")
         return path.read_bytes()
     except OSError as error:
         if isinstance(error, ResourceError):
@@ -217,7 +226,7 @@ def _ascii_stl(path: Path, data: bytes) -> tuple[Vertices, list[Part]]:
         elif word == "endloop":
             if loop is None or len(loop) < 3:
                 raise ResourceError(f"{path}:{number}: a loop needs three vertices, got {len(loop or ())}")
-            parts[-1].triangles.extend(fan(loop))
+            parts[-1].add(fan(loop))
             loop = None
         elif word == "endsolid":
             ended = True

@@ -13,7 +13,6 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
-
 from gz_course.sim.gz.sim.errors import ResourceError
 from gz_course.sim.gz.sim.sdf.description import Look
 from gz_course.sim.gz.sim.sdf.meshes import Part, Vertices, fan, numbers, rows_of
@@ -97,9 +96,8 @@ def _add_face(
         corners.append(index)
         if rest and places:
             uv.append(_at(rest.partition("/")[0], places))
-    assert isinstance(part.triangles, list)
     before = len(part.triangles)
-    part.triangles.extend(fan(corners))
+    part.add(fan(corners))
     if len(uv) == len(corners) or part.uv is not None:
         if part.uv is None:
             part.uv = [((0.0, 0.0),) * 3] * before

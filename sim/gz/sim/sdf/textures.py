@@ -22,7 +22,7 @@ Pixels = NDArray[np.uint8]
 
 LARGEST = 1024
 """The longest side of a texture in memory [px]; larger images are reduced to it."""
-_MOST_PIXELS = 64_000_000
+_MOST_PIXELS = 36_000_000
 _MOST_BYTES = 64 << 20
 _FORMATS = ("PNG", "JPEG")
 _ENDINGS = (".png", ".jpg", ".jpeg")

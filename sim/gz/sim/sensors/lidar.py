@@ -94,7 +94,7 @@ class Lidar(SensorBase):
         self._group = VISUAL_GROUP if description.kind.startswith("gpu") else COLLISION_GROUP
         # Gazebo's renderer omits what is inside this cube around the sensor.
         near = self.range_min / math.sqrt(3.0) / np.max(np.abs(self.directions), axis=1)
-        mask = holder.integer("visibility_mask", ALL_BITS)
+        mask = holder.mask("visibility_mask", ALL_BITS)
         self.caster = RayCaster(world, description, self.directions, self._group, near, self.range_max, mask)
         self._scan: Any = None
         self._points: Any = None
