@@ -40,7 +40,8 @@ def read_gltf(path: Path, data: bytes, notes: list[str]) -> tuple[Vertices, list
     Raises ResourceError for a damaged file.
     """
     try:
-        return _File(path, data, notes).parts()
+        with np.errstate(all="ignore"):  # what is not finite is refused in the end
+            return _File(path, data, notes).parts()
     except ResourceError:
         raise
     except (ValueError, KeyError, IndexError, TypeError, AttributeError, OverflowError, RecursionError) as error:
@@ -117,7 +118,10 @@ class _File:
         attributes = primitive["attributes"]
         corners = self._accessor(attributes["POSITION"], 3).astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
         if "indices" in primitive:
-            indices = self._accessor(primitive["indices"], 1).reshape(-1).astype(np.int64)
+            found = self._accessor(primitive["indices"], 1)
+            if found.dtype.kind != "u":
+                raise ResourceError(f"{self._path}: indices of the glTF file are no whole numbers from 0")
+            indices = found.reshape(-1).astype(np.int64)
         else:
             indices = np.arange(len(corners))
         triangles = indices[: len(indices) // 3 * 3].reshape(-1, 3)
