@@ -30,6 +30,7 @@ from gz_course.sim.gz.sim.physics.joints import (
     link_map,
 )
 from gz_course.sim.gz.sim.physics.lights import add_light
+from gz_course.sim.gz.sim.physics.materials import add_sky
 from gz_course.sim.gz.sim.physics.servos import WHEEL, JointServo, add_servo
 from gz_course.sim.gz.sim.pose import Pose, multiply
 from gz_course.sim.gz.sim.sdf.description import Joint, Link, Model, WorldDescription
@@ -112,6 +113,7 @@ class _Builder:
             spec.memory = _WORKSPACE[0] + _WORKSPACE[1] * len(self._links)
         recipe.apply_options(spec, self._step, world.gravity, bounces=self._bounces)
         spec.visual.headlight.ambient = world.ambient
+        add_sky(spec, world)
         for light in world.lights:
             add_light(spec.worldbody, light.name, Pose(), light)
         self._choose_tree()

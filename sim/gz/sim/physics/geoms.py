@@ -1,7 +1,8 @@
 """Adds the shapes of links as MuJoCo geoms: collisions in group 3, visuals in group 1.
 
 Names: collision `model::link::name`, visual `model::link::name#visual`. A collision that is not convex becomes several
-geoms: the first has the name, the others are `name#1`, `name#2`, ... Equal meshes share one MuJoCo mesh.
+geoms: the first has the name, the others are `name#1`, `name#2`, ... So does a visible mesh that has several looks.
+Equal meshes share one MuJoCo mesh, equal textures one MuJoCo texture.
 """
 
 from __future__ import annotations
@@ -12,14 +13,26 @@ import numpy as np
 from gz_course.sim.gz.sim.errors import Diagnostics
 from gz_course.sim.gz.sim.physics import recipe
 from gz_course.sim.gz.sim.physics.contact_pairs import Shape
+from gz_course.sim.gz.sim.physics.materials import Materials
 from gz_course.sim.gz.sim.physics.servos import JointServo
 from gz_course.sim.gz.sim.pose import Pose, Vector, quaternion_between
-from gz_course.sim.gz.sim.sdf.description import Collision, Geometry, Model, TriangleMesh, Visual, WorldDescription
+from gz_course.sim.gz.sim.sdf.description import (
+    Collision,
+    Geometry,
+    Look,
+    Model,
+    TriangleMesh,
+    Visual,
+    WorldDescription,
+)
+from gz_course.sim.gz.sim.sdf.materials import GREY
 
 COLLISION_GROUP = 3
 VISUAL_GROUP = 1
 SITE_GROUP = 5
 VISUAL_SUFFIX = "#visual"
+_WHOLE = -1
+"""The piece of a mesh that is its whole surface; -2, -3, ... are the parts of its first, second, ... look."""
 _UNDERGROUND = 1.0
 """Thickness [m] of the ground below the lowest point of a heightmap."""
 _TYRE = 0.002
@@ -40,10 +53,21 @@ _TYPES = {
 def geom_names(name: str, part: Collision | Visual) -> list[str]:
     """Return the names of all geoms of a part; `name` is `model::link::part`."""
     if isinstance(part, Visual):
-        return [name + VISUAL_SUFFIX]
-    mesh = part.geometry.mesh
-    count = len(mesh.pieces) if mesh is not None and mesh.pieces else 1
+        name += VISUAL_SUFFIX
+        count = len(looks_of(part))
+    else:
+        mesh = part.geometry.mesh
+        count = len(mesh.pieces) if mesh is not None and mesh.pieces else 1
     return [name, *(f"{name}#{number}" for number in range(1, count))]
+
+
+def looks_of(part: Visual) -> list[Look]:
+    """Return the looks of the geoms of a visual: one, or those of its mesh's file if it has no `<material>`."""
+    mesh = part.geometry.mesh
+    red, green, blue, alpha = part.rgba
+    if mesh is None or not mesh.looks or part.element.find("material") is not None or (red, green, blue) != GREY[:3]:
+        return [Look(part.rgba, part.texture)]
+    return [Look((*look.rgba[:3], look.rgba[3] * alpha), look.texture) for look in mesh.looks]
 
 
 class Geoms:
@@ -57,6 +81,7 @@ class Geoms:
         self._ranks = recipe.friction_ranks(collision.mu for collision in collisions)
         self._meshes: dict[tuple[TriangleMesh, int], str] = {}
         self._fields: dict[TriangleMesh, str] = {}
+        self._materials = Materials(spec)
         self.shapes: list[Shape] = []
         """The collisions that were added."""
 
@@ -104,15 +129,20 @@ class Geoms:
 
     def add_visual(self, body: mujoco.MjsBody, name: str, base: Pose, part: Visual, *, moving: bool) -> None:
         """Add a visual, without contacts or mass; `base` is the pose of its link in the body."""
-        geom = self._add(body, name + VISUAL_SUFFIX, base * part.pose, part.geometry, moving, piece=-1)
-        geom.group = VISUAL_GROUP
-        geom.contype = geom.conaffinity = 0
-        geom.rgba = part.rgba
+        looks = looks_of(part)
+        for number, (each, look) in enumerate(zip(geom_names(name, part), looks, strict=True)):
+            piece = _WHOLE if len(looks) == 1 else _WHOLE - 1 - number
+            geom = self._add(body, each, base * part.pose, part.geometry, moving, piece=piece)
+            geom.group = VISUAL_GROUP
+            geom.contype = geom.conaffinity = 0
+            geom.rgba = look.rgba
+            if look.texture is not None or part.element.find("material") is not None:
+                geom.material = self._materials.name_of(part, look)
 
     def _add(
         self, body: mujoco.MjsBody, name: str, pose: Pose, geometry: Geometry, moving: bool, *, piece: int
     ) -> mujoco.MjsGeom:
-        """Add the shape alone: the convex `piece` of a mesh, or with -1 its whole surface."""
+        """Add the shape alone: the convex `piece` of a mesh, its whole surface, or the part of one look."""
         if geometry.heights is not None and geometry.mesh is not None:
             field = self._fields.get(geometry.mesh) or self._add_field(geometry.mesh, geometry)
             lift = Pose((0.0, 0.0, float(geometry.heights.min())))
@@ -143,11 +173,19 @@ class Geoms:
         if piece >= 0:
             mesh.uservert = surface.pieces[piece].ravel()
             return name
-        vertices = surface.vertices.astype(np.float64)
+        vertices, triangles, uv = surface.vertices.astype(np.float64), surface.triangles, surface.uv
+        if piece < _WHOLE and surface.look is not None:
+            rows = surface.look == _WHOLE - 1 - piece
+            used, flat = np.unique(triangles[rows], return_inverse=True)
+            triangles = flat.astype(np.int32)
+            vertices, uv = vertices[used], None if uv is None else uv[rows]
+        if uv is not None:
+            mesh.usertexcoord = uv.ravel()
+            mesh.userfacetexcoord = np.arange(3 * len(uv))
         while len(vertices) < 4:
             vertices = np.concatenate((vertices, vertices[:1]))
         mesh.uservert = vertices.ravel()
-        mesh.userface = surface.triangles.ravel()
+        mesh.userface = triangles.ravel()
         return name
 
     def _add_field(self, surface: TriangleMesh, geometry: Geometry) -> str:

@@ -34,3 +34,5 @@ def add_light(body: mujoco.MjsBody, name: str, base: Pose, light: Light) -> None
     made.attenuation = (light.constant, light.linear, light.quadratic)
     if light.kind == "spot" and light.outer_angle > 0.0:
         made.cutoff = min(90.0, math.degrees(light.outer_angle / 2.0))
+        made.exponent = min(light.falloff, 128.0)
+        made.softness = min(1.0, max(0.0, 1.0 - light.inner_angle / light.outer_angle))

@@ -14,13 +14,14 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gz_course.sim.gz.sim.physics.builder import VISUAL_GROUP
 from gz_course.sim.gz.sim.plugins.noise import Noise
 from gz_course.sim.gz.sim.plugins.sensor import SensorBase
 from gz_course.sim.gz.sim.plugins.topics import valid_topic
 from gz_course.sim.gz.sim.rendering.pinhole import Pinhole
 from gz_course.sim.gz.sim.rendering.point_cloud import fill_cloud
-from gz_course.sim.gz.sim.rendering.ray_caster import ALL_BITS, Floats, Hits, RayCaster
+from gz_course.sim.gz.sim.rendering.tile_caster import TileCaster, View
+from gz_course.sim.gz.sim.rendering.tiles import Tiles
+from gz_course.sim.gz.sim.rendering.viewpoint import ALL_BITS, Floats
 from gz_course.sim.gz.sim.sdf.description import Sensor
 from gz_course.sim.gz.sim.sdf.element import Element
 
@@ -60,11 +61,10 @@ class CameraSensor(SensorBase):
         # A renderer omits surfaces nearer than the near plane and beyond the far plane.
         along = self.directions[:, 0]
         near = self.pinhole.near / along if self.near_hides else np.zeros(len(along))
-        self._far = self.pinhole.far / along
         self._along = along
-        mask = camera.integer("visibility_mask", ALL_BITS)
-        reach = float(self._far.max())
-        self.caster = RayCaster(world, description, self.directions, VISUAL_GROUP, near, reach, mask)
+        tiles = Tiles(self.pinhole.width, self.pinhole.height, self.directions, near, self.pinhole.far / along)
+        mask = camera.mask("visibility_mask", ALL_BITS)
+        self.caster = TileCaster(world, description, tiles, mask)
         self.publishers: dict[str, Any] = {}
         self._info: Any = None
 
@@ -120,19 +120,13 @@ class CameraSensor(SensorBase):
         super().fill_header(header, now_ns)
         header.data[0].value[0] = self.optical_frame_id
 
-    def cast(self, *, normals: bool = False) -> Hits:
+    def cast(self) -> View:
         """Cast the rays of all pixels; surfaces beyond the far plane are not hit."""
-        hits = self.caster.cast(normals=normals)
-        beyond = hits.distance > self._far
-        hits.distance[beyond] = -1.0
-        hits.geom[beyond] = -1
-        return hits
+        return self.caster.look()
 
-    def depth(self, hits: Hits) -> Floats:
+    def depth(self, view: View) -> Floats:
         """Return the distance along the optical axis (n,) [m]; +inf where nothing was hit."""
-        depth = hits.distance * self._along
-        depth[hits.geom < 0] = np.inf
-        return depth
+        return view.tiles.joined(view.depth) * self._along
 
     def publish_image(self, suffix: str, pixels: NDArray[Any], pixel_format: str, now_ns: int) -> None:
         """Publish pixels (height, width) or (height, width, channels), little-endian and without padding."""

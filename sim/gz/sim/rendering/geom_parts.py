@@ -19,12 +19,13 @@ if TYPE_CHECKING:
 
 
 class GeomPart(NamedTuple):
-    """MuJoCo's geom id with the model, link and part it was made of."""
+    """MuJoCo's geom id with the model, link and part it was made of; `number` counts the geoms of one part."""
 
     geom: int
     model: Model
     link: Link
     part: Visual | Collision
+    number: int
 
 
 def geom_parts(world: WorldAccess, group: int) -> Iterator[GeomPart]:
@@ -33,7 +34,7 @@ def geom_parts(world: WorldAccess, group: int) -> Iterator[GeomPart]:
         for link in model.links:
             parts: list[Visual | Collision] = [*(link.visuals if group == VISUAL_GROUP else link.collisions)]
             for part in parts:
-                for name in geom_names(f"{model.name}::{link.name}::{part.name}", part):
+                for number, name in enumerate(geom_names(f"{model.name}::{link.name}::{part.name}", part)):
                     geom = mujoco.mj_name2id(world.model, mujoco.mjtObj.mjOBJ_GEOM, name)
                     if geom >= 0:
-                        yield GeomPart(geom, model, link, part)
+                        yield GeomPart(geom, model, link, part, number)

@@ -18,7 +18,8 @@ from gz_course.sim.gz.sim.sdf.element import Element
 
 Floats = NDArray[np.float64]
 
-MOST_PIXELS = 4_000_000
+MOST_PIXELS = 8_300_000
+"""A picture of 3840 x 2160 pixels."""
 _UNDISTORT_ROUNDS = 20
 
 

@@ -35,8 +35,8 @@ COLOURED = np.dtype(
 
 
 def pack_rgb(colours: NDArray[np.uint8]) -> NDArray[np.uint32]:
-    """Return colours (n, 3) as 0x00RRGGBB (n,)."""
-    red, green, blue = colours.T.astype(np.uint32)
+    """Return colours (3, n) as 0x00RRGGBB (n,)."""
+    red, green, blue = colours.astype(np.uint32)
     packed: NDArray[np.uint32] = (red << 16) | (green << 8) | blue
     return packed
 

@@ -50,7 +50,7 @@ class Renderer(Protocol):
         """Prepare for MuJoCo's model, which was just built."""
 
     def image(self) -> Colours:
-        """Return the present image (height * width, 3), values 0..1, without noise."""
+        """Return the present image (3, height * width), values 0..1, without noise."""
 
 
 class RayRenderer:
@@ -64,7 +64,7 @@ class RayRenderer:
         self._shader.bind()
 
     def image(self) -> Colours:
-        return self._shader.colours(self._camera.cast(normals=True), self._camera.pinhole.width)
+        return self._shader.colours(self._camera.cast())
 
 
 class GlRenderer:
@@ -92,6 +92,7 @@ class GlRenderer:
         visual.offheight = max(visual.offheight, pinhole.height)
         self._context.make_current()
         self._scene = mujoco.MjvScene(model, maxgeom=model.ngeom + 100)
+        self._scene.flags[mujoco.mjtRndFlag.mjRND_SKYBOX] = 0  # `Shader.background` fills what is empty
         self._drawing = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100.value)
         mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, self._drawing)
 
@@ -120,9 +121,11 @@ class GlRenderer:
             eye.frustum_width = near * pinhole.width / 2.0 / fx
         mujoco.mjr_render(self._rectangle, self._scene, self._drawing)
         mujoco.mjr_readPixels(self._pixels, self._depth, self._rectangle, self._drawing)
-        colours = np.flipud(self._pixels).reshape(-1, 3).astype(np.float32) / np.float32(255.0)
+        colours = np.flipud(self._pixels).reshape(-1, 3).T.astype(np.float32) / np.float32(255.0)
         empty = np.flatnonzero(np.flipud(self._depth).ravel() >= 1.0)
-        colours[empty] = self._shader.background((self._camera.directions @ axes.reshape(3, 3).T)[empty])
+        colours[:, empty] = self._shader.background(
+            (axes.reshape(3, 3) @ self._camera.directions[empty].T).astype(np.float32)
+        )
         return colours
 
 

@@ -1,41 +1,40 @@
-"""Shades the ray hits of cameras: ambient light, Lambert's cosine law for every light, shadows and sky.
+"""Shades what a camera sees: ambient light, Lambert's cosine law and highlights for every light, shadows and sky.
 
 It needs neither GPU nor OpenGL and gives the same bytes on every run. A surface shows its `rgba`, brightened by
-emission; a ray without a hit shows the background of the scene, or a sky if `<scene>` has one. Attenuation is 1 /
-(constant + linear d + quadratic d^2) at the distance d [m].
+emission and, where light is reflected into the camera, by its specular colour; a ray without a hit shows the background
+of the scene, or a sky if `<scene>` has one.
 
 Source: Lambert's cosine law, https://en.wikipedia.org/wiki/Lambert%27s_cosine_law
-Source: SDFormat, element `<light>` (attenuation), http://sdformat.org/spec?elem=light
+Source: Blinn's highlights, https://en.wikipedia.org/wiki/Blinn%E2%80%93Phong_reflection_model
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+import math
+from typing import TYPE_CHECKING, Any
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from gz_course.sim.gz.sim.physics.builder import SITE_GROUP, VISUAL_GROUP
+from gz_course.sim.gz.sim.physics.builder import VISUAL_GROUP
+from gz_course.sim.gz.sim.physics.geoms import looks_of
+from gz_course.sim.gz.sim.physics.materials import HORIZON, ZENITH
+from gz_course.sim.gz.sim.rendering.facing import Seen
 from gz_course.sim.gz.sim.rendering.geom_parts import geom_parts
-from gz_course.sim.gz.sim.rendering.ray_caster import Floats, Hits
+from gz_course.sim.gz.sim.rendering.lamps import Lamp, shade, shade_by_meshes
+from gz_course.sim.gz.sim.rendering.texturing import Textures
+from gz_course.sim.gz.sim.rendering.tile_caster import View, in_blocks
+from gz_course.sim.gz.sim.sdf.description import Light, Visual
+from gz_course.sim.gz.sim.sdf.textures import Pixels
 
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
 Colours = NDArray[np.float32]
 
-_FAR_LIGHT = 1e4
-"""Distance [m] of the point from which a directional light casts shadows: its rays are nearly parallel there, and
-rounding errors are small.
-"""
-_SHADOW_GAP = 2e-3
-"""Minimum distance [m] between a point and a surface that shadows it."""
-_UNKNOWN = -1
-_ZENITH = np.array((0.30, 0.52, 0.85))
-_HORIZON = np.array((0.80, 0.88, 0.95))
-_DIRECTIONAL = int(mujoco.mjtLightType.mjLIGHT_DIRECTIONAL)
-_SPOT = int(mujoco.mjtLightType.mjLIGHT_SPOT)
+_SHININESS = 32.0
+"""The exponent of highlights on materials that state none."""
 
 
 class Shader:
@@ -46,161 +45,161 @@ class Shader:
         self._background = np.array(world.description.background, dtype=np.float32)
         self._ambient = np.array(world.description.ambient, dtype=np.float32)
         self._sky = world.description.element.find("scene/sky") is not None
-        self._groups = np.zeros(6, dtype=np.uint8)
-        self._groups[VISUAL_GROUP] = 1
 
     def bind(self) -> None:
         """Read the colours of all geoms from MuJoCo's model, which was just built."""
         model = self._world.model
-        # The additional last row is for rays without a hit (geom -1).
-        self._colour = np.zeros((model.ngeom + 1, 3), dtype=np.float32)
-        self._colour[:-1] = model.geom_rgba[:, :3]
-        self._emission = np.zeros((model.ngeom + 1, 3), dtype=np.float32)
-        self._shadowless: list[int] = []
-        for geom, _, _, part in geom_parts(self._world, VISUAL_GROUP):
-            if not part.element.flag("cast_shadows", True):
-                self._shadowless.append(geom)
-            emissive = part.element.find("material/emissive")
-            if emissive is not None and len(emissive.text.split()) in (3, 4):
-                self._emission[geom] = np.clip(emissive.floats(len(emissive.text.split()))[:3], 0.0, 1.0)
-        self._emits = bool(self._emission.any())
+        self._colour = model.geom_rgba[:, :3].astype(np.float32)
+        self._emission = np.zeros((model.ngeom, 3), dtype=np.float32)
+        self._specular = np.zeros((model.ngeom, 3), dtype=np.float32)
+        self._shininess = np.full(model.ngeom, _SHININESS, dtype=np.float32)
+        self._casts = np.ones(model.ngeom, dtype=np.bool_)
+        images: dict[int, Pixels] = {}
+        for geom, _, _, part, number in geom_parts(self._world, VISUAL_GROUP):
+            if isinstance(part, Visual):
+                texture = looks_of(part)[number].texture
+                if texture is not None:
+                    images[geom] = texture
+            self._casts[geom] = part.element.flag("cast_shadows", True)
+            for tag, table in (("emissive", self._emission), ("specular", self._specular)):
+                stated = part.element.find(f"material/{tag}")
+                if stated is not None and len(stated.text.split()) in (3, 4):
+                    table[geom] = np.clip(stated.floats(len(stated.text.split()))[:3], 0.0, 1.0)
+            exponent = part.element.number("material/shininess", 0.0)
+            if 0.0 < exponent < math.inf:
+                self._shininess[geom] = exponent
+        self._textures = Textures(model, images)
+        self._described = self._lights()
 
-    def colours(self, hits: Hits, width: int) -> Colours:
-        """Return the colour (n, 3), values 0..1, of each ray.
+    def _lights(self) -> dict[str, Light]:
+        """Return the lights of the description by their names in MuJoCo's model."""
+        world = self._world.description
+        found = {light.name: light for light in world.lights}
+        for model in world.models:
+            for link in model.links:
+                found |= {f"{model.name}::{link.name}::{light.name}": light for light in link.lights}
+        return found
 
-        `hits` must have normals; its rays are in rows of `width`.
-        """
-        assert hits.normal is not None
-        met = hits.geom >= 0
-        points = hits.rays * hits.distance[:, None]
-        points += hits.origin
-        view = _View(met, points, hits.normal, hits.geom, width)
-        model, data = self._world.model, self._world.data
-        mujoco.mj_comPos(model, data)
-        mujoco.mj_camlight(model, data)
-        light: Colours | None = None
-        for number in range(model.nlight):
-            if model.light_active[number]:
-                strength = self._from_light(number, view).astype(np.float32)
-                more = np.multiply.outer(strength, model.light_diffuse[number])
-                light = more if light is None else light + more
-        result: Colours = self._colour[hits.geom]
-        result *= self._ambient if light is None else np.add(light, self._ambient, out=light)
-        if self._emits:
-            result += self._emission[hits.geom]
-        np.minimum(result, 1.0, out=result)
-        missed = np.flatnonzero(~met)
-        result[missed] = self.background(hits.rays[missed])
-        return result
+    def colours(self, view: View) -> Colours:
+        """Return the colours (3, n), values 0..1, of the pixels, row-major."""
+        lamps = self._lamps(view)
+        shape = view.code.shape
+        casters = np.flatnonzero(self._casts[view.surfaces.ids])
+        traced = casters[view.surfaces.traced[casters]]
+        solid = [self._solid(lamp, view, casters) for lamp in lamps]
+        tables = self._tables(view)
+        result = np.empty((3, *shape), np.float32)
 
-    def background(self, rays: Floats) -> Colours:
-        """Return the background colours (n, 3) of rays (n, 3): one colour, or a sky from pale at the horizon to blue
-        above.
+        def work(block: slice) -> None:
+            seen = Seen(view, block)
+            strengths = []
+            for lamp, casting in zip(lamps, solid, strict=True):
+                way = lamp.toward(seen.points)
+                strength = seen.lambert(way[0])
+                lamp.fade(*way, strength)
+                if lamp.casts:
+                    shade(lamp, view, block, casting, seen.points, way, strength)
+                    shade_by_meshes(lamp, view, self._world, traced, seen.points, strength)
+                strengths.append(strength)
+            self._mix(view, seen, tables, list(zip(lamps, strengths, strict=True)), result[:, block])
+
+        in_blocks(view.tiles.count, work)
+        return np.stack([view.tiles.joined(channel) for channel in result])
+
+    def _tables(self, view: View) -> tuple[Colours, Colours, Colours]:
+        """Return colour, emission and specular colour (3, shapes + 1) of all shapes; the last is for no shape."""
+        tables = (self._colour, self._emission, self._specular)
+        colour, emission, specular = (np.pad(each[view.surfaces.ids].T, ((0, 0), (0, 1))) for each in tables)
+        return colour, emission, specular
+
+    def _mix(
+        self, view: View, seen: Seen, tables: tuple[Colours, Colours, Colours], lights: list[tuple[Lamp, Colours]],
+        result: Colours,
+    ) -> None:  # fmt: skip
+        """Write the colours (3, tiles, pixels) of some tiles."""
+        colour, emission, specular = tables
+        shape = seen.code >> 3
+        for channel in range(3):
+            light = np.full(shape.shape, self._ambient[channel], np.float32)
+            for lamp, strength in lights:
+                light += strength * lamp.diffuse[channel]
+            np.multiply(light, colour[channel][shape], out=result[channel])
+        self._textures.colour(view, seen, result)
+        for channel in range(3):
+            if emission[channel].any():
+                result[channel] += emission[channel][shape]
+        if specular.any() and lights:
+            self._add_highlights(view, seen, specular, lights, result)
+        np.minimum(result, np.float32(1.0), out=result)
+        missed = seen.code < 0
+        if not self._sky:
+            for channel in range(3):
+                np.copyto(result[channel], self._background[channel], where=missed)
+        elif missed.any():
+            result[:, missed] = self.background(view.surfaces.axes.astype(np.float32) @ seen.rays[:, missed])
+
+    def _add_highlights(
+        self, view: View, seen: Seen, specular: Colours, lights: list[tuple[Lamp, Colours]], result: Colours
+    ) -> None:
+        shiny: NDArray[np.bool_] = np.any(specular, axis=0)
+        places = np.nonzero(shiny[seen.code >> 3])
+        at: Any = (slice(None), *places)
+        shape = seen.code[places] >> 3
+        exponent = self._shininess[view.surfaces.ids[shape]]
+        there, facing, rays = seen.points[at], seen.normal[at], seen.rays[at]
+        for lamp, strength in lights:
+            half = lamp.toward(there[:, None])[0].reshape(3, -1) - rays
+            half /= np.sqrt(np.einsum("ij,ij->j", half, half))
+            cosine = np.maximum(np.einsum("ij,ij->j", half, facing), np.float32(0.0))
+            gleam = cosine**exponent * (strength[places] > 0.0)
+            result[at] += gleam * specular[:, shape] * lamp.specular[:, None]
+
+    def background(self, rays: Colours) -> Colours:
+        """Return the background colours (3, n) of rays (3, n) in the world: one colour, or a sky from pale at the
+        horizon to blue above.
         """
         if not self._sky:
-            return np.tile(self._background, (len(rays), 1))
-        height = np.sqrt(np.clip(rays[:, 2], 0.0, 1.0))[:, None]
-        return (_HORIZON + height * (_ZENITH - _HORIZON)).astype(np.float32)
+            return np.repeat(self._background[:, None], rays.shape[1], axis=1)
+        height = np.sqrt(np.clip(rays[2], 0.0, 1.0))
+        low, high = np.array(HORIZON), np.array(ZENITH)
+        return (low[:, None] + height * (high - low)[:, None]).astype(np.float32)
 
-    def _from_light(self, number: int, view: _View) -> Floats:
-        """Return the intensity of one light at each point (n,); 0 where nothing was hit."""
-        model, data = self._world.model, self._world.data
-        direction, kind = data.light_xdir[number], int(model.light_type[number])
-        points, normals = view.points, view.normals
-        strength: Floats
-        if kind == _DIRECTIONAL:
-            strength = -(normals @ direction)
-            source = points[len(points) // 2] - direction * _FAR_LIGHT
-        else:
-            source = data.light_xpos[number].copy()
-            way = points - source
-            distance = np.maximum(np.linalg.norm(way, axis=1), 1e-6)
-            way /= distance[:, None]
-            strength = -np.einsum("ij,ij->i", normals, way)
-            constant, linear, quadratic = model.light_attenuation[number]
-            strength /= np.maximum(constant + distance * (linear + distance * quadratic), 1e-3)
-            if kind == _SPOT:
-                edge = np.cos(np.radians(min(float(model.light_cutoff[number]), 90.0)))
-                strength *= np.clip((way @ direction - edge) / max(1.0 - edge, 1e-6) * 4.0, 0.0, 1.0)
-        strength[~view.met] = 0.0
-        np.maximum(strength, 0.0, out=strength)
-        if model.light_castshadow[number]:
-            strength[self._shadows(source, view, strength > 0.0)] = 0.0
-        return strength
-
-    def _shadows(self, source: Floats, view: _View, lit: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """Tell for each `lit` point (n,) whether it is in the shadow of the light at `source`.
-
-        Every second pixel of every second row is traced first. A pixel between them takes the result of those
-        neighbours that lie on its own geom if they agree; the remaining ones are traced one by one.
-        """
-        width, height = view.width, len(view.geom) // view.width
-        sparse = lit.reshape(height, width)[::2, ::2]
-        points = view.points.reshape(height, width, 3)[::2, ::2]
-        state = np.full(sparse.shape, _UNKNOWN, dtype=np.int8)
-        state[sparse] = self._shadowed(source, points[sparse])
-        verdicts = _spread(state, view.geom.reshape(height, width)).ravel()
-        shadowed: NDArray[np.bool_] = verdicts == 1
-        alone = lit & (verdicts == _UNKNOWN)
-        shadowed[alone] = self._shadowed(source, view.points[alone])
-        return shadowed
-
-    def _shadowed(self, source: Floats, points: Floats) -> NDArray[np.bool_]:
-        """Tell for each point (n, 3) whether a surface blocks the line to `source` (3,)."""
-        count = len(points)
-        if not count:
-            return np.zeros(0, dtype=np.bool_)
-        way = points - source
-        distance = np.sqrt(np.einsum("ij,ij->i", way, way))
-        way /= distance[:, None]
-        model = self._world.model
-        groups = model.geom_group[self._shadowless].copy()
-        model.geom_group[self._shadowless] = SITE_GROUP
-        met, geom = np.zeros(count), np.zeros(count, dtype=np.int32)
-        try:
-            mujoco.mj_multiRay(
-                model, self._world.data, source, way.ravel(), self._groups, True, -1, geom, met, None, count, 1e10
+    def _lamps(self, view: View) -> list[Lamp]:
+        """Return the lights that are on, in the camera's frame."""
+        model, data, surfaces = self._world.model, self._world.data, view.surfaces
+        mujoco.mj_camlight(model, data)
+        lamps = []
+        for number in np.flatnonzero(model.light_active).tolist():
+            kind = int(model.light_type[number])
+            directional = kind == mujoco.mjtLightType.mjLIGHT_DIRECTIONAL
+            described = self._described.get(model.light(number).name)
+            cone = None
+            if kind == mujoco.mjtLightType.mjLIGHT_SPOT:
+                outer = math.radians(float(model.light_cutoff[number]))
+                inner = min(outer, described.inner_angle / 2.0 if described is not None else outer)
+                cone = math.cos(inner), math.cos(outer), described.falloff if described is not None else 1.0
+            constant, linear, quadratic = model.light_attenuation[number].tolist()
+            lamp = Lamp(
+                None if directional else (data.light_xpos[number] - surfaces.origin) @ surfaces.axes,
+                data.light_xdir[number] @ surfaces.axes,
+                model.light_diffuse[number].astype(np.float32),
+                model.light_specular[number].astype(np.float32),
+                (constant, linear, quadratic),
+                float(model.light_range[number]),
+                cone,
+                bool(model.light_castshadow[number]),
             )
-        finally:
-            model.geom_group[self._shadowless] = groups
-        shadowed: NDArray[np.bool_] = (met >= 0.0) & (met < distance - _SHADOW_GAP)
-        return shadowed
+            lamps.append(lamp)
+        return lamps
 
-
-class _View(NamedTuple):
-    """The points to shade, in rows of `width`.
-
-    `met` tells which rays hit a surface; `points`, `normals` and `geom` describe the surface there.
-    """
-
-    met: NDArray[np.bool_]
-    points: Floats
-    normals: Floats
-    geom: NDArray[np.int32]
-    width: int
-
-
-def _spread(state: NDArray[np.int8], geom: NDArray[np.int32]) -> NDArray[np.int8]:
-    """Return for each pixel of `geom` (h, w) the value of its neighbours in `state`, which holds every second pixel.
-
-    Only neighbours on the same geom count; the value is _UNKNOWN if there are none or two disagree.
-    """
-    decided = np.full(geom.shape, _UNKNOWN, dtype=np.int8)
-    for down, right in ((0, 0), (0, 1), (1, 0), (1, 1)):
-        mine = geom[down::2, right::2]
-        verdict = np.full(mine.shape, _UNKNOWN, dtype=np.int8)
-        disagree = np.zeros(mine.shape, dtype=np.bool_)
-        for row in range(down + 1):
-            for column in range(right + 1):
-                high, wide = min(len(mine), len(state) - row), min(mine.shape[1], state.shape[1] - column)
-                if high <= 0 or wide <= 0:
-                    continue
-                around = state[row : row + high, column : column + wide]
-                theirs = geom[2 * row :: 2, 2 * column :: 2][:high, :wide]
-                here = verdict[:high, :wide]
-                same = (theirs == mine[:high, :wide]) & (around != _UNKNOWN)
-                disagree[:high, :wide] |= same & (here != _UNKNOWN) & (here != around)
-                np.copyto(here, around, where=same)
-        verdict[disagree] = _UNKNOWN
-        decided[down::2, right::2] = verdict
-    return decided
+    def _solid(self, lamp: Lamp, view: View, casters: NDArray[np.intp]) -> NDArray[np.intp]:
+        """Leave out meshes, which MuJoCo traces, and planes that face the lamp: they shadow only what is below them."""
+        surfaces = view.surfaces
+        casters = casters[~surfaces.traced[casters]]
+        up = surfaces.rotation[casters][:, :, 2]
+        if lamp.position is None:
+            faces = up @ lamp.direction <= 0.0
+        else:
+            faces = np.einsum("ni,ni->n", lamp.position - surfaces.position[casters], up) >= 0.0
+        kept: NDArray[np.intp] = casters[~(faces & (surfaces.kind[casters] == mujoco.mjtGeom.mjGEOM_PLANE))]
+        return kept

@@ -90,7 +90,7 @@ def _camera(message: Any, element: Element) -> None:
     to.triggered = camera.flag("triggered", False)
     to.triggered_topic = camera.text_of("trigger_topic")
     to.anti_aliasing = camera.integer("anti_aliasing", 4)
-    to.visibility_mask = camera.integer("visibility_mask", 0xFFFFFFFF) & 0xFFFFFFFF
+    to.visibility_mask = camera.mask("visibility_mask", 0xFFFFFFFF)
     if "segmentation" in message.type:
         panoptic = camera.text_of("segmentation_type", "semantic") in ("panoptic", "instance")
         to.segmentation_type = to.PANOPTIC if panoptic else to.SEMANTIC

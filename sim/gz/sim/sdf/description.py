@@ -20,17 +20,31 @@ UNLIMITED = 1e16
 """Joint limits of this magnitude and above mean "no limit" in Gazebo."""
 
 
+@dataclass(frozen=True, eq=False)
+class Look:
+    """The appearance of a surface: `rgba`, values 0..1, times the `texture` (rows, columns, 3), if it has one."""
+
+    rgba: tuple[float, float, float, float]
+    texture: NDArray[np.uint8] | None = None
+
+
 @dataclass(eq=False)
 class TriangleMesh:
     """A surface of triangles: `vertices` (n, 3) [m] in the frame of the shape, `triangles` (m, 3) indices of vertices.
 
     `pieces` are the convex bodies that collide, each the points (k, 3) [m] of its hull; empty for visuals and for
     heightmaps. Shapes with the same file and scale share one instance.
+
+    `uv` (m, 3, 2) are the places of the corners in a texture, from its upper left corner, in fractions of its size.
+    `looks` are the materials of the file, `look` (m,) the one of each triangle.
     """
 
     vertices: NDArray[np.float32]
     triangles: NDArray[np.int32]
     pieces: tuple[NDArray[np.float64], ...] = ()
+    uv: NDArray[np.float32] | None = None
+    looks: tuple[Look, ...] = ()
+    look: NDArray[np.int32] | None = None
 
 
 @dataclass(eq=False)
@@ -67,13 +81,17 @@ class Collision:
 
 @dataclass(eq=False)
 class Visual:
-    """A visible shape; each value of `rgba` is 0..1."""
+    """A visible shape; each value of `rgba` is 0..1.
+
+    `texture` (rows, columns, 3) is that of its `<material>`. A mesh without a `<material>` has the looks of its file.
+    """
 
     name: str
     pose: Pose
     geometry: Geometry
     element: Element
     rgba: tuple[float, float, float, float] = (0.7, 0.7, 0.7, 1.0)
+    texture: NDArray[np.uint8] | None = None
 
 
 @dataclass(eq=False)

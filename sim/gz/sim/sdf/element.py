@@ -95,6 +95,14 @@ class Element:
             raise self.error(f"<{tag}> must be a whole number, got '{self.text_of(tag)}'")
         return int(value)
 
+    def mask(self, tag: str, default: int) -> int:
+        """Return child `tag` as the bits of a 32-bit mask, written in decimal or, as `0x01`, in hexadecimal."""
+        text = self.text_of(tag)
+        try:
+            return int(text, 0) & 0xFFFFFFFF if text else default
+        except ValueError:
+            raise self.error(f"<{tag}> must be a whole number such as 1 or 0x01, got '{text}'") from None
+
     def flag(self, tag: str, default: bool) -> bool:
         """Return child `tag` as a boolean (true/false/1/0)."""
         child = self.find(tag)

@@ -17,7 +17,13 @@ from gz_course.sim.gz.sim.sdf.frames import Scope
 from gz_course.sim.gz.sim.sdf.geometry import read_geometry
 from gz_course.sim.gz.sim.sdf.inertia import WATER, automatic_inertial, is_automatic, read_inertial
 from gz_course.sim.gz.sim.sdf.lights import read_light
-from gz_course.sim.gz.sim.sdf.materials import read_bitmask, read_colour, read_friction, read_restitution
+from gz_course.sim.gz.sim.sdf.materials import (
+    read_albedo,
+    read_bitmask,
+    read_colour,
+    read_friction,
+    read_restitution,
+)
 from gz_course.sim.gz.sim.sdf.resources import Resources
 from gz_course.sim.gz.sim.sdf.sensors import part_pose, read_sensor
 
@@ -69,7 +75,8 @@ def _add_shape(
         surface = (friction, read_bitmask(part), density, read_restitution(part))
         link.collisions.append(Collision(part.name, pose, geometry, part, *surface))
     else:
-        link.visuals.append(Visual(part.name, pose, geometry, part, read_colour(part, diagnostics)))
+        colour, texture = read_colour(part, diagnostics), read_albedo(part, diagnostics, resources)
+        link.visuals.append(Visual(part.name, pose, geometry, part, colour, texture))
 
 
 def _warn_of_unsupported(element: Element, model: Model, diagnostics: Diagnostics) -> None:

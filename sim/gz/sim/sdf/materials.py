@@ -1,6 +1,6 @@
-"""Reads `<material>` and `<surface>`: the colour of a `<visual>`, friction and bitmask of a `<collision>`.
+"""Reads `<material>` and `<surface>`: colour and texture of a `<visual>`, friction and bitmask of a `<collision>`.
 
-Warns about textures and direction-dependent friction, which are not simulated.
+Warns about direction-dependent friction, which is not simulated.
 
 Source: SDFormat, elements `<material>` and `<surface>`, http://sdformat.org/spec
 Source: gazebo-classic, media/materials/scripts/gazebo.material (names of scripts)
@@ -11,8 +11,10 @@ from __future__ import annotations
 import math
 
 from gz_course.sim.did_you_mean import did_you_mean
-from gz_course.sim.gz.sim.errors import Diagnostics
+from gz_course.sim.gz.sim.errors import Diagnostics, ResourceError
 from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sdf.resources import Resources
+from gz_course.sim.gz.sim.sdf.textures import Pixels
 
 Rgba = tuple[float, float, float, float]
 GREY: Rgba = (0.7, 0.7, 0.7, 1.0)
@@ -93,10 +95,31 @@ def read_colour(visual: Element, diagnostics: Diagnostics) -> Rgba:
             alpha = values[3] if len(values) == 4 else 1.0
         elif script is not None and (script.text or script.text_of("name")):
             red, green, blue, alpha = _script_colour(script, diagnostics)
-        if material.find("pbr/metal/albedo_map") or material.find("pbr/specular/albedo_map"):
-            text = "textures are not drawn, only the plain colours of materials (reported once for the whole world)"
-            diagnostics.warn_once("textures", material.where, text)
+        elif albedo_map(visual) is not None:
+            red, green, blue = 1.0, 1.0, 1.0
     return red, green, blue, alpha * (1.0 - transparency)
+
+
+def albedo_map(visual: Element) -> Element | None:
+    """Return the `<albedo_map>` of a `<visual>`: that of the metal workflow, else that of the specular one."""
+    for workflow in ("metal", "specular"):
+        found = visual.find(f"material/pbr/{workflow}/albedo_map")
+        if found is not None and found.text:
+            return found
+    return None
+
+
+def read_albedo(visual: Element, diagnostics: Diagnostics, resources: Resources) -> Pixels | None:
+    """Return the texture of a `<visual>`, or None, after a warning if its file cannot be used."""
+    found = albedo_map(visual)
+    if found is None:
+        return None
+    try:
+        return resources.read_texture(resources.find_file(found.text, found.folder))
+    except (ResourceError, OSError) as error:
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else error
+        diagnostics.warn(found.where, f"{reason}; visual '{visual.name}' has its plain colour")
+        return None
 
 
 def _unit(value: float) -> float:

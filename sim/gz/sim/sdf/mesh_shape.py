@@ -48,7 +48,7 @@ def read_mesh_shape(
         stamp = resources.stamp(path)
         hull = shape.attributes.get("optimization") == "convex_hull"
         touching = "" if owner.tag != "collision" else "hull" if hull else "moving" if moving else "static"
-        mesh, fuller = _load(resources, path, stamp, part, center, (scale[0], scale[1], scale[2]), touching)
+        mesh, fuller, notes = _load(resources, path, stamp, part, center, (scale[0], scale[1], scale[2]), touching)
     except (ResourceError, OSError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else error
         diagnostics.warn((shape.find("uri") or shape).where, f"{reason}, {left_out}")
@@ -60,6 +60,9 @@ def read_mesh_shape(
     if not np.max(np.abs(mesh.vertices)) < _LARGEST:
         diagnostics.warn(shape.where, f"the mesh {path} is larger than {_LARGEST:g} m, {left_out}; check its <scale>")
         return None
+    if owner.tag == "visual":
+        for note in notes:
+            diagnostics.warn_once(note, (shape.find("uri") or shape).where, note)
     if moving and np.max(extent) > _LONGEST_MOVING:
         text = f"the mesh {path.name} is {np.max(extent):g} m long; if its file is in millimetres, add to <mesh>: "
         diagnostics.warn(shape.where, f"{text}<scale>0.001 0.001 0.001</scale>")
@@ -79,20 +82,23 @@ def _load(
     center: bool,
     scale: tuple[float, float, float],
     touching: str,
-) -> tuple[TriangleMesh, float]:
-    """Read and scale a mesh; return it with the relative excess of its convex hulls.
+) -> tuple[TriangleMesh, float, tuple[str, ...]]:
+    """Read and scale a mesh; return it with the relative excess of its convex hulls and the notes of its
+    reader.
 
     `_stamp` changes with the content of the file, so that the cache does not return an old version.
     """
     read = resources.read_mesh(path, submesh, center)
     vertices = np.asarray(read.vertices, dtype=np.float64) * np.array(scale)
     triangles = np.asarray(read.triangles, dtype=np.int32)
+    uv = read.uv
     if np.prod(np.sign(scale)) < 0.0:
         triangles = triangles[:, ::-1]  # mirroring reverses the winding order
+        uv = None if uv is None else uv[:, ::-1]
     pieces: tuple[NDArray[np.float64], ...] = ()
     fuller = 0.0
     if not np.all(np.isfinite(vertices)) or _area(vertices, triangles) < _SMALLEST_AREA:
-        triangles = triangles[:0]
+        triangles, uv = triangles[:0], None
     elif touching == "hull":
         pieces = (vertices,)
     elif touching:
@@ -100,7 +106,7 @@ def _load(
     seen = vertices.astype(np.float32)
     for array in (seen, triangles):
         array.flags.writeable = False
-    return TriangleMesh(seen, triangles, pieces), fuller
+    return TriangleMesh(seen, triangles, pieces, uv, read.looks, read.look), fuller, read.notes
 
 
 def _area(vertices: NDArray[np.float64], triangles: NDArray[np.int32]) -> float:

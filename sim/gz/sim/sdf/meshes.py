@@ -1,9 +1,9 @@
-"""Reads mesh files as vertices and triangles: STL (binary and ASCII), OBJ and, with the extra `collada`, COLLADA.
+"""Reads mesh files as vertices, triangles and looks: STL (binary and ASCII), OBJ, glTF and, with the extra `collada`,
+COLLADA.
 
 `<scale>` is not applied here, so that a file is read once for all its sizes.
 
 Source: https://www.fabbers.com/tech/STL_Format
-Source: https://paulbourke.net/dataformats/obj/
 """
 
 from __future__ import annotations
@@ -19,13 +19,16 @@ from numpy.typing import NDArray
 
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.errors import ResourceError
+from gz_course.sim.gz.sim.sdf.description import Look
 
 Vertices = NDArray[np.float64]
 Triangles = NDArray[np.int32]
 
-READABLE = (".stl", ".obj", ".dae")
-_UNREAD = (".glb", ".gltf", ".ply", ".fbx", ".3ds", ".blend", ".msh", ".off", ".x3d", ".wrl")
-_MOST_BYTES = 256 * 1024 * 1024
+READABLE = (".stl", ".obj", ".dae", ".gltf", ".glb")
+_UNREAD = (".ply", ".fbx", ".3ds", ".blend", ".msh", ".off", ".x3d", ".wrl")
+MOST_BYTES = 256 * 1024 * 1024
+PLAIN = Look((0.7, 0.7, 0.7, 1.0))
+"""The look of a part of a mesh that has none, beside parts that have one."""
 _LARGEST = 1e9  # larger coordinates come from damaged files, and their squares overflow a float32
 _STL_HEADER = 84
 _STL_FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
@@ -35,24 +38,41 @@ _STL_FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attri
 class Mesh:
     """A triangle surface: `vertices` (n, 3) float64 [m] as in the file, unscaled; `triangles` (m, 3) int32 vertex
     indices, counter-clockwise seen from outside. Both are read-only.
+
+    `uv` (m, 3, 2), `looks` and `look` (m,) are those of `gz.sim.sdf.description.TriangleMesh`; a file without colours
+    has none. `notes` are sentences about what was left out.
     """
 
     vertices: Vertices
     triangles: Triangles
+    uv: NDArray[np.float32] | None = None
+    looks: tuple[Look, ...] = ()
+    look: NDArray[np.int32] | None = None
+    notes: tuple[str, ...] = ()
 
 
 @dataclass(eq=False)
-class _Part:
-    """Triangles and the names of their part: an OBJ group or object, a solid, a COLLADA node."""
+class Part:
+    """Triangles and the names of their part: an OBJ group or object, a solid, a COLLADA node.
+
+    `uv` are the places of their corners in a texture, in the file's own direction (v upwards), `look` their appearance.
+    """
 
     names: tuple[str, ...]
-    triangles: list[tuple[int, int, int]]
+    triangles: list[tuple[int, int, int]] | Triangles
+    uv: list[tuple[tuple[float, float], ...]] | NDArray[np.float64] | None = None
+    look: Look | None = None
+
+    def add(self, triangles: Iterable[tuple[int, int, int]]) -> None:
+        """Add triangles to a part whose triangles are a list."""
+        assert isinstance(self.triangles, list)
+        self.triangles.extend(triangles)
 
 
 def read_mesh(path: Path, submesh: str = "", center: bool = False) -> Mesh:
     """Read a mesh file, whose format is that of its suffix.
 
-    `submesh` selects the part of that name (OBJ: object or group; COLLADA: node or geometry; ASCII STL: solid).
+    `submesh` selects the part of that name (OBJ: object or group; COLLADA, glTF: node or geometry; ASCII STL: solid).
     `center` moves the selection so that the middle of its bounding box is the origin. Raises `ResourceError` with the
     file and, for text formats, the line if the file is missing, damaged, too large, empty or of another format.
     """
@@ -63,10 +83,17 @@ def read_mesh(path: Path, submesh: str = "", center: bool = False) -> Mesh:
             raise ResourceError(f"{path}: meshes of kind {kind} are not read here; {can}")
         raise ResourceError(f"{path}: the file's ending '{kind}' is not that of a mesh; {can}")
     data = _bytes_of(path)
+    notes: list[str] = []
     if kind == ".dae":
-        vertices, parts = _collada(path, data)
+        vertices, parts = _collada(path, data, notes)
     elif kind == ".obj":
-        vertices, parts = _obj(path, data)
+        from gz_course.sim.gz.sim.sdf.obj_mesh import read_obj
+
+        vertices, parts = read_obj(path, data, notes)
+    elif kind in (".gltf", ".glb"):
+        from gz_course.sim.gz.sim.sdf.gltf_mesh import read_gltf
+
+        vertices, parts = read_gltf(path, data, notes)
     else:
         vertices, parts = _stl(path, data)
     if submesh:
@@ -76,7 +103,7 @@ def read_mesh(path: Path, submesh: str = "", center: bool = False) -> Mesh:
             hint = did_you_mean(submesh, known, listing="its submeshes are")
             raise ResourceError(f"{path}: the mesh has no submesh '{submesh}'{hint}")
         parts = chosen
-    return _finished(path, vertices, [part.triangles for part in parts], center)
+    return _finished(path, vertices, parts, center, notes)
 
 
 def _bytes_of(path: Path) -> bytes:
@@ -86,8 +113,8 @@ def _bytes_of(path: Path) -> bytes:
             hint = did_you_mean(path.name, siblings, listing="meshes in that folder are")
             raise ResourceError(f"{path}: there is no such mesh file{hint}")
         size = path.stat().st_size
-        if size > _MOST_BYTES:
-            raise ResourceError(f"{path}: the mesh has {size // 2**20} MiB, at most {_MOST_BYTES // 2**20} are read")
+        if size > MOST_BYTES:
+            raise ResourceError(f"{path}: the mesh has {size // 2**20} MiB, at most {MOST_BYTES // 2**20} are read")
         return path.read_bytes()
     except OSError as error:
         if isinstance(error, ResourceError):
@@ -103,11 +130,9 @@ def _listed(folder: Path) -> list[Path]:
         return []
 
 
-def _finished(
-    path: Path, vertices: Vertices, runs: Sequence[Sequence[tuple[int, int, int]] | Triangles], center: bool
-) -> Mesh:
-    """Return the mesh of lists of triangles: merge equal vertices, drop unused ones and triangles without area."""
-    arrays = [np.asarray(run, dtype=np.int32).reshape(-1, 3) for run in runs]
+def _finished(path: Path, vertices: Vertices, parts: Sequence[Part], center: bool, notes: Sequence[str]) -> Mesh:
+    """Return the mesh of some parts: merge equal vertices, drop unused ones and triangles without area."""
+    arrays = [np.asarray(part.triangles, dtype=np.int32).reshape(-1, 3) for part in parts]
     triangles = np.concatenate(arrays) if arrays else np.zeros((0, 3), np.int32)
     used, flat = np.unique(triangles, return_inverse=True)
     corners = vertices[used]
@@ -116,16 +141,46 @@ def _finished(
     corners, merged = np.unique(corners + 0.0, axis=0, return_inverse=True)  # + 0.0 turns -0.0 into 0.0
     triangles = merged.reshape(-1)[flat.reshape(-1)].reshape(-1, 3).astype(np.int32)
     a, b, c = triangles.T
-    triangles = triangles[(a != b) & (b != c) & (c != a)]
+    kept = (a != b) & (b != c) & (c != a)
+    triangles = triangles[kept]
     if not len(triangles):
         raise ResourceError(f"{path}: the mesh has no triangle")
     if center:
         corners = corners - (corners.min(axis=0) + corners.max(axis=0)) / 2.0
     corners.flags.writeable = triangles.flags.writeable = False
-    return Mesh(corners, triangles)
+    counts = [len(array) for array in arrays]
+    return Mesh(corners, triangles, _uv(parts, counts, kept), *_looks(parts, counts, kept), tuple(notes))
 
 
-def _stl(path: Path, data: bytes) -> tuple[Vertices, list[_Part]]:
+def _uv(parts: Sequence[Part], counts: Sequence[int], kept: NDArray[np.bool_]) -> NDArray[np.float32] | None:
+    """Return the places in a texture (m, 3, 2) of the kept triangles, v downwards; None if no part has any."""
+    if all(part.uv is None for part in parts):
+        return None
+    each = [
+        np.zeros((count, 3, 2)) if part.uv is None else np.asarray(part.uv, np.float64).reshape(count, 3, 2)
+        for part, count in zip(parts, counts, strict=True)
+    ]
+    uv = np.concatenate(each)[kept]
+    uv[..., 1] = 1.0 - uv[..., 1]
+    uv[~(np.abs(uv) < _LARGEST)] = 0.0
+    return uv.astype(np.float32)
+
+
+def _looks(
+    parts: Sequence[Part], counts: Sequence[int], kept: NDArray[np.bool_]
+) -> tuple[tuple[Look, ...], NDArray[np.int32] | None]:
+    """Return the looks of the kept triangles and the number of each triangle's look; none if no part has one."""
+    if all(part.look is None for part in parts):
+        return (), None
+    known: dict[Look, int] = {}
+    numbers = [known.setdefault(part.look or PLAIN, len(known)) for part in parts]
+    look = np.repeat(np.array(numbers, np.int32), counts)[kept]
+    used, renumbered = np.unique(look, return_inverse=True)
+    looks = tuple(known)
+    return tuple(looks[number] for number in used.tolist()), renumbered.reshape(-1).astype(np.int32)
+
+
+def _stl(path: Path, data: bytes) -> tuple[Vertices, list[Part]]:
     """Read binary or ASCII STL; the size decides first, because a binary file may also begin with "solid"."""
     count = int.from_bytes(data[80:_STL_HEADER], "little") if len(data) >= _STL_HEADER else -1
     expected = _STL_HEADER + count * _STL_FACET.itemsize
@@ -134,7 +189,7 @@ def _stl(path: Path, data: bytes) -> tuple[Vertices, list[_Part]]:
         with np.errstate(invalid="ignore"):  # a damaged number may be a signalling NaN; it is rejected below
             corners = facets["corners"].astype(np.float64).reshape(-1, 3)
         indices = np.arange(3 * count, dtype=np.int32).reshape(-1, 3)
-        return corners, [_Part((), indices)]  # type: ignore[arg-type]
+        return corners, [Part((), indices)]
     if _looks_ascii(data):
         return _ascii_stl(path, data)
     if count < 0:
@@ -148,9 +203,9 @@ def _looks_ascii(data: bytes) -> bool:
     return head.startswith(b"solid") and b"\0" not in data[:1024]
 
 
-def _ascii_stl(path: Path, data: bytes) -> tuple[Vertices, list[_Part]]:
+def _ascii_stl(path: Path, data: bytes) -> tuple[Vertices, list[Part]]:
     vertices: list[tuple[float, ...]] = []
-    parts: list[_Part] = []
+    parts: list[Part] = []
     loop: list[int] | None = None
     ended = False
     for number, line in enumerate(data.decode("utf-8", "replace").splitlines(), 1):
@@ -159,7 +214,7 @@ def _ascii_stl(path: Path, data: bytes) -> tuple[Vertices, list[_Part]]:
             continue
         word = words[0].lower()
         if word == "solid":
-            parts.append(_Part((" ".join(words[1:]),), []))
+            parts.append(Part((" ".join(words[1:]),), []))
             ended = False
         elif word == "outer":
             loop = []
@@ -167,11 +222,11 @@ def _ascii_stl(path: Path, data: bytes) -> tuple[Vertices, list[_Part]]:
             if loop is None or not parts:
                 raise ResourceError(f"{path}:{number}: 'vertex' stands outside of a loop")
             loop.append(len(vertices))
-            vertices.append(_numbers(path, number, words[1:4]))
+            vertices.append(numbers(path, number, words[1:4]))
         elif word == "endloop":
             if loop is None or len(loop) < 3:
                 raise ResourceError(f"{path}:{number}: a loop needs three vertices, got {len(loop or ())}")
-            parts[-1].triangles.extend(_fan(loop))
+            parts[-1].add(fan(loop))
             loop = None
         elif word == "endsolid":
             ended = True
@@ -179,64 +234,14 @@ def _ascii_stl(path: Path, data: bytes) -> tuple[Vertices, list[_Part]]:
             raise ResourceError(f"{path}:{number}: '{words[0][:20]}' is no word of an STL file")
     if not ended:
         raise ResourceError(f"{path}: the STL file is cut off: its last line is not 'endsolid'")
-    return _rows(vertices), parts
+    return rows_of(vertices), parts
 
 
-def _obj(path: Path, data: bytes) -> tuple[Vertices, list[_Part]]:
-    """Read Wavefront OBJ: `v`, `f` (any number of corners, negative indices), `o` and `g`; the rest is ignored."""
-    vertices: list[tuple[float, ...]] = []
-    parts: list[_Part] = [_Part((), [])]
-    thing = ""
-    groups: tuple[str, ...] = ()
-    number = first = 0
-    held = ""
-    for number, raw in enumerate(data.decode("utf-8", "replace").split("\n"), 1):
-        first = first or number
-        if raw.rstrip("\r").endswith("\\"):
-            held += raw.rstrip("\r")[:-1] + " "
-            continue
-        words = (held + raw).split("#", 1)[0].split()
-        held, line, first = "", first, 0
-        if not words:
-            continue
-        word = words[0]
-        if word == "v":
-            vertices.append(_numbers(path, line, words[1:4]))
-        elif word == "f":
-            parts[-1].triangles.extend(_fan(_corners(path, line, words[1:], len(vertices))))
-        elif word in ("o", "g"):
-            if word == "o":
-                thing = " ".join(words[1:])
-            else:
-                groups = tuple(words[1:])
-            parts.append(_Part(tuple(dict.fromkeys((thing, *groups, " ".join(groups)))), []))
-    if held:
-        raise ResourceError(f"{path}:{number}: the OBJ file is cut off: its last line asks for another one")
-    return _rows(vertices), parts
-
-
-def _corners(path: Path, line: int, words: list[str], count: int) -> list[int]:
-    """Return the vertex indices of one OBJ face, whose corners are written `a`, `a/b`, `a//c` or `a/b/c`."""
-    if len(words) < 3:
-        raise ResourceError(f"{path}:{line}: a face needs at least three corners, got {len(words)}")
-    corners: list[int] = []
-    for word in words:
-        try:
-            index = int(word.split("/", 1)[0])
-        except ValueError:
-            raise ResourceError(f"{path}:{line}: '{word[:20]}' is no corner of a face, expected an index") from None
-        index = index - 1 if index > 0 else count + index if index < 0 else -1
-        if not 0 <= index < count:
-            raise ResourceError(f"{path}:{line}: a face names vertex {word[:20]}, but {count} vertices came before it")
-        corners.append(index)
-    return corners
-
-
-def _fan(corners: Sequence[int]) -> Iterable[tuple[int, int, int]]:
+def fan(corners: Sequence[int]) -> Iterable[tuple[int, int, int]]:
     return [(corners[0], corners[i], corners[i + 1]) for i in range(1, len(corners) - 1)]
 
 
-def _numbers(path: Path, line: int, words: list[str]) -> tuple[float, ...]:
+def numbers(path: Path, line: int, words: list[str]) -> tuple[float, ...]:
     try:
         values = tuple(map(float, words))
     except ValueError:
@@ -246,11 +251,11 @@ def _numbers(path: Path, line: int, words: list[str]) -> tuple[float, ...]:
     return values
 
 
-def _rows(vertices: list[tuple[float, ...]]) -> Vertices:
+def rows_of(vertices: list[tuple[float, ...]]) -> Vertices:
     return np.array(vertices, dtype=np.float64).reshape(-1, 3)
 
 
-def _collada(path: Path, data: bytes) -> tuple[Vertices, list[_Part]]:
+def _collada(path: Path, data: bytes, notes: list[str]) -> tuple[Vertices, list[Part]]:
     try:
         from gz_course.sim.gz.sim.sdf import collada_mesh
     except ImportError:
@@ -258,11 +263,11 @@ def _collada(path: Path, data: bytes) -> tuple[Vertices, list[_Part]]:
             f"{path}: COLLADA meshes need one more package; install it with: pip install 'gz-ros2-course[collada]'"
         ) from None
     vertices: list[Vertices] = []
-    parts: list[_Part] = []
+    parts: list[Part] = []
     start = 0
-    for names, corners in collada_mesh.triangles_of(path, data):
+    for names, corners, uv, look in collada_mesh.triangles_of(path, data, notes):
         vertices.append(corners)
         indices = np.arange(start, start + len(corners), dtype=np.int32).reshape(-1, 3)
-        parts.append(_Part(names, indices))  # type: ignore[arg-type]
+        parts.append(Part(names, indices, uv, look))
         start += len(corners)
     return np.concatenate(vertices) if vertices else np.zeros((0, 3)), parts

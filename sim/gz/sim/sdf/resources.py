@@ -288,6 +288,9 @@ class Resources(Protocol):
     def read_image(self, path: Path) -> NDArray[np.uint8]:
         """Return the first channel (rows, columns) of an image. Raises `ResourceError` if it cannot be read."""
 
+    def read_texture(self, path: Path) -> NDArray[np.uint8]:
+        """Return the colours (rows, columns, 3) of an image. Raises `ResourceError` if it cannot be read."""
+
 
 class Files:
     """The files of this machine, found by the rules of this module."""
@@ -324,6 +327,12 @@ class Files:
         from gz_course.sim.gz.sim.sdf.heightmap import read_image
 
         return read_image(path)
+
+    def read_texture(self, path: Path) -> NDArray[np.uint8]:
+        """Return the colours of a PNG or JPEG file."""
+        from gz_course.sim.gz.sim.sdf.textures import read_texture
+
+        return read_texture(path)
 
 
 FILES = Files()

@@ -46,12 +46,16 @@ def to_bytes(colours: NDArray[np.floating[Any]]) -> NDArray[np.uint8]:
 
 
 def encode(colours: NDArray[np.floating[Any]], height: int, width: int, pixel_format: str) -> NDArray[Any]:
-    """Return colours (height * width, 3), values 0..1, as the pixels of an image of the given format."""
+    """Return colours (3, height * width), values 0..1, as the pixels of an image of the given format."""
     if pixel_format == "L_INT8":
-        return to_bytes(colours @ _LUMINANCE).reshape(height, width)
+        return to_bytes(np.tensordot(_LUMINANCE, colours, 1)).reshape(height, width)
     if pixel_format == "L_INT16":
-        return (np.clip(colours @ _LUMINANCE, 0.0, 1.0) * 65535.0 + 0.5).astype("<u2").reshape(height, width)
-    rgb = to_bytes(colours).reshape(height, width, 3)
+        return (
+            (np.clip(np.tensordot(_LUMINANCE, colours, 1), 0.0, 1.0) * 65535.0 + 0.5)
+            .astype("<u2")
+            .reshape(height, width)
+        )
+    rgb = np.ascontiguousarray(to_bytes(colours).T).reshape(height, width, 3)
     if pixel_format not in _BAYER:
         return rgb
     mosaic = np.zeros((height, width), dtype=np.uint8)

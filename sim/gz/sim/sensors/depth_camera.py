@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from gz_course.sim.gz.sim.plugins.sensor import sensor_type
 from gz_course.sim.gz.sim.rendering.camera_sensor import CameraSensor
 from gz_course.sim.gz.sim.rendering.point_cloud import COLOURED, pack_rgb
-from gz_course.sim.gz.sim.rendering.ray_caster import Hits
 from gz_course.sim.gz.sim.rendering.shading import Shader
+from gz_course.sim.gz.sim.rendering.tile_caster import View
 from gz_course.sim.gz.sim.sdf.description import Sensor
 from gz_course.sim.gz.sim.sensors.camera import to_bytes
 
@@ -40,9 +40,9 @@ class DepthSensing(CameraSensor):
         super().bind()
         self.shader.bind()
 
-    def depths(self, hits: Hits) -> NDArray[np.float32]:
+    def depths(self, view: View) -> NDArray[np.float32]:
         """Return the present depth image (height, width) [m], with the noise of the current update."""
-        depth = self.depth(hits)
+        depth = self.depth(view)
         if not self.noise.silent:
             finite = np.isfinite(depth)
             depth[finite] = self.noise.apply(depth, 0.0, self.random("depth"))[finite]
@@ -70,9 +70,9 @@ class DepthCamera(DepthSensing):
 
     def look(self, now_ns: int) -> None:
         coloured = self.listened("/points")
-        hits = self.cast(normals=coloured)
-        depth = self.depths(hits)
+        view = self.cast()
+        depth = self.depths(view)
         if self.listened(""):
             self.publish_image("", depth, "R_FLOAT32", now_ns)
         if coloured:
-            self.publish_cloud("/points", self.points(depth, self.shader.colours(hits, self.pinhole.width)), now_ns)
+            self.publish_cloud("/points", self.points(depth, self.shader.colours(view)), now_ns)

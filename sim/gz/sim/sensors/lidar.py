@@ -21,7 +21,8 @@ from gz_course.sim.gz.sim.plugins.noise import Noise
 from gz_course.sim.gz.sim.plugins.sensor import SensorBase, sensor_type
 from gz_course.sim.gz.sim.rendering.geom_parts import geom_parts
 from gz_course.sim.gz.sim.rendering.point_cloud import LIDAR, fill_cloud
-from gz_course.sim.gz.sim.rendering.ray_caster import ALL_BITS, Floats, RayCaster, directions
+from gz_course.sim.gz.sim.rendering.ray_caster import RayCaster, directions
+from gz_course.sim.gz.sim.rendering.viewpoint import ALL_BITS, Floats
 from gz_course.sim.gz.sim.sdf.description import Sensor
 from gz_course.sim.gz.sim.sdf.element import Element
 
@@ -89,12 +90,12 @@ class Lidar(SensorBase):
             )
         self.noise = Noise.from_sdf(holder.find("noise"))
         self._bias = self.noise.draw_bias(self.constant_random("bias"))
-        self._directions = directions(self.horizontal.angles, self.vertical.angles)
+        self.directions = directions(self.horizontal.angles, self.vertical.angles)
         self._group = VISUAL_GROUP if description.kind.startswith("gpu") else COLLISION_GROUP
         # Gazebo's renderer omits what is inside this cube around the sensor.
-        near = self.range_min / math.sqrt(3.0) / np.max(np.abs(self._directions), axis=1)
-        mask = holder.integer("visibility_mask", ALL_BITS)
-        self.caster = RayCaster(world, description, self._directions, self._group, near, self.range_max, mask)
+        near = self.range_min / math.sqrt(3.0) / np.max(np.abs(self.directions), axis=1)
+        mask = holder.mask("visibility_mask", ALL_BITS)
+        self.caster = RayCaster(world, description, self.directions, self._group, near, self.range_max, mask)
         self._scan: Any = None
         self._points: Any = None
 
@@ -103,7 +104,7 @@ class Lidar(SensorBase):
         self.caster.bind()
         # The additional last entry is for rays without a hit (geom -1).
         self._retro = np.zeros(self.world.model.ngeom + 1)
-        for geom, _, _, part in geom_parts(self.world, self._group):
+        for geom, _, _, part, _ in geom_parts(self.world, self._group):
             self._retro[geom] = part.element.number("laser_retro", 0.0)
 
     def topic_suffix(self) -> str:
@@ -170,7 +171,7 @@ class Lidar(SensorBase):
         self.fill_header(message.header, now_ns)
         points = np.zeros(len(distances), dtype=LIDAR)
         with np.errstate(invalid="ignore"):  # inf * 0 along an axis with zero slope
-            points["x"], points["y"], points["z"] = (self._directions * distances[:, None]).T
+            points["x"], points["y"], points["z"] = (self.directions * distances[:, None]).T
         points["intensity"] = self._intensities
         points["ring"] = np.repeat(np.arange(self.vertical.count), self.horizontal.count)
         fill_cloud(message, points, self.vertical.count, self.horizontal.count)

@@ -26,13 +26,13 @@ class RgbdCamera(DepthSensing):
 
     def look(self, now_ns: int) -> None:
         coloured = self.listened("/image") or self.listened("/points")
-        hits = self.cast(normals=coloured)
-        depth = self.depths(hits)
+        view = self.cast()
+        depth = self.depths(view)
         if self.listened("/depth_image"):
             self.publish_image("/depth_image", depth, "R_FLOAT32", now_ns)
         if not coloured:
             return
-        colours = self.shader.colours(hits, self.pinhole.width)
+        colours = self.shader.colours(view)
         if self.listened("/image"):
             noisy = colours if self.noise.silent else self.noise.apply(colours.astype(np.float64), 0.0, self.random())
             image = encode(noisy, self.pinhole.height, self.pinhole.width, "RGB_INT8")

@@ -63,7 +63,7 @@ class SegmentationCamera(CameraSensor):
         self._labels = np.zeros((count, 3), dtype=np.uint8)
         self._colours = np.zeros((count, 3), dtype=np.uint8)
         instances: dict[int, dict[str, int]] = {}
-        for geom, model, link, part in geom_parts(self.world, VISUAL_GROUP):
+        for geom, model, link, part, _ in geom_parts(self.world, VISUAL_GROUP):
             label = label_of(model, link, part)
             if label == 0:
                 continue

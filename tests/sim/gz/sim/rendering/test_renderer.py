@@ -50,10 +50,10 @@ def test_opengl_shows_what_the_rays_show(load_text: Load) -> None:
         pytest.skip("MuJoCo cannot draw with OpenGL on this machine")
     world = load_text(SCENE)
     (camera,) = next(system for system in world.systems if system.name == "Sensors").sensors  # type: ignore[attr-defined]
-    cast: Any = camera._renderer.image().reshape(120, 160, 3)
+    cast: Any = camera._renderer.image().T.reshape(120, 160, 3)
     gl = GlRenderer(camera, backend)
     gl.bind()
-    drawn = gl.image().reshape(120, 160, 3)
+    drawn = gl.image().T.reshape(120, 160, 3)
     difference = np.abs(drawn - cast).max(axis=2)
     assert (difference > 0.1).mean() < 0.04, "only edges and shadows may differ"
     assert np.median(difference) < 0.03

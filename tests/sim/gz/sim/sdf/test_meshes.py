@@ -124,7 +124,7 @@ def test_faces_with_many_corners_become_fans(tmp_path: Path) -> None:
         ("a.stl", b"solid x\nfacets\n", r":2: 'facets' is no word"),
         ("a.stl", ascii_stl(CORNERS[TETRAHEDRON])[:-14].encode(), "cut off: its last line is not 'endsolid'"),
         ("a.stl", b"solid x\nendsolid x\n", "has no triangle"),
-        ("a.glb", b"", r"kind \.glb are not read here; use \.obj or \.stl"),
+        ("a.ply", b"", r"kind \.ply are not read here; use \.obj or \.stl"),
         ("a.txt", b"", r"ending '\.txt' is not that of a mesh"),
     ],
 )

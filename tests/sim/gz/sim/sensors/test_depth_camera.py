@@ -94,7 +94,7 @@ def test_segmentation_shows_labels_and_instances(load_text: Load, node: Node) ->
 
 
 def test_formats() -> None:
-    colours = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]], dtype=np.float32)
+    colours = np.array([[1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1]], dtype=np.float32)
     assert encode(colours, 2, 2, "RGB_INT8").tolist() == [[[255, 0, 0], [0, 255, 0]], [[0, 0, 255], [255, 255, 255]]]
     assert encode(colours, 2, 2, "L_INT8").tolist() == [[76, 150], [29, 255]]
     assert encode(colours, 2, 2, "L_INT16").tolist() == [[19595, 38469], [7471, 65535]]

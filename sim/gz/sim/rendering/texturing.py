@@ -1,0 +1,194 @@
+"""The textures of visuals as cameras see them: which point of a surface shows which point of an image.
+
+A box has its texture on each face, a plane once over its whole size; round shapes have it once round them, upright. A
+mesh has the places of its file, interpolated in the triangle that was hit. Images are halved again and again, and each
+pixel looks into the one whose texels are about as large as itself.
+
+Source: https://en.wikipedia.org/wiki/UV_mapping
+Source: https://en.wikipedia.org/wiki/Mipmap
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from gz_course.sim.gz.sim.rendering.facing import Seen
+from gz_course.sim.gz.sim.rendering.tile_caster import View
+from gz_course.sim.gz.sim.sdf.textures import Pixels
+
+Values = NDArray[np.float32]
+_KIND = mujoco.mjtGeom
+_FLATTEST = 0.15
+"""The smallest cosine of a surface to the line of sight that the size of a pixel on it takes into account."""
+
+
+class Texture:
+    """One image, and its reductions by 2, 4, 8, ..."""
+
+    def __init__(self, pixels: Pixels) -> None:
+        self.area = float(pixels.shape[0] * pixels.shape[1])
+        level = pixels.astype(np.float32) / np.float32(255.0)
+        self._levels = [level]
+        while min(level.shape[:2]) > 1:
+            rows, columns = level.shape[0] // 2 * 2, level.shape[1] // 2 * 2
+            level = level[:rows, :columns]
+            level = (level[::2, ::2] + level[1::2, ::2] + level[::2, 1::2] + level[1::2, 1::2]) / np.float32(4.0)
+            self._levels.append(level)
+
+    def colours(self, u: Values, v: Values, texels: Values) -> Values:
+        """Return the colours (3, n) at places (n,), for pixels that are `texels` wide."""
+        result = np.empty((3, len(u)), np.float32)
+        chosen = np.rint(np.log2(np.maximum(texels, np.float32(1.0)))).astype(np.intp)
+        np.minimum(chosen, len(self._levels) - 1, out=chosen)
+        for number in np.unique(chosen).tolist():
+            of = np.flatnonzero(chosen == number)
+            result[:, of] = _between(self._levels[number], u[of], v[of])
+        return result
+
+
+def _between(image: Values, u: Values, v: Values) -> Values:
+    """Return the colours (3, n) between the four texels round each place; the image repeats itself."""
+    rows, columns = image.shape[:2]
+    x = (u - np.floor(u)) * columns - np.float32(0.5)
+    y = (v - np.floor(v)) * rows - np.float32(0.5)
+    left, top = np.floor(x), np.floor(y)
+    across, down = (x - left)[:, None], (y - top)[:, None]
+    column, row = left.astype(np.intp) % columns, top.astype(np.intp) % rows
+    right, below = (column + 1) % columns, (row + 1) % rows
+    upper = image[row, column] * (1 - across) + image[row, right] * across
+    lower = image[below, column] * (1 - across) + image[below, right] * across
+    mixed: Values = (upper * (1 - down) + lower * down).T
+    return mixed
+
+
+class Textures:
+    """The textures of the geoms of one world, by geom id."""
+
+    def __init__(self, model: mujoco.MjModel, images: dict[int, Pixels]) -> None:
+        made: dict[int, Texture] = {}
+        self._model = model
+        self._of = {geom: made.setdefault(id(image), Texture(image)) for geom, image in images.items()}
+        self._density = {geom: math.sqrt(each.area / _area(model, geom)) for geom, each in self._of.items()}
+        """Texels for each metre."""
+
+    def colour(self, view: View, seen: Seen, result: Values) -> None:
+        """Multiply colours (3, tiles, pixels) by the textures of what is seen."""
+        shape = seen.code >> 3
+        for index in np.unique(shape).tolist():
+            geom = int(view.surfaces.ids[index]) if index >= 0 else -1
+            if geom not in self._of:
+                continue
+            at: Any = (slice(None), *np.nonzero(shape == index))
+            points = seen.points[at]
+            surfaces = view.surfaces
+            local = surfaces.inverse[index] @ (points - surfaces.position[index, :, None].astype(np.float32))
+            distance = np.sqrt(np.einsum("in,in->n", points, points))
+            facing = np.abs(np.einsum("in,in->n", seen.normal[at], points)) / np.maximum(distance, 1e-6)
+            width = distance * view.tiles.pixel / np.sqrt(np.maximum(facing, _FLATTEST))
+            if self._model.geom_type[geom] == _KIND.mjGEOM_MESH:
+                u, v = _in_mesh(self._model, geom, local.T.astype(np.float64))
+            else:
+                normal = surfaces.inverse[index] @ seen.normal[at]
+                u, v = _on_shape(int(self._model.geom_type[geom]), surfaces.size[index], local, normal)
+            texels = (width * self._density[geom]).astype(np.float32)
+            result[at] *= self._of[geom].colours(u.astype(np.float32), v.astype(np.float32), texels)
+
+
+def _area(model: mujoco.MjModel, geom: int) -> float:
+    """Return the size [m^2] of the surface that shows the texture once."""
+    kind = int(model.geom_type[geom])
+    x, y, z = (float(value) for value in model.geom_size[geom])
+    if kind == _KIND.mjGEOM_PLANE:
+        return 4.0 * x * y
+    if kind == _KIND.mjGEOM_BOX:
+        return 4.0 * (x * y + y * z + z * x) / 3.0
+    if kind == _KIND.mjGEOM_CYLINDER:
+        return 4.0 * math.pi * x * y
+    if kind != _KIND.mjGEOM_MESH:
+        return 4.0 * math.pi * x * x
+    corners, places = _triangles(model, geom)
+    surface = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum()
+    first, second = places[:, 1] - places[:, 0], places[:, 2] - places[:, 0]
+    shown = np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]).sum()
+    return float(surface / max(shown, 1e-9)) or 1.0
+
+
+def _on_shape(kind: int, size: Values, point: Values, normal: Values) -> tuple[Values, Values]:
+    """Return the places (n,) in a texture of points (3, n) of a simple shape, both in its own frame."""
+    half = np.float32(0.5)
+    if kind == _KIND.mjGEOM_PLANE:
+        return point[0] / (2 * size[0]) + half, half - point[1] / (2 * size[1])
+    if kind == _KIND.mjGEOM_BOX:
+        x, y, z = (point / (2 * size[:, None])).astype(np.float32)
+        axis = np.abs(normal).argmax(axis=0)
+        sign = np.sign(np.take_along_axis(normal, axis[None], axis=0)[0])
+        u = np.where(axis == 0, y * sign, np.where(axis == 1, -x * sign, y * -sign))
+        return u + half, half - np.where(axis == 2, x, z)
+    turn = np.arctan2(point[1], point[0]) / np.float32(2.0 * math.pi) + half
+    if kind == _KIND.mjGEOM_CYLINDER:
+        cap = np.abs(normal[2]) > 0.5
+        u = np.where(cap, point[0] / (2 * size[0]) + half, turn)
+        return u, half - np.where(cap, point[1] / (2 * size[0]), point[2] / (2 * size[1]))
+    height = normal[2] / np.maximum(np.sqrt(np.einsum("in,in->n", normal, normal)), np.float32(1e-6))
+    return turn, half - np.arcsin(np.clip(height, -1.0, 1.0)) / np.float32(math.pi)
+
+
+def _triangles(model: mujoco.MjModel, geom: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the corners (m, 3, 3) [m] of a mesh and their places in a texture (m, 3, 2)."""
+    mesh = int(model.geom_dataid[geom])
+    first, count = int(model.mesh_faceadr[mesh]), int(model.mesh_facenum[mesh])
+    corners = model.mesh_vert[int(model.mesh_vertadr[mesh]) + model.mesh_face[first : first + count]]
+    start = int(model.mesh_texcoordadr[mesh])
+    if start < 0:
+        return corners.astype(np.float64), np.zeros((count, 3, 2))
+    places = model.mesh_texcoord[start + model.mesh_facetexcoord[first : first + count]]
+    return corners.astype(np.float64), places.astype(np.float64)
+
+
+def _in_mesh(model: mujoco.MjModel, geom: int, points: NDArray[np.float64]) -> tuple[Values, Values]:
+    """Return the places (n,) in the texture of points (n, 3) of the surface of a mesh, in the frame of its geom."""
+    mesh = int(model.geom_dataid[geom])
+    corners, places = _triangles(model, geom)
+    point, triangle = _close(model, mesh, points)
+    a, b, c = corners[triangle].swapaxes(0, 1)
+    p = points[point]
+    normal = np.cross(b - a, c - a)
+    square = np.maximum(np.einsum("ki,ki->k", normal, normal), 1e-30)
+    second = np.einsum("ki,ki->k", np.cross(p - a, c - a), normal) / square
+    third = np.einsum("ki,ki->k", np.cross(b - a, p - a), normal) / square
+    first = 1.0 - second - third
+    outside = np.maximum(0.0, -np.minimum(np.minimum(first, second), third)) * np.sqrt(np.sqrt(square))
+    wrong = outside + np.abs(np.einsum("ki,ki->k", p - a, normal)) / np.sqrt(square)
+    order = np.lexsort((wrong, point))
+    chosen, where = np.unique(point[order], return_index=True)
+    best = order[where]
+    weights = np.stack((first, second, third), axis=1)[best]
+    found = np.zeros((len(points), 2))
+    found[chosen] = np.einsum("kc,kcd->kd", np.clip(weights, 0.0, 1.0), places[triangle[best]])
+    return found[:, 0].astype(np.float32), found[:, 1].astype(np.float32)
+
+
+def _close(model: mujoco.MjModel, mesh: int, points: NDArray[np.float64]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Return pairs of a point and a triangle whose bounding box in MuJoCo's tree of the mesh is next to it."""
+    start, count = int(model.mesh_bvhadr[mesh]), int(model.mesh_bvhnum[mesh])
+    box = model.bvh_aabb[start : start + count]
+    child, leaf = model.bvh_child[start : start + count], model.bvh_nodeid[start : start + count]
+    slack = 1e-5 + 1e-3 * float(np.max(box[0, 3:]))
+    point, node = np.arange(len(points)), np.zeros(len(points), np.intp)
+    found: list[tuple[NDArray[np.intp], NDArray[np.intp]]] = []
+    while len(point):
+        near = (np.abs(points[point] - box[node, :3]) <= box[node, 3:] + slack).all(axis=1)
+        point, node = point[near], node[near]
+        ends = leaf[node] >= 0
+        found.append((point[ends], leaf[node[ends]].astype(np.intp)))
+        point, node = point[~ends], node[~ends]
+        below = child[node].astype(np.intp)
+        point, node = np.repeat(point, 2), below.ravel()
+        exists = node >= 0
+        point, node = point[exists], node[exists]
+    return np.concatenate([each[0] for each in found]), np.concatenate([each[1] for each in found])
