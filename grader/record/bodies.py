@@ -61,7 +61,7 @@ def placed(points: np.ndarray, chain: tuple[Poses, ...], time_ns: int) -> np.nda
     """Transform points (n, 3) from the innermost frame of a chain to the world frame, at a time [ns]."""
     for poses in reversed(chain):
         index = max(int(np.searchsorted(poses.times, time_ns, side="right")) - 1, 0)
-        points = points @ _rotation(poses.quaternions[index]).T + poses.positions[index]
+        points = points @ rotation(poses.quaternions[index]).T + poses.positions[index]
     return points
 
 
@@ -128,7 +128,7 @@ def _rgba(shape: str, facts: dict) -> tuple[int, int, int, int]:
     return red, green, blue, alpha
 
 
-def _rotation(quaternion: np.ndarray) -> np.ndarray:
+def rotation(quaternion: np.ndarray) -> np.ndarray:
     """Return the rotation matrix (3, 3) of a unit quaternion x, y, z, w."""
     x, y, z, w = (float(v) for v in quaternion)
     return np.array(

@@ -16,6 +16,7 @@ from markupsafe import Markup
 
 from gz_course.grader.printable import shown, storable
 from gz_course.grader.record.reading import Recording
+from gz_course.grader.report.html.animation import POLICY, SCRIPT, animation
 from gz_course.grader.report.html.from_above import Map
 from gz_course.grader.report.html.plot import key
 from gz_course.grader.report.html.signals import Figure, figures_of, speeds_of
@@ -72,8 +73,9 @@ class Plots:
 
 @dataclass(frozen=True)
 class Frame:
-    """The world at one moment of the run."""
+    """The world at one moment `at` [s] of the run."""
 
+    at: float
     title: str
     where: str
     drawing: Markup
@@ -96,7 +98,7 @@ def as_html(report: Report) -> str:
     shown_trial = report.shown_trial
     recording, drawn = recordings[shown_trial.name], maps[shown_trial.name]
     moments = _moments(shown_trial, recording)
-    several = len(trials) > 1
+    several, moves = len(trials) > 1, bool(drawn) and _lasted(recording) > 0
     text = _template().render(
         report=report,
         submission=Path(report.submission).name,
@@ -109,8 +111,12 @@ def as_html(report: Report) -> str:
         plots=[group for check in report.score.checks if (group := _plots(check, trials, recordings)).figures],
         speeds=speeds_of(recording, _robot(recording)),
         drawing=_whole(drawn, recording),
+        motion=animation(drawn, _lasted(recording), MAP) if moves else Markup(""),
+        script=Markup(SCRIPT),
+        policy=Markup(POLICY),
+        end=_lasted(recording),
         path=drawn.told(),
-        frames=[_frame(drawn, *moment) for moment in moments] if drawn and _lasted(recording) else [],
+        frames=[_frame(drawn, *moment) for moment in moments] if moves else [],
         pictures=_pictures(recording, moments),
         log=node_log(recording),
         noted=[f"{line.time_ns / 1e9:.2f} s: {shown(line.text)}" for line in recording.lines("log/grader")],
@@ -214,7 +220,7 @@ def _whole(drawn: Map, recording: Recording) -> Markup:
 def _frame(drawn: Map, at: float, title: str) -> Frame:
     where = drawn.where(at)
     alt = f"The world from above at {at:.2f} s of simulated time{f': the robot is at {where}' if where else ''}."
-    return Frame(f"{at:.2f} s. {title}", where, drawn.draw(at, FRAME, alt))
+    return Frame(round(at, 3), f"{at:.2f} s. {title}", where, drawn.draw(at, FRAME, alt))
 
 
 def _pictures(recording: Recording, moments: list[tuple[float, str]]) -> list[Picture]:
