@@ -31,6 +31,8 @@ import threading
 from pathlib import Path
 from types import TracebackType
 
+import psutil
+
 from gz_course.grader.errors import UsageError
 from gz_course.grader.printable import shown
 from gz_course.grader.process.temporary_folder import TemporaryFolder, sweep
@@ -91,7 +93,7 @@ class Program:
         """Wait until it has printed `text`; return its output so far.
 
         Raises TimeoutError, with the output, if it ends or `deadline` [s] pass before that. Time in which the programs
-        of this process wait for a processor does not count.
+        of this process wait for a processor does not count. The error says whether the program was at work or waited.
         """
         patience = Patience(FairClock(lambda: [os.getpid(), *descendants(os.getpid())]), deadline)
         pause = threading.Event()
@@ -101,8 +103,18 @@ class Program:
                 return output
             if ended or patience.over():
                 reason = "has ended and" if ended else f"has, within {deadline:g} s,"
-                raise TimeoutError(f"{self.command} {reason} not printed {text!r}, but:\n{output}")
+                state = "" if ended else f" ({self._state()})"
+                raise TimeoutError(f"{self.command} {reason} not printed {text!r}{state}, but:\n{output}")
             pause.wait(LOOK_AGAIN)
+
+    def _state(self) -> str:
+        """Say how much it has computed, which tells a slow program from one that waits for something."""
+        used = 0.0
+        for pid in (self.pid, *descendants(self.pid)):
+            with contextlib.suppress(psutil.Error):
+                times = psutil.Process(pid).cpu_times()
+                used += times.user + times.system
+        return f"it runs, and has had {used:.1f} s of processor time"
 
     def stop(self) -> int:
         """End it as Ctrl-C would (SIGINT), if necessary with SIGTERM and SIGKILL; return its exit code."""
