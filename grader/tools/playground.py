@@ -22,6 +22,7 @@ from __future__ import annotations
 import atexit
 import contextlib
 import os
+import re
 import shlex
 import shutil
 import signal
@@ -30,6 +31,7 @@ import sys
 import threading
 from pathlib import Path
 from types import TracebackType
+from typing import TYPE_CHECKING
 
 import psutil
 
@@ -42,8 +44,16 @@ from gz_course.grader.run.sandbox import ros_environment
 from gz_course.grader.run.sandbox.resource_monitor import descendants
 from gz_course.sim.did_you_mean import did_you_mean
 
+if TYPE_CHECKING:
+    from gz_course.grader.report.html.replay import Replay
+    from gz_course.grader.tools.live_frame import LiveFrame, WorldView
+
 GRACE = 3.0  # [s] between SIGINT, SIGTERM and SIGKILL
 LONGEST_COMMAND = 100  # [characters] of a command in the list of running programs
+# Its page goes into the notebook: no window or browser is opened.
+WATCH = "env -u DISPLAY -u WAYLAND_DISPLAY course watch --web"
+WATCH_READY = "Ctrl-C ends it"
+ADDRESS = re.compile(r"http://\S+")
 LOOK_AGAIN = 0.02  # [s] between two looks at the output of a program
 # Executes the command after asking Linux (prctl 1, PR_SET_PDEATHSIG) for a SIGTERM at the end of the process that
 # started it, because a notebook kernel that is killed cannot clean up. Run without site packages, so it takes only
@@ -166,6 +176,7 @@ class Playground:
         }
         self._before = {name: os.environ.get(name) for name in self.environment}
         os.environ.update(self.environment)
+        self._view: WorldView | None = None
         self._open = True
         Playground._opened = self
         atexit.register(self.close)
@@ -208,6 +219,45 @@ class Playground:
         self.programs.append(program)
         return program
 
+    def show(self, world: str = "") -> LiveFrame:
+        """Return a frame with the simulated world, live: the one of that name, or the first that answers.
+
+        It ends with the playground, and when it is asked for again.
+        """
+        from gz_course.grader.tools.live_frame import WorldView
+
+        if not self._open:
+            raise UsageError("this playground is closed; make a new one with Playground()")
+        if self._view is not None:
+            self._view.close()
+        self._view = WorldView(world)
+        return self._view.frame
+
+    def watch(self, *topics: str) -> LiveFrame:
+        """Return a frame with what ROS says on these topics (all, if none is given), live; `course watch` draws it.
+
+        It is a program like those of `start`, and a further call ends it.
+        """
+        from gz_course.grader.tools.live_frame import LiveFrame
+
+        program = self.start(f"{WATCH} {shlex.join(topics)}", instead_of=WATCH)
+        try:
+            address = ADDRESS.search(program.wait_for(WATCH_READY))
+        except TimeoutError:
+            address = None
+        if address is None:
+            said = program.output.strip().rpartition("\n")[2]
+            program.stop()
+            return LiveFrame(f"There is no live picture of what ROS says: {said}")
+        return LiveFrame(f"What ROS says on {', '.join(topics) or 'all topics'}, live.", address[0])
+
+    def replay(self, recording: str | Path) -> Replay:
+        """Return the run of a recording, to be played and stepped through in the page. Raises UsageError."""
+        from gz_course.grader.grade import grade_again
+        from gz_course.grader.report.html.replay import Replay
+
+        return Replay(grade_again(Path(recording)))
+
     def report(self) -> str:
         """Return which programs run and which have ended, with their output: to be read when no messages arrive."""
         return "\n".join(f"{program!r}\n{program.output}" for program in self.programs)
@@ -220,6 +270,8 @@ class Playground:
         Playground._opened = None
         atexit.unregister(self.close)
         try:
+            if self._view is not None:
+                self._view.close()
             for program in reversed(self.programs):
                 program.stop()
         finally:
