@@ -12,7 +12,11 @@ PARALLEL := --numprocesses $(WORKERS) --dist worksteal
 export PYTHONDONTWRITEBYTECODE =
 COMPILE := $(BIN)/python -m compileall -q sim grader public
 
-.PHONY: setup demo test verify prove-exercises prove-long attacks prove-determinism bench book fuzz lint clean
+# A chapter that was run is no change to git (.gitattributes); where there is no git, there is nothing to do.
+FILTER := ! git rev-parse --git-dir >/dev/null 2>&1 || \
+    git config filter.notebook-outputs.clean 'python3 -I -S grader/tools/notebook_outputs.py'
+
+.PHONY: setup chapters update demo test verify prove-exercises prove-long attacks prove-determinism bench book fuzz lint clean
 setup: .venv/with-course
 
 .venv/with-course: pyproject.toml constraints.txt
@@ -20,18 +24,35 @@ setup: .venv/with-course
 	    { echo "$$($(PYTHON) --version) is too old: the course needs Python 3.11 or newer; make PYTHON=python3.12"; exit 2; }
 	$(PYTHON) -m venv .venv
 	$(PIP) --editable .
+	@$(FILTER)
+	@touch $@
+
+.venv/with-chapters: .venv/with-course
+	$(PIP) --editable '.[chapters]'
 	@touch $@
 
 .venv/with-tools: .venv/with-course
 	$(PIP) --editable '.[dev]'
 	@touch $@
 
+# Opens JupyterLab where its file list shows chapters/ and exercises/.
+chapters: .venv/with-chapters
+	@$(FILTER)
+	PATH="$(CURDIR)/$(BIN):$$PATH" exec $(BIN)/jupyter lab $(JUPYTER_OPTIONS) chapters/00_first_run/00_first_run.ipynb \
+	    --ServerApp.root_dir="$(CURDIR)"
+
+# The newest version of the course: your own changes are set aside, and come back on top of it.
+update:
+	git pull --quiet --rebase --autostash
+	@$(MAKE) --no-print-directory setup
+	@echo "The course is up to date; CHANGELOG.md says what is new."
+
 demo: setup
 	@$(BIN)/course grade 03_teleop --submission solutions/03_teleop --out runs/demo
 	@$(BIN)/course grade 04_lidar_listener --submission solutions/04_lidar_listener --out runs/demo
 	@echo
-	@echo "Two recordings: runs/demo/03_teleop.rrd and runs/demo/04_lidar_listener.rrd"
-	@echo "Look at one:    $(BIN)/course show runs/demo/03_teleop.rrd"
+	@echo "Look into a recording: $(BIN)/course show runs/demo/03_teleop.rrd"
+	@$(BIN)/python -m gz_course.grader.report.browser runs/demo/04_lidar_listener.html
 
 test: .venv/with-tools
 	@$(COMPILE)

@@ -20,7 +20,7 @@ STARTED = time.monotonic()
 
 def command(
     json: Annotated[bool, typer.Option("--json", help="Print the findings as JSON, for programs.")] = False,
-    deadline: Annotated[float, typer.Option(help="Seconds of wall time for all of it; more on a busy machine.")] = 8.0,
+    deadline: Annotated[float, typer.Option(help="Seconds for all of it, waiting for a processor not counted.")] = 8.0,
 ) -> None:
     """Test everything the course needs. Exit code 0: all works, 1: something does not, 2: usage."""
     from gz_course.grader.tools.doctor.checkup import examine

@@ -43,8 +43,14 @@ def command(
         str | None, typer.Option(help="Refuse to grade in a sandbox below this level, such as B for official grading.")
     ] = None,
     out: Annotated[
-        Path | None, typer.Option(help="Folder for the recordings. Default: runs/EXERCISE, with best.json.")
+        Path | None,
+        typer.Option(
+            help="Folder for recordings and page. Default: runs/EXERCISE in the course's folder, and best.json."
+        ),
     ] = None,
+    page: Annotated[
+        bool, typer.Option("--page/--no-page", help="Write the HTML page beside the recording, unless --html names it.")
+    ] = True,
     *,
     reports: dict[str, Path],
 ) -> None:
@@ -57,7 +63,7 @@ def command(
     enter_early(level)  # before any thread exists
 
     from gz_course.grader.grade import PACES, grade, recording_path
-    from gz_course.grader.report.best import BEST, RUNS, keep_best
+    from gz_course.grader.report.best import BEST, keep_best, runs_folder
     from gz_course.grader.report.outputs import Outputs, check_writable
     from gz_course.grader.report.terminal import print_report
 
@@ -65,16 +71,17 @@ def command(
         raise UsageError(f"there is no pace {pace!r}{did_you_mean(pace, PACES, listing='known')}")
     chosen = find_exercise(exercise)
     own = out is None  # best.json is kept only in the default folder
-    out = out or RUNS / chosen.name
+    out = out or runs_folder() / chosen.name
     asked = numbered(chosen_trials(chosen, trials))
-    outputs = Outputs(reports)
+    beside = out / f"{chosen.name}.html" if page and "html" not in reports else None
+    outputs = Outputs(reports | ({"html": beside} if beside else {}))
     graded = submission or chosen.starter
     outputs.check([recording_path(chosen, trial, out) for trial in asked], [graded, graded / chosen.file])
     if own:
         check_writable(out / BEST)
     report = grade(chosen, submission, out, seed=seed, pace=pace, trials=asked, sandbox=level, started=STARTED)
     try:
-        print_report(report)
+        print_report(report, page=beside)
     finally:  # also if the terminal has been closed
         outputs.write(report)
         if own:

@@ -12,14 +12,14 @@ from rich.table import Table
 
 from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import CheckSpec, Exercise, course_root, exercise_names, find_exercise
-from gz_course.grader.report.best import RUNS, best_scores
+from gz_course.grader.report.best import best_scores, runs_folder
 
 
 def command(
     exercise: Annotated[str | None, typer.Argument(help="Show what this exercise asks for and its rubric.")] = None,
     runs: Annotated[
         Path | None,
-        typer.Option(help="Folder whose reports (JSON) are looked through for the best scores. Default: runs."),
+        typer.Option(help="Folder whose reports (JSON) hold the best scores. Default: runs in the course's folder."),
     ] = None,
 ) -> None:
     """List the exercises with points, best score so far and the expected file, or show the rubric of one."""
@@ -30,7 +30,7 @@ def command(
     root = course_root()
     names = exercise_names(root) if exercise is None else [exercise]
     exercises = [find_exercise(name, root) for name in names]
-    best = best_scores(runs or RUNS, {each.name: each.max_score for each in exercises})
+    best = best_scores(runs or runs_folder(), {each.name: each.max_score for each in exercises})
     told = {each.name: f"{best.scores[each.name]:g}" if each.name in best.scores else "-" for each in exercises}
     console = Console()
     if exercise is not None:

@@ -15,6 +15,7 @@ from pathlib import Path
 
 from gz_course.grader.errors import ManifestError, UsageError
 from gz_course.grader.exercise import Exercise, exercise_names, find_exercise
+from gz_course.grader.exercise.pristine import STARTERS
 
 CHECKOUT = Path(__file__).parents[2]
 COURSE = ("exercises", "chapters")
@@ -98,6 +99,10 @@ def _fill(copy: Path, root: Path, code: Path, exercises: list[Exercise]) -> None
                     shutil.copy(path, copy / inside)
     for name in FILES:
         shutil.copy(code / name, copy / name)
+    for exercise in exercises:
+        kept = copy / STARTERS / exercise.name / exercise.file
+        kept.parent.mkdir(parents=True)
+        shutil.copy(copy / exercise.starter.relative_to(root), kept)
     (copy / "README.md").write_text(readme(copy, exercises), encoding="utf-8")
 
 

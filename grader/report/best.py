@@ -16,14 +16,25 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gz_course.grader.errors import UsageError
+from gz_course.grader.exercise import course_root
 
 if TYPE_CHECKING:
     from gz_course.grader.report.report import Report
 
-RUNS = Path("runs")  # default folder of `course grade`
 BEST = "best.json"
 MOST_BYTES = 4 << 20  # of a report; real ones have some 10 KB
 MOST_POINTS = 1e9  # a file that claims more is not a report
+
+
+def runs_folder() -> Path:
+    """Return the default folder of `course grade`: COURSE_RUNS, else `runs` beside the exercises, wherever one stands.
+
+    It is relative to the current folder if that lies in the course.
+    """
+    if given := os.environ.get("COURSE_RUNS"):
+        return Path(given)
+    root, here = course_root().resolve(), Path.cwd()
+    return Path(os.path.relpath(root, here), "runs") if here.is_relative_to(root) else root / "runs"
 
 
 @dataclass

@@ -1,5 +1,7 @@
 """The report in a terminal: the diagnosis first, then what each check expected and measured.
 
+A report without a single point is short if a page beside it says the rest: what to do first, and what comes then.
+
 Used by the commands that grade. The layout is the same for every width; every state is a word as well as a colour. A
 student's text is printed without markup and control codes, and so that no build service takes a line for a command.
 """
@@ -9,6 +11,7 @@ from __future__ import annotations
 import io
 import re
 import sys
+from pathlib import Path
 from typing import TextIO
 
 from rich.console import Console, RenderableType
@@ -34,24 +37,27 @@ TRAILING = re.compile(r" +$", re.MULTILINE)
 COMMANDS = re.compile(r"^([^\S\n]*(?:\x1b\[[0-9;]*m)*[^\S\n]*):(?=:)|#(?=#\[|#vso\[)", re.MULTILINE)
 
 
-def print_report(report: Report, file: TextIO | None = None, width: int | None = None) -> None:
+def print_report(
+    report: Report, file: TextIO | None = None, width: int | None = None, *, page: Path | None = None
+) -> None:
     """Print one report to the terminal, or to `file` with `width` columns, in colour where that is supported.
 
+    `page` is the HTML report beside the recording, if there is one.
     Raises UsageError if the recording of a node that died cannot be read.
     """
     target = file or sys.stdout
-    page = io.StringIO()
+    printed = io.StringIO()
     told_to = Console(file=target, width=width)
     console = Console(
-        file=page,
+        file=printed,
         width=max(told_to.width, NARROWEST),
         force_terminal=told_to.is_terminal,
         color_system=told_to.color_system,  # type: ignore[arg-type]
         no_color=told_to.no_color,
         highlight=False,
     )
-    _print(report, console)
-    text = disarmed(TRAILING.sub("", page.getvalue()))
+    _print(report, console, page)
+    text = disarmed(TRAILING.sub("", printed.getvalue()))
     encoding = getattr(target, "encoding", None) or "utf-8"
     target.write(text.encode(encoding, "replace").decode(encoding))
     target.flush()
@@ -62,7 +68,7 @@ def disarmed(text: str) -> str:
     return COMMANDS.sub(lambda match: f"{match[0]} ", text)
 
 
-def _print(report: Report, console: Console) -> None:
+def _print(report: Report, console: Console, page: Path | None) -> None:
     score = report.score
     console.print(_text("\n", (report.exercise, "bold"), "  ", report.title))
     console.print(_text("submission: ", report.submission), soft_wrap=True)
@@ -71,8 +77,11 @@ def _print(report: Report, console: Console) -> None:
     if score.outcome in ("student_error", "memory"):
         _print_last_lines(report, console)
     console.print()
-    for check in score.checks:
-        _print_check(check, report, console)
+    if page is not None and not score.points and len(score.checks) > 1:
+        _print_first(report, console)
+    else:
+        for check in score.checks:
+            _print_check(check, report, console)
     if len(report.trials) > 1:
         console.print(_text("\n", ("trials", "bold")))
         rows = Table.grid(padding=(0, 2, 0, 0))
@@ -91,6 +100,20 @@ def _print(report: Report, console: Console) -> None:
         )
     for trial in report.trials:
         console.print(_text("recording: ", str(trial.recording)), soft_wrap=True)
+    if page is not None:
+        console.print(_text("page:      ", str(page)), soft_wrap=True)
+
+
+def _print_first(report: Report, console: Console) -> None:
+    """Print a line for each check, all of them failed, and the hint of the one to begin with if it is still unsaid."""
+    failed = [check for check in report.score.checks if not check.finding.passed]
+    first = max(failed, key=lambda check: not check.finding.gated, default=None)
+    for check in report.score.checks:
+        mark, earned = _text(MARKS[check.finding.passed]), f"{points(check.points)}/{points(check.spec.points)}"
+        console.print(_hanging(mark, _text(check.spec.title, "  ", (earned, "bold"))))
+        if check is first and report.measured and check.spec.hint not in report.score.diagnosis:
+            console.print(Padding(_hanging(_text("hint:"), _text(check.spec.hint), 10), (0, 0, 0, INDENT)))
+    console.print("\nThe page has what each check expected and measured, and the run to look at.")
 
 
 def _print_check(check: CheckResult, report: Report, console: Console) -> None:
@@ -106,6 +129,8 @@ def _print_check(check: CheckResult, report: Report, console: Console) -> None:
         console.print(Padding(line, (0, 0, 0, INDENT)))
         return
     for name, text in report.told(check):
+        if name == "hint" and finding.gated:
+            continue  # another check gives the reason, so this hint does not apply yet
         console.print(Padding(_hanging(_text(f"{name}:"), _text(text), 10), (0, 0, 0, INDENT)))
 
 

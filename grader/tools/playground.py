@@ -22,6 +22,7 @@ from __future__ import annotations
 import atexit
 import contextlib
 import os
+import re
 import shlex
 import shutil
 import signal
@@ -30,6 +31,9 @@ import sys
 import threading
 from pathlib import Path
 from types import TracebackType
+from typing import TYPE_CHECKING
+
+import psutil
 
 from gz_course.grader.errors import UsageError
 from gz_course.grader.printable import shown
@@ -40,8 +44,16 @@ from gz_course.grader.run.sandbox import ros_environment
 from gz_course.grader.run.sandbox.resource_monitor import descendants
 from gz_course.sim.did_you_mean import did_you_mean
 
+if TYPE_CHECKING:
+    from gz_course.grader.report.html.replay import Replay
+    from gz_course.grader.tools.live_frame import LiveFrame, WorldView
+
 GRACE = 3.0  # [s] between SIGINT, SIGTERM and SIGKILL
 LONGEST_COMMAND = 100  # [characters] of a command in the list of running programs
+# Its page goes into the notebook: no window or browser is opened.
+WATCH = "env -u DISPLAY -u WAYLAND_DISPLAY course watch --web"
+WATCH_READY = "Ctrl-C ends it"
+ADDRESS = re.compile(r"http://\S+")
 LOOK_AGAIN = 0.02  # [s] between two looks at the output of a program
 # Executes the command after asking Linux (prctl 1, PR_SET_PDEATHSIG) for a SIGTERM at the end of the process that
 # started it, because a notebook kernel that is killed cannot clean up. Run without site packages, so it takes only
@@ -91,7 +103,7 @@ class Program:
         """Wait until it has printed `text`; return its output so far.
 
         Raises TimeoutError, with the output, if it ends or `deadline` [s] pass before that. Time in which the programs
-        of this process wait for a processor does not count.
+        of this process wait for a processor does not count. The error says whether the program was at work or waited.
         """
         patience = Patience(FairClock(lambda: [os.getpid(), *descendants(os.getpid())]), deadline)
         pause = threading.Event()
@@ -101,8 +113,18 @@ class Program:
                 return output
             if ended or patience.over():
                 reason = "has ended and" if ended else f"has, within {deadline:g} s,"
-                raise TimeoutError(f"{self.command} {reason} not printed {text!r}, but:\n{output}")
+                state = "" if ended else f" ({self._state()})"
+                raise TimeoutError(f"{self.command} {reason} not printed {text!r}{state}, but:\n{output}")
             pause.wait(LOOK_AGAIN)
+
+    def _state(self) -> str:
+        """Say how much it has computed, which tells a slow program from one that waits for something."""
+        used = 0.0
+        for pid in (self.pid, *descendants(self.pid)):
+            with contextlib.suppress(psutil.Error):
+                times = psutil.Process(pid).cpu_times()
+                used += times.user + times.system
+        return f"it runs, and has had {used:.1f} s of processor time"
 
     def stop(self) -> int:
         """End it as Ctrl-C would (SIGINT), if necessary with SIGTERM and SIGKILL; return its exit code."""
@@ -154,6 +176,7 @@ class Playground:
         }
         self._before = {name: os.environ.get(name) for name in self.environment}
         os.environ.update(self.environment)
+        self._view: WorldView | None = None
         self._open = True
         Playground._opened = self
         atexit.register(self.close)
@@ -196,6 +219,45 @@ class Playground:
         self.programs.append(program)
         return program
 
+    def show(self, world: str = "") -> LiveFrame:
+        """Return a frame with the simulated world, live: the one of that name, or the first that answers.
+
+        It ends with the playground, and when it is asked for again.
+        """
+        from gz_course.grader.tools.live_frame import WorldView
+
+        if not self._open:
+            raise UsageError("this playground is closed; make a new one with Playground()")
+        if self._view is not None:
+            self._view.close()
+        self._view = WorldView(world)
+        return self._view.frame
+
+    def watch(self, *topics: str) -> LiveFrame:
+        """Return a frame with what ROS says on these topics (all, if none is given), live; `course watch` draws it.
+
+        It is a program like those of `start`, and a further call ends it.
+        """
+        from gz_course.grader.tools.live_frame import LiveFrame
+
+        program = self.start(f"{WATCH} {shlex.join(topics)}", instead_of=WATCH)
+        try:
+            address = ADDRESS.search(program.wait_for(WATCH_READY))
+        except TimeoutError:
+            address = None
+        if address is None:
+            said = program.output.strip().rpartition("\n")[2]
+            program.stop()
+            return LiveFrame(f"There is no live picture of what ROS says: {said}")
+        return LiveFrame(f"What ROS says on {', '.join(topics) or 'all topics'}, live.", address[0])
+
+    def replay(self, recording: str | Path) -> Replay:
+        """Return the run of a recording, to be played and stepped through in the page. Raises UsageError."""
+        from gz_course.grader.grade import grade_again
+        from gz_course.grader.report.html.replay import Replay
+
+        return Replay(grade_again(Path(recording)))
+
     def report(self) -> str:
         """Return which programs run and which have ended, with their output: to be read when no messages arrive."""
         return "\n".join(f"{program!r}\n{program.output}" for program in self.programs)
@@ -208,6 +270,8 @@ class Playground:
         Playground._opened = None
         atexit.unregister(self.close)
         try:
+            if self._view is not None:
+                self._view.close()
             for program in reversed(self.programs):
                 program.stop()
         finally:

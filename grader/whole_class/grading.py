@@ -150,7 +150,7 @@ def _grade(setup: Setup, job: Job, folder: Path) -> Graded:
         "grade",
         setup.exercise,
     ]
-    command += ["--submission", str(given), "--out", RECORDINGS, "--json", REPORT, *setup.options]
+    command += ["--submission", str(given), "--out", RECORDINGS, "--json", REPORT, "--no-page", *setup.options]
     for name in setup.reports:
         command += [f"--{name}", formats()[name].file]
     with (folder / "stderr").open("w+b") as errors:

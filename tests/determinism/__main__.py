@@ -80,7 +80,15 @@ def graded(row: Row, level: str, busy: bool) -> dict[str, Any]:
         file = row.folder / find_exercise(row.exercise, ROOT).file
         submission = row.folder if row.folder.is_relative_to(STYLES) else file
         command = [sys.executable, "-m", "gz_course.grader.course", "grade", row.exercise]
-        command += ["--submission", str(submission), "--out", str(Path(place, "out")), "--json", str(report)]
+        command += [
+            "--submission",
+            str(submission),
+            "--out",
+            str(Path(place, "out")),
+            "--json",
+            str(report),
+            "--no-page",
+        ]
         began = time.monotonic()
         done = subprocess.run(
             [*command, "--sandbox", level], cwd=ROOT, capture_output=True, text=True, timeout=LONGEST, check=False

@@ -80,7 +80,8 @@ def assert_nothing_left(outcome):
 def environment(folder, **more):
     (folder / "tmp").mkdir(parents=True, exist_ok=True)
     kept = {key: value for key, value in os.environ.items() if not key.startswith(("ROS_", "GZ_", "COURSE_"))}
-    return kept | {"TMPDIR": str(folder / "tmp"), "COURSE_ROOT": str(ROOT), "COLUMNS": "100"} | more
+    own = {"TMPDIR": str(folder / "tmp"), "COURSE_ROOT": str(ROOT), "COURSE_RUNS": str(folder / "runs")}
+    return kept | own | {"COLUMNS": "100"} | more
 
 
 def run_course(folder, *arguments, prelude="", timeout=600, **variables):
@@ -108,7 +109,7 @@ def run_grade(folder, exercise, submission, *more, **options):
     """Grade a submission in `folder`, with the report beside it."""
     return run_course(
         folder, "grade", exercise, "--submission", submission, "--out", folder / "out",
-        "--json", folder / "report.json", *more, **options,
+        "--json", folder / "report.json", "--no-page", *more, **options,
     )  # fmt: skip
 
 

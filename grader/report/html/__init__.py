@@ -1,1 +1,4 @@
-"""The report as one self-contained HTML page without network access or scripts, also for paper and screen readers."""
+"""The report as one self-contained HTML page without network access, also for paper and screen readers.
+
+Its only script plays the run; without scripts the run is a picture.
+"""

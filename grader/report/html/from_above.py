@@ -39,27 +39,27 @@ class Map:
     """The world of one recording, which can be drawn at any of its moments."""
 
     def __init__(self, recording: Recording, robot: str) -> None:
-        self._recording = recording
-        self._robot = robot
+        self.recording = recording
+        self.robot = robot
         every = bodies(recording)
         shapes = [(body, hull(body.at(0)[:, :2])) for body in every if not body.moves]
         self._standing = sorted(((b, h) for b, h in shapes if len(h) > 2), key=lambda pair: -_area(pair[1]))
-        self._moving = sorted((body for body in every if body.moves), key=lambda body: body.at(0)[:, 2].max())
-        self._scans = [(entity, chain_of(recording, entity)) for entity in recording.entities("world", "Points3D:pos")]
+        self.moving = sorted((body for body in every if body.moves), key=lambda body: body.at(0)[:, 2].max())
+        self.scans = [(entity, chain_of(recording, entity)) for entity in recording.entities("world", "Points3D:pos")]
         self._x, self._y = (recording.signal(f"truth/{robot}/{axis}") for axis in "xy")
         self._yaw = recording.signal(f"truth/{robot}/yaw")
-        self._view = self._look()
+        self.view = self._look()
 
     def __bool__(self) -> bool:
         """Return whether there is anything to draw."""
-        return bool(len(self._x) or self._standing or self._moving)
+        return bool(len(self._x) or self._standing or self.moving)
 
     def draw(self, time_s: float, width: int, alt: str, *, whole_path: bool = False) -> Markup:
         """Return the world at a simulated time [s] as an SVG element `width` pixels wide.
 
         `whole_path`: draw the path to its end instead of to this moment, and mark its start.
         """
-        view, now = self._view, round(time_s * 1e9)
+        view, now = self.view, round(time_s * 1e9)
         scale = width / (view.right - view.left)
         height = scale * (view.top - view.bottom)
 
@@ -75,15 +75,16 @@ class Map:
             parts.append(_polygon(body, spots(outline)))
         path = np.stack([self._x.values, self._y.values], axis=1)
         until = len(path) if whole_path else int(np.searchsorted(self._x.times, now, side="right"))
-        if until > 1:
-            corners = spots(_thinned(path[:until]))
-            parts.append(f'<polyline class="path" points="{_joined(corners)}"/>')
-        for body in self._moving:
+        corners = spots(_thinned(path[:until])) if until > 1 else []
+        parts.append(f'<polyline class="path" points="{_joined(corners)}"/>')
+        parts.append('<g class="moving">')
+        for body in self.moving:
             parts.append(_polygon(body, spots(hull(body.at(now)[:, :2]))))
-        for entity, chain in self._scans:
-            cloud = placed(self._recording.points_at(entity, now), chain, now)
+        parts.append("</g>")
+        for entity, chain in self.scans:
+            cloud = placed(self.recording.points_at(entity, now), chain, now)
             dots = "".join(f"M{x:.1f} {y:.1f}h0" for x, y in spots(cloud[:: len(cloud) // MOST_POINTS + 1]))
-            parts.append(f'<path class="scan" d="{dots}"/>' if dots else "")
+            parts.append(f'<path class="scan" d="{dots}"/>')
         parts.append(self._heading(now, scale))
         if whole_path and len(path):
             x, y = spots(path[:1])[0]
@@ -97,7 +98,7 @@ class Map:
         if not len(self._x):
             return "The world seen from above."
         (x0, x1), (y0, y1) = ((s.values[0], s.values[-1]) for s in (self._x, self._y))
-        distance = self._recording.signal(f"truth/{self._robot}/distance").values
+        distance = self.recording.signal(f"truth/{self.robot}/distance").values
         return (
             f"Seen from above: the robot goes from x = {told(x0)} m, y = {told(y0)} m to x = {told(x1)} m, "
             f"y = {told(y1)} m, {told(distance[-1] if len(distance) else 0.0)} m in all."
@@ -115,7 +116,7 @@ class Map:
         path = np.stack([self._x.values, self._y.values], axis=1)
         path = path[np.isfinite(path).all(axis=1) & (np.abs(path).max(axis=1, initial=0.0) < 1e6)]
         outlines = [outline for _, outline in self._standing]
-        outlines += [body.at(0)[:, :2] for body in self._moving]
+        outlines += [body.at(0)[:, :2] for body in self.moving]
         world = np.concatenate([*outlines, np.zeros((1, 2))] if not len(path) else [*outlines, path])
         if max(np.ptp(world, axis=0)) <= WIDEST or not len(path):
             margin = 0.3
@@ -132,7 +133,7 @@ class Map:
             return ""
         index = max(int(np.searchsorted(self._x.times, now, side="right")) - 1, 0)
         x, y, yaw = (float(s.values[index]) for s in (self._x, self._y, self._yaw))
-        px, py = _pixels((x - self._view.left) * scale), _pixels((self._view.top - y) * scale)
+        px, py = _pixels((x - self.view.left) * scale), _pixels((self.view.top - y) * scale)
         length = max(ARROW * scale, 14.0)
         dx, dy = length * math.cos(yaw), -length * math.sin(yaw)
         tip = f"{px + dx:.1f} {py + dy:.1f}"
@@ -146,8 +147,6 @@ def _pixels(value: float) -> float:
 
 
 def _polygon(body: Body, corners: list[tuple[float, float]]) -> str:
-    if len(corners) < 3:
-        return ""
     red, green, blue, alpha = body.rgba
     fill = f'fill="#{red:02x}{green:02x}{blue:02x}" fill-opacity="{max(alpha / 255, 0.3):.2f}"'
     return f'<polygon class="body" {fill} points="{_joined(corners)}"/>'

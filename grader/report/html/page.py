@@ -16,6 +16,7 @@ from markupsafe import Markup
 
 from gz_course.grader.printable import shown, storable
 from gz_course.grader.record.reading import Recording
+from gz_course.grader.report.html.animation import POLICY, SCRIPT, animation
 from gz_course.grader.report.html.from_above import Map
 from gz_course.grader.report.html.plot import key
 from gz_course.grader.report.html.signals import Figure, figures_of, speeds_of
@@ -72,8 +73,9 @@ class Plots:
 
 @dataclass(frozen=True)
 class Frame:
-    """The world at one moment of the run."""
+    """The world at one moment `at` [s] of the run."""
 
+    at: float
     title: str
     where: str
     drawing: Markup
@@ -97,7 +99,8 @@ def as_html(report: Report) -> str:
     recording, drawn = recordings[shown_trial.name], maps[shown_trial.name]
     moments = _moments(shown_trial, recording)
     several = len(trials) > 1
-    text = _template().render(
+    text = _template("page.html.jinja").render(
+        **_run(drawn, recording, moments),
         report=report,
         submission=Path(report.submission).name,
         style=Markup((FOLDER / "page.css").read_text()),
@@ -108,9 +111,6 @@ def as_html(report: Report) -> str:
         trials=[_trial_row(trial, maps[trial.name]) for trial in trials],
         plots=[group for check in report.score.checks if (group := _plots(check, trials, recordings)).figures],
         speeds=speeds_of(recording, _robot(recording)),
-        drawing=_whole(drawn, recording),
-        path=drawn.told(),
-        frames=[_frame(drawn, *moment) for moment in moments] if drawn and _lasted(recording) else [],
         pictures=_pictures(recording, moments),
         log=node_log(recording),
         noted=[f"{line.time_ns / 1e9:.2f} s: {shown(line.text)}" for line in recording.lines("log/grader")],
@@ -121,7 +121,35 @@ def as_html(report: Report) -> str:
     return str(storable(text))
 
 
-def _template() -> Any:
+def replay_of(report: Report) -> tuple[str, str, Markup]:
+    """Return the run of a report as a page of its own, its path in words, and a still picture of it (SVG).
+
+    Raises UsageError if a recording cannot be read.
+    """
+    trial = report.shown_trial
+    recording = Recording(trial.recording)
+    drawn = Map(recording, _robot(recording))
+    run = _run(drawn, recording, _moments(trial, recording))
+    style = Markup((FOLDER / "page.css").read_text())
+    return str(storable(_template("replay.html.jinja").render(**run, style=style))), run["path"], run["drawing"]
+
+
+def _run(drawn: Map, recording: Recording, moments: list[tuple[float, str]]) -> dict[str, Any]:
+    """Return what `run.html.jinja` shows: the drawing, and its motion if there is any."""
+    end = _lasted(recording)
+    moves = bool(drawn) and end > 0
+    return {
+        "drawing": _whole(drawn, recording),
+        "motion": animation(drawn, end, MAP) if moves else Markup(""),
+        "script": Markup(SCRIPT),
+        "policy": Markup(POLICY),
+        "end": end,
+        "path": drawn.told(),
+        "frames": [_frame(drawn, *moment) for moment in moments] if moves else [],
+    }
+
+
+def _template(name: str) -> Any:
     environment = Environment(
         loader=FileSystemLoader(FOLDER),
         autoescape=True,
@@ -130,7 +158,7 @@ def _template() -> Any:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    return environment.get_template("page.html.jinja")
+    return environment.get_template(name)
 
 
 def _plain(value: Any) -> Any:
@@ -214,7 +242,7 @@ def _whole(drawn: Map, recording: Recording) -> Markup:
 def _frame(drawn: Map, at: float, title: str) -> Frame:
     where = drawn.where(at)
     alt = f"The world from above at {at:.2f} s of simulated time{f': the robot is at {where}' if where else ''}."
-    return Frame(f"{at:.2f} s. {title}", where, drawn.draw(at, FRAME, alt))
+    return Frame(round(at, 3), f"{at:.2f} s. {title}", where, drawn.draw(at, FRAME, alt))
 
 
 def _pictures(recording: Recording, moments: list[tuple[float, str]]) -> list[Picture]:

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import os
 import re
+import signal
+import threading
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from gz_course.grader.errors import CourseError
+from gz_course.grader.run.fair_clock import FairClock, Patience
+from gz_course.grader.run.sandbox.resource_monitor import descendants
 
-CELL_DEADLINE = 120  # [s]
+CELL_DEADLINE = 120.0  # [s] in which a cell waits or computes; waiting for a processor does not count
+LOOK_AGAIN = 0.5  # [s] between two looks at the time while a cell runs
 # scripts of the template, which need the network; no page needs them
 SCRIPT = re.compile(r"<script\b.*?</script>", re.DOTALL)
 COLOUR = re.compile(r"\x1b\[[0-9;]*m")
@@ -52,13 +58,47 @@ def run(chapter: Chapter) -> Any:
     from nbclient.exceptions import CellExecutionError, CellTimeoutError, DeadKernelError
 
     notebook = nbformat.read(chapter.notebook, as_version=4)
+    watch = _CellWatch()
     where = {"metadata": {"path": str(chapter.notebook.parent)}}
     quiet = ["--log-level=ERROR"]
+    client = NotebookClient(notebook, timeout=None, resources=where, extra_arguments=quiet)
+    client.on_cell_execute, client.on_cell_executed = watch.begin, watch.end
+    watch.client = client
     try:
-        NotebookClient(notebook, timeout=CELL_DEADLINE, resources=where, extra_arguments=quiet).execute()
+        client.execute()
     except (CellExecutionError, CellTimeoutError, DeadKernelError) as error:
+        if watch.overdue:
+            raise ChapterError(f"{chapter.notebook.name} hangs: {watch.overdue}") from None
         raise ChapterError(f"{chapter.notebook.name} does not run to its end:\n{COLOUR.sub('', str(error))}") from None
     return notebook
+
+
+class _CellWatch:
+    """Interrupts a cell that takes longer than `CELL_DEADLINE`; `overdue` says which, and whether it computed."""
+
+    def __init__(self) -> None:
+        self.client: Any = None
+        self.overdue = ""
+        self._done = threading.Event()
+
+    def begin(self, cell: Any, cell_index: int, **_: Any) -> None:
+        self._done = threading.Event()
+        threading.Thread(target=self._watch, args=(cell, self._done), daemon=True).start()
+
+    def end(self, **_: Any) -> None:
+        self._done.set()
+
+    def _watch(self, cell: Any, done: threading.Event) -> None:
+        clock = FairClock(lambda: [os.getpid(), *descendants(os.getpid())])
+        patience = Patience(clock, CELL_DEADLINE)
+        while not done.wait(LOOK_AGAIN):
+            if patience.over():
+                busy = clock.now() - clock.idle()
+                self.overdue = (
+                    f"cell {cell.id} is not done after {CELL_DEADLINE:g} s, of which it computed {busy:.0f} s"
+                )
+                os.kill(self.client.km.provisioner.pid, signal.SIGINT)
+                return
 
 
 def page(chapter: Chapter, notebook: Any) -> str:

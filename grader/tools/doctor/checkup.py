@@ -13,8 +13,8 @@ from typing import Any
 
 from gz_course.grader.registry import modules
 from gz_course.grader.tools.doctor import checks
-from gz_course.grader.tools.doctor.probe import ProbeError, Probes
-from gz_course.grader.tools.doctor.verdict import Verdict, failed
+from gz_course.grader.tools.doctor.probe import ProbeError, Probes, TooSlow
+from gz_course.grader.tools.doctor.verdict import Verdict, failed, warning
 
 AT_ONCE = 4  # questions at the same time; most of them wait for a process
 
@@ -43,6 +43,8 @@ def examine(deadline: float, asked: Sequence[ModuleType] | None = None) -> list[
 def _answer(module: ModuleType, probes: Probes) -> Finding:
     try:
         verdict: Verdict = module.examine(probes)
+    except TooSlow as slow:
+        verdict = warning(f"not known: {slow}", "nothing has failed; try again with `course doctor --deadline 60`")
     except ProbeError as error:
         verdict = failed(str(error), "mend what it names; `course doctor` tries the same again")
     except Exception as error:  # a question that fails must not prevent the others

@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from gz_course.grader.errors import UsageError
-from gz_course.grader.report.best import BEST, MOST_BYTES, best_scores, keep_best
+from gz_course.grader.report.best import BEST, MOST_BYTES, best_scores, keep_best, runs_folder
 from gz_course.tests.grader.report.handmade import REPORT, result, score_of
 
 DEADLINE = 120.0  # [s]
@@ -158,9 +158,26 @@ def test_grading_keeps_the_best_and_the_list_shows_it(course, root, tmp_path):
     assert re.search(r"03_teleop +100 +- +teleop_node.py", shown)
     assert "best score so far: 100" in listed(course, "01").stdout
     assert sorted(path.name for path in (tmp_path / "runs/01_two_transports").iterdir()) == [
+        "01_two_transports.html",
         "01_two_transports.rrd",
         BEST,
     ]
+
+
+def test_the_runs_stand_beside_the_exercises_wherever_one_is(tmp_path, monkeypatch):
+    monkeypatch.delenv("COURSE_RUNS", raising=False)
+    monkeypatch.delenv("COURSE_ROOT", raising=False)
+    (tmp_path / "exercises/01_x").mkdir(parents=True)
+    (tmp_path / "exercises/01_x/exercise.toml").touch()
+    (tmp_path / "chapters/01_x").mkdir(parents=True)
+    for folder, shown in ((".", "runs"), ("chapters/01_x", "../../runs"), ("exercises", "../runs")):
+        monkeypatch.chdir(tmp_path / folder)
+        assert str(runs_folder()) == shown
+    monkeypatch.chdir("/")
+    monkeypatch.setenv("COURSE_ROOT", str(tmp_path))
+    assert runs_folder() == tmp_path / "runs"
+    monkeypatch.setenv("COURSE_RUNS", "/elsewhere")
+    assert str(runs_folder()) == "/elsewhere"
 
 
 def test_the_list_says_what_is_stale_and_survives_the_rest(course, put, tmp_path):

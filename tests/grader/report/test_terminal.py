@@ -3,6 +3,7 @@
 import dataclasses
 import io
 import re
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -60,6 +61,29 @@ def test_each_check_says_what_was_expected_and_measured_and_when():
     ):
         assert f"      {line}\n" in failed
     assert "Hint for good." not in text
+
+
+def nothing_earned(**more):
+    first, gated = result("good", False), result("bad", False, gated=True)
+    return dataclasses.replace(REPORT, score=score_of(first, gated, diagnosis="Begin with the good one."), **more)
+
+
+def test_without_a_point_the_page_says_the_rest():
+    out = io.StringIO()
+    print_report(nothing_earned(), out, 100, page=Path("runs/03_teleop.html"))
+    text = out.getvalue()
+    assert "Begin with the good one." in text
+    assert text.count("FAIL") == 2
+    assert "Hint for good." in text and "Hint for bad." not in text
+    assert "expected:" not in text and "measured:" not in text
+    assert "page:      runs/03_teleop.html\n" in text
+
+
+def test_without_a_page_nothing_is_left_out_but_hints_that_do_not_apply():
+    text = printed(nothing_earned())
+    assert text.count("expected:") == text.count("measured:") == 2
+    assert "Hint for good." in text and "Hint for bad." not in text
+    assert "page:" not in text
 
 
 def test_long_texts_go_on_below_their_beginning():

@@ -9,12 +9,13 @@ import textwrap
 import threading
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import psutil
 import pytest
 
 from gz_course.grader.errors import UsageError
-from gz_course.grader.tools import playground
+from gz_course.grader.tools import live_frame, playground
 from gz_course.grader.tools.playground import Playground
 
 DEADLINE = 120.0
@@ -90,7 +91,10 @@ def test_it_lists_what_runs(room):
 def test_waiting_for_what_a_program_prints(room, tmp_path):
     program = start_script(room, tmp_path, "print('ready: 3 bridges'); print('up'); import signal; signal.pause()")
     assert program.wait_for("ready") == "ready: 3 bridges\nup\n"
-    with pytest.raises(TimeoutError, match=r"within 0.1 s, not printed 'never', but:\nready"):
+    with pytest.raises(
+        TimeoutError,
+        match=r"within 0.1 s, not printed 'never' \(it runs, and has had \d+\.\d s of processor time\), but:\nready",
+    ):
         program.wait_for("never", deadline=0.1)
 
 
@@ -232,3 +236,47 @@ def test_a_program_that_fails_says_why(room):
     eventually(lambda: program.exit_code is not None, "gz sim gives up")
     assert program.exit_code == 1
     assert "lidar_rom.sdf" in program.output and "exit code 1" in room.report()
+
+
+def test_a_view_that_is_missing_or_broken_is_one_sentence(room, monkeypatch):
+    def missing(name):
+        raise ModuleNotFoundError(name)
+
+    monkeypatch.setattr(live_frame.importlib, "import_module", missing)
+    frame = room.show()
+    assert frame._repr_mimebundle_() == {"text/plain": repr(frame)} and "no live view" in repr(frame)
+
+    class View:
+        address, closed = "http://127.0.0.1:1/<token>/", False
+
+        def __init__(self, world, search):
+            assert (world, search) == ("", True)
+
+        def wait(self):
+            if not self.address:
+                raise ValueError("there is no browser")
+
+        def close(self):
+            View.closed = True
+
+    monkeypatch.setattr(
+        live_frame.importlib, "import_module", lambda name: SimpleNamespace(View=View, ViewError=ValueError)
+    )
+    html = room.show()._repr_mimebundle_()["text/html"]
+    assert 'src="http://127.0.0.1:1/&lt;token&gt;/"' in html and "live" in html
+    View.address = ""
+    assert "there is no browser" in repr(room.show()) and View.closed
+
+
+def test_what_ros_says_is_shown_where_the_program_says_so(room, tmp_path, monkeypatch):
+    script = tmp_path / "watcher.py"
+    script.write_text(
+        "import sys, signal; print('open: http://127.0.0.1:9/?url=x'); print('Ctrl-C ends it', flush=True)\n"
+        "assert sys.argv[1:] == ['/scan', '/a b']; signal.pause()"
+    )
+    monkeypatch.setattr(playground, "WATCH", f"{sys.executable} {script}")
+    frame = room.watch("/scan", "/a b")
+    assert frame.address == "http://127.0.0.1:9/?url=x" and repr(frame) == "What ROS says on /scan, /a b, live."
+    script.write_text("print('course: there is no viewer')")
+    frame = room.watch()
+    assert "there is no viewer" in repr(frame) and not frame.address and room.running == []

@@ -46,8 +46,7 @@ def examine(probes: Probes) -> Verdict:
         except ProbeError as error:
             return failed(
                 f"no message came: {error}",
-                "mend what the lines about ROS here name; if there is none, let UDP on 127.0.0.1 through the firewall, "
-                "or try `course doctor --deadline 60` if this machine is busy",
+                "mend what the lines about ROS here name; if there is none, let UDP on 127.0.0.1 through the firewall",
             )
         finally:
             talker.stop()

@@ -43,7 +43,7 @@ def examine(probes: Probes) -> Verdict:
     """Publish in one process and receive in another, in a private partition."""
     token = uuid.uuid4().hex
     environment = {"GZ_PARTITION": f"doctor-{token}", "GZ_IP": "127.0.0.1"}
-    arguments = (TOPIC, token, f"{max(0.1, probes.seconds_left - 1.0):.1f}")
+    arguments = (TOPIC, token, f"{max(0.1, probes.wall_seconds_left):.1f}")
     talker = probes.start(TALKER, *arguments, environment=environment)
     try:
         probes.run(LISTENER, *arguments, environment=environment)

@@ -43,7 +43,7 @@ def examine(probes: Probes) -> Verdict:
 
     def attempt(level: str) -> str:
         try:
-            return probes.run(_CODE, level, str(max(1.0, probes.seconds_left / 2)))
+            return probes.run(_CODE, level, str(probes.wall_seconds_left), within=probes.deadline / 2)
         except ProbeError as error:
             return str(error)
 

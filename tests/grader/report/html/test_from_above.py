@@ -32,7 +32,7 @@ def centre(polygon):
 
 def test_the_robot_moves_to_the_right_and_the_box_stays(seen):
     start, end = (drawn(seen, at) for at in (0.0, 4.0))
-    (box, robot), (same, later) = (map(centre, picture.findall("polygon")) for picture in (start, end))
+    (box, robot), (same, later) = (map(centre, picture.iter("polygon")) for picture in (start, end))
     assert box == same
     assert later[0] > robot[0] and later[1] == pytest.approx(robot[1])
     assert box[1] < robot[1], "larger y lies higher"
@@ -44,8 +44,7 @@ def test_the_robot_moves_to_the_right_and_the_box_stays(seen):
 
 def test_the_path_so_far_and_the_whole_path(seen):
     def path(picture):
-        lines = picture.findall("polyline")
-        return len(lines[0].get("points").split()) if lines else 0
+        return len(picture.find("polyline").get("points").split())
 
     assert [path(drawn(seen, at)) for at in (0.0, 2.0, 4.0)] == [0, 21, 41]
     whole = drawn(seen, 0.0, whole_path=True)
@@ -72,7 +71,7 @@ def test_nothing_to_draw(tmp_path):
     empty = Map(Recording(write_run(tmp_path / "run.rrd", world=False, lines=[(0, "x")])), "robot")
     assert not empty
     assert empty.where(1.0) == ""
-    assert drawn(empty, 0.0).findall("polygon") == []
+    assert list(drawn(empty, 0.0).iter("polygon")) == []
 
 
 def test_a_large_world_is_shown_around_the_path(tmp_path):

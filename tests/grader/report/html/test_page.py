@@ -1,6 +1,9 @@
 """The HTML report: well-formed, self-contained, readable without eyes or colours, and deaf to what a student wrote."""
 
+import base64
 import dataclasses
+import hashlib
+import json
 import re
 from html.parser import HTMLParser
 from itertools import pairwise
@@ -20,7 +23,8 @@ SHAPES = {"rect", "line", "text", "path", "polygon", "polyline", "circle"}
 TAGS = {
     "html", "head", "meta", "title", "style", "body", "a", "header", "main", "footer", "section", "p", "h1", "h2", "h3",
     "div", "table", "thead", "tbody", "tr", "th", "td", "span", "strong", "br", "figure", "figcaption", "svg", "pre",
-    "code", "ul", "li", "dl", "dt", "dd", "img",
+    "code", "ul", "li", "dl", "dt", "dd", "img", "g", "button", "input", "label", "select", "option",
+    "output", "script",
 } | SHAPES  # fmt: skip
 
 
@@ -55,7 +59,7 @@ class Strict(HTMLParser):
             self.faults.append(f"</{tag}> closes something else")
 
     def handle_data(self, data):
-        if self.open[-1:] != ["style"]:
+        if self.open[-1:] not in (["style"], ["script"]):
             self.texts.append(data)
 
     def handle_comment(self, data):
@@ -115,10 +119,31 @@ def test_it_tells_everything(make_report):
     assert "never expected" not in parsed.text
 
 
-def test_it_loads_nothing_and_runs_nothing(make_report):
+def test_it_loads_nothing_and_runs_nothing_but_the_animation(make_report):
     text = as_html(make_report())
     assert "http://" not in text and "https://" not in text
-    assert "@import" not in text and "url(" not in text and "<script" not in text and "javascript:" not in text
+    assert "@import" not in text and "url(" not in text and "javascript:" not in text
+    (script,) = re.findall(r"<script>(.*?)</script>", text, re.DOTALL)
+    sha256 = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+    assert f"script-src 'sha256-{sha256}'\"" in text, "the browser runs this script only"
+    assert text.count("<script") == 2, "it and its data"
+
+
+def test_the_run_can_be_played(make_report):
+    text = as_html(make_report())
+    run = re.search(r'<figure class="run.*?</figure>', text, re.DOTALL)[0]
+    data = json.loads(re.search(r'<script type="application/json">(.*?)</script>', run, re.DOTALL)[1])
+    assert (data["end"], data["count"]) == (4.0, 101)
+    assert len(data["shapes"]) == run.partition("</svg>")[0].partition('class="moving"')[2].count("<polygon") == 1
+    (rows,), (corners,) = data["links"], [corners for _, corners in data["shapes"]]
+    assert len(rows) == 8 * 101 and len(corners) % 3 == 0
+    assert rows[6:8] == [0, 0] and rows[-2:] == [2, 0]
+    assert data["robot"][:3] == [0, 0, 0] and data["robot"][-3:] == [2, 0, 0]
+    (scan,) = data["scans"]
+    assert len(scan["at"]) == len(scan["dots"]) == 41 and all(len(dots) == 4 for dots in scan["dots"])
+    moments = re.findall(r'<button type="button" value="([\d.]+)">', run)
+    assert moments == ["0.0", "1.25", "2.0", "4.0"]
+    assert 'role="group" aria-label="The run, played" hidden' in run, "without scripts it is a picture"
 
 
 def test_a_plot_shows_band_and_moment_of_the_verdict(make_report):
@@ -140,7 +165,7 @@ def test_the_moments_of_the_run_are_drawn(make_report):
     text = as_html(make_report())
     parsed = read(text)
     maps = re.findall(r'<svg class="map".*?</svg>', text, re.DOTALL)
-    assert len(maps) == 5  # the whole path; start, verdict, middle, end
+    assert len(maps) == 5  # the run; start, verdict, middle, end
     for words in ("0.00 s. Start", "1.25 s. Title of bad: failed", "2.00 s. Middle", "4.00 s. End"):
         assert words in parsed.text
     assert "from x = 0.00 m, y = 0.00 m to x = 2.00 m, y = 0.00 m, 2.00 m in all" in parsed.text
@@ -227,7 +252,8 @@ def test_whatever_a_student_writes_is_text(make_report, texts, line):
         notes=(note,), versions={"mujoco": name},
     )  # fmt: skip
     parsed = read(as_html(report))
-    assert sum(tag in ("h1", "h2", "pre", "img") for tag, _ in parsed.elements) == 13
+    assert sum(tag in ("h1", "h2", "pre", "img") for tag, _ in parsed.elements) == 14
+    assert len(parsed.all("script")) == 2
     assert "<script>alert(1)</script>" in parsed.text and "{{ 7 * 7 }}" in parsed.text
 
 

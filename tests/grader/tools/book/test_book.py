@@ -8,7 +8,8 @@ import sys
 import nbformat
 import pytest
 
-from gz_course.grader.tools.book.chapter import chapters
+from gz_course.grader.tools.book import chapter as book_chapter
+from gz_course.grader.tools.book.chapter import ChapterError, chapters, run
 from gz_course.grader.tools.book.objectives import lessons
 from gz_course.tests import warm_process
 
@@ -106,3 +107,11 @@ def test_without_a_folder_it_says_how_it_is_used(words):
         [sys.executable, "-m", "gz_course.grader.tools.book", *words], capture_output=True, text=True, timeout=600
     )
     assert done.returncode == 2 and done.stderr.startswith("usage: ")
+
+
+@pytest.mark.proof
+def test_a_cell_that_hangs_is_named_and_ended(course, monkeypatch):
+    monkeypatch.setattr(book_chapter, "CELL_DEADLINE", 1.0)
+    (chapter,) = chapters(course("import threading; threading.Event().wait()"))
+    with pytest.raises(ChapterError, match=r"hangs: cell \w+ is not done after 1 s, of which it computed 0 s"):
+        run(chapter)

@@ -8,7 +8,7 @@ import time
 import psutil
 import pytest
 
-from gz_course.grader.tools.doctor.probe import ProbeError
+from gz_course.grader.tools.doctor.probe import STARVED, ProbeError, TooSlow
 
 HANGS = "print('begun', flush=True); import threading; threading.Event().wait()"
 
@@ -42,6 +42,18 @@ def test_what_hangs_is_ended_at_the_deadline(probes_with):
         probes.run("print()")
 
 
+def test_what_still_computes_at_the_deadline_is_slow_not_broken(probes_with):
+    with pytest.raises(
+        TooSlow, match=r"no answer within 0\.4 s, but it was at work and had \d\.\d s of processor time"
+    ):
+        probes_with(0.4).run("while True: pass")
+
+
+def test_a_deadline_of_its_own_is_kept(probes_with):
+    with pytest.raises(ProbeError, match=r"no answer within 0\.5 s"):
+        probes_with().run(HANGS, within=0.5)
+
+
 def test_children_go_with_it(probes_with):
     code = f"""
 import subprocess, sys
@@ -57,7 +69,7 @@ print(child.pid)
 
 def test_it_ends_by_itself_if_we_are_killed(probes_with):
     left = int(probes_with(30.0).run("print(signal.alarm(0))"))
-    assert 0 < left <= 33
+    assert 0 < left <= 33 + STARVED
 
 
 def test_the_folder_we_are_called_in_is_not_imported_from(probes_with, tmp_path, monkeypatch):
