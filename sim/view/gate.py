@@ -32,12 +32,17 @@ from urllib.parse import urlsplit
 
 from websockets.asyncio.server import ServerConnection
 from websockets.datastructures import Headers
+from websockets.frames import Frame, Opcode
 from websockets.http11 import Request, Response
 
 _MOST_WAITING = 64
 """Connections that may be open without having asked for anything; the oldest ends when there is one more."""
 _REQUEST_S = 10.0
 """Time [s] in which a connection has to ask."""
+_MOST_AHEAD = 2
+"""Pictures that may be sent before the browser has drawn one."""
+_PICTURE_S = 0.5
+"""Time [s] after which the next picture is sent anyway."""
 _MOST_BYTES = 1 << 20
 """Size [B] of the largest message that a page may send; pages send keys and mouse positions."""
 _ONCE_S = 120.0
@@ -102,6 +107,8 @@ class Gate:
         self._token = secrets.token_urlsafe(24)
         self._once: tuple[str, float] | None = None
         self._waiting: OrderedDict[Any, None] = OrderedDict()
+        self._drawn = 0
+        self._drawing = threading.Condition()
         self.serving = threading.Event()
         """Set when Studio serves through this gate."""
         self.used: set[str] = set()
@@ -186,6 +193,21 @@ class Gate:
             if value:
                 response.headers[name] = value
 
+    def drawn(self) -> None:
+        """Note that the browser in control has drawn a picture: it sends its keys and mouse with each."""
+        with self._drawing:
+            self._drawn = min(self._drawn + 1, _MOST_AHEAD)
+            self._drawing.notify_all()
+
+    def wait_until_drawn(self) -> None:
+        """Return when the browser has drawn the last picture but one, so that a slow one does not fall behind.
+
+        Studio sends the panels 60 times a second, and a browser that draws less often shows them later and later.
+        """
+        with self._drawing:
+            self._drawing.wait_for(lambda: self._drawn > 0, _PICTURE_S)
+            self._drawn = max(0, self._drawn - 1)
+
     def came(self, connection: Any) -> None:
         """Count a new connection in; end the oldest one of too many that have not asked for anything."""
         self._waiting[connection] = None
@@ -208,6 +230,11 @@ def install(gate: Gate, web_server: ModuleType) -> None:
         def connection_made(self, transport: Any) -> None:
             super().connection_made(transport)
             gate.came(self)
+
+        def process_event(self, event: Any) -> None:
+            super().process_event(event)
+            if isinstance(event, Frame) and event.opcode is Opcode.BINARY and self.request.path.startswith("/ui"):
+                gate.drawn()
 
         def connection_lost(self, exc: Exception | None) -> None:
             gate.went(self)

@@ -63,10 +63,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
         lambda model: world_end.send_to_viewer(messages.ModelEvent(model=model)),
         lambda state: world_end.send_to_viewer(messages.StateSnapshot(state=state, state_sig=STATE)),
     )
+    class WebViewer(web_viewer.WebViewer):
+        def prepare_next_frame(self) -> bool:
+            gate.wait_until_drawn()
+            return bool(super().prepare_next_frame())
+
     window = Window(link)
     try:
         install(gate, web_server)
-        viewer = web_viewer.WebViewer(viewer_protocol.ViewerConfig(gfx="web"), viewer_end, plugins=[window])
+        viewer = WebViewer(viewer_protocol.ViewerConfig(gfx="web"), viewer_end, plugins=[window])
         check(gate)
     except StudioChanged as error:
         say.write(f"! {error}\n")

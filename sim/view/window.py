@@ -164,11 +164,11 @@ class Window(plugin.ViewerPlugin):
             elif imgui.IsKeyChordPressed(imgui.Key.Escape):
                 self.select("")
                 self.follow("")
-        self._dragging.update(self.model, self.data, viewer.perturb, paused=bool(self.link.stats.paused))
+        self._dragging.update(self.model, self.data, viewer.perturb, paused=self.link.paused)
         viewer.extra_geoms[:] = [geom for panel in self.panels for geom in panel.geoms()]
 
     def toggle_pause(self) -> None:
-        if self.link.stats.paused:
+        if self.link.paused:
             self.link.play()
         else:
             self.link.pause()

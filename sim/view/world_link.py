@@ -7,6 +7,7 @@ Everything that changes the world is a service or a topic of Gazebo (`/world/W/c
 from __future__ import annotations
 
 import threading
+import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
@@ -23,6 +24,7 @@ from gz_course.sim.gz.msgs.entity_wrench_pb2 import EntityWrench
 from gz_course.sim.gz.msgs.pose_pb2 import Pose
 from gz_course.sim.gz.msgs.stringmsg_v_pb2 import StringMsg_V
 from gz_course.sim.gz.msgs.world_control_pb2 import WorldControl
+from gz_course.sim.gz.msgs.world_reset_pb2 import WorldReset
 from gz_course.sim.gz.msgs.world_stats_pb2 import WorldStatistics
 from gz_course.sim.gz.sim.plugins.topics import valid_topic
 from gz_course.sim.gz.sim.systems.view_broadcaster import split_stamp
@@ -30,6 +32,8 @@ from gz_course.sim.gz.transport import Node
 
 _SERVICE_MS = 6000
 """Time [ms] for a service; the simulator itself waits 5 s for the end of a step."""
+_ANSWER_S = 0.5
+"""Time [s] after which the statistics say what has become of a request."""
 _MOST_QUEUED = 32
 
 
@@ -57,6 +61,8 @@ class WorldLink:
         self._closed = threading.Event()
         self._calls = ThreadPoolExecutor(1, thread_name_prefix="services of the world")
         self._queued = 0
+        self._asked = False, -_ANSWER_S
+        """Whether the world shall be paused, and since when [s]."""
         self._fetcher = threading.Thread(target=self._fetch, daemon=True)
 
     @property
@@ -111,10 +117,14 @@ class WorldLink:
             self._stamp = stamp
             self._wanted.clear()
             self._on_model(model)
-            self.said = f"world '{self.world}'"
+            if self.said.startswith("waiting"):
+                self.said = f"world '{self.world}'"
 
     def call(self, service: str, request: Any, about: str) -> None:
-        """Call a service of the world that answers with a Boolean; the status line says what came of it."""
+        """Call a service of the world that answers with a Boolean; the status line says what came of it.
+
+        Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/user_commands/UserCommands.cc (`/blocking`)
+        """
         if self._queued >= _MOST_QUEUED:
             return
         self._queued += 1
@@ -128,25 +138,33 @@ class WorldLink:
             elif not response.data:
                 self.said = f"{about}: refused; the terminal of gz sim says why"
             else:
-                self.said = about
+                self.said = f"{about}: done"
         finally:
             self._queued -= 1
 
+    def _control(self, about: str, *, pause: bool, **fields: Any) -> None:
+        self._asked = pause, time.monotonic()
+        self.call("control", WorldControl(pause=pause, **fields), about)
+
+    @property
+    def paused(self) -> bool:
+        """Return whether the world is paused, or will be when it has done what was asked."""
+        asked, at = self._asked
+        return asked if time.monotonic() - at < _ANSWER_S else bool(self.stats.paused)
+
     def play(self) -> None:
-        self.call("control", WorldControl(pause=False), "playing")
+        self._control("play", pause=False)
 
     def pause(self) -> None:
-        self.call("control", WorldControl(pause=True), "paused")
+        self._control("pause", pause=True)
 
     def step(self, count: int) -> None:
         """Run `count` steps of a paused world."""
-        self.call("control", WorldControl(pause=True, multi_step=count), f"{count} step{'s'[: count != 1]}")
+        self._control(f"{count} step{'s'[: count != 1]}", pause=True, multi_step=count)
 
     def reset(self) -> None:
         """Reset the world; whether it is paused stays as it is."""
-        request: Any = WorldControl(pause=bool(self.stats.paused))
-        request.reset.all = True
-        self.call("control", request, "reset")
+        self._control("reset", pause=self.paused, reset=WorldReset(all=True))
 
     def create(self, sdf: str, name: str, position: tuple[float, float, float]) -> None:
         """Create a model from SDF text, or from the name of a model if the text does not begin with `<`."""
@@ -156,10 +174,10 @@ class WorldLink:
         else:
             request.sdf_filename = sdf
         request.pose.position.x, request.pose.position.y, request.pose.position.z = position
-        self.call("create", request, f"model '{name}' inserted")
+        self.call("create/blocking", request, f"insert '{name}'")
 
     def remove(self, name: str) -> None:
-        self.call("remove", Entity(name=name, type=Entity.MODEL), f"model '{name}' removed")
+        self.call("remove/blocking", Entity(name=name, type=Entity.MODEL), f"remove '{name}'")
 
     def set_pose(self, name: str, position: np.ndarray, quaternion: np.ndarray) -> None:
         """Move a model, or a link `model::link` that floats; the quaternion is (w, x, y, z)."""
@@ -167,7 +185,7 @@ class WorldLink:
         request.position.x, request.position.y, request.position.z = map(float, position)
         turn = request.orientation
         turn.w, turn.x, turn.y, turn.z = map(float, quaternion)
-        self.call("set_pose", request, f"'{name}' moved")
+        self.call("set_pose", request, f"move '{name}'")
 
     def drag(self, link: str, push: np.ndarray) -> None:
         """Push a link: force [N] and torque [Nm] in the world frame, for a moment; zeros let go."""

@@ -33,7 +33,7 @@ class Panel:
     def build(self) -> None:
         link = self._window.link
         stats = link.stats
-        paused = bool(stats.paused)
+        paused = link.paused
         imgui.PushStyleColor(imgui.Col.Button, _GREEN if paused else _ORANGE)
         imgui.PushStyleColor(imgui.Col.Text, _WHITE)
         if imgui.Button("Play" if paused else "Pause", _BUTTON):

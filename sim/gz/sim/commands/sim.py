@@ -240,7 +240,7 @@ def _simulate(values: argparse.Namespace, stop: threading.Event) -> int:
             LOG.info("world '%s' is loaded with models %s", world.name, world.model_names(static=True))
             seen = server.offers_view and not values.server
             if server.paused:
-                how = "press Play in the view, or start it with -r" if seen else "start it with -r to let time run"
+                how = "start it with -r, or press Play in the view" if seen else "start it with -r to let time run"
                 LOG.warning("world '%s' is paused; %s", world.name, how)
             if seen:
                 views.enter_context(_open_view(values, world.name))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -25,6 +26,7 @@ from gz_course.tests.warm_process import WarmPopen
 
 GZ = [sys.executable, "-c", "import sys; from gz_course.sim.gz.command import main; sys.exit(main())", "sim"]
 DEADLINE = 120
+SERVED = r"gz sim: world '{}' is served in partition '\w+'; gz sim -g shows it\n"
 
 
 @pytest.fixture(autouse=True)
@@ -97,7 +99,8 @@ def test_a_running_world_obeys_another_process_and_ends_with_zero(
         children = psutil.Process(process.pid).children(recursive=True)
         process.send_signal(number)
         out, err = process.communicate(timeout=DEADLINE)
-    assert (process.returncode, out, err) == (0, "", "")
+    assert (process.returncode, out) == (0, "")
+    assert re.fullmatch(SERVED.format("lidar_room"), err)
     assert children == []
 
 
@@ -121,7 +124,8 @@ def run_to_end(start: Callable[..., subprocess.Popen[str]], *arguments: str) -> 
 
 
 def test_iterations_end_by_themselves(start: Callable[..., subprocess.Popen[str]]) -> None:
-    assert run_to_end(start, "empty.sdf", "-r", "-s", "--iterations", "100", "-z", "100000") == (0, "")
+    code, err = run_to_end(start, "empty.sdf", "-r", "-s", "--iterations", "100", "-z", "100000")
+    assert code == 0 and re.fullmatch(SERVED.format("empty"), err)
 
 
 def test_errors_are_one_sentence(start: Callable[..., subprocess.Popen[str]], tmp_path: Path) -> None:
@@ -148,7 +152,7 @@ def test_errors_are_one_sentence(start: Callable[..., subprocess.Popen[str]], tm
         (["--seed", "1.5", "empty.sdf"], 104, "expected a whole number, but found '1.5'"),
         (["-z", "fast", "empty.sdf"], 104, "expected a number, zero or more, at most 1e9, but found 'fast'"),
         (["empty.sdf", "other.sdf"], 109, "'other.sdf' belongs to no option"),
-        (["-g"], 2, "use -s"),
+        (["-g", "empty.sdf"], 2, "-g shows a world that runs already"),
         (["--playback", "log"], 2, "gz log -i"),
         (["--initial-sim-time", "-3", "empty.sdf"], 104, "zero or more"),
         (["--initial-sim-time"], 114, "--initial-sim-time"),
