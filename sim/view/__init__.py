@@ -5,6 +5,6 @@
 sends the picture's data to whoever listens.
 """
 
-from gz_course.sim.view.open_view import View, ViewError, open_view
+from gz_course.sim.view.view_process import View, ViewError, open_view
 
 __all__ = ["View", "ViewError", "open_view"]

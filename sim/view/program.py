@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from gz_course.sim.view.gate import Gate
     from gz_course.sim.view.world_link import WorldLink
 
-NO_STUDIO, NOT_OPEN = 3, 4
-"""Exit codes: MuJoCo Studio is missing or another one than expected; the address cannot be opened."""
+NO_STUDIO, NOT_OPEN, BROKEN = 3, 4, 5
+"""Exit codes: MuJoCo Studio is missing or another one than expected; the address cannot be opened; an error later."""
 _SEARCH_S = 0.5
 
 
@@ -39,30 +39,38 @@ def main(arguments: Sequence[str] | None = None) -> int:
     ended = threading.Event()
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: threading.Thread(target=ended.set, daemon=True).start())
+    from gz_course.sim.view.gate import Gate, StudioChanged, check, install
+
+    try:
+        gate = Gate(values.bind, values.port, values.world or "gz sim")
+    except OSError as error:
+        say.write(f"! it cannot listen on {values.bind} ({error.strerror or error})\n")
+        return NOT_OPEN
     try:
         from mujoco.studio import launch_thread, messages, viewer_protocol, web_viewer
         from mujoco.studio.web import web_server
 
         from gz_course.sim.gz.sim.systems.view_broadcaster import STATE
-        from gz_course.sim.view.gate import Gate, StudioChanged, check, install
         from gz_course.sim.view.window import Window
         from gz_course.sim.view.world_link import WorldLink
     except (ImportError, AttributeError) as error:
         say.write(f"! MuJoCo Studio is not here ({error}); pip install mujoco brings it\n")
         return NO_STUDIO
     logging.getLogger("WebServer").handlers.clear()
-    logging.getLogger("WebServer").addHandler(logging.NullHandler())
+    for logger in (logging.getLogger("WebServer"), logging.getLogger()):
+        logger.addHandler(logging.NullHandler())
     try:
-        gate = Gate(values.bind, values.port)
-    except OSError as error:
-        say.write(f"! it cannot listen on {values.bind} ({error.strerror or error})\n")
+        node = Node()
+    except (OSError, RuntimeError, ValueError) as error:
+        say.write(f"! the transport cannot be opened ({error}); check GZ_IP and GZ_PARTITION\n")
         return NOT_OPEN
     viewer_end, world_end = launch_thread.make_thread_endpoints()
     link = WorldLink(
-        Node(),
+        node,
         lambda model: world_end.send_to_viewer(messages.ModelEvent(model=model)),
         lambda state: world_end.send_to_viewer(messages.StateSnapshot(state=state, state_sig=STATE)),
     )
+
     class WebViewer(web_viewer.WebViewer):
         def prepare_next_frame(self) -> bool:
             gate.wait_until_drawn()
@@ -88,6 +96,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     threading.Thread(target=leave, daemon=True).start()
     try:
         viewer_protocol.run_viewer_loop(viewer)
+    except Exception as error:
+        say.write(f"! it broke down: {' '.join(f'{type(error).__name__}: {error}'.split())}\n")
+        return BROKEN
     finally:
         ended.set()
         window.close()
@@ -103,7 +114,7 @@ def _find(name: str, link: WorldLink, gate: Gate, ended: threading.Event) -> Non
         if not name:
             ended.wait(_SEARCH_S)
     if not ended.is_set():
-        gate.title = f"{name} - gz sim"
+        gate.title = name
         link.follow(name)
 
 

@@ -80,16 +80,14 @@ class View:
 
     def _listen(self) -> None:
         assert self._process.stdout is not None
-        line = ""
-        with contextlib.suppress(ValueError, OSError):  # closed meanwhile
-            line = self._process.stdout.readline().strip()
-        if line.startswith("! "):
-            self.error = line[2:]
-        elif line:
-            self.address, _, self._once = line.partition(" ")
-            self._said.set()
-            if self._on_ready is not None:
-                self._on_ready(self)
+        for line in self._process.stdout:
+            if line.startswith("! "):
+                self.error = line[2:].strip()
+            elif not self.address:
+                self.address, _, self._once = line.strip().partition(" ")
+                self._said.set()
+                if self._on_ready is not None:
+                    self._on_ready(self)
         code = self._process.wait()
         if not self._closing:
             self.error = self.error or f"its process has ended with code {code}"
