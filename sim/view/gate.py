@@ -233,7 +233,8 @@ def install(gate: Gate, web_server: ModuleType) -> None:
 
         def process_event(self, event: Any) -> None:
             super().process_event(event)
-            if isinstance(event, Frame) and event.opcode is Opcode.BINARY and self.request.path.startswith("/ui"):
+            path = self.request.path if self.request is not None else ""
+            if isinstance(event, Frame) and event.opcode is Opcode.BINARY and path.startswith("/ui"):
                 gate.drawn()
 
         def connection_lost(self, exc: Exception | None) -> None:

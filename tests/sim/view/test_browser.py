@@ -178,8 +178,7 @@ def test_a_notebook_may_frame_the_page_and_a_stranger_may_not(
     sockets: list[str] = []
     page.on("websocket", lambda opened: sockets.append(opened.url))
     page.goto(f"http://localhost:{server.server_address[1]}/")
-    while not any("/state" in each for each in sockets):
-        page.wait_for_event("websocket")
+    eventually(lambda: page.wait_for_timeout(50) or any("/state" in each for each in sockets), "a live frame")
 
     refused: list[str] = []
     stranger = browser.new_page(viewport=SIZE)

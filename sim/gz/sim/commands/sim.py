@@ -162,7 +162,7 @@ def _open_view(values: argparse.Namespace, world: str) -> View:
     return View(world, bind=values.bind, port=values.http_port, on_ready=ready, on_end=ended)
 
 
-def _broadcaster() -> Plugin:
+def broadcaster() -> Plugin:
     """Return the ViewBroadcaster plugin: a view may be opened at any time."""
     from gz_course.sim.gz.sim.sdf.description import Plugin
     from gz_course.sim.gz.sim.sdf.element import Element
@@ -222,7 +222,7 @@ def _simulate(values: argparse.Namespace, stop: threading.Event) -> int:
             render_engine=values.render_engine,
             initial_sim_time=values.initial_sim_time,
             strict=values.strict,
-            server_plugins=[*_recorder(values), _broadcaster()],
+            server_plugins=[*_recorder(values), broadcaster()],
         )
     except SimError as error:
         sys.stderr.write(f"gz sim: {error}\n")
