@@ -56,6 +56,7 @@ FORBIDDEN = {
     "sim/tf2_py": ("sim", "mujoco"),
     "sim/tf2_ros": ("sim", "mujoco"),
     "sim/tf_transformations": ("sim", "rclpy", "mujoco"),
+    "sim/view": (*ROS, "sim/ros_gz_bridge", "sim/gz/sim/world", "sim/gz/sim/server"),
     "grader/score": ("rclpy", "mujoco", *RUNNING),
     "grader/report": ("rclpy", "mujoco", *RUNNING),
     AGENT: ("grader", "mujoco", "rerun"),
@@ -81,7 +82,7 @@ ALLOWED = {
     AGENT: (AGENT,),
 }
 FOR_ALL = ("sim/did_you_mean",)  # what every room may import
-NO_ROS_MESSAGES = ("sim/gz", "grader/score", "grader/report")
+NO_ROS_MESSAGES = ("sim/gz", "sim/view", "grader/score", "grader/report")
 
 
 @functools.cache
@@ -209,6 +210,11 @@ def test_a_forbidden_arrow_is_seen():
         (f"{AGENT}/course_agent/executor_monitor", "grader/errors"),
     ]:
         assert is_forbidden(name, imported), (name, imported)
+
+
+def test_the_simulator_does_not_need_the_view():
+    users = {name for name in modules() if below(name, "sim/gz") and any(below(i, "sim/view") for i in imports(name))}
+    assert users == {"sim/gz/sim/commands/sim"}
 
 
 def test_one_module_finds_the_nearest_name():

@@ -34,6 +34,9 @@ _NOTICE_S = 0.05
 class Server:
     """Runs a world on a transport node; `paused` may be set from any thread during `run`."""
 
+    offers_view = True
+    """Whether a view can be opened beside it."""
+
     def __init__(self, world: World, node: Node) -> None:
         """Attach `world` to `node` (if not yet attached), advertise clock and statistics, and offer the services."""
         self.world = world

@@ -73,6 +73,8 @@ def _handed_over(file: Path, diagnostics: Any) -> str:
 class RemoteServer:
     """What keeps a world's time, outside. `paused` is whether it starts so."""
 
+    offers_view = False
+
     def __init__(self, world: RemoteWorld, node: Any) -> None:
         self.world = world
         self.paused = False

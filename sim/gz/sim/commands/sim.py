@@ -1,6 +1,9 @@
-"""Run a simulation: `gz sim FILE -r -s`.
+"""Run a simulation, and look at it: `gz sim FILE -r`.
 
 It loads the world, serves it on gz-transport (`gz.sim.server`) and runs it until SIGINT, SIGTERM or the last iteration.
+Beside it a view opens in the browser (`gz_course.sim.view`), unless -s is given; -g opens one of a world that runs
+already. The view is a process of its own: whatever happens to it, the simulation goes on.
+
 Exit codes: 0 normal end, 1 the world cannot be run, 2 no world was named, 3 internal error of the simulator; usage
 errors have the codes of `gz.command_line`.
 
@@ -10,6 +13,7 @@ Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/cmd/cmdsim.rb.in
 from __future__ import annotations
 
 import argparse
+import contextlib
 import logging
 import signal
 import sys
@@ -23,6 +27,7 @@ from gz_course.sim.gz.command_line import Parser, Version, integer, positive_num
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.sdf.description import Plugin
     from gz_course.sim.gz.transport import Node
+    from gz_course.sim.view import View
 
 _LEVELS = {0: logging.CRITICAL + 1, 1: logging.WARNING, 2: logging.WARNING, 3: logging.INFO, 4: logging.DEBUG}
 _PREFIXES = {logging.WARNING: "[Wrn]", logging.INFO: "[Msg]", logging.DEBUG: "[Dbg]"}
@@ -39,8 +44,14 @@ _ACCEPTED_FLAGS = ("--levels", "--log-compress", "--record-resources")
 def add_arguments(parser: Parser) -> None:
     parser.add_argument("file", nargs="?", help="world: a path, a name in GZ_SIM_RESOURCE_PATH, or a built-in world")
     parser.add_argument("-r", dest="run", action="store_true", help="run at once (without it the world starts paused)")
-    parser.add_argument("-s", dest="server", action="store_true", help="server only, which is always the case here")
-    parser.add_argument("-g", dest="gui", action="store_true", help="the window of a full Gazebo; refused here")
+    parser.add_argument("-s", dest="server", action="store_true", help="server only, without a view")
+    parser.add_argument("-g", dest="gui", action="store_true", help="view only, of a world that runs already")
+    parser.add_argument(
+        "--bind", default="127.0.0.1", metavar="ADDRESS", help="address that the view listens on (default: loopback)"
+    )
+    parser.add_argument(
+        "--http-port", type=whole_number, default=0, metavar="PORT", help="port of the view (0: any that is free)"
+    )
     parser.add_argument(
         "-v", "--verbose", nargs="?", type=whole_number, const=3, default=1, metavar="LEVEL",
         help="0 silent, 1 and 2 errors and warnings, 3 messages (plain -v), 4 everything",
@@ -97,8 +108,10 @@ def run(values: argparse.Namespace) -> int:
         signal.signal(number, lambda _number, _frame: threading.Thread(target=stop.set, daemon=True).start())
     _set_up_logging(values.verbose)
     refused = ""
-    if values.gui:
-        refused = "-g asks for Gazebo's window, which is not part of this simulator; use -s"
+    if values.gui and not values.server:
+        if values.file is None:
+            return _view_only(values, stop)
+        refused = "-g shows a world that runs already, so it takes no file; leave out -g to start one"
     elif values.playback is not None:
         refused = "--playback is not done here; look into a recording with gz tlog -i, or run the world again"
     elif values.file is None:
@@ -115,6 +128,52 @@ def run(values: argparse.Namespace) -> int:
         logging.getLogger("gz.sim").debug("%s", traceback.format_exc())
         sys.stderr.write(f"gz sim: the simulator itself failed ({type(error).__name__}: {error}); -v 4 tells where\n")
         return 3
+
+
+def _view_only(values: argparse.Namespace, stop: threading.Event) -> int:
+    """Show the world that runs in this partition, or the first one that starts, until SIGINT or SIGTERM."""
+    from gz_course.sim.view import View
+
+    def ready(view: View) -> None:
+        if view.address:
+            sys.stderr.write(f"gz sim: see the running world at {view.address}\n")
+            view.open_browser()
+
+    with View(
+        search=True, bind=values.bind, port=values.http_port, on_ready=ready, on_end=lambda _: stop.set()
+    ) as view:
+        stop.wait()
+    if view.error:
+        sys.stderr.write(f"gz sim: there is no view: {view.error}\n")
+    return 1 if view.error else 0
+
+
+def _open_view(values: argparse.Namespace, world: str) -> View:
+    """Open a view beside the simulator, and say where; it comes while the world runs already."""
+    from gz_course.sim.view import View
+
+    def say(sentence: str) -> None:
+        if values.verbose > 0:
+            sys.stderr.write(f"gz sim: {sentence}\n")
+
+    def ready(view: View) -> None:
+        if view.address:
+            say(f"see world '{world}' at {view.address}")
+            view.open_browser()
+
+    def ended(view: View) -> None:
+        say(f"there is no view ({view.error}); the simulator runs on, and gz sim -g opens another view")
+
+    return View(world, bind=values.bind, port=values.http_port, on_ready=ready, on_end=ended)
+
+
+def broadcaster() -> Plugin:
+    """Return the ViewBroadcaster plugin: a view may be opened at any time."""
+    from gz_course.sim.gz.sim.sdf.description import Plugin
+    from gz_course.sim.gz.sim.sdf.element import Element
+
+    attributes = {"name": "gz_course::systems::ViewBroadcaster", "filename": "gz-course-view-broadcaster-system"}
+    return Plugin(attributes["name"], attributes["filename"], Element("plugin", attributes, file="command line"))
 
 
 def _recorder(values: argparse.Namespace) -> list[Plugin]:
@@ -168,7 +227,7 @@ def _simulate(values: argparse.Namespace, stop: threading.Event) -> int:
             render_engine=values.render_engine,
             initial_sim_time=values.initial_sim_time,
             strict=values.strict,
-            server_plugins=_recorder(values),
+            server_plugins=[*_recorder(values), broadcaster()],
         )
     except SimError as error:
         sys.stderr.write(f"gz sim: {error}\n")
@@ -178,14 +237,21 @@ def _simulate(values: argparse.Namespace, stop: threading.Event) -> int:
     except (OSError, RuntimeError, ValueError) as error:
         sys.stderr.write(f"gz sim: the transport cannot be opened ({error}); check GZ_IP and GZ_PARTITION\n")
         return 1
-    with node:
+    with node, contextlib.ExitStack() as views:
         try:
             server = Server(world, node)
             server.paused = not values.run
             threading.Thread(target=_look_for_others, args=(node,), daemon=True).start()
             LOG.info("world '%s' is loaded with models %s", world.name, world.model_names(static=True))
+            seen = server.offers_view and not values.server
             if server.paused:
-                LOG.warning("world '%s' is paused; start it with -r to let time run", world.name)
+                how = "start it with -r, or press Play in the view" if seen else "start it with -r to let time run"
+                LOG.warning("world '%s' is paused; %s", world.name, how)
+            if seen:
+                views.enter_context(_open_view(values, world.name))
+            elif server.offers_view and values.verbose > 0:
+                where = f"partition '{node.options.partition}'"
+                sys.stderr.write(f"gz sim: world '{world.name}' is served in {where}; gz sim -g shows it\n")
             server.run(update_rate=values.rate, iterations=values.iterations, stop=stop)
         except SimError as error:
             sys.stderr.write(f"gz sim: {error}\n")

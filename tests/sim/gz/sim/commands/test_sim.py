@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -10,7 +11,7 @@ import threading
 import uuid
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import psutil
 import pytest
@@ -25,6 +26,7 @@ from gz_course.tests.warm_process import WarmPopen
 
 GZ = [sys.executable, "-c", "import sys; from gz_course.sim.gz.command import main; sys.exit(main())", "sim"]
 DEADLINE = 120
+SERVED = r"gz sim: world '{}' is served in partition '\w+'; gz sim -g shows it\n"
 
 
 @pytest.fixture(autouse=True)
@@ -97,7 +99,8 @@ def test_a_running_world_obeys_another_process_and_ends_with_zero(
         children = psutil.Process(process.pid).children(recursive=True)
         process.send_signal(number)
         out, err = process.communicate(timeout=DEADLINE)
-    assert (process.returncode, out, err) == (0, "", "")
+    assert (process.returncode, out) == (0, "")
+    assert re.fullmatch(SERVED.format("lidar_room"), err)
     assert children == []
 
 
@@ -116,6 +119,7 @@ def test_a_world_starts_paused_unless_told_to_run(start: Callable[..., subproces
 def run_to_end(start: Callable[..., subprocess.Popen[str]], *arguments: str) -> tuple[int, str]:
     process = start(*arguments)
     out, err = process.communicate(timeout=DEADLINE)
+    err = re.sub(SERVED.format(r"\w+"), "", err)
     assert out == "" and err.count("\n") <= 1, "one sentence, no traceback"
     return process.returncode, err
 
@@ -150,7 +154,7 @@ def test_errors_are_one_sentence(start: Callable[..., subprocess.Popen[str]], tm
         (["--seed", "1.5", "empty.sdf"], 104, "expected a whole number, but found '1.5'"),
         (["-z", "fast", "empty.sdf"], 104, "expected a number, zero or more, at most 1e9, but found 'fast'"),
         (["empty.sdf", "other.sdf"], 109, "'other.sdf' belongs to no option"),
-        (["-g"], 2, "use -s"),
+        (["-g", "empty.sdf"], 2, "-g shows a world that runs already"),
         (["--playback", "log"], 2, "gz tlog -i"),
         (["--initial-sim-time", "-3", "empty.sdf"], 104, "zero or more"),
         (["--initial-sim-time"], 114, "--initial-sim-time"),
@@ -186,9 +190,9 @@ def test_warnings_have_a_place_and_verbosity_hides_them(
 ) -> None:
     world = tmp_path / "w.sdf"
     world.write_text("<sdf version='1.9'><world name='w'>\n<modle name='m'/></world></sdf>")
-    code, err = run_to_end(start, "-r", str(world), "--iterations", "1")
+    code, err = run_to_end(start, "-r", "-s", str(world), "--iterations", "1")
     assert code == 0 and err.startswith(f"[Wrn] {world}:2: ") and "did you mean 'model'" in err
-    assert run_to_end(start, "-r", "-v", "0", str(world), "--iterations", "1") == (0, "")
+    assert run_to_end(start, "-r", "-s", "-v", "0", str(world), "--iterations", "1") == (0, "")
 
 
 def test_time_starts_where_it_is_told_and_recordings_are_readable(
@@ -248,6 +252,7 @@ def test_a_second_simulator_that_tells_another_time_says_so(start: Callable[...,
         clock.wait(lambda message: True)
         second = start("empty.sdf", "-r", "-s")
         assert second.stderr is not None
+        assert re.fullmatch(SERVED.format("empty"), second.stderr.readline())
         line = second.stderr.readline()
     assert "another simulator publishes /clock" in line and "GZ_PARTITION" in line
     for process in (first, second):
@@ -262,6 +267,64 @@ def test_a_fault_of_ours_is_one_sentence_and_code_three(
     from gz_course.sim.gz.sim.world import World
 
     monkeypatch.setattr(World, "step", lambda *_: [][1])
-    assert main(["sim", "-r", "empty.sdf"]) == 3
+    assert main(["sim", "-r", "-s", "-v", "0", "empty.sdf"]) == 3
     err = capsys.readouterr().err
     assert err.startswith("gz sim: the simulator itself failed (IndexError") and err.count("\n") == 1
+
+
+class FakeView:
+    """Stands for `gz_course.sim.view.View`: an address comes at once, or none."""
+
+    made: ClassVar[list[FakeView]] = []
+
+    def __init__(self, world: str = "", *, on_ready: Any, on_end: Any, **options: Any) -> None:
+        self.world, self.options = world, options
+        self.address, self.error = "http://127.0.0.1:1/token/", ""
+        self.closed = self.opened = False
+        FakeView.made = [self]
+        if options["bind"] == "127.0.0.1":
+            on_ready(self)
+        else:
+            self.address, self.error = "", "MuJoCo Studio is not here"
+        if self.error or "search" in options:
+            on_end(self)
+
+    def open_browser(self) -> None:
+        self.opened = True
+
+    def __enter__(self) -> FakeView:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.closed = True
+
+
+def test_a_view_opens_beside_the_simulator_and_ends_with_it(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import gz_course.sim.view
+    from gz_course.sim.gz.command import main
+
+    monkeypatch.setattr(gz_course.sim.view, "View", FakeView)
+    run = ["sim", "-r", "--iterations", "3", "-z", "100000", "empty.sdf"]
+    assert main([*run, "--http-port", "8123"]) == 0
+    assert capsys.readouterr().err == "gz sim: see world 'empty' at http://127.0.0.1:1/token/\n"
+    (view,) = FakeView.made
+    assert (view.world, view.options) == ("empty", {"bind": "127.0.0.1", "port": 8123})
+    assert view.opened and view.closed
+
+    assert main([*run, "--bind", "192.0.2.1"]) == 0, "the simulator runs on"
+    err = capsys.readouterr().err
+    assert err.startswith("gz sim: there is no view (MuJoCo Studio is not here); the simulator runs on")
+    assert FakeView.made[0].options["bind"] == "192.0.2.1"
+
+    assert main(["sim", "-g"]) == 0
+    assert capsys.readouterr().err == "gz sim: see the running world at http://127.0.0.1:1/token/\n"
+    assert FakeView.made[0].options["search"] and FakeView.made[0].closed
+    assert main(["sim", "-g", "--bind", "192.0.2.1"]) == 1
+    assert capsys.readouterr().err == "gz sim: there is no view: MuJoCo Studio is not here\n"
+
+    FakeView.made = []
+    assert main(["sim", "-s", "-r", "--iterations", "3", "empty.sdf"]) == 0
+    assert re.fullmatch(SERVED.format("empty"), capsys.readouterr().err)
+    assert FakeView.made == []

@@ -1,0 +1,198 @@
+"""The view in a real browser: what is seen moves, and what is clicked has its effect on the world."""
+
+from __future__ import annotations
+
+import io
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+import time
+import uuid
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import psutil
+import pytest
+from PIL import Image
+
+from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
+from gz_course.sim.gz.msgs.entity_factory_pb2 import EntityFactory
+from gz_course.sim.gz.msgs.twist_pb2 import Twist
+from gz_course.sim.gz.msgs.world_stats_pb2 import WorldStatistics
+from gz_course.sim.gz.transport import Node
+
+CHROMIUM = shutil.which("chromium")
+SIZE = {"width": 800, "height": 480}
+FLAGS = ["--headless=new", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+DEADLINE = 500.0
+"""Time [s] to wait for anything; without a GPU a busy machine draws a picture in many seconds."""
+PLAY, STEP, RESET = (45, 20), (107, 20), (238, 20)
+MAGENTA = """<sdf version='1.10'><model name='sign'><static>true</static><link name='l'><visual name='v'>
+<geometry><box><size>1 1 1</size></box></geometry><material><diffuse>1 0 1 1</diffuse></material></visual></link>
+</model></sdf>"""
+
+pytestmark = [
+    pytest.mark.proof,
+    pytest.mark.timeout(1800),
+    pytest.mark.skipif(CHROMIUM is None, reason="there is no chromium here: apt-get install chromium"),
+]
+
+
+def eventually(condition: Callable[[], Any], what: str) -> Any:
+    pause, end = threading.Event(), time.monotonic() + DEADLINE
+    while not (found := condition()):
+        assert time.monotonic() < end, f"not within {DEADLINE} s: {what}"
+        pause.wait(0.05)
+    return found
+
+
+@pytest.fixture
+def gz(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., tuple[subprocess.Popen[str], str]]]:
+    """Start `gz sim` and return it with the address of its view."""
+    monkeypatch.setenv("GZ_IP", "127.0.0.1")
+    monkeypatch.setenv("GZ_PARTITION", uuid.uuid4().hex)
+    for name in ("DISPLAY", "WAYLAND_DISPLAY"):
+        monkeypatch.delenv(name, raising=False)
+    started: list[subprocess.Popen[str]] = []
+
+    def start(*words: str) -> tuple[subprocess.Popen[str], str]:
+        program = str(Path(sys.executable).with_name("gz"))
+        process = subprocess.Popen([program, "sim", *words], stderr=subprocess.PIPE, text=True, start_new_session=True)
+        started.append(process)
+        assert process.stderr is not None
+        for line in process.stderr:
+            if found := re.search(r"http://\S+", line):
+                return process, found[0]
+        raise AssertionError("no address was said")
+
+    yield start
+    for process in started:
+        if process.poll() is None:
+            os.killpg(process.pid, signal.SIGKILL)
+        process.communicate(timeout=DEADLINE)
+
+
+@pytest.fixture
+def browser() -> Iterator[Any]:
+    playwright = pytest.importorskip("playwright.sync_api")
+    with playwright.sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+        yield browser
+        browser.close()
+
+
+class Seen:
+    """A page, and what can be seen on it."""
+
+    def __init__(self, browser: Any, address: str) -> None:
+        self.page = browser.new_page(viewport=SIZE)
+        self.page.set_default_timeout(DEADLINE * 1000)
+        self.page.goto(address)
+
+    def picture(self) -> np.ndarray:
+        """Return the middle of the page, without the panels, as RGB numbers."""
+        shot = Image.open(io.BytesIO(self.page.screenshot())).convert("RGB")
+        return np.asarray(shot.crop((255, 45, SIZE["width"] - 325, SIZE["height"] - 70))).astype(int)
+
+    def where(self, channels: Callable[[Any, Any, Any], Any]) -> np.ndarray:
+        """Return the middle of the pixels of a colour, empty if there are few."""
+        found = np.argwhere(channels(*np.moveaxis(self.picture(), 2, 0)))
+        return found.mean(axis=0) if len(found) >= 8 else np.zeros(0)
+
+
+def blue(r: Any, g: Any, b: Any) -> Any:
+    return (b > r + 50) & (b > g + 40)
+
+
+def magenta(r: Any, g: Any, b: Any) -> Any:
+    return (r > g + 70) & (b > g + 70)
+
+
+def test_the_world_is_seen_and_obeys(gz: Callable[..., tuple[subprocess.Popen[str], str]], browser: Any) -> None:
+    process, address = gz("lidar_room.sdf")
+    seen = Seen(browser, address)
+    eventually(lambda: len(seen.where(blue)), "the robot is drawn")
+    with Node() as node:
+        stats: list[Any] = [WorldStatistics()]
+        node.subscribe(WorldStatistics, "/stats", lambda message: stats.append(message))
+        eventually(lambda: stats[-1].paused, "the world waits")
+        seen.page.mouse.click(*STEP, delay=500)
+        eventually(lambda: stats[-1].iterations == 1 and stats[-1].paused, "Step runs one step")
+        seen.page.mouse.click(*PLAY, delay=500)
+        eventually(lambda: not stats[-1].paused and stats[-1].iterations > 100, "Play lets it run")
+
+        start = seen.where(blue)
+        wheels = node.advertise("/model/robot/cmd_vel", Twist)
+        assert wheels.wait_for_subscribers(1, DEADLINE)
+        forward: Any = Twist()
+        forward.linear.x = 0.5
+        wheels.publish(forward)
+        eventually(
+            lambda: len(now := seen.where(blue)) and np.linalg.norm(now - start) > 15.0,
+            "the robot moves in the picture",
+        )
+        request: Any = EntityFactory(sdf=MAGENTA)
+        request.pose.position.z = 0.5
+        assert node.request("/world/lidar_room/create", request, EntityFactory, Boolean, int(DEADLINE * 1000))[0]
+        eventually(lambda: len(seen.where(magenta)), "a model that comes is seen")
+
+        seen.page.mouse.click(*PLAY, delay=500)
+        eventually(lambda: stats[-1].paused, "Pause stops it")
+        seen.page.mouse.click(*RESET, delay=500)
+        eventually(lambda: stats[-1].iterations == 0 and stats[-1].paused, "Reset starts again")
+        eventually(lambda: not len(seen.where(magenta)), "what came after the start has gone")
+
+    views = psutil.Process(process.pid).children(recursive=True)
+    process.send_signal(signal.SIGINT)
+    assert process.wait(DEADLINE) == 0
+    assert psutil.wait_procs(views, DEADLINE)[1] == [], "Ctrl-C ends both"
+
+
+def test_a_notebook_may_frame_the_page_and_a_stranger_may_not(
+    gz: Callable[..., tuple[subprocess.Popen[str], str]], browser: Any
+) -> None:
+    from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+
+    _, address = gz("empty.sdf")
+
+    class Notebook(BaseHTTPRequestHandler):
+        def do_GET(self) -> None:
+            self.send_response(200)
+            self.send_header("Content-Type", "text/html")
+            self.end_headers()
+            self.wfile.write(f'<iframe src="{address}" width=760 height=440></iframe>'.encode())
+
+        def log_message(self, *_: object) -> None:
+            pass
+
+    server = ThreadingHTTPServer(("127.0.0.1", 0), Notebook)
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    page = browser.new_page(viewport=SIZE)
+    page.set_default_timeout(DEADLINE * 1000)
+    sockets: list[str] = []
+    page.on("websocket", lambda opened: sockets.append(opened.url))
+    page.goto(f"http://localhost:{server.server_address[1]}/")
+    eventually(lambda: page.wait_for_timeout(50) or any("/state" in each for each in sockets), "a live frame")
+
+    refused: list[str] = []
+    stranger = browser.new_page(viewport=SIZE)
+    stranger.on("console", lambda said: refused.append(said.text))
+    stranger.route(
+        "http://evil.example/", lambda r: r.fulfill(body=f'<iframe src="{address}"></iframe>', content_type="text/html")
+    )
+    stranger.goto("http://evil.example/")
+    eventually(lambda: stranger.wait_for_timeout(50) or any("frame-ancestors" in each for each in refused), "refusal")
+    tried = stranger.evaluate(
+        "(address) => new Promise((done) => { const s = new WebSocket(address.replace('http', 'ws') + 'state?sid=1');"
+        " s.onopen = () => done('open'); s.onerror = () => done('refused'); })",
+        address,
+    )
+    assert tried == "refused", "even with the token"
+    server.shutdown()
+    server.server_close()
