@@ -3,7 +3,8 @@
 `import_hooks.py` calls `install_subprocess` and `install_asyncio` when those modules are imported. A new Python process
 needs a while until it can report anything, so its parent announces it. Event loops (`ros2 launch` is one) and processes
 that wait for a child are reported as waiting, so that simulated time does not stand still for them. Timers of such a
-loop (how long a launch waits after Ctrl-C before it escalates) follow the clock of the run, which the grader keeps.
+loop (how long a launch waits after Ctrl-C before it escalates) follow the clock of the run, which the grader keeps; so
+do timeouts of waits for a child.
 
 In a process with rclpy, `rclpy_7_1.py` calls `install_threads`: threads and their waits are watched from then on
 (`thread_monitor.py`), and sleeping takes simulated time. A wait for another process takes real time. What waits in C (a
@@ -67,7 +68,7 @@ def install_subprocess() -> None:
     _check(SUBPROCESS)
     module: Any = subprocess
     # A child lives in real time, and so does the wait for it: it looks again and again, sleeping in between.
-    module._time, module.time = monotonic, SimpleNamespace(sleep=sleep)
+    module._time, module.time = _run_time, SimpleNamespace(sleep=sleep)
     process_class: Any = subprocess.Popen
     start, ended = process_class.__init__, process_class._handle_exitstatus
 
@@ -113,9 +114,9 @@ def install_asyncio() -> None:
 
     def fair_time(loop: Any) -> float:
         """Return the time without what the run waited for a processor; the grader is asked when a timer is due."""
-        shown: float = loop_time(loop) - (_delayed[-1] - _delayed[0] if _delayed else 0.0)
+        shown: float = loop_time(loop) - _delay()
         if loop._scheduled and loop._scheduled[0]._when <= shown and _in_real_time() and _ask_for_delay():
-            shown = loop_time(loop) - (_delayed[-1] - _delayed[0])
+            shown = loop_time(loop) - _delay()
         return shown
 
     def noted_write(loop: Any) -> None:
@@ -162,6 +163,16 @@ def install_asyncio() -> None:
 
 def _in_real_time() -> bool:
     return _threads is None or not _threads.simulated
+
+
+def _run_time() -> float:
+    """Return the time [s] without what the run waited for a processor."""
+    _ask_for_delay()
+    return monotonic() - _delay()
+
+
+def _delay() -> float:
+    return _delayed[-1] - _delayed[0] if _delayed else 0.0
 
 
 def _ask_for_delay() -> bool:
