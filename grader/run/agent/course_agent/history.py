@@ -13,11 +13,13 @@ from collections import Counter
 from collections.abc import Callable, Iterable
 from typing import Any
 
+from .endpoint_description import type_name
+
 ALL = 1 << 30  # the depth of an endpoint that keeps all
 
 
 class History:
-    """Counts by topic what is kept and asked for; `topic_of(endpoint)` is its resolved topic."""
+    """Counts by `TOPIC TYPE` what is kept and asked for; `topic_of(endpoint)` is its resolved topic."""
 
     def __init__(self, topic_of: Callable[[Any], str]) -> None:
         self._topic_of = topic_of
@@ -32,7 +34,7 @@ class History:
             publisher.course_kept = 0
         if publisher.course_kept < depth:
             publisher.course_kept += 1
-            self._kept[self._topic_of(publisher)] += 1
+            self._kept[self._key(publisher)] += 1
 
     def look(self, nodes: Iterable[Any]) -> None:
         """Look at the endpoints anew, because some have come or gone."""
@@ -41,10 +43,13 @@ class History:
         for node in nodes:
             for publisher in list(node.publishers):
                 if kept_depth(publisher.qos_profile):  # who keeps nothing yet is known from now on
-                    self._kept[self._topic_of(publisher)] += getattr(publisher, "course_kept", 0)
+                    self._kept[self._key(publisher)] += getattr(publisher, "course_kept", 0)
             for subscription in list(node.subscriptions):
                 if depth := kept_depth(subscription.qos_profile):
-                    self._asked.setdefault(self._topic_of(subscription), []).append(depth)
+                    self._asked.setdefault(self._key(subscription), []).append(depth)
+
+    def _key(self, endpoint: Any) -> str:
+        return f"{self._topic_of(endpoint)} {type_name(endpoint.msg_type)}"
 
     def report(self) -> dict[str, Any]:
         """Return its part of a report."""
