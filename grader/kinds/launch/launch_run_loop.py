@@ -50,7 +50,7 @@ class LaunchRunLoop(RunLoop):
         )
         self._processes.asked = self._programs.asked
         self._lines: list[str] = []
-        self._interrupted_at: float | None = None  # by the clock of the processes
+        self._interrupted_at: float | None = None  # by the clock that the timers of the launch follow
 
     def _paced(self, pace: str) -> RealTime:
         if pace == "lockstep":
@@ -150,7 +150,7 @@ class LaunchRunLoop(RunLoop):
     def _end(self) -> dict[str, Any]:
         """Interrupt the launch as Ctrl-C does, and look at what becomes of it."""
         was_running = self._processes.running
-        self._interrupted_at = self._processes.clock.now()
+        self._interrupted_at = self._processes.clock_but_mine.now()
         seen = len(self._lines)
         for each in self._processes.participants:
             each.tell({"free": True, "real": True})
@@ -180,7 +180,7 @@ class LaunchRunLoop(RunLoop):
     def _take(self, line: str) -> None:
         """Keep a line. Raises InfrastructureError if the launch had no time to end on a busy machine."""
         if self._interrupted_at is not None and (match := ESCALATED.match(line)):
-            had = self._processes.clock.now() - self._interrupted_at
+            had = self._processes.clock_but_mine.now() - self._interrupted_at
             if had < FAIR_SHARE * float(match.group(2)):
                 raise InfrastructureError(
                     f"this machine is too busy: {match.group(1)} could use {had:.1f} of the {match.group(2)} s it is "

@@ -17,20 +17,22 @@ class LateJoiners:
 
     def __init__(self) -> None:
         self.due: Counter[str] = Counter()
-        self._asking: Counter[tuple[int, str]] = Counter()  # subscriptions of a process that were seen on a topic
-        self._keeping: set[tuple[int, str]] = set()  # processes that were seen to keep something on a topic
+        self._asking: Counter[tuple[int, str]] = (
+            Counter()
+        )  # subscriptions of a process that were seen, by topic and type
+        self._keeping: set[tuple[int, str]] = set()  # processes that were seen to have such a publisher
 
     def look(self, participants: Iterable[Participant]) -> None:
         """Count the pairs that are new."""
         reports = [(each.number, each.progress) for each in participants if each.progress]
-        keeping = [(number, topic, kept) for number, report in reports for topic, kept in report.kept.items()]
-        asking = [(number, topic, depths) for number, report in reports for topic, depths in report.asked.items()]
-        for publisher, topic, kept in keeping:
-            is_new = (publisher, topic) not in self._keeping
+        keeping = [(number, key, kept) for number, report in reports for key, kept in report.kept.items()]
+        asking = [(number, key, depths) for number, report in reports for key, depths in report.asked.items()]
+        for publisher, key, kept in keeping:
+            is_new = (publisher, key) not in self._keeping
             for subscriber, asked, depths in asking:
-                if asked == topic:
-                    new = depths if is_new else depths[self._asking[subscriber, topic] :]
-                    self.due[topic] += sum(min(kept, depth) for depth in new)
-        self._keeping.update((number, topic) for number, topic, _ in keeping)
-        for number, topic, depths in asking:
-            self._asking[number, topic] = len(depths)
+                if asked == key:
+                    new = depths if is_new else depths[self._asking[subscriber, key] :]
+                    self.due[key.partition(" ")[0]] += sum(min(kept, depth) for depth in new)
+        self._keeping.update((number, key) for number, key, _ in keeping)
+        for number, key, depths in asking:
+            self._asking[number, key] = len(depths)

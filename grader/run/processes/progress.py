@@ -42,8 +42,10 @@ class Progress:
     lost: dict[str, int] = field(default_factory=dict)  # published before anybody had found the publisher
     # topic -> [ns] of real time: what it published earlier is only for those who join late and ask for it
     found_at: dict[str, int] = field(default_factory=dict)
-    kept: dict[str, int] = field(default_factory=dict)  # topic -> messages that its publishers keep for late joiners
-    asked: dict[str, tuple[int, ...]] = field(default_factory=dict)  # topic -> how many of them each subscription takes
+    kept: dict[str, int] = field(default_factory=dict)  # "TOPIC TYPE" -> messages that publishers keep for late joiners
+    asked: dict[str, tuple[int, ...]] = field(
+        default_factory=dict
+    )  # the same -> how many of them each subscription takes
     endpoints: tuple[Endpoint, ...] = ()
 
     @staticmethod

@@ -242,7 +242,7 @@ class SubmissionProcesses:
         if "clock" in message:
             who.tell({"now": self.now_ns})
         if "time" in message:
-            who.tell({"answer": {"now": self.clock.now(), "delayed": self.clock.delayed()}})
+            who.tell({"answer": {"now": self.clock.now(), "delayed": self.clock_but_mine.delayed()}})
         if "looking" in message:
             others_work = any(p.works and not p.looking for p in self.participants if p is not who)
             who.tell({"answer": {"others": others_work or self._starts(who), "now": self.clock.now()}})

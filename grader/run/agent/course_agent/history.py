@@ -9,18 +9,22 @@ Source: DDS 1.4, 2.2.3.4 DURABILITY and 2.2.3.18 HISTORY.
 
 from __future__ import annotations
 
+import _thread
 from collections import Counter
 from collections.abc import Callable, Iterable
 from typing import Any
+
+from .endpoint_description import type_name
 
 ALL = 1 << 30  # the depth of an endpoint that keeps all
 
 
 class History:
-    """Counts by topic what is kept and asked for; `topic_of(endpoint)` is its resolved topic."""
+    """Counts by `TOPIC TYPE` what is kept and asked for; `topic_of(endpoint)` is its resolved topic. Thread-safe."""
 
     def __init__(self, topic_of: Callable[[Any], str]) -> None:
         self._topic_of = topic_of
+        self._lock = _thread.allocate_lock()
         self._kept: Counter[str] = Counter()
         self._asked: dict[str, list[int]] = {}
 
@@ -31,24 +35,31 @@ class History:
             depth = publisher.course_keeps = kept_depth(publisher.qos_profile)
             publisher.course_kept = 0
         if publisher.course_kept < depth:
-            publisher.course_kept += 1
-            self._kept[self._topic_of(publisher)] += 1
+            with self._lock:
+                publisher.course_kept += 1
+                self._kept[self._key(publisher)] += 1
 
     def look(self, nodes: Iterable[Any]) -> None:
         """Look at the endpoints anew, because some have come or gone."""
-        self._kept.clear()
-        self._asked.clear()
-        for node in nodes:
-            for publisher in list(node.publishers):
-                if kept_depth(publisher.qos_profile):  # who keeps nothing yet is known from now on
-                    self._kept[self._topic_of(publisher)] += getattr(publisher, "course_kept", 0)
-            for subscription in list(node.subscriptions):
-                if depth := kept_depth(subscription.qos_profile):
-                    self._asked.setdefault(self._topic_of(subscription), []).append(depth)
+        with self._lock:
+            self._kept.clear()
+            self._asked.clear()
+            for node in nodes:
+                for publisher in list(node.publishers):
+                    if kept_depth(publisher.qos_profile):  # who keeps nothing yet is known from now on
+                        self._kept[self._key(publisher)] += getattr(publisher, "course_kept", 0)
+                for subscription in list(node.subscriptions):
+                    if depth := kept_depth(subscription.qos_profile):
+                        self._asked.setdefault(self._key(subscription), []).append(depth)
+
+    def _key(self, endpoint: Any) -> str:
+        return f"{self._topic_of(endpoint)} {type_name(endpoint.msg_type)}"
 
     def report(self) -> dict[str, Any]:
         """Return its part of a report."""
-        return ({"kept": self._kept} if self._kept else {}) | ({"asked": self._asked} if self._asked else {})
+        with self._lock:
+            kept, asked = dict(self._kept), dict(self._asked)
+        return ({"kept": kept} if kept else {}) | ({"asked": asked} if asked else {})
 
 
 def kept_depth(qos: Any) -> int:

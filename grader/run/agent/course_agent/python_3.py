@@ -3,7 +3,8 @@
 `import_hooks.py` calls `install_subprocess` and `install_asyncio` when those modules are imported. A new Python process
 needs a while until it can report anything, so its parent announces it. Event loops (`ros2 launch` is one) and processes
 that wait for a child are reported as waiting, so that simulated time does not stand still for them. Timers of such a
-loop (how long a launch waits after Ctrl-C before it escalates) follow the clock of the run, which the grader keeps.
+loop (how long a launch waits after Ctrl-C before it escalates) follow the clock of the run, which the grader keeps; so
+do timeouts of waits for a child.
 
 In a process with rclpy, `rclpy_7_1.py` calls `install_threads`: threads and their waits are watched from then on
 (`thread_monitor.py`), and sleeping takes simulated time. A wait for another process takes real time. What waits in C (a
@@ -24,6 +25,7 @@ from .self_check import Reliance, misfits
 from .thread_monitor import ThreadMonitor, WatchedLock, monotonic, sleep
 
 SOON = 10.0  # [s] a timer of an event loop that is due within this time, such as a TimerAction, is waited for
+KNOWN_FOR = 0.05  # [s] after which an event loop asks again for the clock of the run
 # Source: subprocess.py and asyncio/ of CPython 3.11 to 3.14.
 SUBPROCESS: dict[str, Reliance] = {
     "subprocess:Popen.__init__": ("", "returncode pid"),
@@ -56,6 +58,7 @@ THREADS: dict[str, Reliance] = {
 CLOCKS = ("time", "monotonic", "perf_counter")
 
 _waiting = False
+_asked_at = -1.0  # [s] of real time
 _delayed: list[float] = []  # [s] for which the clock of the run had stood still, at first and as last asked for
 _threads: ThreadMonitor | None = None
 
@@ -67,7 +70,7 @@ def install_subprocess() -> None:
     _check(SUBPROCESS)
     module: Any = subprocess
     # A child lives in real time, and so does the wait for it: it looks again and again, sleeping in between.
-    module._time, module.time = monotonic, SimpleNamespace(sleep=sleep)
+    module._time, module.time = _run_time, SimpleNamespace(sleep=sleep)
     process_class: Any = subprocess.Popen
     start, ended = process_class.__init__, process_class._handle_exitstatus
 
@@ -112,11 +115,9 @@ def install_asyncio() -> None:
     write = writer._write_to_self
 
     def fair_time(loop: Any) -> float:
-        """Return the time without what the run waited for a processor; the grader is asked when a timer is due."""
-        shown: float = loop_time(loop) - (_delayed[-1] - _delayed[0] if _delayed else 0.0)
-        if loop._scheduled and loop._scheduled[0]._when <= shown and _in_real_time() and _ask_for_delay():
-            shown = loop_time(loop) - (_delayed[-1] - _delayed[0])
-        return shown
+        if (_threads is None or not _threads.simulated) and monotonic() - _asked_at > KNOWN_FOR:
+            _ask_for_delay()
+        return float(loop_time(loop)) - _delay()
 
     def noted_write(loop: Any) -> None:
         if _threads is not None and (wait := getattr(loop, "course_wait", None)) is not None:
@@ -138,8 +139,6 @@ def install_asyncio() -> None:
         loop._process_events(events)
 
     def told_run_once(loop: Any) -> None:
-        if not _delayed and _in_real_time():
-            _ask_for_delay()
         simulated = _threads is not None and _threads.simulated and _threads.mine() is not None
         if not loop._ready and not loop._stopping and simulated:
             assert _threads is not None
@@ -160,19 +159,26 @@ def install_asyncio() -> None:
     writer._write_to_self = noted_write
 
 
-def _in_real_time() -> bool:
-    return _threads is None or not _threads.simulated
+def _run_time() -> float:
+    """Return the time [s] without what the run waited for a processor."""
+    _ask_for_delay()
+    return monotonic() - _delay()
 
 
-def _ask_for_delay() -> bool:
-    """Ask the grader for how long the clock of the run has stood still; return whether it has told that."""
+def _delay() -> float:
+    return _delayed[-1] - _delayed[0] if _delayed else 0.0
+
+
+def _ask_for_delay() -> None:
+    """Ask the grader for how long the clock of the run has stood still."""
+    global _asked_at
     from .grader_requests import ask
 
     told = ask({"time": True}) if channel().open else {}
     if "delayed" in told:
         _delayed.append(told["delayed"])
         del _delayed[1:-1]
-    return "delayed" in told
+    _asked_at = monotonic()
 
 
 def _resume() -> None:

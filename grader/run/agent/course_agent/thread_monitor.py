@@ -209,21 +209,22 @@ class ThreadMonitor:
         self.on_idle()
 
     def look_for_strays(self, native: dict[int, int]) -> None:
-        """Do not count a thread as at work that does not run: it waits in a call that is not watched.
+        """Do not count threads as at work that do not run: they wait in calls that are not watched.
 
-        `native` are the kernel's numbers of threads. One that was not scheduled since the last look stays uncounted
-        until its next watched wait. This is not asked of a thread that runs a callback.
+        `native` are the kernel's numbers of threads. If none that is at work has run or wanted to since the last look,
+        they stay uncounted until their next watched wait, but for those that run a callback. While one does, another
+        may wait for it, such as for a lock that it holds: on a busy machine that takes long.
         """
+        said = {}
         for ident, kernel in native.items():
             number = self._numbers.get(ident)
-            if number is None or number not in self._working or number in self.calling:
-                continue
-            said = _scheduled(kernel)
+            if number is not None and number in self._working:
+                said[number] = (kernel, _scheduled(kernel))
+        quiet = all(text and self._elsewhere.get(number) == (kernel, text) for number, (kernel, text) in said.items())
+        self._elsewhere = said
+        if quiet:
             with self.lock:
-                if said and self._elsewhere.get(number) == (kernel, said):
-                    self._working.discard(number)
-                else:
-                    self._elsewhere[number] = (kernel, said)
+                self._working -= said.keys() - self.calling
 
     # Time
 

@@ -40,7 +40,7 @@ def test_who_waits_for_an_answer_is_at_work():
 
 
 LOOP = """
-import asyncio, time
+import asyncio, subprocess, sys, time
 from gz_course.grader.run.agent.course_agent import grader_requests, python_3
 from types import SimpleNamespace
 
@@ -56,10 +56,14 @@ python_3.install_asyncio()
 began = time.monotonic()
 asyncio.run(asyncio.sleep(0.05))
 print(time.monotonic() - began >= 0.35, asked[0], 4 <= asked.count({"time": True}) < 20)
+delayed = iter([0.0] + [1000.0] * 1000)
+python_3.install_subprocess()
+python_3._delayed.clear()
+print(subprocess.run([sys.executable, "-I", "-S", "-c", "import time; time.sleep(0.1)"], timeout=0.01).returncode)
 """
 
 
-def test_timers_of_an_event_loop_do_not_count_what_a_busy_machine_takes():
-    """Of a launch, which escalates some seconds after Ctrl-C, for instance."""
+def test_timers_of_an_event_loop_and_timeouts_for_a_child_do_not_count_what_a_busy_machine_takes():
+    """Such as those of a launch, which escalates some seconds after Ctrl-C."""
     done = subprocess.run([sys.executable, "-c", LOOP], capture_output=True, text=True, timeout=300)
-    assert (done.stdout.strip(), done.stderr) == ("True {'time': True} True", "")
+    assert (done.stdout.strip(), done.stderr) == ("True {'time': True} True\n0", "")

@@ -1,5 +1,7 @@
 """The clocks of a process of the submission, in simulated time."""
 
+import os
+import threading
 import time
 
 from hypothesis import example, given
@@ -50,3 +52,45 @@ def test_what_a_process_computes_before_its_first_node_takes_no_time_and_what_it
     threads.start(0, 1.0)
     assert threads.clock_ns("time", lambda: 10**9) == 7_000 + slept
     assert threads.clock_ns("monotonic", lambda: 0) <= time.monotonic_ns()
+
+
+def test_who_waits_for_a_thread_that_runs_is_no_stray():
+    """A thread that waits for a lock goes on at once when it gets it, however long the other was kept from running."""
+    threads = ThreadMonitor()
+    reading, writing = os.pipe()
+    go_on, native = threading.Event(), {}
+
+    def watched(work):
+        number, begun = threads.expect(), threading.Event()
+
+        def run():
+            threads.enter(number)
+            native[threading.get_ident()] = threading.get_native_id()
+            begun.set()
+            work()
+            threads.leave()
+
+        thread = threading.Thread(target=run)
+        thread.start()
+        begun.wait()
+        return thread
+
+    def compute():
+        while not go_on.is_set():
+            pass
+
+    def looked(until):
+        while not until():
+            threads.look_for_strays(native)
+            time.sleep(0.005)  # lets the others run
+
+    waiting, computing = watched(lambda: os.read(reading, 1)), watched(compute)
+    looks = iter(range(5))
+    looked(lambda: next(looks, None) is None)
+    assert len(threads._working) == 2
+    go_on.set()
+    computing.join()
+    looked(lambda: threads.idle)
+    os.write(writing, b"x")
+    waiting.join()
+    os.close(reading), os.close(writing)

@@ -6,9 +6,12 @@ from gz_course.grader.run.agent.course_agent.history import ALL, History
 from gz_course.grader.run.pace.late_joiners import LateJoiners
 from gz_course.grader.run.processes.progress import Progress
 
+KEY = "/kept gz_course/msg/Progress"
 
-def process(number, kept=0, asked=()):
-    report = Progress(kept={"/kept": kept} if kept is not None else {}, asked={"/kept": asked} if asked else {})
+
+def process(number, kept=0, asked=(), kind="x/msg/Y"):
+    key = f"/kept {kind}"
+    report = Progress(kept={key: kept} if kept is not None else {}, asked={key: asked} if asked else {})
     return SimpleNamespace(number=number, progress=report)
 
 
@@ -37,6 +40,12 @@ def test_what_came_before_the_publisher_was_seen_is_due_to_all():
     assert late.due == {"/kept": 2}
 
 
+def test_subscriptions_of_another_type_get_nothing():
+    late = LateJoiners()
+    late.look([process(0, 3), process(1, None, (1,), kind="x/msg/Z")])
+    assert late.due == {}
+
+
 def qos(durability="TRANSIENT_LOCAL", reliability="RELIABLE", history="KEEP_LAST", depth=2):
     named = {"durability": durability, "reliability": reliability, "history": history}
     return SimpleNamespace(depth=depth, **{key: SimpleNamespace(name=value) for key, value in named.items()})
@@ -44,7 +53,7 @@ def qos(durability="TRANSIENT_LOCAL", reliability="RELIABLE", history="KEEP_LAST
 
 def test_a_publisher_keeps_as_many_as_its_depth():
     def endpoint(**of):
-        return SimpleNamespace(topic="/kept", qos_profile=qos(**of))
+        return SimpleNamespace(topic="/kept", msg_type=Progress, qos_profile=qos(**of))
 
     publisher, plain, asking = endpoint(), endpoint(durability="VOLATILE"), endpoint(history="KEEP_ALL")
     history = History(lambda endpoint: endpoint.topic)
@@ -52,10 +61,10 @@ def test_a_publisher_keeps_as_many_as_its_depth():
         SimpleNamespace(publishers=[publisher, plain], subscriptions=[asking, endpoint(reliability="BEST_EFFORT")])
     ]
     history.look(nodes)
-    assert history.report() == {"kept": {"/kept": 0}, "asked": {"/kept": [ALL]}}
+    assert history.report() == {"kept": {KEY: 0}, "asked": {KEY: [ALL]}}
     for _ in range(5):
         history.count(publisher)
         history.count(plain)
-    assert history.report()["kept"] == {"/kept": 2}
+    assert history.report()["kept"] == {KEY: 2}
     history.look(nodes)
-    assert history.report()["kept"] == {"/kept": 2}
+    assert history.report()["kept"] == {KEY: 2}
