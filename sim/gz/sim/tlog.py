@@ -1,7 +1,7 @@
 """Gazebo's log file `state.tlog`: messages of many topics in an SQLite database, schema 0.1.0 of gz-transport.
 
-Written by the LogRecord system, read by `gz log`. Tables: `message_types` (name), `topics` (name, message_type_id),
-`messages` (time_recv in ns of simulated time, topic_id, message), `migrations` (to_version).
+Written by the LogRecord system and `gz log record`, read by `gz tlog`. Tables: `message_types` (name), `topics` (name,
+message_type_id), `messages` (time_recv in ns of simulated time, topic_id, message), `migrations` (to_version).
 
 Source: https://github.com/gazebosim/gz-transport/tree/gz-transport13/log/sql
 """

@@ -22,6 +22,8 @@ from gz_course.sim.gz.transport.publisher import Publisher
 from gz_course.sim.gz.transport.service import CallResult
 from gz_course.sim.gz.transport.topic_statistics import TopicStatistics
 
+Node.Publisher = Publisher  # type: ignore[attr-defined]  # as in the official binding
+
 __all__ = [
     "UNTHROTTLED",
     "AdvertiseMessageOptions",

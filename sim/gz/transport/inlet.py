@@ -142,7 +142,8 @@ class Inlet:
                 while more(_MORE):
                     frames.append(receive())
             if len(frames) >= _FRAMES:
-                return Arrival(*frames[:_FRAMES], frames[_FRAMES] if len(frames) > _FRAMES else b"")
+                name, sender, data, type_name = frames[:_FRAMES]
+                return Arrival(name, sender, data, type_name, frames[_FRAMES] if len(frames) > _FRAMES else b"")
 
     def close(self) -> None:
         self.socket.close()

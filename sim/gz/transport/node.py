@@ -50,8 +50,6 @@ class Node:
     services end, and its publishers unless the program keeps them.
     """
 
-    Publisher = Publisher
-
     def __init__(self, options: NodeOptions | None = None) -> None:
         """Create a node; it joins the network at the first advertise, subscribe, call or list."""
         LOCAL_DELIVERY.tidy()

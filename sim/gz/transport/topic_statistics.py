@@ -138,6 +138,7 @@ class StatisticsTable:
             found = self._topics.get(name)
             if found is None:
                 return
-            found[0].update(sender, *STAMP.unpack(stamp), now_ms())
+            sent, number = STAMP.unpack(stamp)
+            found[0].update(sender, sent, number, now_ms())
             statistics, on_update = copy.deepcopy(found[0]), found[1]
         on_update(statistics)

@@ -1,1 +1,1 @@
-"""Sub-commands of `gz` about simulations: `gz sim`, `gz model`, `gz log`. One file each, found by `gz.command`."""
+"""Sub-commands of `gz` about simulations: `gz sim`, `gz model`, `gz log`, ... One file each, found by `gz.command`."""

@@ -114,7 +114,7 @@ def scan(room: str) -> None:
 BUILT_IN = {"Physics"}
 """Systems that are part of `World`."""
 
-OTHER_GAZEBO_SYSTEMS = frozenset(
+GAZEBO_SYSTEMS = frozenset(
     [
         "AckermannSteering",
         "AcousticComms",
@@ -162,8 +162,8 @@ OTHER_GAZEBO_SYSTEMS = frozenset(
         "PerformerDetector",
         "PosePublisher",
         "PythonSystemLoader",
-        "ReplayVideo",
         "RFComms",
+        "ReplayVideo",
         "SceneBroadcaster",
         "Sensors",
         "ShaderParam",
@@ -183,7 +183,16 @@ OTHER_GAZEBO_SYSTEMS = frozenset(
         "WindEffects",
     ]
 )
+"""Names of systems of Gazebo, of which some run here."""
 
+
+def other_gazebo_systems() -> frozenset[str]:
+    """Return the systems of Gazebo that do not run here."""
+    return GAZEBO_SYSTEMS - BUILT_IN - systems().keys()
+
+
+_NAMESPACES = ("gz::sim::", "ignition::gazebo::")
+_FILES = ("gz-sim-", "gz-sim8-", "ignition-gazebo-", "ignition-gazebo6-")
 _CLASSIC = {
     "libgazebo_ros_diff_drive": "gz-sim-diff-drive-system",
     "libgazebo_ros_ray_sensor": "gz-sim-sensors-system in the world",
@@ -199,14 +208,14 @@ def system_name(plugin: Plugin) -> str:
     """Return the Gazebo name of the system of a plugin, for any spelling of its attributes."""
     if plugin.name:
         last = plugin.name.rsplit("::", 1)[-1]
-        if last in BUILT_IN | OTHER_GAZEBO_SYSTEMS or last in systems():
+        if last in BUILT_IN | GAZEBO_SYSTEMS or last in systems():
             return last
     filename = plugin.filename.rsplit("/", 1)[-1].removeprefix("lib").removesuffix(".so")
     for prefix in ("ignition-gazebo", "gz-sim"):
         if filename.startswith(prefix) and filename.endswith("-system"):
             middle = filename[len(prefix) : -len("-system")].lstrip("0123456789").strip("-")
             word = middle.replace("-", "").lower()
-            for name in (*systems(), *BUILT_IN, *OTHER_GAZEBO_SYSTEMS):
+            for name in (*systems(), *BUILT_IN, *sorted(GAZEBO_SYSTEMS)):
                 if name.lower() == word:
                     return name
     return plugin.name.rsplit("::", 1)[-1] or filename
@@ -226,10 +235,14 @@ def find_system(plugin: Plugin, diagnostics: Diagnostics) -> type[System] | None
     if classic.startswith("libgazebo_"):
         instead = _CLASSIC.get(classic, "the gz-sim system of the same purpose")
         diagnostics.warn(where, f"plugin '{plugin.filename}' is of Gazebo Classic and is ignored; use {instead}")
-    elif name in OTHER_GAZEBO_SYSTEMS:
+    elif name in other_gazebo_systems():
         diagnostics.warn(where, f"system '{name}' exists in Gazebo but not in this simulator, it is ignored")
     else:
-        hint = did_you_mean(name, {*systems(), *BUILT_IN}, listing="systems that run here are")
+        # A plugin of somebody's own has no likeness with one of Gazebo's.
+        of_gazebo = plugin.name.startswith(_NAMESPACES) or classic.removeprefix("lib").startswith(_FILES)
+        hint = "; plugins of one's own, in C++, do not run here"
+        if of_gazebo or name in {found.lower() for found in systems()}:
+            hint = did_you_mean(name, {*systems(), *BUILT_IN}, listing="systems that run here are")
         diagnostics.warn(where, f"no system is called '{plugin.name or plugin.filename}', it is ignored{hint}")
     return None
 

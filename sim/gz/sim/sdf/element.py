@@ -25,6 +25,7 @@ MOST_ELEMENTS = 500_000
 """Maximum number of elements in a file; a world of 3000 models has 100,000."""
 
 _OPENING = re.compile(r"<!--|<!\[CDATA\[|<\?xml")
+_LONE_AMPERSAND = re.compile(r"&(?!(?:lt|gt|amp|quot|apos|#[0-9]{1,10}|#x[0-9a-fA-F]{1,8});)")
 _CLOSING_TAG = re.compile(r"</\s*([^\s<>/]+)")
 _CLOSING = {"<!-": "-->", "<?x": "?>", "<![": "]]>"}
 _UNIT = re.compile(r"\d\s*(m|mm|cm|km|kg|g|deg|degrees|rad|s|ms|°|N|Nm)\b|°")
@@ -239,7 +240,10 @@ def parse(text: str, file: str = "<string>") -> Element:
 
 
 def _blanked(text: str, file: str) -> str:
-    """Replace comments and XML declarations by their line breaks. Raises SdfError for an unterminated comment."""
+    """Replace comments and XML declarations by their line breaks, and an & that begins no reference by `&amp;`.
+
+    libsdformat takes such an & for itself. Raises SdfError for an unterminated comment.
+    """
     kept: list[str] = []
     done = 0
     for opening in _OPENING.finditer(text):
@@ -253,12 +257,12 @@ def _blanked(text: str, file: str) -> str:
         if end < 0:
             break  # the rest is unchanged: the parser reports the error with the right line
         end += len(closing)
+        kept.append(_LONE_AMPERSAND.sub("&amp;", text[done : opening.start()]))
         if opening.group().startswith("<!["):
-            kept.append(text[done:end])
+            kept.append(text[opening.start() : end])
             done = end
             continue
-        kept.append(text[done : opening.start()])
         kept.append("\n" * text.count("\n", opening.start(), end))
         done = end
-    kept.append(text[done:])
+    kept.append(_LONE_AMPERSAND.sub("&amp;", text[done:]))
     return "".join(kept)

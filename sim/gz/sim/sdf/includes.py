@@ -83,6 +83,8 @@ class Includes:
         self._count = 0
         self.skipped: set[str] = set()
         """Names of the models that were not found; joints to these models are skipped, too."""
+        self.empty: set[str] = set()
+        """Names of the models of the world that hold nothing but such includes, and are left out."""
 
     def open(self, child: Element, version: Version, chain: tuple[Path, ...]) -> Opened | None:
         """Return `child`, or for an `<include>` the included element with its overrides.

@@ -38,9 +38,9 @@ def read_light(element: Element, pose: Pose, diagnostics: Diagnostics) -> Light:
     attenuation = element.find("attenuation")
     if attenuation is not None:
         light.range = _bounded(attenuation, "range", 10.0)
-        light.constant = _bounded(attenuation, "constant", 1.0)
-        light.linear = _bounded(attenuation, "linear", 1.0)
-        light.quadratic = _bounded(attenuation, "quadratic", 0.0)
+        light.constant = _factor(attenuation, "constant", 1.0, diagnostics)
+        light.linear = _factor(attenuation, "linear", 1.0, diagnostics)
+        light.quadratic = _factor(attenuation, "quadratic", 0.0, diagnostics)
     spot = element.find("spot")
     if spot is not None:
         light.inner_angle = _bounded(spot, "inner_angle", 0.0)
@@ -55,6 +55,15 @@ def _direction(element: Element) -> tuple[float, float, float]:
     if not 1e-12 < length < math.inf:
         raise (element.find("direction") or element).error("<direction> has no length; use for example 0 0 -1")
     return x / length, y / length, z / length
+
+
+def _factor(element: Element, tag: str, default: float, diagnostics: Diagnostics) -> float:
+    """Return a factor of the attenuation; as in libsdformat one below zero is zero."""
+    value = element.number(tag, default)
+    if value < 0.0:
+        where = (element.find(tag) or element).where
+        diagnostics.warn(where, f"<{tag}> is {value:g}, but an attenuation must not be negative; it is 0")
+    return min(max(value, 0.0), 1e9)
 
 
 def _bounded(element: Element, tag: str, default: float) -> float:

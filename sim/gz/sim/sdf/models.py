@@ -126,12 +126,22 @@ class ModelReader:
 
 
 def joint_to_skipped(joint: Element, scope: Scope, includes: Includes, diagnostics: Diagnostics) -> bool:
-    """Return whether a joint refers to a model whose include was skipped; warn if so."""
+    """Return whether a joint is left out, because it refers to a model whose include was skipped or joins two frames
+    of one link; warn if so.
+    """
     for role in ("parent", "child"):
         first = joint.text_of(role).split("::")[0]
-        if first in includes.skipped and first not in scope.frames:
+        if (first in includes.skipped and first not in scope.frames) or first in includes.empty:
             diagnostics.warn(joint.where, f"joint '{joint.name}' is skipped with the include '{first}'")
             return True
+    parent, child = joint.text_of("parent"), joint.text_of("child")
+    if parent == child or not (parent in scope.frames and child in scope.frames):
+        return False
+    link = scope.link_behind(parent, joint)
+    if link == scope.link_behind(child, joint):
+        text = f"joint '{joint.name}' is left out: '{parent}' and '{child}' are both part of link '{link}'"
+        diagnostics.warn(joint.where, text)
+        return True
     return False
 
 

@@ -146,6 +146,11 @@ class _WorldReader:
         for part, model in models:
             model.pose = _bounded(scope.pose_of(part.element.name, part.place), part.place)
             if not model.static and not model.links:
+                if _has_include(part.element):
+                    text = f"model '{model.name}' holds nothing but what was not found, so it is left out too"
+                    self._diagnostics.warn(part.place.where, text)
+                    self._includes.empty.add(model.name)
+                    continue
                 raise part.element.error(f"model '{model.name}' has no link; give it at least one <link>")
             description.models.append(model)
         for element in lights:
@@ -188,6 +193,11 @@ class _WorldReader:
             self._diagnostics.warn((physics.find("max_step_size") or physics).where, long_step(step))
         factor = physics.number("real_time_factor", 1.0)
         description.real_time_factor = max(0.0, factor) if math.isfinite(factor) else 0.0
+
+
+def _has_include(model: Element) -> bool:
+    """Return whether a model or one nested in it includes a file."""
+    return any(child.tag == "include" or (child.tag == "model" and _has_include(child)) for child in model.children)
 
 
 def long_step(step: float) -> str:

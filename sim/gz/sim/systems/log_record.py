@@ -2,7 +2,7 @@
 
 `gz sim --record` adds it. It records the poses (`/world/W/pose/info`, `/world/W/dynamic_pose/info`), the initial world
 as SDF (`/W/log/sdf`), and every topic whose whole name matches one of the `<record_topic>` patterns. A recorded sensor
-counts as subscribed. `gz log` (`gz.sim.tlog`) reads the file.
+counts as subscribed. `gz tlog` (`gz.sim.tlog`) reads the file.
 
 Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/log/LogRecord.cc
 """
