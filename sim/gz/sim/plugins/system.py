@@ -116,74 +116,49 @@ BUILT_IN = {"Physics"}
 
 OTHER_GAZEBO_SYSTEMS = frozenset(
     [
-        "AckermannSteering",
         "AcousticComms",
-        "AirPressure",
-        "AirSpeed",
-        "Altimeter",
-        "ApplyJointForce",
-        "ApplyLinkWrench",
-        "BatteryPlugin",
         "Breadcrumbs",
         "Buoyancy",
         "BuoyancyEngine",
         "CameraVideoRecorder",
         "CommsEndpoint",
-        "Contact",
         "DetachableJoint",
         "DopplerVelocityLog",
         "DriveToPoseController",
         "EnvironmentPreload",
         "FollowActor",
-        "ForceTorque",
         "Hydrodynamics",
-        "Imu",
-        "JointController",
-        "JointPositionController",
-        "JointStatePublisher",
-        "JointTrajectoryController",
-        "KineticEnergyMonitor",
-        "Label",
         "LensFlare",
         "LiftDrag",
         "LogPlayback",
-        "LogRecord",
         "LogicalAudio",
-        "LogicalCamera",
-        "Magnetometer",
         "MecanumDrive",
         "ModelPhotoShoot",
         "MulticopterMotorModel",
         "MulticopterVelocityControl",
-        "NavSat",
-        "OdometryPublisher",
         "OpticalTactilePlugin",
         "ParticleEmitter",
         "PerformerDetector",
-        "PosePublisher",
         "PythonSystemLoader",
         "ReplayVideo",
         "RFComms",
-        "SceneBroadcaster",
-        "Sensors",
         "ShaderParam",
         "SpacecraftThrusterModel",
         "TempStore",
         "Thermal",
         "ThermalSensor",
         "Thruster",
-        "TouchPlugin",
         "TrackController",
         "TrackedVehicle",
         "TrajectoryFollower",
-        "TriggeredPublisher",
-        "UserCommands",
-        "VelocityControl",
         "WheelSlip",
         "WindEffects",
     ]
 )
+"""Gazebo's systems that are not simulated here."""
 
+_OWN_NAMESPACES = ("gz::sim::", "ignition::gazebo::")
+_OWN_FILES = ("gz-sim", "ignition-gazebo")
 _CLASSIC = {
     "libgazebo_ros_diff_drive": "gz-sim-diff-drive-system",
     "libgazebo_ros_ray_sensor": "gz-sim-sensors-system in the world",
@@ -228,10 +203,21 @@ def find_system(plugin: Plugin, diagnostics: Diagnostics) -> type[System] | None
         diagnostics.warn(where, f"plugin '{plugin.filename}' is of Gazebo Classic and is ignored; use {instead}")
     elif name in OTHER_GAZEBO_SYSTEMS:
         diagnostics.warn(where, f"system '{name}' exists in Gazebo but not in this simulator, it is ignored")
+    elif _is_foreign(plugin):
+        text = f"plugin '{plugin.name or plugin.filename}' is not one of Gazebo's own; "
+        diagnostics.warn(where, f"{text}compiled plugins cannot run here, it is ignored")
     else:
         hint = did_you_mean(name, {*systems(), *BUILT_IN}, listing="systems that run here are")
         diagnostics.warn(where, f"no system is called '{plugin.name or plugin.filename}', it is ignored{hint}")
     return None
+
+
+def _is_foreign(plugin: Plugin) -> bool:
+    """Tell whether a plugin is somebody's own library rather than a misspelt system of Gazebo."""
+    file = plugin.filename.rsplit("/", 1)[-1]
+    if "::" in plugin.name:
+        return not plugin.name.startswith(_OWN_NAMESPACES)
+    return (file.startswith("lib") or file.endswith(".so")) and not file.removeprefix("lib").startswith(_OWN_FILES)
 
 
 def _check_parameters(plugin: Plugin, found: type[System], diagnostics: Diagnostics) -> None:
