@@ -18,10 +18,12 @@ PLANE = """<model name='ground'><static>true</static><link name='l'><collision n
 
 def four_wheels(length: float, width: float, radius: float, mass: float, step: float, shape: str = "cylinder") -> World:
     """Return a world with a robot; its wheels are `length` and `width` [m] apart."""
-    size = {"box": f"<size>{radius} {radius} {radius}</size>", "cylinder": f"<length>{radius / 2}</length>"}.get(
-        shape, ""
-    )
-    tyre = f"<{shape}>{size}{'' if shape == 'box' else f'<radius>{radius}</radius>'}</{shape}>"
+    sizes = {
+        "box": f"<size>{radius} {radius} {radius}</size>",
+        "cylinder": f"<radius>{radius}</radius><length>{radius / 2}</length>",
+        "sphere": f"<radius>{radius}</radius>",
+    }
+    tyre = f"<geometry><{shape}>{sizes[shape]}</{shape}></geometry>"
     wheels = joints = ""
     for number, (x, y) in enumerate(((1, 1), (-1, 1), (1, -1), (-1, -1))):
         m = mass / 20
