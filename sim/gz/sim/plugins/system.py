@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, ClassVar, TypeVar
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.errors import Diagnostics
 from gz_course.sim.gz.sim.physics.servos import JointServo
+from gz_course.sim.gz.sim.physics.welds import WeldRequest
 from gz_course.sim.gz.sim.sdf.description import Model, Plugin
 
 if TYPE_CHECKING:
@@ -53,6 +54,11 @@ class System:
     @classmethod
     def servos(cls, model: Model, plugin: Plugin) -> list[JointServo]:
         """Return the joints of `model` that this system drives. Raises SdfError for a joint that does not exist."""
+        return []
+
+    @classmethod
+    def welds(cls, model: Model, plugin: Plugin) -> list[WeldRequest]:
+        """Return the links that this system may connect. Raises SdfError for a link of `model` that does not exist."""
         return []
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
@@ -122,7 +128,6 @@ OTHER_GAZEBO_SYSTEMS = frozenset(
         "BuoyancyEngine",
         "CameraVideoRecorder",
         "CommsEndpoint",
-        "DetachableJoint",
         "DopplerVelocityLog",
         "DriveToPoseController",
         "EnvironmentPreload",
