@@ -222,6 +222,17 @@ class World:
         self._build((self.model, self.data))
         self.systems.bind()
 
+    def part_overlaps(self) -> None:
+        """Let bodies that were just moved into each other come apart slowly; nothing else changes."""
+        probe = mujoco.MjData(self.model)
+        probe.qpos[:] = self.data.qpos
+        mujoco.mj_kinematics(self.model, probe)
+        mujoco.mj_comPos(self.model, probe)
+        mujoco.mj_collision(self.model, probe)
+        found = overlaps.find(self.model, probe)
+        if found and not self._overlaps.soften(found):
+            self.rebuild()
+
     def continue_from(self, sim_time_ns: int) -> None:
         """Continue at a simulated time [ns] with the step size of the changed description."""
         self._origin_ns = sim_time_ns - self.iterations * self.step_size_ns
