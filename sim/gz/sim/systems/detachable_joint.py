@@ -8,6 +8,7 @@ Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/detachable_
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from gz_course.sim.gz.sim.physics.welds import WeldRequest, find_weld
@@ -101,9 +102,9 @@ class DetachableJoint(System):
         self._type = StringMsg
         self._publisher = node.advertise(self.state_topic, StringMsg)
         for topic, wanted in ((self.detach_topic, False), (self.attach_topic, True)):
-            node.subscribe(Empty, topic, lambda _, wanted=wanted, topic=topic: self._request(wanted, topic))
+            node.subscribe(Empty, topic, partial(self._request, wanted, topic))
 
-    def _request(self, wanted: bool, topic: str) -> None:
+    def _request(self, wanted: bool, topic: str, _: Any) -> None:
         self._world.requests.put(logged(lambda: setattr(self, "_wanted", wanted), topic))
 
     @property
