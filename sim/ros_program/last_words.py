@@ -56,25 +56,25 @@ def leave(folder: Path, words: LastWords) -> None:
 
 def forget(folder: Path, place: tuple[str, int, str], within: float = LOOK_BACK) -> None:
     """Remove the files of a program in one domain and partition."""
-    for words in found(folder, within):
+    for words in found(folder, within, place[0]):
         if words.place == place:
             with contextlib.suppress(OSError):
                 (folder / words.file_name).unlink()
 
 
-def found(folder: Path, within: float = LOOK_BACK) -> list[LastWords]:
-    """Return what was left in a folder of logs in the last `within` seconds, oldest first."""
+def found(folder: Path, within: float = LOOK_BACK, program: str = "") -> list[LastWords]:
+    """Return what was left in a folder of logs in the last `within` seconds, by any or by one program, oldest first."""
     since = time.time() - within
-    return sorted(_read(folder, since), key=lambda words: words.ended)
+    return sorted(_read(folder, since, program), key=lambda words: words.ended)
 
 
-def _read(folder: Path, since: float) -> Iterator[LastWords]:
+def _read(folder: Path, since: float, program: str) -> Iterator[LastWords]:
     files: Iterable[Path] = ()
     with contextlib.suppress(OSError):
         files = list(folder.iterdir())
     for file in files:
         name = _NAME.fullmatch(file.name)
-        if name is None or int(name["ms"]) / 1000 < since:
+        if name is None or int(name["ms"]) / 1000 < since or program not in ("", name["program"]):
             continue
         lines: list[str] = []
         with contextlib.suppress(OSError), file.open(encoding="utf-8", errors="replace") as stream:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.physics.servos import JointServo
+from gz_course.sim.gz.sim.physics.welds import WeldRequest
 from gz_course.sim.gz.sim.plugins.sensor import KNOWN_TYPES, SensorBase, sensor_types
 from gz_course.sim.gz.sim.plugins.sensor_system import SensorSystem
 from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, find_system, system_name, systems
@@ -45,6 +46,8 @@ class RunningSystems:
         self._running: list[Running] = []
         self.servos: dict[str, list[JointServo]] = {}
         """The servos that systems have requested, by model."""
+        self.welds: dict[str, list[WeldRequest]] = {}
+        """The connections between models that systems have requested, by model."""
         self._options_of: Node | None = None
         self._shared_topics = SharedTopics(world.diagnostics)
         self.pre_updates: list[Hook] = []
@@ -75,6 +78,7 @@ class RunningSystems:
         """
         before = list(self._running)
         taken = self.servos[model.name] = []
+        welds = self.welds[model.name] = []
         diagnostics = self._world.diagnostics
         try:
             for plugin in model.plugins:
@@ -89,10 +93,12 @@ class RunningSystems:
                 for servo in driven:
                     if all(servo.actuator != other.actuator for other in taken):
                         taken.append(servo)
+                known = {weld.name for weld in welds}
+                welds += [weld for weld in found.welds(model, plugin) if weld.name not in known]
                 self._make(found, model, plugin)
         except Exception:
             self._running = before
-            del self.servos[model.name]
+            del self.servos[model.name], self.welds[model.name]
             raise
         return [each for each in self._running if each not in before]
 
@@ -158,6 +164,7 @@ class RunningSystems:
         gone = [each for each in self._running if each.model is model]
         self._running = [each for each in self._running if each.model is not model]
         self.servos.pop(model.name, None)
+        self.welds.pop(model.name, None)
         for each in gone:
             self._end(each)
 

@@ -18,7 +18,7 @@ import mujoco
 from gz_course.sim.gz.sim.editing.editor import Editor
 from gz_course.sim.gz.sim.entities import Entities
 from gz_course.sim.gz.sim.errors import LOG, Diagnostics, SimError
-from gz_course.sim.gz.sim.physics import integrator, overlaps
+from gz_course.sim.gz.sim.physics import integrator, overlaps, welds
 from gz_course.sim.gz.sim.physics.builder import build_spec
 from gz_course.sim.gz.sim.physics.compiler import compile_world
 from gz_course.sim.gz.sim.physics.instability import UNSTABLE, why_unstable
@@ -188,6 +188,7 @@ class World:
         The present ones are kept if MuJoCo rejects the model.
         """
         spec = build_spec(self.description, self.systems.servos, self.diagnostics)
+        welds.add_welds(spec, self.description, self.systems.welds)
         mujoco.set_mju_user_warning(lambda text: LOG.warning("physics: %s", text))
         model, data = self._compile(spec, before)
         found = overlaps.find(model, data)
@@ -220,6 +221,17 @@ class World:
         """Rebuild MuJoCo's model from the changed description; the state of unchanged entities is kept exactly."""
         self._build((self.model, self.data))
         self.systems.bind()
+
+    def part_overlaps(self) -> None:
+        """Let bodies that were just moved into each other come apart slowly; nothing else changes."""
+        probe = mujoco.MjData(self.model)
+        probe.qpos[:] = self.data.qpos
+        mujoco.mj_kinematics(self.model, probe)
+        mujoco.mj_comPos(self.model, probe)
+        mujoco.mj_collision(self.model, probe)
+        found = overlaps.find(self.model, probe)
+        if found and not self._overlaps.soften(found):
+            self.rebuild()
 
     def continue_from(self, sim_time_ns: int) -> None:
         """Continue at a simulated time [ns] with the step size of the changed description."""

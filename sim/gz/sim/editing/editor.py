@@ -193,6 +193,8 @@ class Editor:
             # The pose of a part that is fixed to the world is in the description, not in MuJoCo's state.
             self._change(model, "pose", move * model.pose)
             self._world.rebuild()
+        else:
+            self._world.part_overlaps()
         self._truth.stale = True
 
     def _set_link_pose(self, model: Model, link: str, pose: Pose) -> None:
@@ -203,6 +205,7 @@ class Editor:
                 f"link '{link}' of model '{model.name}' hangs on a joint or on the world, so it cannot be set "
                 "down elsewhere; move the whole model"
             )
+        self._world.part_overlaps()
         self._truth.stale = True
 
     def _move_body(self, body: int, move: Pose) -> bool:

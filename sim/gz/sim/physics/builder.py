@@ -19,7 +19,7 @@ import numpy as np
 from gz_course.sim.gz.sim.errors import Diagnostics
 from gz_course.sim.gz.sim.physics import recipe
 from gz_course.sim.gz.sim.physics.contact_pairs import add_pairs
-from gz_course.sim.gz.sim.physics.geoms import COLLISION_GROUP, SITE_GROUP, VISUAL_GROUP, VISUAL_SUFFIX, Geoms
+from gz_course.sim.gz.sim.physics.geoms import COLLISION_GROUP, SITE_GROUP, VISUAL_GROUP, VISUAL_SUFFIX, Geoms, Wheel
 from gz_course.sim.gz.sim.physics.joints import (
     add_gearbox,
     add_joint,
@@ -220,11 +220,13 @@ class _Builder:
         if edge is not None:
             pose = pose * displacement(edge.joint)
         body = self._bodies[name] = holder.add_body(name=name, pos=pose.position, quat=pose.quaternion)
-        servo = None
+        wheel = None
         if edge is not None:
             wheels = (s for s in self._servos.get(model.name, []) if s.kind == WHEEL)
             servo = next((s for s in wheels if s.joint == edge.joint.name), None)
             armature = 0.0
+            if servo is not None and edge.joint.axis is not None:
+                wheel = Wheel(servo.skids, np.array(edge.joint.axis.direction))
             if servo is not None and self._bounces:
                 armature = recipe.wheel_armature(model.mass(), servo.sharing, servo.radius)
             add_joint(self._spec, body, edge.name, edge.joint, armature, self._step)
@@ -234,7 +236,7 @@ class _Builder:
             body.add_freejoint(name=name + "#free")
         body.gravcomp = 0.0 if link.gravity else 1.0
         self._set_inertia(body, link)
-        self._add_parts(body, model, link, Pose(), wheel=servo)
+        self._add_parts(body, model, link, Pose(), wheel=wheel)
 
     @staticmethod
     def _set_inertia(body: mujoco.MjsBody, link: Link) -> None:
@@ -290,9 +292,7 @@ class _Builder:
             link = self._tree.carried[link].parent
         return link.rpartition("::")[0]
 
-    def _add_parts(
-        self, body: mujoco.MjsBody, model: Model, link: Link, base: Pose, *, wheel: JointServo | None
-    ) -> None:
+    def _add_parts(self, body: mujoco.MjsBody, model: Model, link: Link, base: Pose, *, wheel: Wheel | None) -> None:
         name = scoped(model, link.name)
         moving = not model.static
         for collision in link.collisions:

@@ -7,6 +7,8 @@ Equal meshes share one MuJoCo mesh, equal textures one MuJoCo texture.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import mujoco
 import numpy as np
 
@@ -14,8 +16,7 @@ from gz_course.sim.gz.sim.errors import Diagnostics
 from gz_course.sim.gz.sim.physics import recipe
 from gz_course.sim.gz.sim.physics.contact_pairs import Shape
 from gz_course.sim.gz.sim.physics.materials import Materials
-from gz_course.sim.gz.sim.physics.servos import JointServo
-from gz_course.sim.gz.sim.pose import Pose, Vector, quaternion_between
+from gz_course.sim.gz.sim.pose import Pose, Vector, quaternion_between, rotate
 from gz_course.sim.gz.sim.sdf.description import (
     Collision,
     Geometry,
@@ -70,6 +71,14 @@ def looks_of(part: Visual) -> list[Look]:
     return [Look((*look.rgba[:3], look.rgba[3] * alpha), look.texture) for look in mesh.looks]
 
 
+@dataclass(frozen=True)
+class Wheel:
+    """A driven wheel: whether it skids, and the direction of its axle in the frame of its link."""
+
+    skids: bool
+    axle: Vector
+
+
 class Geoms:
     """Adds geoms to one spec; holds the friction ranks of the world and the meshes already added."""
 
@@ -93,17 +102,21 @@ class Geoms:
         part: Collision,
         model: Model,
         *,
-        wheel: JointServo | None,
+        wheel: Wheel | None,
         moving: bool,
     ) -> None:
         """Add a collision of a model; `base` is the pose of its link in the body.
 
-        The cylinder of a driven `wheel` becomes an ellipsoid, or a short capsule if it skids (`contact_pairs`).
+        The cylinder of a driven `wheel` becomes an ellipsoid. If it skids, cylinder and sphere become a short capsule
+        along the axle (`contact_pairs`).
         """
         geometry = part.geometry
         pose = base * part.pose
-        skids = wheel is not None and wheel.skids and geometry.kind == "cylinder"
-        if skids:
+        skids = wheel is not None and wheel.skids and self._can_skid(part)
+        if wheel is not None and skids:
+            if geometry.kind == "sphere":
+                axle = rotate(pose.inverse().quaternion, rotate(base.quaternion, wheel.axle))
+                pose = pose * Pose(quaternion=quaternion_between((0.0, 0.0, 1.0), axle))
             x, y, _ = geometry.size
             geometry = Geometry("capsule", (x, y, _TYRE * x))
         elif wheel is not None and geometry.kind == "cylinder":
@@ -126,6 +139,14 @@ class Geoms:
             geom.priority = self._ranks[part.mu]
             geom.condim = 3 if part.mu > 0.0 else 1
             geom.friction = (max(part.mu, 1e-6), 0.005, 0.0001)
+
+    def _can_skid(self, part: Collision) -> bool:
+        """Tell whether the shape of a wheel that skids is a tyre, and warn if it is not."""
+        kind = part.geometry.kind
+        if kind not in ("cylinder", "sphere"):
+            text = f"wheel collision '{part.name}' is a {kind} and grips in all directions, so its robot, which must "
+            self._diagnostics.warn(part.element.where, f"{text}skid to turn, turns too slowly; make it a cylinder")
+        return kind in ("cylinder", "sphere")
 
     def add_visual(self, body: mujoco.MjsBody, name: str, base: Pose, part: Visual, *, moving: bool) -> None:
         """Add a visual, without contacts or mass; `base` is the pose of its link in the body."""

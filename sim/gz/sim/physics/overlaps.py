@@ -9,7 +9,7 @@ Source: https://mujoco.readthedocs.io/en/stable/modeling.html (reference acceler
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 import mujoco
 import numpy as np
@@ -69,12 +69,23 @@ class Overlaps:
 
     def restart(self) -> None:
         """Soften all pairs again, for a world that is reset."""
-        if not self._found:
+        self._soften(self._found)
+
+    def soften(self, found: Iterable[Overlap]) -> bool:
+        """Soften these pairs again; return False if one of them is new, which needs another model."""
+        depths = {frozenset((one, other)): depth for one, other, depth in found}
+        if depths.keys() <= self._found.keys():
+            self._soften(depths)
+            return True
+        return False
+
+    def _soften(self, depths: Mapping[frozenset[str], float]) -> None:
+        if not depths:
             return
         model = self._model
         for pair in range(model.npair):
             one, other = int(model.pair_geom1[pair]), int(model.pair_geom2[pair])
-            depth = self._found.get(frozenset((model.geom(one).name, model.geom(other).name)))
+            depth = depths.get(frozenset((model.geom(one).name, model.geom(other).name)))
             if depth is not None:
                 self._usual.setdefault(pair, model.pair_solref[pair].tolist())
                 self._pairs[min(one, other), max(one, other)] = pair

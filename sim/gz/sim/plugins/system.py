@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, ClassVar, TypeVar
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.errors import Diagnostics
 from gz_course.sim.gz.sim.physics.servos import JointServo
+from gz_course.sim.gz.sim.physics.welds import WeldRequest
 from gz_course.sim.gz.sim.sdf.description import Model, Plugin
 
 if TYPE_CHECKING:
@@ -53,6 +54,11 @@ class System:
     @classmethod
     def servos(cls, model: Model, plugin: Plugin) -> list[JointServo]:
         """Return the joints of `model` that this system drives. Raises SdfError for a joint that does not exist."""
+        return []
+
+    @classmethod
+    def welds(cls, model: Model, plugin: Plugin) -> list[WeldRequest]:
+        """Return the links that this system may connect. Raises SdfError for a link of `model` that does not exist."""
         return []
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
@@ -123,7 +129,6 @@ GAZEBO_SYSTEMS = frozenset(
         "Altimeter",
         "ApplyJointForce",
         "ApplyLinkWrench",
-        "BatteryPlugin",
         "Breadcrumbs",
         "Buoyancy",
         "BuoyancyEngine",
@@ -191,8 +196,8 @@ def other_gazebo_systems() -> frozenset[str]:
     return GAZEBO_SYSTEMS - BUILT_IN - systems().keys()
 
 
-_NAMESPACES = ("gz::sim::", "ignition::gazebo::")
-_FILES = ("gz-sim-", "gz-sim8-", "ignition-gazebo-", "ignition-gazebo6-")
+_OWN_NAMESPACES = ("gz::sim::", "ignition::gazebo::")
+_OWN_FILES = ("gz-sim", "ignition-gazebo")
 _CLASSIC = {
     "libgazebo_ros_diff_drive": "gz-sim-diff-drive-system",
     "libgazebo_ros_ray_sensor": "gz-sim-sensors-system in the world",
@@ -237,14 +242,21 @@ def find_system(plugin: Plugin, diagnostics: Diagnostics) -> type[System] | None
         diagnostics.warn(where, f"plugin '{plugin.filename}' is of Gazebo Classic and is ignored; use {instead}")
     elif name in other_gazebo_systems():
         diagnostics.warn(where, f"system '{name}' exists in Gazebo but not in this simulator, it is ignored")
+    elif _is_foreign(plugin):
+        text = f"plugin '{plugin.name or plugin.filename}' is not one of Gazebo's own; "
+        diagnostics.warn(where, f"{text}compiled plugins cannot run here, it is ignored")
     else:
-        # A plugin of somebody's own has no likeness with one of Gazebo's.
-        of_gazebo = plugin.name.startswith(_NAMESPACES) or classic.removeprefix("lib").startswith(_FILES)
-        hint = "; plugins of one's own, in C++, do not run here"
-        if of_gazebo or name in {found.lower() for found in systems()}:
-            hint = did_you_mean(name, {*systems(), *BUILT_IN}, listing="systems that run here are")
+        hint = did_you_mean(name, {*systems(), *BUILT_IN}, listing="systems that run here are")
         diagnostics.warn(where, f"no system is called '{plugin.name or plugin.filename}', it is ignored{hint}")
     return None
+
+
+def _is_foreign(plugin: Plugin) -> bool:
+    """Tell whether a plugin is somebody's own library rather than a misspelt system of Gazebo."""
+    file = plugin.filename.rsplit("/", 1)[-1]
+    if "::" in plugin.name:
+        return not plugin.name.startswith(_OWN_NAMESPACES)
+    return (file.startswith("lib") or file.endswith(".so")) and not file.removeprefix("lib").startswith(_OWN_FILES)
 
 
 def _check_parameters(plugin: Plugin, found: type[System], diagnostics: Diagnostics) -> None:

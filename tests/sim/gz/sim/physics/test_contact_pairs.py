@@ -16,16 +16,21 @@ PLANE = """<model name='ground'><static>true</static><link name='l'><collision n
 <surface><bounce><restitution_coefficient>{e}</restitution_coefficient></bounce></surface></collision></link></model>"""
 
 
-def four_wheels(length: float, width: float, radius: float, mass: float, step: float, ground: str = "plane") -> World:
+def four_wheels(length: float, width: float, radius: float, mass: float, step: float, shape: str = "cylinder") -> World:
     """Return a world with a robot; its wheels are `length` and `width` [m] apart."""
+    sizes = {
+        "box": f"<size>{radius} {radius} {radius}</size>",
+        "cylinder": f"<radius>{radius}</radius><length>{radius / 2}</length>",
+        "sphere": f"<radius>{radius}</radius>",
+    }
+    tyre = f"<geometry><{shape}>{sizes[shape]}</{shape}></geometry>"
     wheels = joints = ""
     for number, (x, y) in enumerate(((1, 1), (-1, 1), (1, -1), (-1, -1))):
         m = mass / 20
         place = f"{x * length / 2} {y * width / 2} {radius} -1.5707963267948966 0 0"
         wheels += f"""<link name='w{number}'><pose>{place}</pose>
           <inertial><mass>{m}</mass><inertia><ixx>{m * radius**2 / 3}</ixx><iyy>{m * radius**2 / 3}</iyy>
-          <izz>{m * radius**2 / 2}</izz></inertia></inertial><collision name='tyre'><geometry><cylinder>
-          <radius>{radius}</radius><length>{radius / 2}</length></cylinder></geometry></collision></link>
+          <izz>{m * radius**2 / 2}</izz></inertia></inertial><collision name='tyre'>{tyre}</collision></link>
           <joint name='j{number}' type='revolute'><parent>base</parent><child>w{number}</child>
           <axis><xyz>0 0 1</xyz></axis></joint>"""
         joints += f"<{'left' if y > 0 else 'right'}_joint>j{number}</{'left' if y > 0 else 'right'}_joint>"
@@ -38,19 +43,23 @@ def four_wheels(length: float, width: float, radius: float, mass: float, step: f
 
 
 @pytest.mark.parametrize(
-    ("length", "width", "radius", "mass", "step"),
-    [(0.4, 0.5, 0.1, 20.0, 0.001), (0.6, 0.4, 0.1, 20.0, 0.001), (0.3, 0.2, 0.04, 2.0, 0.004)],
+    ("length", "width", "radius", "mass", "step", "shape"),
+    [
+        (0.4, 0.5, 0.1, 20.0, 0.001, "cylinder"),
+        (0.6, 0.4, 0.1, 20.0, 0.001, "sphere"),
+        (0.3, 0.2, 0.04, 2.0, 0.004, "cylinder"),
+    ],
 )
 def test_a_robot_with_four_wheels_turns_as_commanded(
-    length: float, width: float, radius: float, mass: float, step: float
+    length: float, width: float, radius: float, mass: float, step: float, shape: str
 ) -> None:
-    world = four_wheels(length, width, radius, mass, step)
-    assert world.warnings == []
+    world = four_wheels(length, width, radius, mass, step, shape)
     drive = drive_of(world)
     drive.command(0.0, 1.0)
     world.step(round(1.0 / step))
     before = world.truth.pose("robot").yaw()
     world.step(round(1.0 / step))
+    assert not any("skid" in warning for warning in world.warnings)
     assert world.truth.pose("robot").yaw() - before == pytest.approx(1.0, rel=0.1)
     drive.command(0.5, 0.0)
     world.step(round(1.0 / step))
@@ -93,3 +102,5 @@ def test_a_body_without_restitution_on_either_side_does_not_bounce() -> None:
 def test_only_wheels_one_behind_the_other_skid() -> None:
     assert four_wheels(0.4, 0.5, 0.1, 20.0, 0.001).model.npair == 4
     assert four_wheels(0.01, 0.5, 0.2, 20.0, 0.001).model.npair == 0, "twin wheels on one axle"
+    warning = next(each for each in four_wheels(0.4, 0.5, 0.1, 20.0, 0.001, "box").warnings if "skid" in each)
+    assert "wheel collision 'tyre' is a box" in warning and "make it a cylinder" in warning

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from gz_course.sim.gz.sim.physics.overlaps import FASTEST
+from gz_course.sim.gz.sim.pose import Pose
 from gz_course.sim.gz.sim.world import World
 
 WORLD = """<sdf version='1.10'><world name='w'><physics type='x'><max_step_size>{step}</max_step_size></physics>
@@ -48,6 +49,23 @@ def test_an_overlap_is_named_and_ends_slowly(places: tuple[tuple[float, float], 
 def test_bodies_that_touch_are_not_changed() -> None:
     world = world_of((0, 0.5), (1.0, 0.499))
     assert (world.warnings, world.model.npair) == ([], 0)
+
+
+def test_a_body_that_is_set_down_inside_another_is_pushed_out_too() -> None:
+    world = world_of((0, 0.5), (3.0, 0.5))
+    world.step(10)
+    same = world.model
+    world.editor.set_pose("b1", Pose((2.0, 0.0, 0.5)))
+    assert world.model is same, "nothing overlaps"
+    world.editor.set_pose("b1", Pose((0.6, 0.0, 0.5)))
+    assert world.model is not same
+    same = world.model
+    assert fastest(world, 2500) < FASTEST
+    assert max(-world.data.contact.dist) < 0.005, "they have come apart"
+    world.editor.set_pose("b1", Pose((4.0, 0.0, 0.5)))
+    world.editor.set_pose("b1", world.truth.pose("b0") * Pose((0.6, 0.0, 0.0)))
+    assert world.model is same, "the pair is known"
+    assert fastest(world, 500) < FASTEST
 
 
 def test_a_body_that_is_created_inside_another_is_pushed_out_too() -> None:
