@@ -109,8 +109,13 @@ def place(dotted):
     return dotted.removeprefix(NAMESPACE).replace(".", "/")
 
 
+def last_name(node):
+    """Return `c` of `c` and of `a.b.c`, and nothing of another expression."""
+    return getattr(node, "attr", getattr(node, "id", ""))
+
+
 def is_type_checking(node):
-    return isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test)
+    return isinstance(node, ast.If) and last_name(node.test) == "TYPE_CHECKING"
 
 
 @functools.cache
@@ -129,7 +134,7 @@ def imports(name, *, with_types=True):
                 base = "/".join([*above, *(node.module or "").split(".")]).rstrip("/")
             found.update({base} - {"sim"})  # the package of all packages: what is meant is in the names
             found.update(f"{base}/{alias.name}" for alias in node.names)
-        elif isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] in ("import_module", "__import__"):
+        elif isinstance(node, ast.Call) and last_name(node.func) in ("import_module", "__import__"):
             found.update(place(a.value) for a in node.args[:1] if isinstance(a, ast.Constant))
         for child in ast.iter_child_nodes(node):
             if with_types or not is_type_checking(child):
@@ -143,13 +148,17 @@ def below(name, *tops):
     return any(name == top or name.startswith(f"{top}/") for top in tops)
 
 
+@functools.cache
+def rooms_of(name):
+    return [room for room in FORBIDDEN if below(name, room)]
+
+
 def is_forbidden(name, imported):
     if below(imported, *PUBLIC_NAMES, *PACKAGES, "public"):
         return True
     if below(imported, *FOR_ALL):
         return False
-    rooms = [room for room in FORBIDDEN if below(name, room)]
-    for room in rooms:
+    for room in rooms_of(name):
         if below(imported, *FORBIDDEN[room]) and not below(imported, *ALLOWED.get(room, ())):
             return True
     return below(name, *NO_ROS_MESSAGES) and re.match(ROS_MESSAGES, imported) is not None

@@ -34,6 +34,7 @@ from typing import Any
 
 import numpy as np
 import rerun as rr
+from rerun_bindings import flush_and_cleanup_orphaned_recordings
 
 from gz_course.grader.record.blueprint import blueprint
 from gz_course.grader.record.timeline import TIMELINE
@@ -56,6 +57,7 @@ class Recorder:
         self.path = path
         self.part = part_of(path)
         path.parent.mkdir(parents=True, exist_ok=True)
+        flush_and_cleanup_orphaned_recordings()  # the SDK keeps the threads of recordings that nobody uses any more
         self.stream = rr.RecordingStream(
             APPLICATION,
             recording_id=str(uuid.uuid4()),

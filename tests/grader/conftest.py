@@ -164,7 +164,13 @@ def root():
 
 
 @pytest.fixture
-def record(tmp_path):
+def without_blueprint(monkeypatch):
+    """Leave the layout of the viewer out of recordings: the SDK never frees the threads that it makes for one."""
+    monkeypatch.setattr("gz_course.grader.record.recorder.blueprint", lambda *_: None)
+
+
+@pytest.fixture
+def record(tmp_path, without_blueprint):
     """Make a recording by hand: `record({"signal": [(seconds, value), ...]}, ...)` returns it, read back."""
     from gz_course.grader.record.reading import Recording
     from gz_course.grader.record.recorder import Recorder

@@ -9,6 +9,8 @@ from gz_course.grader.record.messages import LONGEST_LIST, LONGEST_TEXT, fields,
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.record.recorder import Recorder
 
+pytestmark = pytest.mark.usefixtures("without_blueprint")
+
 
 @pytest.fixture
 def recorded(tmp_path):

@@ -4,6 +4,7 @@ import math
 import random
 
 import numpy as np
+import psutil
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -11,6 +12,8 @@ from hypothesis import strategies as st
 from gz_course.grader.errors import UsageError
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.record.recorder import BLOCK_NS, Recorder
+
+pytestmark = pytest.mark.usefixtures("without_blueprint")
 
 FINITE = st.floats(allow_nan=False, allow_infinity=True)
 
@@ -138,6 +141,17 @@ def test_a_new_run_replaces_the_recording_of_the_old_one(tmp_path):
         with Recorder(path, "robot") as recorder:
             recorder.scalar("a", value)
     assert Recording(path).signal("a").values.tolist() == [2.0]
+
+
+def test_recordings_that_are_done_keep_no_threads(tmp_path):
+    def threads_after(name):
+        with Recorder(tmp_path / f"{name}.rrd", "robot") as recorder:
+            recorder.text("/log/student", "hello")
+        del recorder
+        return psutil.Process().num_threads()
+
+    first, *others = [threads_after(n) for n in range(5)]
+    assert max(others) <= first
 
 
 def test_clouds_may_be_empty(recorder):

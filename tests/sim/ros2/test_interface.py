@@ -83,6 +83,7 @@ def test_show_reads_a_name_from_standard_input(ros2):
     )
 
 
+@pytest.mark.proof
 def test_every_installed_interface_is_shown_down_to_its_leaves(interface):
     """Below a field there are lines with more indentation exactly if the field is a message with fields."""
     for name in interface_names():

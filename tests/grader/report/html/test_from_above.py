@@ -13,6 +13,8 @@ from gz_course.grader.record.recorder import Recorder
 from gz_course.grader.report.html.from_above import Map
 from gz_course.tests.grader.report.handmade import write_run
 
+pytestmark = pytest.mark.usefixtures("without_blueprint")
+
 
 @pytest.fixture
 def seen(tmp_path):

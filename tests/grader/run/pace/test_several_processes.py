@@ -107,7 +107,7 @@ def test_a_service_is_asked_and_answers_within_a_tick(play):
 
 def test_time_does_not_begin_before_the_service_of_a_slow_process_is_found(play):
     server = """
-    sum(range(10**8))
+    sum(range(2 * 10**7))
     def answer(request, response):
         response.success = True
         return response

@@ -8,6 +8,8 @@ from gz_course.grader.record.reading import Recording
 from gz_course.grader.record.recorder import Recorder
 from gz_course.grader.score.checks.messages import messages as kind
 
+pytestmark = pytest.mark.usefixtures("without_blueprint")
+
 ONCE = {"topic": "hello", "count": [1, 1]}
 
 

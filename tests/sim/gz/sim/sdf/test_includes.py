@@ -160,14 +160,15 @@ def test_files_that_include_each_other_are_refused_with_the_circle(shelf: Path) 
         read_world_file(shelf / "loop.sdf", Diagnostics())
 
 
-def test_includes_that_double_at_each_level_are_bounded(shelf: Path) -> None:
+def test_includes_that_double_at_each_level_are_bounded(shelf: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("gz_course.sim.gz.sim.sdf.includes.MOST_INCLUDES", 500)
     for level in range(30):
         below = (
             f"<include><uri>model://d{level + 1}</uri><name>{{}}</name></include>" if level < 29 else "<link name='l'/>"
         )
         both = below.format("a") + below.format("b") if level < 29 else below
         put(shelf, f"d{level}", f"<sdf version='1.9'><model name='d'>{both}</model></sdf>")
-    with pytest.raises(SdfError, match="more than 5000 includes"):
+    with pytest.raises(SdfError, match="more than 500 includes"):
         read("<include><uri>model://d0</uri></include>")
 
 
