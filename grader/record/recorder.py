@@ -187,8 +187,9 @@ class Recorder:
 
     def tell_story(self, failures: Sequence[float]) -> None:
         """Set the layout in which the viewer opens the recording; `failures` are when checks failed [s]."""
-        track = tuple(tuple(float(v) for v in corner) for corner in self._track)
-        self.stream.send_blueprint(blueprint(self._robot, track or None, failures))
+        low, high = ((float(x), float(y), float(z)) for x, y, z in self._track) if self._track else (None, None)
+        track = None if low is None or high is None else (low, high)
+        self.stream.send_blueprint(blueprint(self._robot, track, failures))
 
     def states(self, entity: str, times_ns: Sequence[int], states: Sequence[str]) -> None:
         """Log named states, each with the time [ns] at which it begins."""
