@@ -51,7 +51,7 @@ class Stage:
 
         self.recording = recording
         self.width, self.height = width, height
-        self.robot = str(recording.properties("run").get("robot", ""))
+        self.robot = _followed(recording)
         self._chains: dict[str, tuple[Poses, ...]] = {}
         models = []
         with TemporaryFolder("course-film-") as meshes:
@@ -161,6 +161,20 @@ class Stage:
 
     def close(self) -> None:
         self.world.close()
+
+
+def _followed(recording: Recording) -> str:
+    """Return the model that the camera follows: the exercise's robot, in a run without it what moved farthest."""
+    robot = str(recording.properties("run").get("robot", ""))
+    if recording.poses(f"world/{robot}") is not None:
+        return robot
+    farthest, model = -1.0, ""
+    for entity in recording.entities("world", "Transform3D"):
+        poses = recording.poses(entity)
+        if entity.count("/") == 1 and poses is not None and len(poses.times) > 1:
+            way = float(np.linalg.norm(np.ptp(poses.positions, axis=0)))
+            farthest, model = max((farthest, model), (way, entity.partition("/")[2]))
+    return model
 
 
 def pose_at(chain: tuple[Poses, ...], time_ns: int) -> tuple[np.ndarray, np.ndarray]:
