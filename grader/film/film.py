@@ -76,9 +76,10 @@ def film(
 
 def _write_gif(path: Path, frames: Iterator[Image], frames_per_second: float) -> None:
     """Write a GIF; its colours are those of the first picture and of the scan, so that they do not flicker."""
-    first = next(frames)
-    palette = first.quantize(160, dither=0)
-    rest = (each.quantize(palette=palette, dither=0) for each in frames)
+    from PIL.Image import Dither
+
+    palette = next(frames).quantize(160, dither=Dither.NONE)
+    rest = (each.quantize(palette=palette, dither=Dither.NONE) for each in frames)
     palette.save(
         path, "GIF", save_all=True, append_images=rest, duration=round(1000 / frames_per_second), loop=0, optimize=False
     )

@@ -21,6 +21,10 @@ if TYPE_CHECKING:
     from gz_course.sim.gz.sim.world import World
 
 OFFSET = np.array([-2.3, -2.9, 2.8])  # from what is looked at to the camera [m]
+TURNS = (0, 1, -1, 2, -2, 3, -3, 4)  # eighths of a turn from which it may be seen instead if something hides it
+ABOVE = np.array([-0.5, -0.6, 4.6])  # and from above
+LOOKS = 12  # moments at which it is tried what the camera sees
+ROBOT = 0.5  # [m] what is met so near to the middle of the robot is the robot
 VIEW_ANGLE = 0.9  # [rad] of the horizontal field of view
 FOLLOWED_S = 1.0  # [s] before and after a moment whose mean place the camera looks at
 NEAR = 0.03  # [m] what is so close to a surface is on it
@@ -51,7 +55,7 @@ class Stage:
 
         self.recording = recording
         self.width, self.height = width, height
-        self.robot = str(recording.properties("run").get("robot", ""))
+        self.robot = _followed(recording)
         self._chains: dict[str, tuple[Poses, ...]] = {}
         models = []
         with TemporaryFolder("course-film-") as meshes:
@@ -68,6 +72,19 @@ class Stage:
                 raise UsageError(f"the world in {recording.path} cannot be drawn: {first}") from None
         self._camera: Any = next(self.world.systems.sensors())
         self._places = {name: self._place_of(name) for name in (*self._chains, EYE)}
+        self._offset = self._clearest()
+
+    def _clearest(self) -> np.ndarray:
+        """Return the offset of the camera from which the robot is hidden least often, the first of equals."""
+        halves = [turn * math.pi / 8 for turn in TURNS]
+        offsets = [rotation(np.array([0.0, 0.0, math.sin(half), math.cos(half)])) @ OFFSET for half in halves]
+        offsets.append(ABOVE)
+        seen = np.zeros(len(offsets))
+        for time_ns in np.linspace(0, self.recording.end_ns, LOOKS):
+            self._arrange(int(time_ns))
+            target = self.target(int(time_ns)) + np.array([0.0, 0.0, 0.1])
+            seen += [self._unhidden(target + each, target[None], ROBOT)[0] for each in offsets]
+        return offsets[int(np.argmax(seen))]
 
     def _models(self, entity: str, kind: str, meshes: Path) -> list[str]:
         facts = self.recording.static(entity)
@@ -92,15 +109,19 @@ class Stage:
 
     def image(self, time_ns: int) -> np.ndarray:
         """Return the picture (height, width, 3) of a moment [ns], uint8."""
+        self._eye = self.eye(time_ns)
+        self._put(EYE, *self._eye)
+        self._arrange(time_ns)
+        image: np.ndarray = self._camera.image()
+        return image
+
+    def _arrange(self, time_ns: int) -> None:
+        """Put every visual where it is at a moment [ns]."""
         import mujoco
 
         for name, chain in self._chains.items():
             self._put(name, *pose_at(chain, time_ns))
-        self._eye = self.eye(time_ns)
-        self._put(EYE, *self._eye)
         mujoco.mj_kinematics(self.world.model, self.world.data)
-        image: np.ndarray = self._camera.image()
-        return image
 
     def _put(self, model: str, position: np.ndarray, axes: np.ndarray) -> None:
         import mujoco
@@ -114,10 +135,10 @@ class Stage:
     def eye(self, time_ns: int) -> tuple[np.ndarray, np.ndarray]:
         """Return the place of the camera (3,) [m] and its axes forward, left, up as columns (3, 3)."""
         target = self.target(time_ns)
-        forward = -OFFSET / np.linalg.norm(OFFSET)
+        forward = -self._offset / np.linalg.norm(self._offset)
         left = np.cross([0.0, 0.0, 1.0], forward)
         left /= np.linalg.norm(left)
-        return target + OFFSET, np.stack([forward, left, np.cross(forward, left)], axis=1)
+        return target + self._offset, np.stack([forward, left, np.cross(forward, left)], axis=1)
 
     def target(self, time_ns: int) -> np.ndarray:
         """Return the mean place of the robot around a moment, so that the camera moves smoothly."""
@@ -144,8 +165,8 @@ class Stage:
         seen[inside] = self._unhidden(eye, points[inside])
         return np.stack([columns, rows], axis=1), seen
 
-    def _unhidden(self, eye: np.ndarray, points: np.ndarray) -> np.ndarray:
-        """Tell for each point (n, 3) whether nothing is before it."""
+    def _unhidden(self, eye: np.ndarray, points: np.ndarray, near: float = NEAR) -> np.ndarray:
+        """Tell for each point (n, 3) whether nothing is before it; what is met `near` [m] to it is it."""
         import mujoco
 
         if not len(points):
@@ -157,10 +178,29 @@ class Stage:
         mujoco.mj_multiRay(
             self.world.model, self.world.data, eye, rays, None, True, -1, geom, met, None, len(points), 1e3
         )
-        return (met < 0) | (met > distance - NEAR)
+        return (met < 0) | (met > distance - near)
 
     def close(self) -> None:
         self.world.close()
+
+
+def _followed(recording: Recording) -> str:
+    """Return the model that the camera follows: the exercise's robot, in a run without it what has most links.
+
+    Of equals it is what moved farthest.
+    """
+    robot = str(recording.properties("run").get("robot", ""))
+    if recording.poses(f"world/{robot}") is not None:
+        return robot
+    entities = recording.entities("world", "Transform3D")
+    best, model = (0, -1.0), ""
+    for entity in entities:
+        poses = recording.poses(entity)
+        if entity.count("/") == 1 and poses is not None and len(poses.times) > 1:
+            links = sum(each.startswith(f"{entity}/") and each.count("/") == 2 for each in entities)
+            way = float(np.linalg.norm(np.ptp(poses.positions, axis=0)))
+            best, model = max((best, model), ((links, way), entity.partition("/")[2]))
+    return model
 
 
 def pose_at(chain: tuple[Poses, ...], time_ns: int) -> tuple[np.ndarray, np.ndarray]:

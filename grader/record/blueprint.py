@@ -50,7 +50,12 @@ def blueprint(robot: str, track: tuple[Place, Place] | None = None, failures: Se
             rrb.Vertical(
                 speeds,
                 rrb.StateTimelineView(origin="/checks", name="Checks"),
-                rrb.TextLogView(origin="/log/verdicts", name="Verdicts (click a time to go there)", columns=columns),
+                rrb.TextLogView(
+                    origin="/log/verdicts",
+                    name=f"{'Failed checks' if failures else 'Verdicts'} (click a time to go there)",
+                    columns=columns,
+                    rows=rrb.TextLogRows(filter_by_log_level=["ERROR"]) if failures else None,
+                ),
                 rrb.TextLogView(
                     origin="/log", contents=["+ $origin/**", "- $origin/verdicts"], name="Logs", columns=columns
                 ),

@@ -66,7 +66,7 @@ class Recorder:
         )
         self.stream.save(self.part, default_blueprint=blueprint(robot), write_footer=True)
         self._robot = robot
-        self._track: list[np.ndarray] = []  # the corners of the box in which the robot drove
+        self._tracks: dict[str, tuple[Any, Any]] = {}  # corners of the boxes in which models moved
         self.now_ns = 0
         self._named: set[str] = set()
         self._said: dict[str, str] = {}
@@ -100,10 +100,10 @@ class Recorder:
         positions.append(tuple(position))
         w, x, y, z = quaternion_wxyz
         quaternions.append((x, y, z, w))
-        if entity == f"/world/{self._robot}":
-            place = np.asarray(positions[-1], dtype=float)
-            low, high = self._track or (place, place)
-            self._track = [np.minimum(low, place), np.maximum(high, place)]
+        if entity.count("/") == 2:  # a model, not its links
+            place = positions[-1]
+            low, high = self._tracks.get(entity, (place, place))
+            self._tracks[entity] = (tuple(map(min, low, place)), tuple(map(max, high, place)))
 
     def text(self, entity: str, line: str, level: str = "INFO") -> None:
         times, lines, levels = self._texts[entity]
@@ -187,8 +187,9 @@ class Recorder:
 
     def tell_story(self, failures: Sequence[float]) -> None:
         """Set the layout in which the viewer opens the recording; `failures` are when checks failed [s]."""
-        track = tuple(tuple(float(v) for v in corner) for corner in self._track)
-        self.stream.send_blueprint(blueprint(self._robot, track or None, failures))
+        widest = max(self._tracks.values(), key=lambda box: math.dist(*box), default=None)
+        track = self._tracks.get(f"/world/{self._robot}", widest)  # a run may have robots of another name
+        self.stream.send_blueprint(blueprint(self._robot, track, failures))
 
     def states(self, entity: str, times_ns: Sequence[int], states: Sequence[str]) -> None:
         """Log named states, each with the time [ns] at which it begins."""

@@ -8,7 +8,7 @@ import numpy as np
 import rerun as rr
 
 from gz_course.grader.record.recorder import Recorder
-from gz_course.grader.score.score import CheckResult, Score
+from gz_course.grader.score.score import Score
 
 COLORS = np.array([[110, 110, 110, 255], [40, 160, 70, 255], [200, 50, 50, 255]], dtype=np.uint8)
 TAIL = 0.5  # [s] recorded beyond the end, so that a verdict given at the end is visible
@@ -16,6 +16,7 @@ TAIL = 0.5  # [s] recorded beyond the end, so that a verdict given at the end is
 
 def write_verdicts(recorder: Recorder, score: Score, max_score: float, end_s: float) -> None:
     """Log every check as a state that changes at the moment of its verdict, its bands, and the result as properties."""
+    failures = []
     for check in score.checks:
         entity = f"/checks/{check.spec.id}"
         at = check.finding.at_s if check.finding.at_s is not None else end_s
@@ -37,7 +38,9 @@ def write_verdicts(recorder: Recorder, score: Score, max_score: float, end_s: fl
             f"{check.spec.title}: {verdict}; {check.finding.measured}",
             "INFO" if check.finding.passed else "ERROR",
         )
-    recorder.tell_story([at for check in score.checks if (at := _failed_at(check, end_s)) is not None])
+        if not check.finding.passed:
+            failures.append(at)
+    recorder.tell_story(failures)
     recorder.properties(
         "result",
         score=float(score.points),
@@ -52,9 +55,3 @@ def _states(title: str) -> Any:
     """Return how the states of a check are shown: the lane of a check is named by its id, so the title is in them."""
     labels = [f"{state}: {title}" for state in ("not decided", "passed", "failed")]
     return rr.StateConfiguration(values=["wait", "pass", "fail"], labels=labels, colors=COLORS)
-
-
-def _failed_at(check: CheckResult, end_s: float) -> float | None:
-    if check.finding.passed:
-        return None
-    return end_s if check.finding.at_s is None else check.finding.at_s

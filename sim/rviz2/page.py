@@ -34,7 +34,8 @@ def ending() -> Iterator[threading.Event]:
 
 
 def until_ctrl_c(viewer: Viewer) -> None:
-    """Wait for Ctrl-C, or until the viewer has ended."""
+    """Wait for Ctrl-C. Raises ViewerError if the viewer ends before that with an error."""
     with ending() as ended:
         while viewer.is_running and not ended.wait(LOOK_AGAIN_S):
             pass
+    viewer.check()

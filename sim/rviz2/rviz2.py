@@ -113,6 +113,8 @@ def watch(node: Node, given: argparse.Namespace) -> int:
         timer = node.create_timer(LOOK_S, look, clock=Clock(clock_type=ClockType.STEADY_TIME))
         code = wait_for_signal(node)
         node.destroy_timer(timer)
+        if viewer is not None:
+            viewer.check()
     return code
 
 

@@ -44,6 +44,7 @@ class Subscriber:
 
     def look(self) -> None:
         """Subscribe to new topics, and again to those whose publishers offer another QoS now."""
+        self._canvas.begin()
         for topic, types in self._node.get_topic_names_and_types():
             if topic in NEVER or not self._is_wanted(topic):
                 continue

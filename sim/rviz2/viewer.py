@@ -109,6 +109,19 @@ class Viewer:
         """Whether it still runs: a window can be closed."""
         return self._process.poll() is None
 
+    def check(self) -> None:
+        """Raise ViewerError if it has ended with an error; closing its window is none."""
+        if self._process.poll():
+            advice = "" if self.web else "; try a browser, with --web"
+            raise ViewerError(f"Rerun's viewer has ended: {self._last_words()}{advice}")
+
+    def _last_words(self) -> str:
+        """Return the last line in which it complains, else how it ended."""
+        said = self._log.decode(errors="replace").splitlines()
+        complaints = [each for each in said if any(word in each.lower() for word in ("error", "panic", "failed"))]
+        ended = "no answer" if self.is_running else f"exit code {self._process.returncode}"
+        return complaints[-1].strip()[:300] if complaints else ended
+
     def close(self) -> None:
         """End it as Ctrl-C would, if necessary with SIGTERM and SIGKILL."""
         for escalation in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
@@ -136,8 +149,7 @@ class Viewer:
                 with contextlib.suppress(OSError), socket.create_connection((LOOPBACK, port), timeout=1.0):
                     break
                 if not self.is_running or time.monotonic() > end:
-                    said = self._log.decode(errors="replace").strip().splitlines() or ["it said nothing"]
-                    raise ViewerError(f"Rerun's viewer does not start: {said[-1].strip()[:300]}")
+                    raise ViewerError(f"Rerun's viewer does not start: {self._last_words()}")
                 pause.wait(LOOK_AGAIN_S)
 
     def __enter__(self) -> Viewer:

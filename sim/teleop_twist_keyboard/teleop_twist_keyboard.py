@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 NAME = "teleop_twist_keyboard"
 DEFAULTS = {"stamped": False, "frame_id": "", "speed": 0.5, "turn": 1.0, "repeat_rate": 0.0, "key_timeout": 0.0}
 ENDS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
-LAST_WORD_S = 2.0  # [s] for the robot to take the last message
+LAST_WORD_S = 5.0  # [s] for the robot to take the last message
 USAGE = f"""\
 usage: ros2 run {NAME} {NAME} [--ros-args -r cmd_vel:=/TOPIC -p stamped:=true -p frame_id:=base_link ...]
 

@@ -125,3 +125,16 @@ def test_a_run_without_a_world(tmp_path):
         recorder.text("log/grader", "no such file", "ERROR")
     with pytest.raises(UsageError, match="holds no world: nothing was simulated in this run"):
         snapshot(Recording(tmp_path / "run.rrd"), 0.0, tmp_path / "a.png", SIZE)
+
+
+def test_a_run_without_the_robot_of_the_exercise(tmp_path):
+    with Recorder(tmp_path / "run.rrd", "robot") as recorder:
+        for model, speed in (("slow", 0.0), ("fast", 1.0)):
+            recorder.static(f"/world/{model}/base/visual", shape("box", [1, 1, 1], [1, 0, 0, 1]))
+            for second in (0, 1):
+                recorder.set_time(second * 10**9)
+                recorder.pose(f"/world/{model}", (speed * second, 5, 0.5), (1, 0, 0, 0))
+        recorder.properties("run", robot="robot")
+    pictures = Pictures(Recording(tmp_path / "run.rrd"), *SIZE)
+    assert pictures.stage.robot == "fast" and len(pictures._path(10**9)) == 2
+    pictures.close()
