@@ -119,10 +119,13 @@ class Shader:
         """Write the colours (3, tiles, pixels) of some tiles."""
         colour, emission, specular = tables
         shape = seen.code >> 3
+        light, known = np.zeros(0, np.float32), None
         for channel in range(3):
-            light = np.full(shape.shape, self._ambient[channel], np.float32)
-            for lamp, strength in lights:
-                light += strength * lamp.diffuse[channel]
+            parts = [float(self._ambient[channel]), *(float(lamp.diffuse[channel]) for lamp, _ in lights)]
+            if parts != known:  # white light is the same in all channels
+                known, light = parts, np.full(shape.shape, self._ambient[channel], np.float32)
+                for lamp, strength in lights:
+                    light += strength * lamp.diffuse[channel]
             np.multiply(light, colour[channel][shape], out=result[channel])
         self._textures.colour(view, seen, result)
         for channel in range(3):
