@@ -19,7 +19,7 @@ from gz_course.sim.gz.sim.rendering.shapes import INTERVALS
 from gz_course.sim.gz.sim.rendering.viewpoint import Floats
 
 Indices = NDArray[np.intp]
-GROUP = 8
+GROUP = 4
 """How many bundles after each other are looked at together first."""
 _MOST_TESTED = 1 << 20
 """Bundles times shapes that are compared at once; limits the memory."""

@@ -27,9 +27,9 @@ if TYPE_CHECKING:
 NOTHING = -1
 TRACED = 7
 """The face of what MuJoCo's ray casting has met."""
-BLOCK = 1 << 14
+BLOCK = 1 << 15
 """Pixels times shapes that are intersected at once; their arrays fit the processor's cache."""
-_TILES_AT_ONCE = 640
+_TILES_AT_ONCE = 1280
 
 
 _WIDEST = 1.4

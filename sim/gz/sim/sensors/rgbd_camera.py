@@ -34,7 +34,7 @@ class RgbdCamera(DepthSensing):
             return
         colours = self.shader.colours(view)
         if self.listened("/image"):
-            noisy = colours if self.noise.silent else self.noise.apply(colours.astype(np.float64), 0.0, self.random())
+            noisy = colours if self.noise.silent else self.noise.apply(colours, 0.0, self.random())
             image = encode(noisy, self.pinhole.height, self.pinhole.width, "RGB_INT8")
             self.publish_image("/image", image, "RGB_INT8", now_ns)
         if self.listened("/points"):
