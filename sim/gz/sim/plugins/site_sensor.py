@@ -63,9 +63,10 @@ class SiteSensor(SensorBase):
 
         self._message: type[Message] = message_class(self.message_type)
         self._publisher = node.advertise(self.topic, self._message)
-        self._constant: Any = self._message()
-        self.fill_header(self._constant.header, 0)
-        self.fill_constant(self._constant)
+        constant: Any = self._message()
+        self.fill_header(constant.header, 0)
+        self.fill_constant(constant)
+        self._constant = constant
 
     def has_connections(self) -> bool:
         return self._publisher is not None and self._publisher.has_connections()

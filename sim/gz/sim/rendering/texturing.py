@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from gz_course.sim.gz.sim.rendering.facing import Seen
 from gz_course.sim.gz.sim.rendering.tile_caster import View
-from gz_course.sim.gz.sim.sdf.textures import Pixels
+from gz_course.sim.gz.sim.sdf.textures import Pixels, fingerprint
 
 Values = NDArray[np.float32]
 _KIND = mujoco.mjtGeom
@@ -32,13 +32,12 @@ class Texture:
 
     def __init__(self, pixels: Pixels) -> None:
         self.area = float(pixels.shape[0] * pixels.shape[1])
-        level = pixels.astype(np.float32) / np.float32(255.0)
-        self._levels = [level]
-        while min(level.shape[:2]) > 1:
-            rows, columns = level.shape[0] // 2 * 2, level.shape[1] // 2 * 2
-            level = level[:rows, :columns]
-            level = (level[::2, ::2] + level[1::2, ::2] + level[::2, 1::2] + level[1::2, 1::2]) / np.float32(4.0)
-            self._levels.append(level)
+        self._levels = [pixels]
+        while min(pixels.shape[:2]) > 1:
+            rows, columns = pixels.shape[0] // 2 * 2, pixels.shape[1] // 2 * 2
+            four = pixels[:rows, :columns].reshape(rows // 2, 2, columns // 2, 2, 3).sum(axis=(1, 3), dtype=np.uint16)
+            pixels = ((four + 2) // 4).astype(np.uint8)
+            self._levels.append(pixels)
 
     def colours(self, u: Values, v: Values, texels: Values) -> Values:
         """Return the colours (3, n) at places (n,), for pixels that are `texels` wide."""
@@ -51,7 +50,7 @@ class Texture:
         return result
 
 
-def _between(image: Values, u: Values, v: Values) -> Values:
+def _between(image: Pixels, u: Values, v: Values) -> Values:
     """Return the colours (3, n) between the four texels round each place; the image repeats itself."""
     rows, columns = image.shape[:2]
     x = (u - np.floor(u)) * columns - np.float32(0.5)
@@ -62,7 +61,7 @@ def _between(image: Values, u: Values, v: Values) -> Values:
     right, below = (column + 1) % columns, (row + 1) % rows
     upper = image[row, column] * (1 - across) + image[row, right] * across
     lower = image[below, column] * (1 - across) + image[below, right] * across
-    mixed: Values = (upper * (1 - down) + lower * down).T
+    mixed: Values = (upper * (1 - down) + lower * down).T / np.float32(255.0)
     return mixed
 
 
@@ -70,9 +69,12 @@ class Textures:
     """The textures of the geoms of one world, by geom id."""
 
     def __init__(self, model: mujoco.MjModel, images: dict[int, Pixels]) -> None:
-        made: dict[int, Texture] = {}
+        made: dict[bytes, Texture] = {}
         self._model = model
-        self._of = {geom: made.setdefault(id(image), Texture(image)) for geom, image in images.items()}
+        self._of: dict[int, Texture] = {}
+        for geom, image in images.items():
+            key = fingerprint(image)
+            self._of[geom] = made[key] = made.get(key) or Texture(image)
         self._density = {geom: math.sqrt(each.area / _area(model, geom)) for geom, each in self._of.items()}
         """Texels for each metre."""
 

@@ -7,8 +7,6 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-import numpy as np
-
 from gz_course.sim.gz.sim.plugins.sensor import sensor_type
 from gz_course.sim.gz.sim.sensors.camera import encode
 from gz_course.sim.gz.sim.sensors.depth_camera import DepthSensing
