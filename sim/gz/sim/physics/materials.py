@@ -14,6 +14,7 @@ import numpy as np
 
 from gz_course.sim.gz.sim.sdf.description import Look, Visual, WorldDescription
 from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sdf.textures import fingerprint
 
 _MOST_SHININESS = 128.0
 """OpenGL's largest exponent, which is MuJoCo's shininess 1."""
@@ -35,12 +36,16 @@ def add_sky(spec: mujoco.MjSpec, world: WorldDescription) -> None:
     made.width = made.height = _SKY_SIDE if sky else 2
 
 
+_LONGEST_SIDE = 512
+"""The longest side of a cube's texture [px], of which there are six copies."""
+
+
 class Materials:
     """The materials and textures already added to one spec."""
 
     def __init__(self, spec: mujoco.MjSpec) -> None:
         self._spec = spec
-        self._textures: dict[tuple[int, bool], str] = {}
+        self._textures: dict[tuple[bytes, bool], str] = {}
         self._materials: dict[tuple[object, ...], str] = {}
 
     def name_of(self, part: Visual, look: Look) -> str:
@@ -64,7 +69,7 @@ class Materials:
     def _texture(self, look: Look, flat: bool) -> str:
         pixels = look.texture
         assert pixels is not None
-        key = id(pixels), flat
+        key = fingerprint(pixels), flat
         if key not in self._textures:
             name = self._textures[key] = f"texture{len(self._textures)}"
             kind = mujoco.mjtTexture
@@ -74,7 +79,7 @@ class Materials:
             if not flat:
                 # The sides +x -x +y -y +z -z of a cube are squares below each other, each turned as OpenGL reads it.
                 rows, columns = pixels.shape[:2]
-                length = max(rows, columns)
+                length = min(max(rows, columns), _LONGEST_SIDE)
                 square = np.arange(length)
                 side = pixels[square * rows // length][:, square * columns // length]
                 side = np.concatenate([np.rot90(side, turns) for turns in _TURNS])

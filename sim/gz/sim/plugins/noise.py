@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,7 @@ from gz_course.sim.gz.sim.sdf.element import Element
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.sensor import SensorBase
 
+F = TypeVar("F", np.float32, np.float64)
 KINDS = ("none", "gaussian", "gaussian_quantized")
 COARSEST_IGNORED = 1e-6
 """A precision up to this value is ignored, as in Gazebo."""
@@ -92,16 +93,20 @@ class Noise:
         spread = sigma * math.sqrt(-tau / 2.0 * math.expm1(-2.0 * dt / tau))
         return math.exp(-dt / tau) * bias + spread * normal
 
-    def quantized(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+    def quantized(self, values: NDArray[F]) -> NDArray[F]:
         """Return `values` rounded to multiples of the precision, halves away from zero."""
         if self.precision <= COARSEST_IGNORED:
             return values
         steps = values / self.precision
         return np.copysign(np.floor(np.abs(steps) + 0.5), steps) * self.precision
 
-    def apply(self, values: NDArray[np.float64], bias: float, random: np.random.Generator) -> NDArray[np.float64]:
+    def apply(self, values: NDArray[F], bias: float, random: np.random.Generator) -> NDArray[F]:
         """Return `values` with noise; always draws one number per value, so that the random sequence stays the same."""
-        return self.quantized(values + (bias + self.mean + self.stddev * random.standard_normal(values.shape)))
+        noise: NDArray[F] = random.standard_normal(values.shape, values.dtype)
+        noise *= self.stddev
+        noise += bias + self.mean
+        noise += values
+        return self.quantized(noise)
 
 
 class Channels:

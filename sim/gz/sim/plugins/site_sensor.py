@@ -38,6 +38,9 @@ class SiteSensor(SensorBase):
         """Return the noise of each number with the name of its channel; `element` is the `<sensor>`."""
         raise NotImplementedError
 
+    def fill_constant(self, message: Any) -> None:
+        """Write what is the same in every message; `fill` finds it there."""
+
     def fill(self, message: Any) -> None:
         """Measure, and write everything but the header into `message`."""
         raise NotImplementedError
@@ -60,13 +63,20 @@ class SiteSensor(SensorBase):
 
         self._message: type[Message] = message_class(self.message_type)
         self._publisher = node.advertise(self.topic, self._message)
+        constant: Any = self._message()
+        self.fill_header(constant.header, 0)
+        self.fill_constant(constant)
+        self._constant = constant
 
     def has_connections(self) -> bool:
         return self._publisher is not None and self._publisher.has_connections()
 
     def update(self, now_ns: int) -> None:
         message: Any = self._message()
-        self.fill_header(message.header, now_ns)
+        message.CopyFrom(self._constant)
+        header = message.header
+        header.stamp.sec, header.stamp.nsec = divmod(now_ns, 1_000_000_000)
+        header.data[-1].value[0] = str(self.updates)
         self.fill(message)
         self._publisher.publish(message)
 

@@ -40,18 +40,25 @@ class Seen:
         code, surfaces = self.code[self._round], view.surfaces
         there = self.points[(slice(None), *self._round)]
         way = np.empty_like(there)
+        columns, position = surfaces.columns.astype(np.float32), surfaces.position.T.astype(np.float32)
         for kind in np.unique(surfaces.kind[code >> 3]).tolist():
             rows = np.flatnonzero((surfaces.kind[code >> 3] == kind) & (code & 7 == ROUND))
             shape = code[rows] >> 3
-            inverse, size = surfaces.inverse[shape], surfaces.size[shape]
-            local = np.einsum("nij,jn->in", inverse, there[:, rows] - surfaces.position[shape].T.astype(np.float32))
-            out = np.stack(normals(kind, (local[0], local[1], local[2]), (size[:, 0], size[:, 1], size[:, 2])))
-            out /= np.sqrt(np.einsum("in,in->n", out, out))
-            way[:, rows] = np.einsum("nij,in->jn", inverse, out)
+            turn, size = columns[:, shape], surfaces.size.T[:, shape]
+            from_centre = there[:, rows] - position[:, shape]
+            local = tuple(
+                turn[i] * from_centre[0] + turn[i + 1] * from_centre[1] + turn[i + 2] * from_centre[2]
+                for i in (0, 3, 6)
+            )
+            x, y, z = normals(kind, (local[0], local[1], local[2]), (size[0], size[1], size[2]))
+            length = np.sqrt(x * x + y * y + z * z)
+            for axis in range(3):
+                way[axis, rows] = (turn[axis] * x + turn[axis + 3] * y + turn[axis + 6] * z) / length
         if view.normal is not None:
             rows = np.flatnonzero(code & 7 == TRACED)
             way[:, rows] = view.normal[block][self._round][rows].T
-        way[:, np.einsum("in,in->n", way, there) > 0.0] *= -1.0
+        away = way[0] * there[0] + way[1] * there[1] + way[2] * there[2] > 0.0
+        way[:, away] *= -1.0
         return way
 
     @cached_property

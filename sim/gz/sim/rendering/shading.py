@@ -22,7 +22,8 @@ from gz_course.sim.gz.sim.physics.geoms import looks_of
 from gz_course.sim.gz.sim.physics.materials import HORIZON, ZENITH
 from gz_course.sim.gz.sim.rendering.facing import Seen
 from gz_course.sim.gz.sim.rendering.geom_parts import geom_parts
-from gz_course.sim.gz.sim.rendering.lamps import Lamp, shade, shade_by_meshes
+from gz_course.sim.gz.sim.rendering.lamps import Lamp
+from gz_course.sim.gz.sim.rendering.shadows import shade
 from gz_course.sim.gz.sim.rendering.texturing import Textures
 from gz_course.sim.gz.sim.rendering.tile_caster import View, in_blocks
 from gz_course.sim.gz.sim.sdf.description import Light, Visual
@@ -85,21 +86,19 @@ class Shader:
         lamps = self._lamps(view)
         shape = view.code.shape
         casters = np.flatnonzero(self._casts[view.surfaces.ids])
-        traced = casters[view.surfaces.traced[casters]]
-        solid = [self._solid(lamp, view, casters) for lamp in lamps]
+        facing = [_casters(lamp, view, casters) for lamp in lamps]
         tables = self._tables(view)
         result = np.empty((3, *shape), np.float32)
 
         def work(block: slice) -> None:
             seen = Seen(view, block)
             strengths = []
-            for lamp, casting in zip(lamps, solid, strict=True):
+            for lamp, casting in zip(lamps, facing, strict=True):
                 way = lamp.toward(seen.points)
                 strength = seen.lambert(way[0])
                 lamp.fade(*way, strength)
                 if lamp.casts:
-                    shade(lamp, view, block, casting, seen.points, way, strength)
-                    shade_by_meshes(lamp, view, self._world, traced, seen.points, strength)
+                    shade(lamp, view, block, casting, self._world, seen.points, way, strength)
                 strengths.append(strength)
             self._mix(view, seen, tables, list(zip(lamps, strengths, strict=True)), result[:, block])
 
@@ -119,10 +118,13 @@ class Shader:
         """Write the colours (3, tiles, pixels) of some tiles."""
         colour, emission, specular = tables
         shape = seen.code >> 3
+        light, known = np.zeros(0, np.float32), None
         for channel in range(3):
-            light = np.full(shape.shape, self._ambient[channel], np.float32)
-            for lamp, strength in lights:
-                light += strength * lamp.diffuse[channel]
+            parts = [float(self._ambient[channel]), *(float(lamp.diffuse[channel]) for lamp, _ in lights)]
+            if parts != known:  # white light is the same in all channels
+                known, light = parts, np.full(shape.shape, self._ambient[channel], np.float32)
+                for lamp, strength in lights:
+                    light += strength * lamp.diffuse[channel]
             np.multiply(light, colour[channel][shape], out=result[channel])
         self._textures.colour(view, seen, result)
         for channel in range(3):
@@ -192,14 +194,14 @@ class Shader:
             lamps.append(lamp)
         return lamps
 
-    def _solid(self, lamp: Lamp, view: View, casters: NDArray[np.intp]) -> NDArray[np.intp]:
-        """Leave out meshes, which MuJoCo traces, and planes that face the lamp: they shadow only what is below them."""
-        surfaces = view.surfaces
-        casters = casters[~surfaces.traced[casters]]
-        up = surfaces.rotation[casters][:, :, 2]
-        if lamp.position is None:
-            faces = up @ lamp.direction <= 0.0
-        else:
-            faces = np.einsum("ni,ni->n", lamp.position - surfaces.position[casters], up) >= 0.0
-        kept: NDArray[np.intp] = casters[~(faces & (surfaces.kind[casters] == mujoco.mjtGeom.mjGEOM_PLANE))]
-        return kept
+
+def _casters(lamp: Lamp, view: View, casters: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Leave out planes that face the lamp: they shadow only what is below them."""
+    surfaces = view.surfaces
+    up = surfaces.rotation[casters][:, :, 2]
+    if lamp.position is None:
+        faces = up @ lamp.direction <= 0.0
+    else:
+        faces = np.einsum("ni,ni->n", lamp.position - surfaces.position[casters], up) >= 0.0
+    kept: NDArray[np.intp] = casters[~(faces & (surfaces.kind[casters] == mujoco.mjtGeom.mjGEOM_PLANE))]
+    return kept

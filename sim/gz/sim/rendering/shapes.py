@@ -77,9 +77,9 @@ def _tube(origin: Triple, direction: Triple, radius: Values) -> tuple[Values, Va
     """Return where a ray is within `radius` of the z axis."""
     ox, oy, dx, dy = origin[0], origin[1], direction[0], direction[1]
     square = dx * dx + dy * dy + _TINY
-    shift = -(ox * dx + oy * dy) / square
+    shift = (-(ox * dx + oy * dy) / square).astype(np.float32, copy=False)
     ox, oy = ox + shift * dx, oy + shift * dy
-    half: Values = np.sqrt((radius * radius - (ox * ox + oy * oy)) / square)
+    half = np.sqrt((radius * radius - (ox * ox + oy * oy)) / square).astype(np.float32, copy=False)
     return shift - half, shift + half
 
 

@@ -19,7 +19,7 @@ from gz_course.sim.gz.sim.rendering.shapes import INTERVALS
 from gz_course.sim.gz.sim.rendering.viewpoint import Floats
 
 Indices = NDArray[np.intp]
-GROUP = 8
+GROUP = 4
 """How many bundles after each other are looked at together first."""
 _MOST_TESTED = 1 << 20
 """Bundles times shapes that are compared at once; limits the memory."""
@@ -51,6 +51,8 @@ class Surfaces:
         """The centre of each shape (n, 3) [m] in the camera's frame."""
         self.rotation = axes.T @ data.geom_xmat[ids].reshape(-1, 3, 3)
         """From the frame of each shape to the camera's (n, 3, 3)."""
+        self.columns = np.ascontiguousarray(self.rotation.transpose(2, 1, 0).reshape(9, -1))
+        """The axes of each shape (9, n): its x axis in the camera's frame, then y and z."""
         size = model.geom_size[ids]
         sphere = self.kind == mujoco.mjtGeom.mjGEOM_SPHERE
         size[sphere] = size[sphere, :1]
@@ -119,20 +121,21 @@ class Surfaces:
 
     def _boxes_met(self, bundles: Bundles, bundle: Indices, shape: Indices) -> NDArray[np.bool_]:
         """Tell which pairs of a bundle and the bounding box of a shape may meet."""
-        start, way = bundles.start[bundle], bundles.way[bundle]
+        column = self.columns[:, shape]
+        start, way = bundles.start.T[:, bundle], bundles.way.T[:, bundle]
         radius, reach = bundles.radius[bundle], bundles.reach[bundle]
-        rotation = self.rotation[shape]
-        between = start - self._middle[shape]
-        origin = np.einsum("kji,kj->ki", rotation, between)
-        toward = np.einsum("kji,kj->ki", rotation, way)
-        farthest = np.sqrt(np.einsum("ki,ki->k", between, between)) + self._radius[shape]
+        between = start - self._middle.T[:, shape]
+        farthest = np.sqrt(between[0] ** 2 + between[1] ** 2 + between[2] ** 2) + self._radius[shape]
         wide = radius + bundles.spread[bundle] * np.minimum(reach, farthest) + 1e-6
-        toward[np.abs(toward) < 1e-12] = 1e-12
-        centre = -origin / toward
-        width = (self._half[shape] + wide[:, None]) / np.abs(toward)
-        enters, leaves = centre - width, centre + width
-        enters = np.maximum(np.maximum(enters[:, 0], enters[:, 1]), enters[:, 2])
-        leaves = np.minimum(np.minimum(leaves[:, 0], leaves[:, 1]), leaves[:, 2])
+        enters, leaves = np.full(len(shape), -np.inf), np.full(len(shape), np.inf)
+        for axis in range(3):
+            x, y, z = column[3 * axis : 3 * axis + 3]
+            toward = x * way[0] + y * way[1] + z * way[2]
+            toward[np.abs(toward) < 1e-12] = 1e-12
+            centre = -(x * between[0] + y * between[1] + z * between[2]) / toward
+            width = (self._half[shape, axis] + wide) / np.abs(toward)
+            np.maximum(enters, centre - width, out=enters)
+            np.minimum(leaves, centre + width, out=leaves)
         met: NDArray[np.bool_] = (enters <= leaves) & (leaves >= -wide) & (enters <= reach + wide)
         return met
 

@@ -11,7 +11,6 @@ Source: https://en.wikipedia.org/wiki/Mipmap
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import mujoco
 import numpy as np
@@ -19,7 +18,7 @@ from numpy.typing import NDArray
 
 from gz_course.sim.gz.sim.rendering.facing import Seen
 from gz_course.sim.gz.sim.rendering.tile_caster import View
-from gz_course.sim.gz.sim.sdf.textures import Pixels
+from gz_course.sim.gz.sim.sdf.textures import Pixels, fingerprint
 
 Values = NDArray[np.float32]
 _KIND = mujoco.mjtGeom
@@ -32,13 +31,12 @@ class Texture:
 
     def __init__(self, pixels: Pixels) -> None:
         self.area = float(pixels.shape[0] * pixels.shape[1])
-        level = pixels.astype(np.float32) / np.float32(255.0)
-        self._levels = [level]
-        while min(level.shape[:2]) > 1:
-            rows, columns = level.shape[0] // 2 * 2, level.shape[1] // 2 * 2
-            level = level[:rows, :columns]
-            level = (level[::2, ::2] + level[1::2, ::2] + level[::2, 1::2] + level[1::2, 1::2]) / np.float32(4.0)
-            self._levels.append(level)
+        self._levels = [_Level(pixels)]
+        while min(pixels.shape[:2]) > 1:
+            rows, columns = pixels.shape[0] // 2 * 2, pixels.shape[1] // 2 * 2
+            four = pixels[:rows, :columns].reshape(rows // 2, 2, columns // 2, 2, 3).sum(axis=(1, 3), dtype=np.uint16)
+            pixels = ((four + 2) // 4).astype(np.uint8)
+            self._levels.append(_Level(pixels))
 
     def colours(self, u: Values, v: Values, texels: Values) -> Values:
         """Return the colours (3, n) at places (n,), for pixels that are `texels` wide."""
@@ -47,56 +45,75 @@ class Texture:
         np.minimum(chosen, len(self._levels) - 1, out=chosen)
         for number in np.unique(chosen).tolist():
             of = np.flatnonzero(chosen == number)
-            result[:, of] = _between(self._levels[number], u[of], v[of])
+            result[:, of] = self._levels[number].colours(u[of], v[of])
         return result
 
 
-def _between(image: Values, u: Values, v: Values) -> Values:
-    """Return the colours (3, n) between the four texels round each place; the image repeats itself."""
-    rows, columns = image.shape[:2]
-    x = (u - np.floor(u)) * columns - np.float32(0.5)
-    y = (v - np.floor(v)) * rows - np.float32(0.5)
-    left, top = np.floor(x), np.floor(y)
-    across, down = (x - left)[:, None], (y - top)[:, None]
-    column, row = left.astype(np.intp) % columns, top.astype(np.intp) % rows
-    right, below = (column + 1) % columns, (row + 1) % rows
-    upper = image[row, column] * (1 - across) + image[row, right] * across
-    lower = image[below, column] * (1 - across) + image[below, right] * across
-    mixed: Values = (upper * (1 - down) + lower * down).T
-    return mixed
+class _Level:
+    """One image, its channels one after another."""
+
+    def __init__(self, pixels: Pixels) -> None:
+        self._rows, self._columns = pixels.shape[:2]
+        self._channels = np.ascontiguousarray(pixels.reshape(-1, 3).T)
+
+    def colours(self, u: Values, v: Values) -> Values:
+        """Return the colours (3, n) between the four texels round each place (n,); the image repeats itself."""
+        x = (u - np.floor(u)) * np.float32(self._columns) - np.float32(0.5)
+        y = (v - np.floor(v)) * np.float32(self._rows) - np.float32(0.5)
+        left, top = np.floor(x), np.floor(y)
+        across, down = x - left, y - top
+        column, row = left.astype(np.int32) % self._columns, top.astype(np.int32) % self._rows
+        right, below = (column + 1) % self._columns, (row + 1) % self._rows * self._columns
+        row *= self._columns
+        corners = row + column, row + right, below + column, below + right
+        shares = (1 - across) * (1 - down), across * (1 - down), (1 - across) * down, across * down
+        result = np.zeros((3, len(u)), np.float32)
+        for corner, share in zip(corners, shares, strict=True):
+            share *= np.float32(1.0 / 255.0)
+            for channel in range(3):
+                result[channel] += np.take(self._channels[channel], corner) * share
+        return result
 
 
 class Textures:
     """The textures of the geoms of one world, by geom id."""
 
     def __init__(self, model: mujoco.MjModel, images: dict[int, Pixels]) -> None:
-        made: dict[int, Texture] = {}
+        made: dict[bytes, Texture] = {}
         self._model = model
-        self._of = {geom: made.setdefault(id(image), Texture(image)) for geom, image in images.items()}
+        self._of: dict[int, Texture] = {}
+        for geom, image in images.items():
+            key = fingerprint(image)
+            self._of[geom] = made[key] = made.get(key) or Texture(image)
         self._density = {geom: math.sqrt(each.area / _area(model, geom)) for geom, each in self._of.items()}
         """Texels for each metre."""
 
     def colour(self, view: View, seen: Seen, result: Values) -> None:
         """Multiply colours (3, tiles, pixels) by the textures of what is seen."""
-        shape = seen.code >> 3
+        if not self._of:
+            return
+        shape = (seen.code >> 3).ravel()
+        flat = seen.points.reshape(3, -1), seen.normal.reshape(3, -1)
         for index in np.unique(shape).tolist():
             geom = int(view.surfaces.ids[index]) if index >= 0 else -1
             if geom not in self._of:
                 continue
-            at: Any = (slice(None), *np.nonzero(shape == index))
-            points = seen.points[at]
+            places = np.flatnonzero(shape == index)
+            points, facing = (np.take(each, places, axis=1) for each in flat)
             surfaces = view.surfaces
             local = surfaces.inverse[index] @ (points - surfaces.position[index, :, None].astype(np.float32))
             distance = np.sqrt(np.einsum("in,in->n", points, points))
-            facing = np.abs(np.einsum("in,in->n", seen.normal[at], points)) / np.maximum(distance, 1e-6)
-            width = distance * view.tiles.pixel / np.sqrt(np.maximum(facing, _FLATTEST))
+            cosine = np.abs(np.einsum("in,in->n", facing, points)) / np.maximum(distance, 1e-6)
+            width = distance * view.tiles.pixel / np.sqrt(np.maximum(cosine, _FLATTEST))
             if self._model.geom_type[geom] == _KIND.mjGEOM_MESH:
                 u, v = _in_mesh(self._model, geom, local.T.astype(np.float64))
             else:
-                normal = surfaces.inverse[index] @ seen.normal[at]
+                normal = surfaces.inverse[index] @ facing
                 u, v = _on_shape(int(self._model.geom_type[geom]), surfaces.size[index], local, normal)
             texels = (width * self._density[geom]).astype(np.float32)
-            result[at] *= self._of[geom].colours(u.astype(np.float32), v.astype(np.float32), texels)
+            colours = self._of[geom].colours(u.astype(np.float32), v.astype(np.float32), texels)
+            for channel in range(3):
+                result[channel].reshape(-1)[places] *= colours[channel]
 
 
 def _area(model: mujoco.MjModel, geom: int) -> float:

@@ -7,6 +7,7 @@ Source: https://pillow.readthedocs.io/en/stable/reference/Image.html
 
 from __future__ import annotations
 
+import hashlib
 import io
 from functools import lru_cache
 from pathlib import Path
@@ -51,6 +52,11 @@ def _decoded(path: Path, _stamp: tuple[int, int]) -> Pixels:
         return decode(path.read_bytes(), str(path))
     except OSError as error:
         raise ResourceError(f"the texture {path} cannot be read ({error.strerror or error})") from None
+
+
+def fingerprint(pixels: Pixels) -> bytes:
+    """Return a digest of an image; images that look alike are kept once."""
+    return hashlib.sha256(repr(pixels.shape).encode() + pixels.tobytes()).digest()
 
 
 def decode(data: bytes, name: str) -> Pixels:

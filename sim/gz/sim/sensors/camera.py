@@ -96,7 +96,7 @@ class Camera(CameraSensor):
         """Return the present image in the camera's format, with the noise of the current update."""
         colours: NDArray[np.floating[Any]] = self._renderer.image()
         if not self.noise.silent:
-            colours = self.noise.apply(colours.astype(np.float64), 0.0, self.random())
+            colours = self.noise.apply(colours, 0.0, self.random())
         return encode(colours, self.pinhole.height, self.pinhole.width, self.format)
 
     def look(self, now_ns: int) -> None:

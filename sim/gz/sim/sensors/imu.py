@@ -70,19 +70,22 @@ class Imu(SiteSensor):
         found = self._reference_frame()
         self.reference = self.motion.quaternion() if found is None else found
 
-    def fill(self, message: Any) -> None:
+    def fill_constant(self, message: Any) -> None:
         message.entity_name = self.scoped_name
+        if self.enable_orientation:
+            message.orientation_covariance.data.extend([0.0] * 9)
+        message.angular_velocity_covariance.data.extend(self._covariances[0])
+        message.linear_acceleration_covariance.data.extend(self._covariances[1])
+
+    def fill(self, message: Any) -> None:
         _, angular = self.motion.velocity(local=True)
         measured = self.noise.apply(np.concatenate((angular, self.motion.specific_force()))).tolist()
         if self.enable_orientation:
             message.orientation.w, message.orientation.x, message.orientation.y, message.orientation.z = (
                 self.orientation().tolist()
             )
-            message.orientation_covariance.data.extend([0.0] * 9)
         turning, pushing = message.angular_velocity, message.linear_acceleration
         turning.x, turning.y, turning.z, pushing.x, pushing.y, pushing.z = measured
-        message.angular_velocity_covariance.data.extend(self._covariances[0])
-        message.linear_acceleration_covariance.data.extend(self._covariances[1])
 
     def orientation(self) -> Vector:
         """Return the sensor's orientation (wxyz) in the reference frame."""

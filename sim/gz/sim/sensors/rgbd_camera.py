@@ -7,8 +7,6 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-import numpy as np
-
 from gz_course.sim.gz.sim.plugins.sensor import sensor_type
 from gz_course.sim.gz.sim.sensors.camera import encode
 from gz_course.sim.gz.sim.sensors.depth_camera import DepthSensing
@@ -34,7 +32,7 @@ class RgbdCamera(DepthSensing):
             return
         colours = self.shader.colours(view)
         if self.listened("/image"):
-            noisy = colours if self.noise.silent else self.noise.apply(colours.astype(np.float64), 0.0, self.random())
+            noisy = colours if self.noise.silent else self.noise.apply(colours, 0.0, self.random())
             image = encode(noisy, self.pinhole.height, self.pinhole.width, "RGB_INT8")
             self.publish_image("/image", image, "RGB_INT8", now_ns)
         if self.listened("/points"):

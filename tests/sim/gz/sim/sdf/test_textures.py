@@ -126,7 +126,7 @@ def test_gltf_with_its_nodes_and_embedded_texture(tmp_path: Path, name: str) -> 
     assert mesh.uv is not None and mesh.uv[0, 0].tolist() == [corner[0] / 2, 1 - (corner[2] - 2) / 2]
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.integers(0, 1500), st.integers(1, 6), st.binary(max_size=8))
 def test_damaged_gltf_is_read_or_refused(tmp_path: Path, start: int, length: int, put: bytes) -> None:
     whole = glb()
@@ -195,7 +195,7 @@ def test_a_world_with_textures_is_handed_over_without_files(tmp_path: Path, monk
     assert sum(map(len, poor.assets.values())) < sum(map(len, packed.assets.values())) - 2 * QUARTERS.nbytes + 100
 
 
-@settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.integers(0, 1400), st.binary(min_size=1, max_size=8), st.booleans())
 def test_a_damaged_mesh_is_refused_or_whole(tmp_path: Path, at: int, put: bytes, longer: bool) -> None:
     write(tmp_path)
