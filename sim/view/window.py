@@ -63,6 +63,8 @@ class Window(plugin.ViewerPlugin):
         self.models: dict[str, Entity] = {}
         self.typing = False
         """True while a panel takes the keys for itself."""
+        self.hidden: set[str] = set()
+        """The titles of the panels that were closed."""
         self._ux_state = ux.UxState()
         self._dragging = Dragging(link)
         self._laid_out = (0.0, 0.0)
@@ -177,10 +179,19 @@ class Window(plugin.ViewerPlugin):
     def on_build_gui(self, _: messages.BuildGuiEvent) -> None:
         self._lay_out()
         for panel in self.panels:
-            shown, _open = imgui.Begin(panel.TITLE, None, _BAR if panel.PLACE == "top" else 0)
-            if shown:
-                panel.build()
-            imgui.End()
+            if panel.TITLE in self.hidden:
+                continue
+            shown, opened = imgui.Begin(panel.TITLE, True, _BAR if panel.PLACE == "top" else 0)
+            try:
+                if shown:
+                    panel.build()
+            except Exception as error:  # a panel that breaks down must not take the picture with it
+                self.link.said = f"panel '{panel.TITLE}' is closed: {type(error).__name__}: {error}"
+                opened = False
+            finally:
+                imgui.End()
+            if not opened:
+                self.hidden.add(panel.TITLE)
         imgui.Begin("Status", None, _BAR)
         imgui.TextUnformatted(self.link.said)
         if self.selected:

@@ -59,6 +59,10 @@ class Panel:
             imgui.TextColored(_GREEN, "running")
         imgui.SameLine()
         imgui.TextUnformatted(times(stats))
+        if self._window.hidden:
+            imgui.SameLine()
+            if imgui.Button("Show all panels"):
+                self._window.hidden.clear()
 
     def geoms(self) -> list[mujoco.MjvGeom]:
         return []
