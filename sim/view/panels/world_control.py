@@ -58,11 +58,11 @@ class Panel:
         else:
             imgui.TextColored(_GREEN, "running")
         imgui.SameLine()
-        imgui.TextUnformatted(times(stats))
         if self._window.hidden:
-            imgui.SameLine()
             if imgui.Button("Show all panels"):
                 self._window.hidden.clear()
+            imgui.SameLine()
+        imgui.TextUnformatted(times(stats))
 
     def geoms(self) -> list[mujoco.MjvGeom]:
         return []

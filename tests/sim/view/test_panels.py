@@ -12,6 +12,8 @@ from typing import Any
 import mujoco
 import numpy as np
 import pytest
+from mujoco.studio import ux
+from mujoco.studio.dear_imgui import dear_imgui as imgui
 
 from gz_course.sim.gz.msgs.twist_pb2 import Twist
 from gz_course.sim.gz.sim.physics.geoms import COLLISION_GROUP
@@ -56,6 +58,10 @@ class Shown:
             perturb=mujoco.MjvPerturb(),
             vis_options=mujoco.MjvOption(),
             extra_geoms=[],
+            render_flags=ux.RenderFlags(),
+            client_camera=None,
+            camera_index=0,
+            upload_image=lambda *what: 1,
             model=None,
             data=None,
         )
@@ -224,6 +230,7 @@ def test_collisions_are_shown_on_demand(shown: Shown) -> None:
     assert len(panel.geoms()) == 42
     panel.grid = False
     assert panel.geoms() == []
+    panel.grid = True
 
 
 def test_the_tree_has_static_models_and_all_links(shown: Shown) -> None:
@@ -231,3 +238,47 @@ def test_the_tree_has_static_models_and_all_links(shown: Shown) -> None:
     assert list(found)[:2] == ["robot", "ground_plane"]
     assert "robot::lidar_link" in found["robot"].links and len(found["robot"].bodies) == 6
     assert found["pillar"].bodies == [] and len(found["pillar"].geoms) == 2
+
+
+@pytest.fixture
+def pictures() -> Iterator[None]:
+    """Let panels be drawn without a browser."""
+    context = imgui.CreateContext()
+    imgui.SetCurrentContext(context)
+    ux.set_imgui_context(context)
+    io = imgui.GetIO()
+    io.DisplaySize = imgui.Vec2(1280, 800)
+    io.ConfigFlags = int(io.ConfigFlags) | int(imgui.ConfigFlags.DockingEnable)
+    io.BackendFlags = int(io.BackendFlags) | int(imgui.BackendFlags.RendererHasTextures)
+    yield
+    imgui.DestroyContext(context)
+
+
+def draw(window: Window) -> None:
+    imgui.NewFrame()
+    window.on_update(None)  # type: ignore[arg-type]
+    window.on_build_gui(None)  # type: ignore[arg-type]
+    imgui.Render()
+
+
+def test_every_panel_is_drawn(shown: Shown, pictures: None) -> None:
+    window = shown.window
+    window.select("robot::lidar_link")
+    titles = [panel.TITLE for panel in window.panels]
+    for title in titles:
+        window.hidden = {each for each in titles if each not in (title, "World control")}
+        for _ in range(3):
+            draw(window)
+        assert title not in window.hidden, shown.link.said
+    window.hidden.clear()
+    assert len(shown.viewer.extra_geoms) == 42, "the grid"
+    window.select("")
+
+
+def test_a_panel_that_breaks_down_is_closed(shown: Shown, pictures: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(shown.window.panel("Entity tree"), "build", lambda: [][1])
+    draw(shown.window)
+    draw(shown.window)
+    assert shown.window.hidden == {"Entity tree"}
+    assert shown.link.said == "panel 'Entity tree' is closed: IndexError: list index out of range"
+    shown.window.hidden.clear()
