@@ -16,7 +16,7 @@ from gz_course.sim.gz.msgs.image_pb2 import BGR_INT8, L_INT8, L_INT16, R_FLOAT32
 MOST_RAYS = 240
 _RGBA = np.array([0.1, 0.35, 0.95, 0.7], np.float32)
 _MOST_PIXELS = 1 << 24
-_FORMATS = {
+_FORMATS: dict[int, tuple[np.dtype[Any], int]] = {
     RGB_INT8: (np.dtype(np.uint8), 3),
     BGR_INT8: (np.dtype(np.uint8), 3),
     L_INT8: (np.dtype(np.uint8), 1),
