@@ -25,6 +25,8 @@ from gz_course.sim.view.entities import Entity, link_of_body, models_of
 from gz_course.sim.view.world_link import WorldLink
 
 _LEFT_WIDTH, _RIGHT_WIDTH, _TOP_HEIGHT, _BOTTOM_HEIGHT = 250.0, 300.0, 40.0, 34.0
+_NARROW = 700.0
+"""Width [pixels] of a page, for example a frame in a notebook, that opens without the panels at its sides."""
 _LARGEST = 50.0
 """Radius [m] from which on a shape is scenery, and does not move the camera away."""
 _GREY = imgui.Vec4(0.5, 0.5, 0.5, 1.0)
@@ -207,6 +209,8 @@ class Window(plugin.ViewerPlugin):
         size = (display.x, display.y)
         if size == self._laid_out or min(size) < 200.0:
             return
+        if self._laid_out == (0.0, 0.0) and size[0] < _NARROW:
+            self.hidden = {panel.TITLE for panel in self.panels if panel.PLACE != "top"}
         self._laid_out = size
         imgui.DockBuilderRemoveNode(space)
         imgui.DockBuilderAddNode(space, _DOCKS | _DOCK_SPACE)
