@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gz_course.sim.gz.msgs.image_pb2 import BGR_INT8, L_INT8, L_INT16, R_FLOAT32, RGB_INT8, RGB_INT16, Image
@@ -25,6 +25,7 @@ def test_rays_end_where_the_scan_hits() -> None:
     assert ends == [[1.0, 3.0, 0.0], [3.0, 0.0, 0.0]], "a capsule lies around its middle"
 
 
+@settings(max_examples=25)
 @given(st.lists(st.floats(0.0, 20.0) | st.just(math.inf) | st.just(math.nan), max_size=600), st.integers(0, 4))
 def test_any_scan_is_drawn(ranges: list[float], rows: int) -> None:
     scan: Any = LaserScan(angle_step=0.01, range_min=0.1, range_max=10.0, vertical_count=rows)
