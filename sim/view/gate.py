@@ -74,6 +74,16 @@ _SCRIPT = """<script>
       super(there.href, protocols || []);
     }
   };
+  for (const name of ["sessionStorage", "localStorage"]) {  // a page in a frame of another site has none
+    try { window[name].length; } catch {
+      const kept = new Map();
+      Object.defineProperty(window, name, {value: {
+        getItem: (key) => kept.has(key) ? kept.get(key) : null,
+        setItem: (key, value) => { kept.set(key, String(value)); },
+        removeItem: (key) => { kept.delete(key); },
+      }});
+    }
+  }
   if (!window.crossOriginIsolated) addEventListener("DOMContentLoaded", () => {
     const said = document.createElement("p");
     said.style.cssText = "position:absolute;top:0;margin:1em;color:#fff;font:16px sans-serif;z-index:9";

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 NO_STUDIO, NOT_OPEN, BROKEN = 3, 4, 5
 """Exit codes: MuJoCo Studio is missing or another one than expected; the address cannot be opened; an error later."""
 _SEARCH_S = 0.5
+_END_S = 2.0
+"""Time [s] in which Studio may say goodbye to the browsers."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -91,6 +93,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     def leave() -> None:
         ended.wait()
+        last = threading.Timer(_END_S, os._exit, (0,))  # a browser that does not answer holds Studio up
+        last.daemon = True
+        last.start()
         world_end.send_to_viewer(messages.ExitEvent(reason=""))
 
     threading.Thread(target=leave, daemon=True).start()

@@ -11,8 +11,19 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from gz_course.sim.gz.msgs.image_pb2 import BGR_INT8, L_INT8, L_INT16, R_FLOAT32, RGB_INT8
+
 MOST_RAYS = 240
 _RGBA = np.array([0.1, 0.35, 0.95, 0.7], np.float32)
+_MOST_PIXELS = 1 << 24
+_FORMATS: dict[int, tuple[np.dtype[Any], int]] = {
+    RGB_INT8: (np.dtype(np.uint8), 3),
+    BGR_INT8: (np.dtype(np.uint8), 3),
+    L_INT8: (np.dtype(np.uint8), 1),
+    L_INT16: (np.dtype("<u2"), 1),
+    R_FLOAT32: (np.dtype("<f4"), 1),
+}
+"""Number type and channels of the pixel formats that are shown."""
 _WIDTH = 0.004
 """Radius of a ray [m]."""
 
@@ -51,20 +62,16 @@ def line(start: np.ndarray, end: np.ndarray, rgba: np.ndarray, width: float) -> 
 def pixels_of(message: Any) -> np.ndarray | None:
     """Return a gz.msgs.Image as RGB, (height, width, 3) bytes; None for a format that is not shown."""
     height, width, kind = message.height, message.width, message.pixel_format_type
-    if not 0 < height * width <= 1 << 24:
+    known = _FORMATS.get(kind)
+    if known is None or not 0 < height * width <= _MOST_PIXELS:
         return None
-    if kind in (message.RGB_INT8, message.BGR_INT8) and len(message.data) == height * width * 3:
-        pixels = np.frombuffer(message.data, np.uint8).reshape(height, width, 3)
-        return pixels if kind == message.RGB_INT8 else pixels[:, :, ::-1]
-    if kind == message.L_INT8 and len(message.data) == height * width:
-        grey = np.frombuffer(message.data, np.uint8).reshape(height, width)
-    elif kind in (message.R_FLOAT32, message.L_INT16):
-        numbers = np.frombuffer(message.data, np.float32 if kind == message.R_FLOAT32 else np.uint16)
-        if len(numbers) != height * width:
-            return None
-        values = np.where(np.isfinite(numbers), numbers, 0.0)
-        most = float(values.max()) or 1.0
-        grey = (values * (255.0 / most)).clip(0.0, 255.0).astype(np.uint8).reshape(height, width)
-    else:
+    number, channels = known
+    if len(message.data) != height * width * channels * number.itemsize:
         return None
-    return np.repeat(grey[:, :, None], 3, axis=2)
+    pixels = np.frombuffer(message.data, number).reshape(height, width, channels)
+    if kind == BGR_INT8:
+        pixels = pixels[:, :, ::-1]
+    if number != np.uint8:  # a depth: the farther, the brighter
+        values = np.where(np.isfinite(pixels), pixels, 0.0)
+        pixels = (values * (255.0 / (float(values.max()) or 1.0))).clip(0.0, 255.0).astype(np.uint8)
+    return np.ascontiguousarray(np.broadcast_to(pixels, (height, width, 3)))

@@ -121,13 +121,13 @@ class View:
         ways = [process.terminate, process.kill]
         if not self._said.is_set():  # it is starting up and does not read yet
             ways.pop(0)()
-        for way in (*ways, None):
+        for way in ways:
             try:
                 process.wait(_END_S)
                 break
             except subprocess.TimeoutExpired:
-                if way is not None:
-                    way()
+                way()
+        process.wait()
         self._thread.join(_END_S)
         process.stdout.close()
 

@@ -25,6 +25,8 @@ from gz_course.sim.view.entities import Entity, link_of_body, models_of
 from gz_course.sim.view.world_link import WorldLink
 
 _LEFT_WIDTH, _RIGHT_WIDTH, _TOP_HEIGHT, _BOTTOM_HEIGHT = 250.0, 300.0, 40.0, 34.0
+_NARROW = 700.0
+"""Width [pixels] of a page, for example a frame in a notebook, that opens without the panels at its sides."""
 _LARGEST = 50.0
 """Radius [m] from which on a shape is scenery, and does not move the camera away."""
 _GREY = imgui.Vec4(0.5, 0.5, 0.5, 1.0)
@@ -63,6 +65,8 @@ class Window(plugin.ViewerPlugin):
         self.models: dict[str, Entity] = {}
         self.typing = False
         """True while a panel takes the keys for itself."""
+        self.hidden: set[str] = set()
+        """The titles of the panels that were closed."""
         self._ux_state = ux.UxState()
         self._dragging = Dragging(link)
         self._laid_out = (0.0, 0.0)
@@ -177,10 +181,19 @@ class Window(plugin.ViewerPlugin):
     def on_build_gui(self, _: messages.BuildGuiEvent) -> None:
         self._lay_out()
         for panel in self.panels:
-            shown, _open = imgui.Begin(panel.TITLE, None, _BAR if panel.PLACE == "top" else 0)
-            if shown:
-                panel.build()
-            imgui.End()
+            if panel.TITLE in self.hidden:
+                continue
+            shown, opened = imgui.Begin(panel.TITLE, True, _BAR if panel.PLACE == "top" else 0)
+            try:
+                if shown:
+                    panel.build()
+            except Exception as error:  # a panel that breaks down must not take the picture with it
+                self.link.said = f"panel '{panel.TITLE}' is closed: {type(error).__name__}: {error}"
+                opened = False
+            finally:
+                imgui.End()
+            if not opened:
+                self.hidden.add(panel.TITLE)
         imgui.Begin("Status", None, _BAR)
         imgui.TextUnformatted(self.link.said)
         if self.selected:
@@ -196,6 +209,8 @@ class Window(plugin.ViewerPlugin):
         size = (display.x, display.y)
         if size == self._laid_out or min(size) < 200.0:
             return
+        if self._laid_out == (0.0, 0.0) and size[0] < _NARROW:
+            self.hidden = {panel.TITLE for panel in self.panels if panel.PLACE != "top"}
         self._laid_out = size
         imgui.DockBuilderRemoveNode(space)
         imgui.DockBuilderAddNode(space, _DOCKS | _DOCK_SPACE)

@@ -58,6 +58,10 @@ class Panel:
         else:
             imgui.TextColored(_GREEN, "running")
         imgui.SameLine()
+        if self._window.hidden:
+            if imgui.Button("Show all panels"):
+                self._window.hidden.clear()
+            imgui.SameLine()
         imgui.TextUnformatted(times(stats))
 
     def geoms(self) -> list[mujoco.MjvGeom]:
