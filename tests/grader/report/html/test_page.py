@@ -331,7 +331,7 @@ def test_a_crowd_that_drives_for_long_still_fits(tmp_path):
     with Recorder(tmp_path / "crowd.rrd", "robot0") as recorder:
         for number in range(60):
             recorder.static(f"/world/robot{number}/base/visual", rr.Boxes3D(half_sizes=[[0.2, 0.3, 0.5]]))
-        for second in range(0, 600, 10):
+        for second in range(0, 600, 200):
             recorder.set_time(second * 10**9)
             for number in range(60):
                 recorder.pose(f"/world/robot{number}", (second / 7, number / 3, 0.1), (1.0, 0.0, 0.0, 0.0))
