@@ -91,5 +91,6 @@ lint: .venv/with-tools
 	@mkdir -p build/mypy && ln -sfn ../.. build/mypy/gz_course
 	$(BIN)/mypy
 
+# Not `runs`: it holds scores and the files that `course reset` has kept.
 clean:
-	rm -rf .venv runs build dist .mypy_cache .ruff_cache .pytest_cache .hypothesis
+	rm -rf .venv build dist .mypy_cache .ruff_cache .pytest_cache .hypothesis

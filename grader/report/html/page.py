@@ -176,7 +176,7 @@ def _check_row(check: CheckResult, report: Report) -> CheckRow:
         expected=finding.expected,
         measured=finding.measured,
         when="" if finding.at_s is None else f"{finding.at_s:.2f} s",
-        hint=told.get("hint", ""),
+        hint="" if finding.gated else told.get("hint", ""),  # of a closed gate another check gives the reason
         trial="" if finding.passed else _decisive(check, report.trials)[0].name,
     )
 

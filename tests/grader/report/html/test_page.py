@@ -324,7 +324,7 @@ def gated(gate):
 def test_a_check_that_failed_at_its_gate_shows_the_gate(make_report, gate, wanted):
     text = as_html(make_report(gated(gate)))
     read(text)
-    assert f"wanted: {wanted}" in text
+    assert f"wanted: {wanted}" in text and "Hint for bad." not in text
 
 
 def test_a_crowd_that_drives_for_long_still_fits(tmp_path):
