@@ -39,7 +39,8 @@ setup: .venv/with-course
 chapters: .venv/with-chapters
 	@$(FILTER)
 	PATH="$(CURDIR)/$(BIN):$$PATH" exec $(BIN)/jupyter lab $(JUPYTER_OPTIONS) chapters/00_first_run/00_first_run.ipynb \
-	    --ServerApp.root_dir="$(CURDIR)"
+	    --ServerApp.root_dir="$(CURDIR)" \
+	    --FileContentsManager.post_save_hook=gz_course.grader.tools.notebook_outputs.after_save
 
 # The newest version of the course: your own changes are set aside, and come back on top of it.
 update:
@@ -90,5 +91,6 @@ lint: .venv/with-tools
 	@mkdir -p build/mypy && ln -sfn ../.. build/mypy/gz_course
 	$(BIN)/mypy
 
+# Not `runs`: it holds scores and the files that `course reset` has kept.
 clean:
-	rm -rf .venv runs build dist .mypy_cache .ruff_cache .pytest_cache .hypothesis
+	rm -rf .venv build dist .mypy_cache .ruff_cache .pytest_cache .hypothesis

@@ -228,7 +228,12 @@ def make_report(
         host=host,
         trials=tuple(
             TrialReport(
-                each.run.get("trial", "public"), each.run["seed"], each.score, each.path, each.score.truth_sha256
+                each.run.get("trial", "public"),
+                each.run["seed"],
+                each.score,
+                each.path,
+                each.score.truth_sha256,
+                each.recording,
             )
             for each in results
         ),

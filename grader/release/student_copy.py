@@ -162,6 +162,6 @@ def _chapters(copy: Path) -> str:
 Each chapter in `chapters/` is a notebook that leads to the exercise of the same name:
 
 ```
-jupyter lab {notebooks[0]}
+jupyter lab {notebooks[0]} --ServerApp.root_dir="$PWD"
 ```
 """

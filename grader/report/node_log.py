@@ -40,9 +40,7 @@ class NodeLog:
 
 def log_of(report: Report, first: int = FIRST, last: int = LAST) -> NodeLog:
     """Return the log of the trial a report shows. Raises UsageError if its recording is unreadable."""
-    from gz_course.grader.record.reading import Recording
-
-    return node_log(Recording(report.shown_trial.recording), first, last)
+    return node_log(report.shown_trial.content(), first, last)
 
 
 def node_log(recording: Recording, first: int = FIRST, last: int = LAST) -> NodeLog:

@@ -6,13 +6,14 @@ Programs read the keys (README, "The JSON report"): keys may be added but never 
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gz_course.grader.printable import storable
 
 if TYPE_CHECKING:
+    from gz_course.grader.record.reading import Recording
     from gz_course.grader.score.score import CheckResult, Score
 
 # The meaning of each outcome in a sentence.
@@ -39,13 +40,27 @@ class HostFacts:
 
 @dataclass(frozen=True)
 class TrialReport:
-    """One run of the submission: the trial's name and seed, the score of this run alone, and its recording."""
+    """One run of the submission: the trial's name and seed, the score of this run alone, and its recording.
+
+    `read` is the content of the recording if it has been read already; `content()` reads it otherwise.
+    """
 
     name: str
     seed: int
     score: Score
     recording: Path
     truth_sha256: str
+    read: Recording | None = field(default=None, repr=False, compare=False)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave the content behind when a report goes to another process: its file has it."""
+        return self.__dict__ | {"read": None}
+
+    def content(self) -> Recording:
+        """Return the recording. Raises UsageError if it cannot be read."""
+        from gz_course.grader.record.reading import Recording
+
+        return Recording(self.recording) if self.read is None else self.read
 
 
 @dataclass(frozen=True)

@@ -26,14 +26,16 @@ POLICY = f"'sha256-{base64.b64encode(hashlib.sha256(SCRIPT.encode()).digest()).d
 
 RATE = 25  # [1/s] frames of a second of simulated time
 MOST_FRAMES = 750  # of a run; a longer one has fewer of them in a second
-MOST_SCANS, MOST_DOTS = 150, 120  # of a run, of a scan
+MOST_SCANS, MOST_DOTS, MOST_LIDARS = 150, 120, 4  # of a run, of a scan, of a world
 MOST_LINKS = 100  # that move
+MOST_ROWS = 15_000  # frames of all links together, which keeps a page below 2 MB
 MOST_CORNERS = 64  # of a shape; more make no visible difference
 
 
 def animation(drawn: Map, end: float, width: int) -> Markup:
     """Return the motion of a run of `end` [s] as JSON, for the drawing of `Map.draw` that is `width` pixels wide."""
-    count = min(max(round(end * RATE), 1), MOST_FRAMES) + 1
+    links = min(len({body.entity.rpartition("/")[0] for body in drawn.moving}), MOST_LINKS)
+    count = min(max(round(end * RATE), 1), MOST_FRAMES, MOST_ROWS // max(links, 1)) + 1
     times = np.linspace(0, end * 1e9, count).astype(np.int64)
     view = drawn.view
     data = {
@@ -100,7 +102,7 @@ def _robot(drawn: Map, times: np.ndarray) -> list[float]:
 def _scans(drawn: Map, end: float, scale: float) -> list[dict[str, Any]]:
     """Return what each lidar saw: the time [s] of every other scan, and its dots [pixels]."""
     found = []
-    for entity, chain in drawn.scans:
+    for entity, chain in drawn.scans[:MOST_LIDARS]:
         at: list[float] = []
         dots: list[list[float]] = []
         for time in np.linspace(0, end, min(round(end * 10), MOST_SCANS) + 1):

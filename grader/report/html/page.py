@@ -93,7 +93,7 @@ class Picture:
 def as_html(report: Report) -> str:
     """Return the report as one HTML page. Raises UsageError if a recording cannot be read."""
     trials = report.trials
-    recordings = {trial.name: Recording(trial.recording) for trial in trials}
+    recordings = {trial.name: trial.content() for trial in trials}
     maps = {name: Map(recording, _robot(recording)) for name, recording in recordings.items()}
     shown_trial = report.shown_trial
     recording, drawn = recordings[shown_trial.name], maps[shown_trial.name]
@@ -127,7 +127,7 @@ def replay_of(report: Report) -> tuple[str, str, Markup]:
     Raises UsageError if a recording cannot be read.
     """
     trial = report.shown_trial
-    recording = Recording(trial.recording)
+    recording = trial.content()
     drawn = Map(recording, _robot(recording))
     run = _run(drawn, recording, _moments(trial, recording))
     style = Markup((FOLDER / "page.css").read_text())
@@ -176,7 +176,7 @@ def _check_row(check: CheckResult, report: Report) -> CheckRow:
         expected=finding.expected,
         measured=finding.measured,
         when="" if finding.at_s is None else f"{finding.at_s:.2f} s",
-        hint=told.get("hint", ""),
+        hint="" if finding.gated else told.get("hint", ""),  # of a closed gate another check gives the reason
         trial="" if finding.passed else _decisive(check, report.trials)[0].name,
     )
 

@@ -105,5 +105,6 @@ def page(chapter: Chapter, notebook: Any) -> str:
     """Return an executed notebook as one HTML page that loads nothing from elsewhere."""
     from nbconvert import HTMLExporter
 
-    text, _ = HTMLExporter(embed_images=True).from_notebook_node(notebook, {"metadata": {"name": chapter.title}})
+    about = {"metadata": {"name": chapter.title, "path": str(chapter.notebook.parent)}}  # where its pictures are
+    text, _ = HTMLExporter(embed_images=True).from_notebook_node(notebook, about)
     return SCRIPT.sub("", text)

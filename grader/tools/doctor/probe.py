@@ -21,6 +21,7 @@ from typing import IO
 
 import psutil
 
+from gz_course.grader.process.load import crowded
 from gz_course.grader.process.temporary_folder import TemporaryFolder
 from gz_course.grader.run.fair_clock import FairClock
 from gz_course.grader.run.sandbox.resource_monitor import descendants
@@ -97,6 +98,8 @@ class Probe:
                 computed = self._computed()
                 if not late or computed > AT_WORK * passed:
                     raise TooSlow(f"{told}, but it was at work and had {computed:.1f} s of processor time")
+                if crowded():
+                    raise TooSlow(f"{told}, of which it had a processor for {computed:.1f} s: this machine is crowded")
                 raise ProbeError(told)
 
     def _computed(self) -> float:
@@ -180,7 +183,8 @@ class Probes:
             if self.wall_seconds_left <= 0:
                 raise TooSlow(f"no answer within {STARVED + self.deadline:g} s of a machine that does other things")
             if not self._open or self.seconds_left <= 0:
-                raise ProbeError(f"no answer within {self.deadline:g} s")
+                told = f"no answer within {self.deadline:g} s"
+                raise TooSlow(f"{told}: this machine is crowded") if crowded() else ProbeError(told)
             try:
                 probe = Probe(code, arguments, os.environ | dict(environment or {}), self)
             except OSError as error:

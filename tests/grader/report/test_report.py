@@ -3,6 +3,7 @@
 import dataclasses
 import json
 import math
+import pickle
 
 import pytest
 from hypothesis import given
@@ -102,3 +103,12 @@ def test_whatever_is_in_it_every_program_can_read_it(text):
     for said in (data["checks"][1]["measured"], data["submission"], data["diagnosis"], data["versions"]["mujoco"]):
         said.encode()
         assert len(said) == len(text) and not [c for c in said if c < " " and c not in "\t\n\r"]
+
+
+def test_a_recording_is_read_once_and_stays_behind_when_a_report_travels(make_report):
+    trial = make_report().trials[0]
+    read = trial.content()
+    kept = dataclasses.replace(trial, read=read)
+    assert kept.content() is read and kept == trial
+    travelled = pickle.loads(pickle.dumps(kept))
+    assert travelled == trial and travelled.read is None

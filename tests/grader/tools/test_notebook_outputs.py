@@ -8,7 +8,7 @@ import nbformat
 import pytest
 
 from gz_course.grader.tools import notebook_outputs
-from gz_course.grader.tools.notebook_outputs import as_committed
+from gz_course.grader.tools.notebook_outputs import after_save, as_committed
 
 
 @pytest.fixture
@@ -45,3 +45,25 @@ def test_git_runs_it_with_nothing_but_python(committed):
         input=committed.encode(), capture_output=True, check=True,
     )  # fmt: skip
     assert done.stdout.decode() == committed
+
+
+def test_a_chapter_that_was_run_and_saved_is_no_change_and_an_edited_one_is(committed, tmp_path):
+    def git(*words):
+        return subprocess.run(["git", *words], cwd=tmp_path, check=True, capture_output=True, text=True).stdout
+
+    path = tmp_path / "a b.ipynb"
+    path.write_text(committed)
+    (tmp_path / ".gitattributes").write_text("*.ipynb filter=notebook-outputs\n")
+    git("init", "-q")
+    git("config", "filter.notebook-outputs.clean", f"'{sys.executable}' -I -S '{notebook_outputs.__file__}'")
+    git("add", ".")
+    git("-c", "user.name=x", "-c", "user.email=x@y", "commit", "-qm", "x")
+    notebook = nbformat.from_dict(json.loads(committed))
+    notebook.metadata["language_info"]["version"] = "3.12.1"
+    nbformat.write(notebook, path)
+    after_save(os_path=str(path), model={}, contents_manager=None)
+    assert git("status", "--short") == ""
+    notebook.cells[0].source += " mine"
+    nbformat.write(notebook, path)
+    after_save(os_path=str(path), model={}, contents_manager=None)
+    assert git("status", "--short") == ' M "a b.ipynb"\n'

@@ -88,7 +88,8 @@ def test_it_lists_what_runs(room):
     assert "sleep" not in repr(room)
 
 
-def test_waiting_for_what_a_program_prints(room, tmp_path):
+def test_waiting_for_what_a_program_prints(room, tmp_path, monkeypatch):
+    monkeypatch.setattr(playground, "crowded", lambda: False)
     program = start_script(room, tmp_path, "print('ready: 3 bridges'); print('up'); import signal; signal.pause()")
     assert program.wait_for("ready") == "ready: 3 bridges\nup\n"
     with pytest.raises(
@@ -96,6 +97,14 @@ def test_waiting_for_what_a_program_prints(room, tmp_path):
         match=r"within 0.1 s, not printed 'never' \(it runs, and has had \d+\.\d s of processor time\), but:\nready",
     ):
         program.wait_for("never", deadline=0.1)
+
+
+def test_on_a_crowded_machine_one_waits_longer(room, tmp_path, monkeypatch):
+    program = start_script(room, tmp_path, "print('up', flush=True); import signal; signal.pause()")
+    asked = iter([True, True, False])
+    monkeypatch.setattr(playground, "crowded", lambda: next(asked))
+    with pytest.raises(TimeoutError, match=r"within 0\.6 s, not printed 'never'"):
+        program.wait_for("never", deadline=0.2)
 
 
 def test_who_has_ended_is_not_waited_for(room, tmp_path):

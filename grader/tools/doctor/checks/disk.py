@@ -34,7 +34,7 @@ def judge(free: dict[Path, int]) -> Verdict:
     folder = min(free, key=lambda each: free[each])
     shown = f"{free[folder] / (1 << 30):.1f} GB free in {folder}"
     if free[folder] < LEAST:
-        return failed(shown, "make room: old recordings in runs/ can go, `rm -r runs`")
+        return failed(shown, "make room: old recordings can go, `rm runs/*/*.rrd`")
     if free[folder] < COMFORTABLE:
         return warning(shown, "make room before grading a class: old recordings in runs/ can go")
     return fine(shown)

@@ -11,10 +11,15 @@ from pathlib import Path
 from xml.etree import ElementTree as XML
 
 import pytest
+import rerun as rr
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.record.recorder import Recorder
 from gz_course.grader.report.html import page
+from gz_course.grader.report.html.animation import animation
+from gz_course.grader.report.html.from_above import Map
 from gz_course.grader.report.html.page import as_html
 from gz_course.tests.grader.report.handmade import NASTY, nasty, result, score_of, write_run
 
@@ -319,4 +324,18 @@ def gated(gate):
 def test_a_check_that_failed_at_its_gate_shows_the_gate(make_report, gate, wanted):
     text = as_html(make_report(gated(gate)))
     read(text)
-    assert f"wanted: {wanted}" in text
+    assert f"wanted: {wanted}" in text and "Hint for bad." not in text
+
+
+def test_a_crowd_that_drives_for_long_still_fits(tmp_path):
+    with Recorder(tmp_path / "crowd.rrd", "robot0") as recorder:
+        for number in range(60):
+            recorder.static(f"/world/robot{number}/base/visual", rr.Boxes3D(half_sizes=[[0.2, 0.3, 0.5]]))
+        for second in range(0, 600, 200):
+            recorder.set_time(second * 10**9)
+            for number in range(60):
+                recorder.pose(f"/world/robot{number}", (second / 7, number / 3, 0.1), (1.0, 0.0, 0.0, 0.0))
+    drawn = Map(Recording(tmp_path / "crowd.rrd"), "robot0")
+    data = animation(drawn, 600.0, 640)
+    assert len(json.loads(data)["links"]) == 60
+    assert len(data) < 1_000_000

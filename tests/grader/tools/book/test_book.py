@@ -110,6 +110,16 @@ def test_without_a_folder_it_says_how_it_is_used(words):
 
 
 @pytest.mark.proof
+def test_a_picture_beside_a_notebook_is_in_its_page(course):
+    (chapter,) = chapters(course("1 + 1"))
+    (chapter.notebook.parent / "figure.svg").write_text("<svg xmlns='http://www.w3.org/2000/svg'/>")
+    notebook = nbformat.read(chapter.notebook, as_version=4)
+    notebook.cells.append(nbformat.v4.new_markdown_cell("![What is drawn.](figure.svg)"))
+    text = book_chapter.page(chapter, notebook)
+    assert 'src="data:image/svg+xml;base64,' in text and "figure.svg" not in text
+
+
+@pytest.mark.proof
 def test_a_cell_that_hangs_is_named_and_ended(course, monkeypatch):
     monkeypatch.setattr(book_chapter, "CELL_DEADLINE", 1.0)
     (chapter,) = chapters(course("import threading; threading.Event().wait()"))

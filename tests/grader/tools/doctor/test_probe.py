@@ -8,6 +8,7 @@ import time
 import psutil
 import pytest
 
+from gz_course.grader.tools.doctor import probe
 from gz_course.grader.tools.doctor.probe import STARVED, ProbeError, TooSlow
 
 HANGS = "print('begun', flush=True); import threading; threading.Event().wait()"
@@ -47,6 +48,14 @@ def test_what_still_computes_at_the_deadline_is_slow_not_broken(probes_with):
         TooSlow, match=r"no answer within 0\.4 s, but it was at work and had \d\.\d s of processor time"
     ):
         probes_with(0.4).run("while True: pass")
+
+
+def test_on_a_crowded_machine_nothing_is_broken_for_want_of_an_answer(probes_with, monkeypatch):
+    monkeypatch.setattr(probe, "crowded", lambda: True)
+    probes = probes_with(0.3)
+    for _ in range(2):
+        with pytest.raises(TooSlow, match=r"no answer within 0\.3 s.*this machine is crowded|at work"):
+            probes.run(HANGS)
 
 
 def test_a_deadline_of_its_own_is_kept(probes_with):
