@@ -35,7 +35,7 @@ DEFAULTS = {"stamped": False, "frame_id": "", "speed": 0.5, "turn": 1.0, "repeat
 ENDS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
 LAST_WORD_S = 5.0  # [s] for the robot to take the last message
 USAGE = f"""\
-usage: ros2 run {NAME} {NAME} [--ros-args -r cmd_vel:=/TOPIC -p stamped:=true -p frame_id:=base_link ...]
+usage: {NAME} [--ros-args -r cmd_vel:=/TOPIC -p stamped:=true -p frame_id:=base_link ...]
 
 {HELP}
 parameters: {", ".join(DEFAULTS)}

@@ -101,12 +101,13 @@ def flyer() -> str:
 
 
 def runs_alone(name: str) -> bool:
-    """Return whether a system can be loaded with the content of `IN_WORLD`; systems that write files have their own
-    tests.
+    """Return whether a system can be loaded with the content of `IN_WORLD`.
+
+    Those that write files, or send at the rate of pictures of wall time, have their own tests.
     """
     text = f"<sdf version='1.10'><world name='w'>{plugin(name, IN_WORLD.get(name, ''))}</world></sdf>"
     with contextlib.suppress(SimError):
-        return name != "LogRecord" and bool(World.from_string(text).systems)
+        return name not in ("LogRecord", "ViewBroadcaster") and bool(World.from_string(text).systems)
     return False
 
 
