@@ -144,4 +144,9 @@ def zmtp_peer(address):
     raw.sendall(b"\xff" + bytes(8) + b"\x7f\x03\x00" + b"NULL".ljust(20, b"\0") + bytes(32))
     ready = b"\x05READY\x0bSocket-Type\x00\x00\x00\x03SUB"
     raw.sendall(bytes((4, len(ready))) + ready)
+    # ZeroMQ closes the connection of a peer that goes on before it has been greeted.
+    with raw.makefile("rb") as answers:
+        answers.read(64)
+        _command, length = answers.read(2)
+        assert answers.read(length).startswith(b"\x05READY")
     return raw
