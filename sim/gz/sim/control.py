@@ -30,6 +30,8 @@ class Control:
         self.paused = False
         self.stepping = False
         """True while a paused world runs the requested number of steps."""
+        self.changed = False
+        """Whether a request was applied since somebody set it to False."""
         self._steps_left = 0
         self._run_to_ns: int | None = None
 
@@ -43,6 +45,7 @@ class Control:
             LOG.warning("resetting models only is not supported, as in Gazebo; use reset: {all: true}")
         if message.seed:
             LOG.warning("the seed of a running world cannot be changed, as in Gazebo; start it with gz sim --seed")
+        self.changed = True
         self.paused = message.pause
         self.stepping = False
         self._steps_left = 0

@@ -109,8 +109,7 @@ class Server:
             step_ns = world.step_size_ns
             count = self.control.steps_allowed(max(1, PACE_NS // step_ns))
             count = count if left < 0 else min(count, left)
-            if not self._advance(count, iterations > 0):
-                continue
+            count = self._advance(count, iterations > 0)
             left -= count if left > 0 else 0
             advanced += count * step_ns
             now = time.monotonic_ns()
@@ -135,19 +134,25 @@ class Server:
             return update_rate * self.world.step_size_ns * 1e-9
         return self.world.description.real_time_factor if real_time_factor is None else real_time_factor
 
-    def _advance(self, count: int, strict: bool) -> bool:
-        """Step and publish the clock; on unstable physics pause, log it and return False."""
+    def _advance(self, count: int, strict: bool) -> int:
+        """Step until a request pauses, steps or resets the world; publish the clock, return how many steps have run.
+
+        On unstable physics pause and log it.
+        """
+        control = self.control
+        control.changed = False
         try:
-            self.world.step(count)
+            count = self.world.step(count, lambda: control.changed)
         except SimError as error:
             if strict:
                 raise
             self.paused = True
             LOG.error("%s; the world is paused", error)
-            return False
-        self.control.stepped(count)
+            return 0
+        if not control.changed:  # else the steps were run before the request, and are none of those it asks for
+            control.stepped(count)
         self._publish_clock()
-        return True
+        return count
 
     def _wait_paused(self, stop: threading.Event) -> None:
         """Handle requests at once and publish the time ten times per second, until unpaused or stopped."""

@@ -9,7 +9,7 @@ commands give the same bytes.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -255,10 +255,11 @@ class World:
         """Close the nodes of all systems, with their publishers, subscriptions and services."""
         self.systems.close()
 
-    def step(self, n: int = 1) -> None:
+    def step(self, n: int = 1, ended: Callable[[], bool] | None = None) -> int:
         """Run `n` physics steps with all systems; queued requests of other threads run before each step.
 
-        Raises `SimError` with the name of the body if the physics becomes unstable.
+        Stop before the next step if `ended()` is true after such requests. Return how many steps have run. Raises
+        `SimError` with the name of the body if the physics becomes unstable.
         """
         requests, info, systems, truth = self.requests, self._info, self.systems, self.truth
         advance = mujoco.mj_step
@@ -267,6 +268,8 @@ class World:
         while done < n:
             if waiting:
                 requests.serve()
+                if ended is not None and ended():
+                    break
             model, data, colliding = self.model, self.data, self._overlaps
             pre_updates, post_updates = systems.pre_updates, systems.post_updates
             origin_ns, step_ns = self._origin_ns, self.description.step_size_ns
@@ -292,6 +295,7 @@ class World:
                 requests.leave_step()
             if data.warning.number[UNSTABLE].any():
                 raise SimError(why_unstable(self.description, model, data, self.sim_time_ns))
+        return done
 
     def paused_update(self) -> None:
         """Call `paused_update` of the systems that publish while the world is paused."""

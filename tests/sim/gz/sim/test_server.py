@@ -9,7 +9,10 @@ from typing import Any
 import pytest
 
 from gz_course.sim.gz.msgs.clock_pb2 import Clock
+from gz_course.sim.gz.msgs.world_control_pb2 import WorldControl
+from gz_course.sim.gz.msgs.world_reset_pb2 import WorldReset
 from gz_course.sim.gz.msgs.world_stats_pb2 import WorldStatistics
+from gz_course.sim.gz.sim.plugins.system import UpdateInfo
 from gz_course.sim.gz.sim.server import Server
 from gz_course.sim.gz.sim.world import World
 from gz_course.sim.gz.transport import Node
@@ -120,6 +123,24 @@ def test_run_does_not_catch_up_in_a_burst(server: Server, monkeypatch: pytest.Mo
 
     server.run(real_time_factor=1.0, iterations=1000, stop=Waits())
     assert waited[0] == pytest.approx(1.0, abs=0.02)
+
+
+def test_a_request_between_the_steps_of_a_batch_counts_at_once(server: Server) -> None:
+    def ask(info: UpdateInfo) -> None:
+        if info.iterations == 3:
+            server.world.requests.put(lambda: server.control.apply(request))
+
+    server.world.systems.post_updates.append(ask)
+    for request, run, paused in [
+        (WorldControl(pause=True), 3, True),
+        (WorldControl(pause=True, multi_step=5), 3, False),
+        (WorldControl(pause=True, reset=WorldReset(all=True)), 0, True),
+    ]:
+        server.world.iterations = 0
+        server._advance(10, strict=True)
+        assert (server.world.iterations, server.paused) == (run, paused), request
+        if not paused:
+            assert server.control.steps_allowed(10) == 5, "all that were asked for are still to come"
 
 
 def test_a_paused_server_does_not_step_but_keeps_telling(
