@@ -52,7 +52,7 @@ def blueprint(robot: str, track: tuple[Place, Place] | None = None, failures: Se
                 rrb.StateTimelineView(origin="/checks", name="Checks"),
                 rrb.TextLogView(
                     origin="/log/verdicts",
-                    name=f"{'Failed checks' if failures else 'Verdicts'} (click a time to go there)",
+                    name="Failed checks" if failures else "Verdicts",
                     columns=columns,
                     rows=rrb.TextLogRows(filter_by_log_level=["ERROR"]) if failures else None,
                 ),
