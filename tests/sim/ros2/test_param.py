@@ -234,7 +234,9 @@ rclpy.spin(node)
 """
 
 
-@pytest.mark.parametrize("act", ["os.kill(os.getpid(), signal.SIGKILL)", "signal.pause()"])
+@pytest.mark.parametrize(
+    "act", ["os.kill(os.getpid(), signal.SIGKILL)", pytest.param("signal.pause()", marks=pytest.mark.proof)]
+)
 def test_a_node_that_ends_or_hangs_while_it_is_asked_is_told_in_time(start, act, ros_domain):
     node = start("-c", BUSY_NODE.format(act=act), command=(sys.executable,))
     node.wait_for("up")

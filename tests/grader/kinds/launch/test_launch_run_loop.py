@@ -294,6 +294,7 @@ def test_what_a_timer_starts_is_waited_for(launch):
     assert bridge["to_ros"] == 50, "time had not begun before the bridge stood"
 
 
+@pytest.mark.proof
 def test_a_world_that_comes_after_the_launch_was_given_up(launch, monkeypatch):
     monkeypatch.setattr("gz_course.grader.kinds.launch.launch_run_loop.SIMULATOR_PATIENCE", 0.5)
     late = "trap 'gz sim -s -r shapes.sdf' INT; sleep 3600 & wait"
@@ -302,6 +303,7 @@ def test_a_world_that_comes_after_the_launch_was_given_up(launch, monkeypatch):
     assert (run.facts["simulator_at_end"], run.recording.facts()["sim_seconds"]) == ("", 0.0)
 
 
+@pytest.mark.proof
 def test_a_launch_without_time_to_end_is_no_fault_of_its_own(launch, monkeypatch):
     monkeypatch.setattr("gz_course.grader.kinds.launch.launch_run_loop.FAIR_SHARE", 100.0)
     deaf = "import signal; signal.signal(signal.SIGINT, signal.SIG_IGN); signal.pause()"
