@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import threading
 from typing import Any
 
@@ -13,5 +12,10 @@ def spin(executor: Any, closing: threading.Event) -> None:
 
     while not closing.is_set():
         # An endpoint may be destroyed while the executor collects the entities to wait for.
-        with contextlib.suppress(rclpy_implementation.InvalidHandle):
+        try:
             executor.spin()
+        except rclpy_implementation.InvalidHandle:
+            pass
+        except AttributeError:
+            if not closing.is_set():  # `shutdown` takes the guard conditions away from an executor that collects them
+                raise

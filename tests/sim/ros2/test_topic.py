@@ -9,6 +9,8 @@ import threading
 import pytest
 import yaml
 
+from gz_course.tests.sim.spinning import spin
+
 DEADLINE = 120.0
 SYSTEM = ["/parameter_events", "/rosout"]
 
@@ -49,9 +51,11 @@ def nodes(ros_domain):
     talker.create_timer(0.05, publish)
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(talker)
-    thread = threading.Thread(target=executor.spin)
+    closing = threading.Event()
+    thread = threading.Thread(target=spin, args=(executor, closing))
     thread.start()
     yield
+    closing.set()
     executor.shutdown()
     thread.join(DEADLINE)
     talker.destroy_node()

@@ -37,14 +37,30 @@ class Stage:
     def ros_publisher(self, ros_class, listeners=1):
         publisher = self.ros.node.create_publisher(ros_class, self.topic, 10)
         self._ours.append(lambda: self.ros.node.destroy_publisher(publisher))
-        self._eventually(lambda: publisher.get_subscription_count() >= listeners, "the bridge listens to ROS")
+        self._eventually(
+            lambda: publisher.get_subscription_count() >= listeners and self._bridge_knows_all(),
+            "the bridge listens to ROS",
+        )
         return publisher
 
     def ros_subscription(self, ros_class, callback, qos=10):
         subscription = self.ros.node.create_subscription(ros_class, self.topic, callback, qos)
         self._ours.append(lambda: self.ros.node.destroy_subscription(subscription))
-        self._eventually(lambda: subscription.get_publisher_count() >= 1, "the bridge publishes to ROS")
+        self._eventually(
+            lambda: subscription.get_publisher_count() >= 1 and self._bridge_knows_all(), "the bridge publishes to ROS"
+        )
         return subscription
+
+    def _bridge_knows_all(self):
+        """Whether the endpoints of the bridge are matched, too: one side may know before the other."""
+        publishers = self.ros.node.count_publishers(self.topic)
+        subscribers = self.ros.node.count_subscribers(self.topic)
+        ends = [each.get_publisher_count() >= publishers for each in self._of_topic(self.node.subscriptions)]
+        ends += [each.get_subscription_count() >= subscribers for each in self._of_topic(self.node.publishers)]
+        return all(ends)
+
+    def _of_topic(self, endpoints):
+        return [each for each in endpoints if each.topic_name == self.topic]
 
     def close(self):
         for bridge in self._bridges:

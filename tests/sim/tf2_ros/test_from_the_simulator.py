@@ -57,7 +57,7 @@ def test_the_odometry_of_a_simulated_robot(buffer, gz_nodes, ros_node, spin_unti
         StaticTransformBroadcaster(ros_node).sendTransform(stamped(frame, "lidar", place=(0, 0, 0.25)))
         drive.command(0.5, 0.6)
         spin_until(
-            lambda: world.step(100) or buffer.can_transform(drive.reports.frame_id, "lidar", Time(seconds=1.01)),
+            lambda: world.step(100) and buffer.can_transform(drive.reports.frame_id, "lidar", Time(seconds=1.01)),
             "the transform at 1.01 s",
         )
     finally:

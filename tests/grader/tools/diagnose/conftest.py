@@ -12,6 +12,7 @@ import pytest
 
 from gz_course.grader.tools.playground import Playground
 from gz_course.tests import warm_process
+from gz_course.tests.sim.spinning import spin
 
 DEADLINE = 120.0
 ROOT = Path(__file__).parents[4]
@@ -86,10 +87,12 @@ class Broken:
         context = rclpy.Context()
         rclpy.init(context=context, domain_id=self.domain)
         executor = SingleThreadedExecutor(context=context)
-        thread, nodes = threading.Thread(target=executor.spin), []
+        closing, nodes = threading.Event(), []
+        thread = threading.Thread(target=spin, args=(executor, closing))
         thread.start()
 
         def end():
+            closing.set()
             executor.shutdown()  # first, so that no callback finds its node gone
             thread.join(DEADLINE)
             for node in nodes:
