@@ -39,16 +39,15 @@ def find(model: mujoco.MjModel, data: mujoco.MjData) -> list[Overlap]:
 
 def add_pairs(spec: mujoco.MjSpec, model: mujoco.MjModel, data: mujoco.MjData, found: Iterable[Overlap]) -> None:
     """Add a pair for each overlap that has none, with the friction that its contact has now."""
-    frictions: dict[frozenset[str], tuple[int, list[float], list[float]]] = {}
-    for contact in data.contact:
-        names = frozenset(model.geom(int(geom)).name for geom in contact.geom)
-        frictions[names] = (int(contact.dim), contact.friction.tolist(), contact.solimp.tolist())
+    contacts = data.contact
+    last = {frozenset(geoms): index for index, geoms in enumerate(contacts.geom.tolist())}
     known = {frozenset((pair.geomname1, pair.geomname2)) for pair in spec.pairs}
     for one, other, _ in found:
         if frozenset((one, other)) not in known:
-            dim, friction, impedance = frictions[frozenset((one, other))]
+            index = last[frozenset((model.geom(one).id, model.geom(other).id))]
             pair = spec.add_pair(name=f"{one} {other}", geomname1=one, geomname2=other)
-            pair.condim, pair.friction, pair.solimp = dim, friction, impedance
+            pair.condim = int(contacts.dim[index])
+            pair.friction, pair.solimp = contacts.friction[index].tolist(), contacts.solimp[index].tolist()
             pair.solref = recipe.contact_solref(float(model.opt.timestep))
 
 
