@@ -2,12 +2,30 @@
 
 from __future__ import annotations
 
+import contextlib
 import threading
+from collections.abc import Iterator
 from typing import Any
 
+DEADLINE = 120.0  # [s] in which a shut down executor has to end
 
-def spin(executor: Any, closing: threading.Event) -> None:
-    """Spin until `closing` is set and the executor was shut down."""
+
+@contextlib.contextmanager
+def spinning(executor: Any) -> Iterator[threading.Thread]:
+    """Yield the thread, which spins until the block ends; the executor is shut down before its nodes are destroyed."""
+    closing = threading.Event()
+    thread = threading.Thread(target=_spin, args=(executor, closing))
+    thread.start()
+    try:
+        yield thread
+    finally:
+        closing.set()
+        executor.shutdown()
+        thread.join(DEADLINE)
+        assert not thread.is_alive()
+
+
+def _spin(executor: Any, closing: threading.Event) -> None:
     from rclpy.impl.implementation_singleton import rclpy_implementation
 
     while not closing.is_set():

@@ -13,7 +13,7 @@ import psutil
 import pytest
 
 from gz_course.grader.run.domain import Domain
-from gz_course.tests.sim.spinning import spin
+from gz_course.tests.sim.spinning import spinning
 from gz_course.tests.warm_process import WarmPopen
 
 DEADLINE = 120.0
@@ -206,13 +206,8 @@ def robot(ros_domain):
     node.create_timer(0.1, publish)
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
-    closing = threading.Event()
-    thread = threading.Thread(target=spin, args=(executor, closing))
-    thread.start()
-    yield node
-    closing.set()
-    executor.shutdown()
-    thread.join(DEADLINE)
+    with spinning(executor):
+        yield node
     node.destroy_node()
     idle.destroy_node()
     context.try_shutdown()

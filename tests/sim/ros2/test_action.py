@@ -7,7 +7,7 @@ import threading
 
 import pytest
 
-from gz_course.tests.sim.spinning import spin
+from gz_course.tests.sim.spinning import spinning
 
 TYPE = "example_interfaces/action/Fibonacci"
 NODE = "/robot/counter"
@@ -81,14 +81,9 @@ def counter(ros_domain):
     )
     executor = MultiThreadedExecutor(2, context=context)
     executor.add_node(node)
-    closing = threading.Event()
-    thread = threading.Thread(target=spin, args=(executor, closing))
-    thread.start()
-    yield node
-    closing.set()
-    cancelled.set()
-    executor.shutdown()
-    thread.join(120.0)
+    with spinning(executor):
+        yield node
+        cancelled.set()
     server.destroy()
     node.destroy_node()
     context.try_shutdown()

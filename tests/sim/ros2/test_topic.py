@@ -4,12 +4,11 @@ import os
 import re
 import signal
 import sys
-import threading
 
 import pytest
 import yaml
 
-from gz_course.tests.sim.spinning import spin
+from gz_course.tests.sim.spinning import spinning
 
 DEADLINE = 120.0
 SYSTEM = ["/parameter_events", "/rosout"]
@@ -51,13 +50,8 @@ def nodes(ros_domain):
     talker.create_timer(0.05, publish)
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(talker)
-    closing = threading.Event()
-    thread = threading.Thread(target=spin, args=(executor, closing))
-    thread.start()
-    yield
-    closing.set()
-    executor.shutdown()
-    thread.join(DEADLINE)
+    with spinning(executor):
+        yield
     talker.destroy_node()
     listener.destroy_node()
     context.try_shutdown()

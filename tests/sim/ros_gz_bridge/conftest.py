@@ -1,5 +1,6 @@
 """Fixtures: a DDS domain and a Gazebo partition for the session, ROS, a parameter_bridge, waiting with a deadline."""
 
+import contextlib
 import os
 import signal
 import subprocess
@@ -12,7 +13,7 @@ import warnings
 import pytest
 
 from gz_course.grader.run.domain import Domain
-from gz_course.tests.sim.spinning import spin
+from gz_course.tests.sim.spinning import spinning
 from gz_course.tests.warm_process import WarmPopen
 
 with warnings.catch_warnings():
@@ -87,9 +88,8 @@ class Ros:
         rclpy.init(context=self.context, domain_id=domain)
         self.executor = SingleThreadedExecutor(context=self.context)
         self.node = self.new_node("tester")
-        self._closing = threading.Event()
-        self._thread = threading.Thread(target=spin, args=(self.executor, self._closing))
-        self._thread.start()
+        self._spinning = contextlib.ExitStack()
+        self._thread = self._spinning.enter_context(spinning(self.executor))
 
     def new_node(self, name="bridge", **options):
         import rclpy
@@ -103,12 +103,9 @@ class Ros:
         node.destroy_node()
 
     def close(self):
-        self._closing.set()
-        self.executor.shutdown()
-        self._thread.join(DEADLINE)
+        self._spinning.close()
         self.node.destroy_node()
         self.context.try_shutdown()
-        assert not self._thread.is_alive()
 
 
 @pytest.fixture(scope="module")

@@ -12,7 +12,7 @@ import pytest
 
 from gz_course.grader.tools.playground import Playground
 from gz_course.tests import warm_process
-from gz_course.tests.sim.spinning import spin
+from gz_course.tests.sim.spinning import spinning
 
 DEADLINE = 120.0
 ROOT = Path(__file__).parents[4]
@@ -87,19 +87,15 @@ class Broken:
         context = rclpy.Context()
         rclpy.init(context=context, domain_id=self.domain)
         executor = SingleThreadedExecutor(context=context)
-        closing, nodes = threading.Event(), []
-        thread = threading.Thread(target=spin, args=(executor, closing))
-        thread.start()
+        nodes = []
 
         def end():
-            closing.set()
-            executor.shutdown()  # first, so that no callback finds its node gone
-            thread.join(DEADLINE)
             for node in nodes:
                 node.destroy_node()
             context.try_shutdown()
 
         self._stack.callback(end)
+        self._stack.enter_context(spinning(executor))  # ends first, so that no callback finds its node gone
         return context, executor, nodes
 
     def node(self, name, *, spins=True, sim_time=False, context=None):
