@@ -180,9 +180,11 @@ class LockStep(RealTime):
     def settle(self) -> None:
         """Wait until the message just sent was taken and its consequences have arrived.
 
-        Then release the messages the processes hold, one at a time, and wait in the same way for each.
+        Then release the messages the processes hold, one at a time, and wait in the same way for each. Who is at work
+        although there was no message for it (its node is gone, and it ends) is waited for, too.
         """
-        if not self._free and (self._pending or (self._holding and self._participants)):
+        holding = self._holding and self._participants
+        if not self._free and (self._pending or holding or any(each.works for each in self._participants)):
             self._settle()
 
     def _settle(self) -> None:

@@ -46,7 +46,10 @@ class RealTime:
         self._logs = LogArrival(processes, ros)
 
     def await_ready(self) -> bool:
-        """Wait until every node spins and DDS has matched its endpoints; False if none does within `START_UP`."""
+        """Wait until every node waits, and DDS has matched its endpoints; False if none has come within `START_UP`.
+
+        Who ends at once has ended when simulated time begins, whether DDS had time to match its endpoints or not.
+        """
         clock, began = self.processes.clock, self.processes.clock.now()
         patience, whole = Patience(clock, START_UP), Patience(clock, MOST_HELD - self._held)
         while self.processes.running and (not self.processes.participants or self.processes.starting):
@@ -65,9 +68,15 @@ class RealTime:
         self._held += clock.now() - began
         self.await_matches()
         patience = Patience(clock, PATIENCE)
-        while self.processes.running and not self.everything_arrived() and not patience.over():
-            self.processes.wait(LOOK_ROUND)  # receive everything sent before simulated time begins
-        return self.processes.running and bool(self.processes.endpoints)
+        while self.processes.running and not patience.over():
+            arrived = self.everything_arrived()  # all that was sent before simulated time begins
+            at_work = [each for each in self.processes.participants if each.works]
+            if arrived and not at_work:
+                break
+            for each in at_work:
+                each.tell({"ping": True})
+            self.processes.wait(LOOK_ROUND * 10 if arrived else LOOK_ROUND)
+        return self.processes.running and any(each.joined and not each.gone for each in self.processes.participants)
 
     @property
     def somebody_starts(self) -> bool:

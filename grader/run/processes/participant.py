@@ -39,6 +39,7 @@ class Participant:
         self.pid = self.group = 0  # as seen in the sandbox
         self.progress: Progress | None = None
         self.gone = False
+        self.joined = False  # whether a report of it had endpoints, which may be gone again
         self.follows = True  # False: no reports are expected of it
         self.uses_ros = False  # whether it has imported rclpy
         self.waits = False  # whether it only waits, for its children or for events
@@ -79,8 +80,7 @@ class Participant:
     @property
     def starting(self) -> bool:
         """Whether a first report with endpoints is still to come."""
-        joined = self.progress is not None and bool(self.progress.endpoints)
-        return self.follows and not (joined or self.gone or (self.waits and not self.uses_ros))
+        return self.follows and not (self.joined or self.gone or (self.waits and not self.uses_ros))
 
     @property
     def waiting_for_release(self) -> bool:
@@ -148,6 +148,7 @@ class Participant:
         if progress is not None:
             self.progress = replace(progress, held=0) if self._vain > MOST_IN_VAIN else progress
             self.looking &= not progress.idle
+            self.joined |= bool(progress.endpoints)
             return
         try:
             message = json.loads(data)

@@ -343,8 +343,7 @@ def _listener(folder: Path) -> socket.socket:
 
 def _has_come_in_vain(participant: Participant) -> bool:
     """Return whether a process with rclpy has ended, or was waited for long enough, and never had a node that spins."""
-    joined = participant.progress is not None and participant.progress.endpoints
-    return participant.uses_ros and not joined and (participant.gone or not participant.follows)
+    return participant.uses_ros and not participant.joined and (participant.gone or not participant.follows)
 
 
 def _unasked(asking: Participant, message: dict[str, Any]) -> None: ...

@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+import threading
 import time
 
 import pytest
@@ -13,9 +14,12 @@ from gz_course.grader.run.fair_clock import FairClock, Patience
 
 @pytest.fixture
 def clock(monkeypatch):
-    """A clock of one thread: each look gives what it ran and waited in total, and the wall time [s]."""
+    """A clock of one thread: each look gives the wall time, and what it ran and waited in total [s].
 
-    def call(*looks):
+    `ready_at` are the times at which it is ready to run.
+    """
+
+    def call(*looks, ready_at=()):
         steps = iter([*looks])
         wall = [0.0]
         monkeypatch.setattr(fair_clock.time, "monotonic", lambda: wall[0])
@@ -25,6 +29,7 @@ def clock(monkeypatch):
             return [((1, 1), (round(ran * 1e9), round(waited * 1e9)))]
 
         monkeypatch.setattr(fair_clock, "_threads", threads)
+        monkeypatch.setattr(fair_clock, "_ready_to_run", lambda keys: set(keys) if wall[0] in ready_at else set())
         made = FairClock(lambda: [1])
         monkeypatch.setattr(fair_clock, "SAMPLE", 0.0)
         return made
@@ -47,6 +52,21 @@ def test_a_delay_that_is_known_late_is_subtracted_later(clock):
     made = clock((0.0, 0.0, 0.0), (0.5, 0.0, 0.0), (1.0, 0.0, 1.0), (1.5, 0.0, 1.0))
     shown = [made.now() for _ in range(4)]
     assert shown == pytest.approx([0.0, 0.5, 0.5, 0.5])
+
+
+def test_a_long_wait_is_subtracted_while_it_lasts_and_only_once(clock):
+    looks = [(at, 0.0, 0.0) for at in (0.0, 1.0, 2.0, 3.0)] + [(4.0, 0.5, 3.5), (5.0, 0.5, 3.5), (6.0, 0.5, 3.5)]
+    made = clock(*looks, ready_at=(1.0, 2.0, 3.0))
+    assert [made.now() for _ in looks] == pytest.approx([0.0, 0.0, 0.0, 0.0, 0.5, 1.5, 2.5])
+    assert made._delayed == pytest.approx(3.5)
+
+
+def test_who_is_ready_to_run_is_asked_of_the_kernel(monkeypatch):
+    mine = (os.getpid(), threading.get_native_id())
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: set())
+    assert fair_clock._ready_to_run([mine, (mine[0], 1 << 22)]) == {mine}
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: range(1 << 20))
+    assert fair_clock._ready_to_run([mine]) == set(), "each has a processor"
 
 
 def test_a_thread_apart_may_wait_for_a_processor_while_the_others_sleep(monkeypatch):

@@ -138,9 +138,8 @@ class ExecutorMonitor:
         if order is None:
             self._let_go()
             self.threads.release_all()
-            self._answered.set()
-            self._log_confirmed.set()
-            self._told_time.set()
+            for each in (self._answered, self._log_confirmed, self._told_time):
+                each.set()
         elif "now" in order:
             self.threads.tell(order["now"])
             self._told_time.set()
@@ -216,6 +215,7 @@ class ExecutorMonitor:
 
     def add_node(self, node: Any) -> None:
         """Watch a new node. With the first one, sleeping begins to take simulated time."""
+        self.threads.resume()  # it may have waited unseen, such as for a file; now it is at work until it waits again
         with self._lock:
             self._nodes[id(node)] = node
         rate = os.environ.get(SIMULATED_CLOCKS)

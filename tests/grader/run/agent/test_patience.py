@@ -80,3 +80,13 @@ def test_a_message_that_may_not_leave_yet_stays_where_it_is(tmp_path):
         monitor._obey({"release": now})
         assert sent == expected
     assert monitor._released == 3
+
+
+def test_who_makes_a_node_is_at_work_whatever_it_has_waited_for_unseen(tmp_path):
+    monitor = ExecutorMonitor(Channel(f"{tmp_path}/nobody"), {}, True)
+    threads = monitor.threads
+    threads.enter(threads.expect())
+    threads._working.clear()  # as after a long read of a file
+    assert threads.idle
+    monitor.add_node(SimpleNamespace(_publishers=[], _subscriptions=[], publishers=[], subscriptions=[]))
+    assert not threads.idle

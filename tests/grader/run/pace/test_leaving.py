@@ -1,11 +1,14 @@
 """A process that ends: DDS takes its endpoints down first, and until it has gone simulated time stands still."""
 
+import json
+import socket
 from collections import Counter
 from types import SimpleNamespace
 
 import pytest
 
 from gz_course.grader.run.pace.lockstep import CLOCK, PATIENCE, LockStep
+from gz_course.grader.run.processes.participant import Participant
 from gz_course.grader.run.processes.progress import Endpoint
 
 TYPE = "rosgraph_msgs/msg/Clock"
@@ -95,6 +98,75 @@ def test_who_lives_on_without_it_is_waited_for_once(tick):
     leaving = tick(Leaving(5, lives_on), ticks=100)
     assert leaving.waited == pytest.approx(PATIENCE * 10, abs=2)
     assert leaving.sent == []
+
+
+REPORT = {"clock": None, "idle": True, "taken": {}, "published": {}, "delivered": {}, "holding": False, "held": 0}
+REPORT |= {"released": 0, "flushes": 0, "endpoints": []}
+HELLO = {"node": "/hello", "kind": "publisher", "topic": "/hello", "type": "std_msgs/msg/String"}
+HELLO |= {"reliability": "RELIABLE", "durability": "VOLATILE", "matched": 0}
+
+
+class EndsAtOnce(Leaving):
+    """A process that has a node for a moment: no look at DDS shows it. Then it is at work for some time and ends."""
+
+    def __init__(self, waits):
+        super().__init__(waits, ends)
+        self.clock_but_mine = SimpleNamespace(now=lambda: self.waited / 10)
+        ours, self.theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        self.participants = self.followed = [Participant(ours, 0, lambda *_: None)]
+        self.report(endpoints=[HELLO], flushes=1)
+
+    def report(self, **what):
+        self.theirs.send(json.dumps(REPORT | what).encode())
+        self.participants[0].read()
+
+    @property
+    def starting(self):
+        return any(each.starting for each in self.participants)
+
+    @property
+    def endpoints(self):
+        return self.participants[0].progress.endpoints
+
+    @property
+    def layout(self):
+        return (id(self.endpoints),)
+
+    def wait(self, timeout):
+        super().wait(timeout)
+        self.report(idle=False, flushes=1)
+
+    def publishes(self, topic):
+        return None
+
+    def listens(self, topic):
+        return HELLO["type"] if topic == "/hello" else None
+
+
+@pytest.fixture
+def brief(monkeypatch):
+    """Such a process, and its pace."""
+    leaving = EndsAtOnce(7)
+    leaving.clock = leaving.clock_but_mine
+    monkeypatch.setattr("gz_course.grader.run.fair_clock.SAMPLE", 0.0)
+    yield leaving, LockStep(leaving, leaving)
+    leaving.theirs.close()
+    leaving.participants[0].close()
+
+
+def test_simulated_time_begins_when_who_ends_at_once_has_ended(brief):
+    leaving, pace = brief
+    assert not pace.await_ready()
+    assert (leaving.waited, leaving.running) == (7, False)
+
+
+def test_who_is_at_work_without_a_node_is_waited_for(brief):
+    leaving, pace = brief
+    leaving.report(idle=False, flushes=1)
+    pace.welcome()
+    pace.send(CLOCK, leaving, "tick 1", 1)
+    pace.settle()
+    assert (leaving.waited, leaving.running, pace.paced_ticks) == (7, False, 0)
 
 
 def test_nobody_is_waited_for_when_the_last_node_has_become_another_program(play):
