@@ -1,8 +1,11 @@
 """What every test may rely on."""
 
+import gc
 import signal
 
+import pytest
 from hypothesis import settings
+from hypothesis.internal.conjecture import providers
 
 from gz_course.tests.process_guard import watch_over_this_process
 
@@ -16,9 +19,22 @@ settings.register_profile("new_examples", settings.default, deadline=None)
 settings.register_profile("repeatable", derandomize=True, deadline=None, max_examples=50)
 settings.load_profile("repeatable")
 
+gc.disable()  # until everything is imported: it would find nothing to collect
 
+
+@pytest.hookimpl(trylast=True)  # when the profile is that of the command line
 def pytest_configure():
     watch_over_this_process()
+    if settings().derandomize:
+        # Hypothesis also draws numbers and texts that stand in the modules which are loaded. Those are others in each
+        # worker and change with any file: a test would be asked for other examples than the last time.
+        providers._get_local_constants = providers.Constants
+
+
+def pytest_collection_finish():
+    gc.enable()
+    gc.collect()
+    gc.freeze()  # what is imported stays: no collection needs to look at it again
 
 
 def pytest_terminal_summary(terminalreporter):

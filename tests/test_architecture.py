@@ -100,7 +100,6 @@ def modules():
     return found
 
 
-@functools.cache
 def tree(name):
     return ast.parse(modules()[name].read_text())
 
@@ -124,6 +123,8 @@ def imports(name, *, with_types=True):
     """Return the places of everything a module imports, wherever in it; also by `import_module("literal")`."""
     found = set()
     package = name if modules()[name].name == "__init__.py" else name.rpartition("/")[0]
+    text = modules()[name].read_text()
+    by_call = "import_module" in text or "__import__" in text  # else no expression imports anything
 
     def walk(node):
         if isinstance(node, ast.Import):
@@ -138,7 +139,7 @@ def imports(name, *, with_types=True):
         elif isinstance(node, ast.Call) and last_name(node.func) in ("import_module", "__import__"):
             found.update(place(a.value) for a in node.args[:1] if isinstance(a, ast.Constant))
         for child in ast.iter_child_nodes(node):
-            if with_types or not is_type_checking(child):
+            if (by_call or not isinstance(child, ast.expr)) and (with_types or not is_type_checking(child)):
                 walk(child)
 
     walk(tree(name))
@@ -146,7 +147,7 @@ def imports(name, *, with_types=True):
 
 
 def below(name, *tops):
-    return any(name == top or name.startswith(f"{top}/") for top in tops)
+    return f"{name}/".startswith(tuple(f"{top}/" for top in tops))
 
 
 @functools.cache

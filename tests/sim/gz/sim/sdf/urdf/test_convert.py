@@ -283,7 +283,7 @@ def test_a_robot_needs_a_name() -> None:
 
 
 def test_a_chain_of_thousands_of_links_is_read() -> None:
-    count = 3000
+    count = 1500
     links = "".join(f"<link name='l{i}'>{MASS.format(1)}</link>" for i in range(count))
     joints = "".join(joint(f"j{i}", "fixed", f"l{i - 1}", f"l{i}") for i in range(1, count))
     model, _ = read(links + joints)
