@@ -227,6 +227,7 @@ def _simulate(values: argparse.Namespace, stop: threading.Event) -> int:
             render_engine=values.render_engine,
             initial_sim_time=values.initial_sim_time,
             strict=values.strict,
+            lenient=not values.strict,
             server_plugins=[*_recorder(values), *([broadcaster()] if Server.offers_view else [])],
         )
     except SimError as error:
