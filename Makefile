@@ -16,7 +16,7 @@ COMPILE := $(BIN)/python -m compileall -q sim grader public
 FILTER := ! git rev-parse --git-dir >/dev/null 2>&1 || \
     git config filter.notebook-outputs.clean 'python3 -I -S grader/tools/notebook_outputs.py'
 
-.PHONY: setup chapters update demo test verify prove-exercises prove-long attacks prove-determinism bench book fuzz lint clean
+.PHONY: setup chapters update demo test verify prove-exercises prove-long attacks prove-determinism bench book fuzz worlds lint clean
 setup: .venv/with-course
 
 .venv/with-course: pyproject.toml constraints.txt
@@ -74,6 +74,11 @@ attacks: .venv/with-tools
 GRADINGS ?= 200
 prove-determinism: .venv/with-tools
 	exec $(BIN)/python -m gz_course.tests.determinism $(GRADINGS)
+
+# Worlds of a folder, such as a checkout of gz-sim 8, against the table of what they do here: make worlds DIR=../gz-sim
+worlds: .venv/with-tools
+	@test -n "$(DIR)" || { echo "make worlds DIR=FOLDER: which folder of worlds?"; exit 2; }
+	exec $(BIN)/python -m gz_course.tests.worlds "$(DIR)" $(WORLDS_OPTIONS)
 
 bench: .venv/with-tools
 	$(BIN)/python -m gz_course.tests.bench

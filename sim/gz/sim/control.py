@@ -32,6 +32,8 @@ class Control:
         """True while a paused world runs the requested number of steps."""
         self.changed = False
         """Whether a request was applied since somebody set it to False."""
+        self.end_ns: int | None = None
+        """The simulated time [ns] at which the world pauses, for example the end of a recording."""
         self._steps_left = 0
         self._run_to_ns: int | None = None
 
@@ -70,9 +72,9 @@ class Control:
         """Return how many steps, at most `most`, may run before the next call."""
         if self._steps_left:
             most = min(most, self._steps_left)
-        if self._run_to_ns is not None:
-            step = self._world.step_size_ns
-            most = min(most, max(1, -(-(self._run_to_ns - self._world.sim_time_ns) // step)))
+        for end_ns in (self._run_to_ns, self.end_ns):
+            if end_ns is not None:
+                most = min(most, max(1, -(-(end_ns - self._world.sim_time_ns) // self._world.step_size_ns)))
         return most
 
     def stepped(self, count: int) -> None:
@@ -84,3 +86,12 @@ class Control:
         if self._run_to_ns is not None and self._world.sim_time_ns >= self._run_to_ns:
             self._run_to_ns = None
             self.paused = True
+        if self.end_ns is not None and self._world.sim_time_ns >= self.end_ns:
+            self.paused = True
+
+    def seek(self, time_ns: int) -> None:
+        """Continue at a simulated time [ns], which a playback then shows."""
+        self._world.continue_from(time_ns)
+        self._world.systems.start()
+        self._on_rewind()
+        self.changed = True

@@ -9,6 +9,10 @@ import logging
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from gz_course.sim.gz.sim.sdf.element import Element
 
 LOG = logging.getLogger("gz.sim")
 _MOST_WARNINGS = 1000
@@ -20,7 +24,9 @@ class SimError(Exception):
 
 
 class SdfError(SimError, ValueError):
-    """An SDF file that cannot be run; the text begins with `file:line:`."""
+    """An SDF file that cannot be run; the text begins with `file:line:`. `element` is the one at fault, if known."""
+
+    element: Element | None = None
 
 
 class ResourceError(SdfError, FileNotFoundError):
@@ -42,12 +48,13 @@ class Diagnostics:
 
     With `strict` nothing is logged during loading: `refuse`, called at its end, raises one error with all warnings.
     Later warnings are logged at once, except within `refusing`. A `doubt` never causes an error. With `quiet` nothing
-    is logged at all.
+    is logged at all. With `lenient`, as in Gazebo, a plugin with a wrong parameter does not refuse the world.
     """
 
     warnings: list[str] = field(default_factory=list)
     strict: bool = False
     quiet: bool = False
+    lenient: bool = False
     _known: set[str] = field(default_factory=set, repr=False)
     _doubts: set[str] = field(default_factory=set, repr=False)
 

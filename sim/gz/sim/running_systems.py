@@ -7,18 +7,20 @@ topics and services end with its model.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.gz.sim.errors import SdfError
 from gz_course.sim.gz.sim.physics.servos import JointServo
 from gz_course.sim.gz.sim.physics.welds import WeldRequest
 from gz_course.sim.gz.sim.plugins.sensor import KNOWN_TYPES, SensorBase, sensor_types
 from gz_course.sim.gz.sim.plugins.sensor_system import SensorSystem
 from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, find_system, system_name, systems
 from gz_course.sim.gz.sim.sdf.description import Model, Plugin, Sensor
-from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sdf.element import Element, without
 from gz_course.sim.gz.sim.shared_topics import SharedTopics, Talker
 
 if TYPE_CHECKING:
@@ -69,7 +71,7 @@ class RunningSystems:
         for plugin in plugins:
             found = find_system(plugin, self._world.diagnostics)
             if found is not None:
-                self._make(found, None, plugin)
+                self._add_plugin(found, None, plugin)
 
     def add(self, model: Model) -> list[Running]:
         """Create, configure and return the systems of a model.
@@ -77,40 +79,65 @@ class RunningSystems:
         Raises SdfError for invalid parameters; then no system of the model is kept.
         """
         before = list(self._running)
-        taken = self.servos[model.name] = []
-        welds = self.welds[model.name] = []
-        diagnostics = self._world.diagnostics
+        self.servos[model.name], self.welds[model.name] = [], []
         try:
             for plugin in model.plugins:
-                found = find_system(plugin, diagnostics)
-                if found is None:
-                    continue
-                driven = found.servos(model, plugin)
-                if driven and model.static:
-                    text = f"model '{model.name}' is static, so its system {found.name} cannot move it"
-                    diagnostics.warn(plugin.element.where, text)
-                    continue
-                for servo in driven:
-                    if all(servo.actuator != other.actuator for other in taken):
-                        taken.append(servo)
-                known = {weld.name for weld in welds}
-                welds += [weld for weld in found.welds(model, plugin) if weld.name not in known]
-                self._make(found, model, plugin)
+                found = find_system(plugin, self._world.diagnostics)
+                if found is not None:
+                    self._add_plugin(found, model, plugin)
         except Exception:
             self._running = before
             del self.servos[model.name], self.welds[model.name]
             raise
         return [each for each in self._running if each not in before]
 
+    def _add_plugin(self, found: type[System], model: Model | None, plugin: Plugin) -> None:
+        """Create and configure the system of a plugin.
+
+        Raises SdfError for invalid parameters. If the diagnostics are lenient, each is replaced by its default, or the
+        system is left out where that is not enough, with a warning.
+        """
+        diagnostics, told = self._world.diagnostics, list[str]()
+        lenient, kept = diagnostics.lenient and not diagnostics.strict, plugin
+        while True:
+            try:
+                self._make(found, model, kept)
+                break
+            except SdfError as error:
+                fault = parameter_at_fault(kept.element, error) if lenient else None
+                if not lenient:
+                    raise
+                if fault is None:
+                    told = [f"{told[0] if told else error}; system {found.name} is left out"]
+                    break
+                told.append(str(error))
+                kept = replace(kept, element=without(kept.element, fault))
+        for text in told:
+            diagnostics.warn("", text if text.endswith("left out") else f"{text}; its default is used")
+
     def _make(self, found: type[System], model: Model | None, plugin: Plugin) -> None:
+        diagnostics = self._world.diagnostics
+        driven = found.servos(model, plugin) if model is not None else []
+        if model is not None and driven and model.static:
+            text = f"model '{model.name}' is static, so its system {found.name} cannot move it"
+            diagnostics.warn(plugin.element.where, text)
+            return
+        welded = found.welds(model, plugin) if model is not None else []
         first = next((each for each in self._running if type(each.system) is found), None)
         if found.once and first is not None:
             text = f"{found.name} runs already (see {first.plugin.element.where}) and serves the whole world, "
-            self._world.diagnostics.warn(plugin.element.where, f"{text}this second one is ignored; remove it")
+            diagnostics.warn(plugin.element.where, f"{text}this second one is ignored; remove it")
             return
         made = found()
         made.configure(self._world, model, plugin)
         self._running.append(Running(made, model, plugin))
+        if model is not None:
+            taken, welds = self.servos[model.name], self.welds[model.name]
+            for servo in driven:
+                if all(servo.actuator != other.actuator for other in taken):
+                    taken.append(servo)
+            known = {weld.name for weld in welds}
+            welds += [weld for weld in welded if weld.name not in known]
 
     def bind(self) -> None:
         """Bind all systems to MuJoCo's model, and collect their hooks in order."""
@@ -198,6 +225,17 @@ class RunningSystems:
             text = _why_silent(sensor, running)
             if text:
                 self._world.diagnostics.warn(sensor.element.where, text)
+
+
+def parameter_at_fault(plugin: Element, error: SdfError) -> Element | None:
+    """Return the element below a plugin that an error is about, or None if it is about something else."""
+    element = error.element
+    if element is None or not any(each is element for each in plugin.below()):
+        return None
+    if element is not plugin:
+        return element
+    named = (plugin.find(tag) for tag in re.findall(r"<(\w+)>", str(error)))
+    return next((each for each in named if each is not None), None)
 
 
 def _why_silent(sensor: Sensor, running: set[str]) -> str:

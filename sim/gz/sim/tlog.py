@@ -120,7 +120,7 @@ class Log:
         if not self.path.is_file():
             raise SimError(f"there is no log '{self.path}'; gz sim --record --record-path FOLDER writes one")
         try:
-            self._database = sqlite3.connect(f"file:{self.path.resolve()}?mode=ro", uri=True)
+            self._database = sqlite3.connect(f"file:{self.path.resolve()}?mode=ro", uri=True, check_same_thread=False)
             self.version = str(self._database.execute("SELECT to_version FROM migrations").fetchall()[-1][0])
         except (sqlite3.Error, IndexError) as error:
             raise SimError(f"'{self.path}' is not a log of Gazebo ({error})") from None
@@ -144,6 +144,19 @@ class Log:
         )
         for row in rows:
             yield Entry(*row)
+
+    def latest(self, topic: str, time_ns: int) -> Entry | None:
+        """Return the last message of a topic until a simulated time [ns], or the first one if all are later."""
+        for condition in ("<= ?2 ORDER BY time_recv DESC, messages.id DESC", "> ?2 ORDER BY time_recv, messages.id"):
+            row = self._database.execute(
+                "SELECT topics.name, message_types.name, time_recv, message FROM messages "
+                "JOIN topics ON topics.id = topic_id JOIN message_types ON message_types.id = message_type_id "
+                f"WHERE topics.name = ?1 AND time_recv {condition} LIMIT 1",
+                (topic, time_ns),
+            ).fetchone()
+            if row is not None:
+                return Entry(*row)
+        return None
 
     def close(self) -> None:
         self._database.close()

@@ -110,14 +110,15 @@ class World:
         render_engine: str = "raycast",
         initial_sim_time: float = 0.0,
         strict: bool = False,
+        lenient: bool = False,
         server_plugins: Sequence[Plugin] = (),
     ) -> World:
         """Load a world by path, by name in GZ_SIM_RESOURCE_PATH, or by the name of a built-in world.
 
-        With `strict` every warning is an error. Raises `SdfError` with file and line, `ResourceError` if there is no
-        such file.
+        With `strict` every warning is an error; with `lenient` wrong parameters of plugins cause warnings. Raises
+        `SdfError` with file and line, `ResourceError` if there is no such file.
         """
-        diagnostics = Diagnostics(strict=strict)
+        diagnostics = Diagnostics(strict=strict, lenient=lenient)
         description = read_world_file(find_world(path_or_name), diagnostics)
         return cls(
             description,

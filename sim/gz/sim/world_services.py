@@ -100,7 +100,8 @@ class WorldServices:
 
     def _on_playback(self, request: Any) -> Any:
         asked = [field.name for field, _ in request.ListFields() if field.name not in ("header", "pause")]
-        if asked:
+        plays = any(each.name == "LogPlayback" for each in self._world.systems)
+        if asked and not plays:
             LOG.error(
                 "/world/%s/playback/control: %s is for the playback of a recording, and this world is simulated; "
                 "its control service can reset it",
@@ -108,7 +109,14 @@ class WorldServices:
                 asked[0],
             )
             return Boolean(data=False)
-        return self._on_control(WorldControl(pause=request.pause))
+        end_ns = self._control.end_ns
+        if request.HasField("seek") or (request.forward and end_ns is not None):
+            time_ns = end_ns if request.forward and end_ns is not None else request.seek.sec * 10**9 + request.seek.nsec
+            self._world.requests.call(lambda: self._control.seek(min(max(time_ns, 0), end_ns or time_ns)))
+        control = WorldControl(pause=request.pause, multi_step=max(0, request.multi_step))
+        if request.rewind:
+            control.reset.all = True
+        return self._on_control(control)
 
     def _on_gui(self, _: Any) -> Any:
         message: Any = GUI()

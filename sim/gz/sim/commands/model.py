@@ -8,8 +8,8 @@ Source: https://gazebosim.org/api/sim/8/model_command.html
 from __future__ import annotations
 
 import argparse
-import math
 import threading
+from collections.abc import Iterator
 from typing import Any
 
 from gz_course.sim.did_you_mean import did_you_mean
@@ -23,7 +23,7 @@ _TIMEOUT_MS = 5000
 def add_arguments(parser: Parser) -> None:
     parser.add_argument("--list", action="store_true", help="the names of all models")
     parser.add_argument("-m", "--model", metavar="NAME", help="the model to look at")
-    parser.add_argument("-p", "--pose", action="store_true", help="its pose only: position (m), roll pitch yaw (rad)")
+    parser.add_argument("-p", "--pose", action="store_true", help="its pose: position (m), roll pitch yaw (rad)")
     parser.add_argument("-l", "--link", metavar="NAME", nargs="?", const="", help="its links, or one of them")
     parser.add_argument("-j", "--joint", metavar="NAME", nargs="?", const="", help="its joints, or one of them")
     parser.add_argument("-s", "--sensor", metavar="NAME", nargs="?", const="", help="its sensors, or one of them")
@@ -36,6 +36,7 @@ def run(values: argparse.Namespace) -> int:
     """Run `gz model`; return the exit code. Raises ValueError with one sentence if there is no world or model."""
     with Node() as node:
         world = _world(node)
+        print(f"\nRequesting state for world [{world}]...\n")
         scene = _scene(node, world)
         if values.list:
             print("Available models:")
@@ -43,12 +44,31 @@ def run(values: argparse.Namespace) -> int:
                 print(f"    - {model.name}")
             return 0
         model = _named(scene.model, values.model, f"world '{world}' has no model")
-        pose = _pose_now(node, world, model)
-        if values.pose:
-            print(f"{_position(pose)}\n{_angles(pose)}")
-            return 0
-        _print_model(model, pose, values)
+        for line in _lines(model, _pose_now(node, world, model), values):
+            print(line)
     return 0
+
+
+def _lines(model: Any, pose: Any, values: argparse.Namespace) -> Iterator[str]:
+    """Yield what the options ask for; everything without any."""
+    from gz_course.sim.gz.sim.scene import text
+
+    link, joint, sensor = values.link, values.joint, values.sensor
+    everything = not values.pose and link is None and joint is None and sensor is None
+    pad = ""
+    if everything or values.pose:
+        yield from text.model_lines(model, pose)
+        pad = "  "
+    if everything or link is not None:
+        links = [_named(model.link, link, "it has no link")] if link else model.link
+        yield from (pad + line for line in text.link_lines(model, links))
+    if sensor is not None:
+        sensors = [each for part in model.link for each in part.sensor]
+        found = [_named(sensors, sensor, "it has no sensor")] if sensor else sensors
+        yield from (pad + line for line in text.sensor_lines(model, found))
+    if everything or joint is not None:
+        joints = [_named(model.joint, joint, "it has no joint")] if joint else model.joint
+        yield from (pad + line for line in text.joint_lines(model, joints))
 
 
 def _world(node: Node) -> str:
@@ -92,51 +112,3 @@ def _pose_now(node: Node, world: str, model: Any) -> Any:
     node.subscribe(Pose_V, valid_topic(f"/world/{world}/pose/info"), take)
     heard.wait(_TIMEOUT_MS / 1000)
     return found[0] if found else model.pose
-
-
-def _print_model(model: Any, pose: Any, values: argparse.Namespace) -> None:
-    print(f"Model: [{model.id}]\n  - Name: {model.name}")
-    print(f"  - Pose [ XYZ (m) ] [ RPY (rad) ]:\n    {_position(pose)}\n    {_angles(pose)}")
-    everything = values.link is None and values.joint is None and values.sensor is None
-    if values.link is not None or everything:
-        links = model.link if not values.link else [_named(model.link, values.link, "it has no link")]
-        for link in links:
-            print(f"  - Link [{link.id}]\n    - Name: {link.name}\n    - Parent: {model.name} [{model.id}]")
-            print(f"    - Pose [ XYZ (m) ] [ RPY (rad) ]:\n      {_position(link.pose)}\n      {_angles(link.pose)}")
-    if values.sensor is not None or everything:
-        _print_sensors(model, values.sensor or "")
-    if values.joint is not None or everything:
-        joints = model.joint if not values.joint else [_named(model.joint, values.joint, "it has no joint")]
-        for joint in joints:
-            print(
-                f"  - Joint [{joint.id}]\n    - Name: {joint.name}\n    - Type: {joint.Type.Name(joint.type).lower()}"
-            )
-            print(f"    - Parent Link: {joint.parent}\n    - Child Link: {joint.child}")
-
-
-def _print_sensors(model: Any, name: str) -> None:
-    found = [(link, sensor) for link in model.link for sensor in link.sensor]
-    if name:
-        wanted = _named([sensor for _, sensor in found], name, "it has no sensor")
-        found = [(link, sensor) for link, sensor in found if sensor is wanted]
-    for link, sensor in found:
-        print(f"  - Sensor [{sensor.id}]\n    - Name: {sensor.name}\n    - Parent: {link.name} [{link.id}]")
-        print(f"    - Pose [ XYZ (m) ] [ RPY (rad) ]:\n      {_position(sensor.pose)}\n      {_angles(sensor.pose)}")
-        print(f"    - Type: {sensor.type}\n    - Update rate (Hz): {sensor.update_rate:g}\n    - Topic: {sensor.topic}")
-        if sensor.HasField("camera"):
-            camera = sensor.camera
-            print(f"    - Horizontal field of view (rad): {camera.horizontal_fov:g}")
-            print(f"    - Image width (px): {camera.image_size.x:g}\n    - Image height (px): {camera.image_size.y:g}")
-            print(f"    - Near clip (m): {camera.near_clip:g}\n    - Far clip (m): {camera.far_clip:g}")
-
-
-def _position(pose: Any) -> str:
-    return f"[{pose.position.x:.6f} {pose.position.y:.6f} {pose.position.z:.6f}]"
-
-
-def _angles(pose: Any) -> str:
-    w, x, y, z = pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z
-    sine = max(-1.0, min(1.0, 2.0 * (w * y - z * x)))
-    roll = math.atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y))
-    yaw = math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
-    return f"[{roll:.6f} {math.asin(sine):.6f} {yaw:.6f}]"

@@ -26,6 +26,7 @@ from gz_course.sim.gz.command_line import Parser, Version, integer, positive_num
 
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.sdf.description import Plugin
+    from gz_course.sim.gz.sim.world import World
     from gz_course.sim.gz.transport import Node
     from gz_course.sim.view import View
 
@@ -83,7 +84,7 @@ def add_arguments(parser: Parser) -> None:
     for option in _ACCEPTED_FLAGS:
         parser.add_argument(option, action="store_true", help="accepted, changes nothing here")
     parser.add_argument(
-        "--playback", metavar="FOLDER", help="refused: gz tlog reads recordings, gz log plays them back"
+        "--playback", metavar="FOLDER", help="show a recording of --record; its end pauses, and nothing is simulated"
     )
     parser.add_argument("--versions", action=Version, help="the same as --version")
 
@@ -112,9 +113,9 @@ def run(values: argparse.Namespace) -> int:
         if values.file is None:
             return _view_only(values, stop)
         refused = "-g shows a world that runs already, so it takes no file; leave out -g to start one"
-    elif values.playback is not None:
-        refused = "--playback is not done here; look into a recording with gz tlog -i, or run the world again"
-    elif values.file is None:
+    elif values.playback is not None and (values.file is not None or _recorder(values)):
+        refused = "--playback shows a recorded world, so it takes neither a file nor --record; leave out one of them"
+    elif values.file is None and values.playback is None:
         refused = "which world? Name a file or a built-in world, for example: gz sim -r lidar_room.sdf"
     if refused:
         sys.stderr.write(f"gz sim: {refused}\n")
@@ -178,13 +179,8 @@ def broadcaster() -> Plugin:
 
 def _recorder(values: argparse.Namespace) -> list[Plugin]:
     """Return the LogRecord plugin for the options, or an empty list."""
-    from gz_course.sim.gz.sim.sdf.description import Plugin
-    from gz_course.sim.gz.sim.sdf.element import Element
-
     if not (values.record or values.record_path or values.record_topic):
         return []
-    where = "command line"
-    element = Element("plugin", {"name": "gz::sim::systems::LogRecord", "filename": "gz-sim-log-record-system"})
     texts = [("record_topic", topic) for topic in values.record_topic]
     if values.record_path:
         texts.append(("record_path", values.record_path))
@@ -192,9 +188,30 @@ def _recorder(values: argparse.Namespace) -> list[Plugin]:
         texts.append(("record_period", repr(values.record_period)))
     if values.log_overwrite:
         texts.append(("overwrite", "true"))
-    element.file = where
-    element.children = [Element(tag, {}, text, file=where) for tag, text in texts]
-    return [Plugin(element.attributes["name"], element.attributes["filename"], element)]
+    return [_plugin("LogRecord", "gz-sim-log-record-system", texts)]
+
+
+def _recorded(path: Path, viewed: list[Plugin]) -> tuple[World, int]:
+    """Return the world of a recording, which shows what was recorded, and the time of its end [ns]."""
+    from gz_course.sim.gz.sim.errors import Diagnostics
+    from gz_course.sim.gz.sim.systems.log_playback import recorded_world
+    from gz_course.sim.gz.sim.world import World
+
+    description, end_ns = recorded_world(path)
+    playback = _plugin("LogPlayback", "gz-sim-log-playback-system", [("playback_path", str(path))])
+    scene = _plugin("SceneBroadcaster", "gz-sim-scene-broadcaster-system", [])
+    description.plugins = [playback, scene, *viewed]
+    return World(description, Diagnostics(quiet=True)), end_ns
+
+
+def _plugin(name: str, filename: str, texts: list[tuple[str, str]]) -> Plugin:
+    """Return a plugin of the world that the command line asks for, with its parameters."""
+    from gz_course.sim.gz.sim.sdf.description import Plugin
+    from gz_course.sim.gz.sim.sdf.element import Element
+
+    element = Element("plugin", {"name": f"gz::sim::systems::{name}", "filename": filename}, file="command line")
+    element.children = [Element(tag, {}, text, file=element.file) for tag, text in texts]
+    return Plugin(element.name, filename, element)
 
 
 def _look_for_others(node: Node) -> None:
@@ -220,15 +237,20 @@ def _simulate(values: argparse.Namespace, stop: threading.Event) -> int:
     from gz_course.sim.gz.sim.world import World
     from gz_course.sim.gz.transport import Node, NodeOptions
 
+    viewed, end_ns = [broadcaster()] if Server.offers_view else [], None
     try:
-        world = World.load(
-            Path(values.file),
-            seed=values.seed,
-            render_engine=values.render_engine,
-            initial_sim_time=values.initial_sim_time,
-            strict=values.strict,
-            server_plugins=[*_recorder(values), *([broadcaster()] if Server.offers_view else [])],
-        )
+        if values.playback is not None:
+            world, end_ns = _recorded(Path(values.playback), viewed)
+        else:
+            world = World.load(
+                Path(values.file),
+                seed=values.seed,
+                render_engine=values.render_engine,
+                initial_sim_time=values.initial_sim_time,
+                strict=values.strict,
+                lenient=not values.strict,
+                server_plugins=[*_recorder(values), *viewed],
+            )
     except SimError as error:
         sys.stderr.write(f"gz sim: {error}\n")
         return 1
@@ -241,6 +263,7 @@ def _simulate(values: argparse.Namespace, stop: threading.Event) -> int:
         try:
             server = Server(world, node)
             server.paused = not values.run
+            server.control.end_ns = end_ns
             threading.Thread(target=_look_for_others, args=(node,), daemon=True).start()
             LOG.info("world '%s' is loaded with models %s", world.name, world.model_names(static=True))
             seen = server.offers_view and not values.server

@@ -1,8 +1,10 @@
 """XML of an SDF file as a tree of elements with their file and line.
 
 Gazebo's parser (tinyxml2) accepts texts that strict XML parsers reject ("--" inside comments, undeclared prefixes such
-as `gz:policies`, an `<?xml?>` line after white space). Therefore comments and declarations are blanked first, keeping
-the line numbers, and expat runs without namespaces.
+as `gz:policies`, an `<?xml?>` line after white space, words before the first tag). Therefore these words, comments and
+declarations are blanked first, keeping the line numbers, and expat runs without namespaces.
+
+Source: https://github.com/leethomason/tinyxml2, `XMLNode::ParseDeep` (where a declaration may stand)
 """
 
 from __future__ import annotations
@@ -11,7 +13,7 @@ import math
 import re
 import xml.parsers.expat
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -25,6 +27,7 @@ MOST_ELEMENTS = 500_000
 """Maximum number of elements in a file; a world of 3000 models has 100,000."""
 
 _OPENING = re.compile(r"<!--|<!\[CDATA\[|<\?xml")
+_MARKUP = re.compile(r"<[\w:!?]")
 _LONE_AMPERSAND = re.compile(r"&(?!(?:lt|gt|amp|quot|apos|#[0-9]{1,10}|#x[0-9a-fA-F]{1,8});)")
 _CLOSING_TAG = re.compile(r"</\s*([^\s<>/]+)")
 _CLOSING = {"<!-": "-->", "<?x": "?>", "<![": "]]>"}
@@ -61,7 +64,9 @@ class Element:
 
     def error(self, sentence: str) -> SdfError:
         """Return an error with `sentence` about this element, without raising it."""
-        return SdfError(f"{self.where}: {one_line(sentence)}")
+        error = SdfError(f"{self.where}: {one_line(sentence)}")
+        error.element = self
+        return error
 
     def find(self, tag: str) -> Element | None:
         """Return the first child called `tag`; `a/b` means child `b` of child `a`."""
@@ -76,6 +81,12 @@ class Element:
     def all(self, *tags: str) -> Iterator[Element]:
         """Yield the direct children whose tag is one of `tags`, in file order."""
         return (child for child in self.children if child.tag in tags)
+
+    def below(self) -> Iterator[Element]:
+        """Yield this element and all below it, in file order."""
+        yield self
+        for child in self.children:
+            yield from child.below()
 
     def text_of(self, tag: str, default: str = "") -> str:
         """Return the text of child `tag`, or `default` when it is missing or empty."""
@@ -93,7 +104,7 @@ class Element:
         """Return child `tag` as an int; `360.0` is accepted, as in Gazebo."""
         value = self.number(tag, float(default))
         if not math.isfinite(value):
-            raise self.error(f"<{tag}> must be a whole number, got '{self.text_of(tag)}'")
+            raise (self.find(tag) or self).error(f"<{tag}> must be a whole number, got '{self.text_of(tag)}'")
         return int(value)
 
     def mask(self, tag: str, default: int) -> int:
@@ -102,7 +113,9 @@ class Element:
         try:
             return int(text, 0) & 0xFFFFFFFF if text else default
         except ValueError:
-            raise self.error(f"<{tag}> must be a whole number such as 1 or 0x01, got '{text}'") from None
+            raise (self.find(tag) or self).error(
+                f"<{tag}> must be a whole number such as 1 or 0x01, got '{text}'"
+            ) from None
 
     def flag(self, tag: str, default: bool) -> bool:
         """Return child `tag` as a boolean (true/false/1/0)."""
@@ -161,6 +174,12 @@ class Element:
         return pose
 
 
+def without(element: Element, gone: Element) -> Element:
+    """Return a copy of an element that lacks one of those below it."""
+    kept = [without(child, gone) for child in element.children if child is not gone]
+    return replace(element, children=kept)
+
+
 def _advice(element: Element, count: int) -> str:
     """Return what to change in a text that is not `count` numbers, or an empty text."""
     text = element.text
@@ -217,7 +236,7 @@ def parse(text: str, file: str = "<string>") -> Element:
     parser.EntityDeclHandler = entity
     text = text.removeprefix("\ufeff")
     first = text.split(maxsplit=1)[0] if text.strip() else ""
-    if not first.startswith("<"):
+    if not first.startswith("<") and not _MARKUP.search(text):
         what = f"it begins with '{first[:20]}'" if first else "it is empty"
         raise SdfError(f"{file}:1: this is no XML: {one_line(what)}, but an SDF or URDF begins with '<'")
     blanked = _blanked(text, file)
@@ -240,16 +259,28 @@ def parse(text: str, file: str = "<string>") -> Element:
 
 
 def _blanked(text: str, file: str) -> str:
-    """Replace comments and XML declarations by their line breaks, and an & that begins no reference by `&amp;`.
+    """Replace comments, XML declarations and words before the first tag by their line breaks, and an & that begins no
+    reference by `&amp;`.
 
-    libsdformat takes such an & for itself. Raises SdfError for an unterminated comment.
+    libsdformat passes such words over and takes such an & for itself. Raises SdfError for an unterminated comment, and
+    for a declaration behind anything else.
     """
-    kept: list[str] = []
-    done = 0
+    begin = _MARKUP.search(text)
+    done = begin.start() if begin is not None else 0
+    kept = ["\n" * text.count("\n", 0, done)]
+    at_top = not text[:done].strip()
     for opening in _OPENING.finditer(text):
         if opening.start() < done:
             continue
         closing = _CLOSING[opening.group()[:3]]
+        at_top = at_top and not text[done : opening.start()].strip()
+        if closing == "?>" and not at_top:
+            line = text.count("\n", 0, opening.start()) + 1
+            raise SdfError(
+                f"{file}:{line}: the <?xml ...?> line must be the first in the file, before comments and text too, "
+                "or Gazebo refuses the file; move it to the top"
+            )
+        at_top = at_top and closing == "?>"
         end = text.find(closing, opening.end())
         if end < 0 and closing == "-->":
             line = text.count("\n", 0, opening.start()) + 1

@@ -60,6 +60,9 @@ def sdf_version(root: Element) -> Version:
 def read_root(text: str, file: str, diagnostics: Diagnostics) -> Element:
     """Return the `<sdf>` element of a text and check its elements and attributes; a URDF `<robot>` is converted."""
     root = parse(text, file)
+    begin = text.lstrip().partition("<")[0].removeprefix("\ufeff").strip()
+    if begin:
+        diagnostics.warn(f"{file}:1", f"the text before the first tag is passed over: '{begin[:20]}'")
     restore_places(root)
     if root.tag == "robot":
         plausibility.check_origins(root, diagnostics)

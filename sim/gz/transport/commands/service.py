@@ -1,7 +1,7 @@
 """Look at services and call them: `gz service -l`, `gz service -s /world/default/control ...`.
 
-The output is that of the tool of Gazebo Harmonic. A failed call ends with exit code 1, not with Gazebo's 0; if no
-provider answered, the nearest service or the right types are named.
+Output and exit codes are those of the tool of Gazebo Harmonic: a call that fails or that nobody answers ends with 0,
+too. If no provider answered, the nearest service or the right types are named.
 
 Source: https://github.com/gazebosim/gz-transport/blob/gz-transport13/src/cmd/service_main.cc
 """
@@ -80,10 +80,10 @@ def _call(node: Node, values: argparse.Namespace) -> int:
     if not outcome.executed:
         why = _why_not(node, values.service, request_type, response_type, values.timeout)
         print(f"Service call timed out: {why}", file=sys.stderr)
-        return 1
+        return 0
     if not outcome.result:
         print("Service call failed")
-        return 1
+        return 0
     if canonical_name(response_type) != EMPTY_TYPE:
         response.ParseFromString(outcome.response)
         sys.stdout.write(f"{to_text(response)}\n")

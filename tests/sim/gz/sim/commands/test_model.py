@@ -46,9 +46,23 @@ def running() -> Iterator[None]:
 @pytest.mark.usefixtures("running")
 def test_list_and_look(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["model", "--list"]) == 0
-    assert capsys.readouterr().out == "Available models:\n    - arm\n"
+    request = "\nRequesting state for world [a small world]...\n\n"
+    assert capsys.readouterr().out == f"{request}Available models:\n    - arm\n"
     assert main(["model", "-m", "arm", "-p"]) == 0
-    assert capsys.readouterr().out == "[1.000000 2.000000 3.000000]\n[0.000000 0.000000 0.500000]\n"
+    out = capsys.readouterr().out
+    number = out.partition("Model: [")[2].partition("]")[0]
+    assert out == f"{request}Model: [{number}]\n  - Name: arm\n" + (
+        "  - Pose [ XYZ (m) ] [ RPY (rad) ]:\n    [1.000000 2.000000 3.000000]\n    [0.000000 0.000000 0.500000]\n"
+    )
+    assert main(["model", "-m", "arm", "-j", "elbow"]) == 0
+    out = capsys.readouterr().out.removeprefix(request)
+    lines = ["  - Name: elbow", f"  - Parent: arm [{number}]", "  - Type: revolute"]
+    assert out.startswith("- Joint [") and out.splitlines()[1:4] == lines
+    assert "  - Parent Link: base [" in out and out.endswith("  - Axis unit vector [ XYZ ]:\n    [0 0 1]\n")
+    assert main(["model", "-m", "arm", "-l", "base", "-p"]) == 0
+    out = capsys.readouterr().out
+    assert "\n  - Link [" in out and "\n    - Mass (kg): 1.000000\n" in out
+    assert "\n    - Inertial Matrix (kg.m^2):\n      [1.000000 0.000000 0.000000]\n" in out
     assert main(["model", "-m", "arm"]) == 0
     out = capsys.readouterr().out
     assert "Name: arm" in out and "Name: upper" in out and "Name: elbow" in out and "Type: revolute" in out
@@ -56,7 +70,13 @@ def test_list_and_look(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["model", "-m", "arm", "-s", "eye"]) == 0
     out = capsys.readouterr().out
     assert "- Name: eye" in out and "Image width (px): 64" in out and "Update rate (Hz): 5" in out
-    assert "[0.000000 0.000000 1.000000]" in out and "Name: ear" not in out and "Link [" not in out
+    assert (
+        "[0.000000 0.000000 1.000000]" in out
+        and "  - Image noise:\n    - Mean: 0\n" in out
+        and "Name: ear" not in out
+        and "Link [" not in out
+    )
+    assert "  - Image noise:\n    - Mean: 0\n" in out
     assert main(["model", "-m", "arm", "-s", "eyes"]) == 1
     assert "did you mean 'eye'" in capsys.readouterr().err
     assert main(["model", "-m", "arn"]) == 1

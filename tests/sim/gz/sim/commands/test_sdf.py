@@ -67,3 +67,39 @@ def test_print_converts_a_urdf(tmp_path: Path, capsys: pytest.CaptureFixture[str
     assert main(["sdf", "-p", str(path)]) == 0
     out = capsys.readouterr().out
     assert '<model name="r">' in out and '<link name="base">' in out
+
+
+AUTO = """<sdf version="1.11"><model name="m"><pose degrees="true">1 2.5 3 0 0 89.995</pose><link name="a">
+<pose>0 0 1 0 0 0</pose><inertial auto="true"/><collision name="c"><density>1000</density><geometry><box>
+<size>1 1 1</size></box></geometry></collision></link>
+<link name="b"><inertial><mass>1000</mass></inertial></link></model></sdf>"""
+
+
+def test_angles_digits_and_automatic_inertias(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "model.sdf"
+    path.write_text(AUTO)
+    assert main(["sdf", "-p", str(path), "--degrees", "--precision", "3"]) == 0
+    out = capsys.readouterr().out
+    assert '<pose degrees="true">1 2.5 3 0 0 90</pose>' in out and '<inertial auto="true"/>' in out
+    assert main(["sdf", "-p", str(path), "--snap-to-degrees", "45"]) == 0
+    assert '<pose degrees="true">1 2.5 3 0 0 90</pose>' in capsys.readouterr().out
+    assert main(["sdf", "-p", str(path), "--snap-to-degrees", "45", "--snap-tolerance", "0.001"]) == 0
+    assert " 89.995" in capsys.readouterr().out
+    assert main(["sdf", "-p", str(path), "--expand-auto-inertials"]) == 0
+    out = capsys.readouterr().out
+    assert "auto" not in out and "<mass>1000.0</mass>" in out and "<ixx>166.66666666666" in out
+    assert main(["sdf", "-p", str(path), "--snap-to-degrees", "400"]) == 1
+    assert "at most 360" in capsys.readouterr().err
+
+
+def test_statistics_of_the_inertia(world: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "model.sdf"
+    path.write_text(AUTO)
+    assert main(["sdf", "--inertial-stats", str(path)]) == 0
+    assert capsys.readouterr().out == (
+        "Inertial statistics for model: m\n---\nTotal mass of the model: 2000\n---\n"
+        "Centre of mass in model frame: \nX: 0\nY: 0\nZ: 0.5\n---\nMoment of inertia matrix: \n"
+        "667.667  0        0        \n0        667.667  0        \n0        0        167.667  \n---\n"
+    )
+    assert main(["sdf", "--inertial-stats", str(world)]) == 255
+    assert "is a world file" in capsys.readouterr().err

@@ -75,6 +75,29 @@ def test_malformed_xml_says_what_to_do(text: str, sentence: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        ("words <?xml version='1.0'?><sdf/>", 1),
+        ("<!-- license -->\n<?xml version='1.0'?><sdf/>", 2),
+        ("<sdf>\n<?xml version='1.0'?></sdf>", 2),
+        ("<?xml?> words <?xml?><sdf/>", 1),
+    ],
+)
+def test_a_declaration_stands_first_as_in_gazebo(text: str, line: int) -> None:
+    with pytest.raises(SdfError) as caught:
+        parse(text, "f.sdf")
+    assert str(caught.value).startswith(f"f.sdf:{line}: the <?xml ...?> line must be the first")
+
+
+@pytest.mark.parametrize(
+    "text", ["two words\n<sdf><a/></sdf>", "\n <?xml?>\n<?xml?><sdf><a/></sdf>", "a < b <!-- <c> -->\n<sdf><a/></sdf>"]
+)
+def test_words_before_the_first_tag_are_passed_over(text: str) -> None:
+    root = parse(text, "f.sdf")
+    assert (root.tag, root.line, root.children[0].tag) == ("sdf", text.count("\n") + 1, "a")
+
+
+@pytest.mark.parametrize(
     ("text", "advice"),
     [
         ("<size>1,1,1</size>", "; write blanks between numbers and a point before decimals, no commas"),
