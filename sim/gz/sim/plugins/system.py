@@ -50,6 +50,8 @@ class System:
     """True if a world may have only one instance."""
     joins_topics: ClassVar[bool] = False
     """True if it may share topics of other systems without a warning."""
+    pushes: ClassVar[bool] = False
+    """True if `pre_update` adds forces to `data.xfrc_applied`, which then is zero at the beginning of every step."""
 
     @classmethod
     def servos(cls, model: Model, plugin: Plugin) -> list[JointServo]:
@@ -124,6 +126,7 @@ GAZEBO_SYSTEMS = frozenset(
     [
         "AckermannSteering",
         "AcousticComms",
+        "AdvancedLiftDrag",
         "AirPressure",
         "AirSpeed",
         "Altimeter",
@@ -133,12 +136,17 @@ GAZEBO_SYSTEMS = frozenset(
         "Buoyancy",
         "BuoyancyEngine",
         "CameraVideoRecorder",
+        "ColladaWorldExporter",
         "CommsEndpoint",
         "Contact",
         "DetachableJoint",
+        "DiffDrive",
         "DopplerVelocityLog",
+        "DopplerVelocityLogSystem",
         "DriveToPoseController",
+        "Elevator",
         "EnvironmentPreload",
+        "EnvironmentalSystem",
         "FollowActor",
         "ForceTorque",
         "Hydrodynamics",
@@ -151,8 +159,10 @@ GAZEBO_SYSTEMS = frozenset(
         "Label",
         "LensFlare",
         "LiftDrag",
+        "LinearBatteryPlugin",
         "LogPlayback",
         "LogRecord",
+        "LogVideoRecorder",
         "LogicalAudio",
         "LogicalCamera",
         "Magnetometer",
@@ -164,6 +174,7 @@ GAZEBO_SYSTEMS = frozenset(
         "OdometryPublisher",
         "OpticalTactilePlugin",
         "ParticleEmitter",
+        "PerfectComms",
         "PerformerDetector",
         "PosePublisher",
         "PythonSystemLoader",
@@ -188,7 +199,10 @@ GAZEBO_SYSTEMS = frozenset(
         "WindEffects",
     ]
 )
-"""Names of systems of Gazebo, of which some run here."""
+"""Names of the systems of Gazebo 8, whether they run here or not.
+
+Source: https://github.com/gazebosim/gz-sim/tree/gz-sim8/src/systems
+"""
 
 
 def other_gazebo_systems() -> frozenset[str]:
