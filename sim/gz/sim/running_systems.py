@@ -53,6 +53,7 @@ class RunningSystems:
         self._options_of: Node | None = None
         self._shared_topics = SharedTopics(world.diagnostics)
         self.pre_updates: list[Hook] = []
+        self.in_steps: list[Hook] = []
         self.post_updates: list[Hook] = []
         self.paused_updates: list[Hook] = []
 
@@ -146,8 +147,14 @@ class RunningSystems:
         for each in self._running:
             each.system.bind()
         self.pre_updates = self._hooks("pre_update")
+        if any(each.pushes for each in self):
+            self.pre_updates.insert(0, self._clear_forces)
+        self.in_steps = self._hooks("in_step")
         self.post_updates = self._hooks("post_update")
         self.paused_updates = self._hooks("paused_update")
+
+    def _clear_forces(self, info: UpdateInfo) -> None:
+        self._world.data.xfrc_applied[:] = 0.0
 
     def _hooks(self, hook: str) -> list[Hook]:
         return [getattr(each, hook) for each in self if getattr(type(each), hook) is not getattr(System, hook)]
@@ -208,9 +215,15 @@ class RunningSystems:
             running.node.close()
 
     def check_world(self) -> None:
-        """Warn about a world that has plugins but not Physics."""
+        """Warn about a world that has plugins but not Physics, and about wind that moves nothing."""
         description = self._world.description
         wanted = {system_name(plugin) for plugin in description.plugins}
+        if any(description.wind) and "WindEffects" not in wanted:
+            self._world.diagnostics.warn(
+                (description.element.find("wind") or description.element).where,
+                "<wind> moves nothing because the world does not load the WindEffects system; add "
+                "<plugin filename='gz-sim-wind-effects-system' name='gz::sim::systems::WindEffects'/>",
+            )
         if wanted and "Physics" not in wanted:
             self._world.diagnostics.warn(
                 description.element.where,

@@ -3,8 +3,8 @@
 A system is a file in `gz/sim/systems` with a class under the `@system` decorator; nothing else has to be edited.
 `RunningSystems` calls `find_system` for every plugin and then the hooks of the class: `servos` before the physics model
 is built, `configure` once, `bind` after each build, `start` at time zero and after a reset, `connect` when a transport
-node is attached, `pre_update` and `post_update` around every physics step, and `paused_update` while a server is
-paused.
+node is attached, `pre_update` and `post_update` around every physics step and `in_step` within, and `paused_update`
+while a server is paused.
 
 Source: https://gazebosim.org/api/sim/8/createsystemplugins.html
 """
@@ -50,6 +50,8 @@ class System:
     """True if a world may have only one instance."""
     joins_topics: ClassVar[bool] = False
     """True if it may share topics of other systems without a warning."""
+    pushes: ClassVar[bool] = False
+    """True if `pre_update` adds forces to `data.xfrc_applied`, which then is zero at the beginning of every step."""
 
     @classmethod
     def servos(cls, model: Model, plugin: Plugin) -> list[JointServo]:
@@ -78,6 +80,9 @@ class System:
 
     def pre_update(self, info: UpdateInfo) -> None:
         """Act before the physics step, for example set controls."""
+
+    def in_step(self, info: UpdateInfo) -> None:
+        """Change the constraints of the physics step: MuJoCo has found contacts, but not their forces."""
 
     def post_update(self, info: UpdateInfo) -> None:
         """Read the result of the physics step, for example publish it."""
@@ -124,6 +129,7 @@ GAZEBO_SYSTEMS = frozenset(
     [
         "AckermannSteering",
         "AcousticComms",
+        "AdvancedLiftDrag",
         "AirPressure",
         "AirSpeed",
         "Altimeter",
@@ -133,12 +139,17 @@ GAZEBO_SYSTEMS = frozenset(
         "Buoyancy",
         "BuoyancyEngine",
         "CameraVideoRecorder",
+        "ColladaWorldExporter",
         "CommsEndpoint",
         "Contact",
         "DetachableJoint",
+        "DiffDrive",
         "DopplerVelocityLog",
+        "DopplerVelocityLogSystem",
         "DriveToPoseController",
+        "Elevator",
         "EnvironmentPreload",
+        "EnvironmentalSystem",
         "FollowActor",
         "ForceTorque",
         "Hydrodynamics",
@@ -151,8 +162,10 @@ GAZEBO_SYSTEMS = frozenset(
         "Label",
         "LensFlare",
         "LiftDrag",
+        "LinearBatteryPlugin",
         "LogPlayback",
         "LogRecord",
+        "LogVideoRecorder",
         "LogicalAudio",
         "LogicalCamera",
         "Magnetometer",
@@ -164,6 +177,7 @@ GAZEBO_SYSTEMS = frozenset(
         "OdometryPublisher",
         "OpticalTactilePlugin",
         "ParticleEmitter",
+        "PerfectComms",
         "PerformerDetector",
         "PosePublisher",
         "PythonSystemLoader",
@@ -188,7 +202,10 @@ GAZEBO_SYSTEMS = frozenset(
         "WindEffects",
     ]
 )
-"""Names of systems of Gazebo, of which some run here."""
+"""Names of the systems of Gazebo 8, whether they run here or not.
+
+Source: https://github.com/gazebosim/gz-sim/tree/gz-sim8/src/systems
+"""
 
 
 def other_gazebo_systems() -> frozenset[str]:

@@ -1,6 +1,6 @@
 """The base class of all cameras: lens, pixel rays, camera_info, trigger and image messages.
 
-`camera.py`, `depth_camera.py`, `rgbd_camera.py` and `segmentation_camera.py` make their images from the ray hits.
+The cameras of `sensors/` make their images from the ray hits.
 As in Gazebo camera_info is published beside the image (`<parent of topic>/camera_info`), and headers carry
 `<optical_frame_id>` if it is given, else the sensor's frame.
 
@@ -37,7 +37,8 @@ class CameraSensor(SensorBase):
     """True if `camera_info` is beside the topic of the camera, False if it is below it."""
     near_hides = True
     """True if surfaces nearer than the near plane are invisible."""
-    wanted: ClassVar[dict[str, str]] = {}
+    lens: ClassVar[type[Pinhole]] = Pinhole
+    wanted: dict[str, str] = {}  # noqa: RUF012 - some cameras replace it by one of their own
     """The message type of each published topic, by the suffix of the topic."""
 
     def __init__(self, world: WorldAccess, description: Sensor) -> None:
@@ -50,7 +51,7 @@ class CameraSensor(SensorBase):
             reason = "images are not written to disk here; subscribe, or record the topic"
             world.diagnostics.warn(save.where, f"<save> of sensor '{description.name}' is ignored: {reason}")
         self.camera = camera
-        self.pinhole = Pinhole(camera)
+        self.pinhole = self.lens(camera)
         self.noise = Noise.from_sdf(camera.find("noise"))
         self.optical_frame_id = camera.text_of("optical_frame_id", self.frame_id)
         parent = self.topic.rsplit("/", 1)[0] if self.info_beside else self.topic
@@ -59,7 +60,7 @@ class CameraSensor(SensorBase):
         self.trigger_topic = valid_topic(camera.text_of("trigger_topic"), f"{self.topic}/trigger")
         self.directions = self.pinhole.directions()
         # A renderer omits surfaces nearer than the near plane and beyond the far plane.
-        along = self.directions[:, 0]
+        along = self.directions[:, 0] if self.pinhole.planar else np.ones(len(self.directions))
         near = self.pinhole.near / along if self.near_hides else np.zeros(len(along))
         self._along = along
         tiles = Tiles(self.pinhole.width, self.pinhole.height, self.directions, near, self.pinhole.far / along)
@@ -76,12 +77,12 @@ class CameraSensor(SensorBase):
         self._pending = False
 
     def connect(self, node: Node) -> None:
+        from gz_course.sim.gz.msgs import message_class
         from gz_course.sim.gz.msgs.boolean_pb2 import Boolean
         from gz_course.sim.gz.msgs.camera_info_pb2 import CameraInfo
         from gz_course.sim.gz.msgs.image_pb2 import Image
-        from gz_course.sim.gz.msgs.pointcloud_packed_pb2 import PointCloudPacked
 
-        types = {"Image": Image, "PointCloudPacked": PointCloudPacked}
+        types: dict[str, Any] = {kind: message_class(f"gz.msgs.{kind}") for kind in ("Image", *self.wanted.values())}
         self._types = types
         self._info_type = CameraInfo
         self._formats = Image.DESCRIPTOR.file.enum_types_by_name["PixelFormatType"].values_by_name

@@ -28,6 +28,11 @@ class Pinhole:
     clip planes `near` and `far` [m] along x.
     """
 
+    WIDEST = 3.14
+    """The largest horizontal field of view [rad]."""
+    planar = True
+    """True if `near` and `far` are planes, False if they are distances from the camera."""
+
     def __init__(self, camera: Element) -> None:
         """Read a `<camera>` element. Raises SdfError for impossible values."""
         image = camera.find("image") or Element("image", file=camera.file, line=camera.line)
@@ -38,9 +43,9 @@ class Pinhole:
                 "change <width> and <height>"
             )
         self.hfov = camera.number("horizontal_fov", 1.047)
-        if not 0.01 <= self.hfov <= 3.14:
-            text = f"<horizontal_fov> must be between 0.01 and 3.14 rad, got {self.hfov}"
-            if 3.14 < self.hfov < 180.0:
+        if not 0.01 <= self.hfov <= self.WIDEST:
+            text = f"<horizontal_fov> must be between 0.01 and {self.WIDEST:.3g} rad, got {self.hfov}"
+            if self.WIDEST < self.hfov < 180.0:
                 text += f"; {self.hfov:g} degrees are {math.radians(self.hfov):.4f} rad"
             raise (camera.find("horizontal_fov") or camera).error(text)
         clip = camera.find("clip")

@@ -298,7 +298,7 @@ class Model:
 @dataclass(eq=False)
 class WorldDescription:
     """A whole world: step size [ns], `gravity` [m/s^2], `real_time_factor` (0: as fast as possible), `joints` between
-    its models, `magnetic_field` [T] along the world's axes.
+    its models, `magnetic_field` [T] and `wind` [m/s] along the world's axes.
     """
 
     name: str
@@ -312,6 +312,7 @@ class WorldDescription:
     plugins: list[Plugin] = field(default_factory=list)
     spherical_coordinates: SphericalCoordinates | None = None
     magnetic_field: tuple[float, float, float] = (5.5645e-6, 22.8758e-6, -42.3884e-6)
+    wind: tuple[float, float, float] = (0.0, 0.0, 0.0)
     ambient: tuple[float, float, float] = (0.4, 0.4, 0.4)
     background: tuple[float, float, float] = (0.7, 0.7, 0.7)
     version: tuple[int, int] = (1, 10)

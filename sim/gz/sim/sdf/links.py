@@ -85,7 +85,9 @@ def _warn_of_unsupported(element: Element, model: Model, diagnostics: Diagnostic
     if kinematic is not None and element.flag("kinematic", False) and not model.static:
         diagnostics.warn(kinematic.where, f"link '{element.name}' is not held kinematic, forces move it; use <static>")
     if element.find("inertial/fluid_added_mass") is not None:
-        diagnostics.warn(element.where, f"<fluid_added_mass> of link '{element.name}' is ignored: there are no fluids")
+        diagnostics.warn(
+            element.where, f"<fluid_added_mass> of link '{element.name}' is ignored; use the Hydrodynamics system"
+        )
     decay = element.find("velocity_decay")
     if decay is not None and (decay.number("linear", 0.0) or decay.number("angular", 0.0)):
         diagnostics.warn(

@@ -128,6 +128,8 @@ def _sensor(element: Element) -> Found:
         text = f"<update_rate> of sensor '{element.name}' is {rate.text} Hz, so it measures at every step"
         yield rate.where, f"{text}; write how often a second, or 0 for every step"
     for plugin in element.all("plugin"):
+        if plugin.name.endswith("ThermalSensor"):  # it has parameters of the sensor
+            continue
         shown = plugin.attributes.get("filename") or plugin.name
         text = f"plugin '{shown}' inside of sensor '{element.name}' is ignored with all its parameters"
         if "gazebo_ros" in shown:

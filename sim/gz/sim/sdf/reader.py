@@ -112,8 +112,11 @@ class _WorldReader:
             raise world.error("<magnetic_field> must be finite")
         self._read_physics(world, description)
         wind = world.find("wind")
-        if wind is not None and any(wind.vector("linear_velocity", (0.0, 0.0, 0.0))):
-            self._diagnostics.warn(wind.where, "<wind> is not simulated here, the air stands still")
+        if wind is not None:
+            x, y, z = wind.vector("linear_velocity", description.wind)
+            description.wind = (x, y, z)
+            if not all(map(math.isfinite, description.wind)):
+                raise wind.error("<linear_velocity> of <wind> must be finite")
         scene = world.find("scene")
         if scene is not None:
             description.ambient = read_rgb(scene, "ambient", description.ambient)

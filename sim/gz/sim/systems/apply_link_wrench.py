@@ -18,6 +18,7 @@ import mujoco
 import numpy as np
 
 from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.gz.sim.physics.pushes import push
 from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, system
 from gz_course.sim.gz.sim.plugins.topics import valid_topic
 from gz_course.sim.gz.sim.pose import Vector, rotate
@@ -50,6 +51,7 @@ class ApplyLinkWrench(System):
     """The system of the whole world."""
 
     parameters = frozenset(("topic", "topic_persistent", "topic_clear", "persistent", "verbose"))
+    pushes = True
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
         element = plugin.element
@@ -72,11 +74,6 @@ class ApplyLinkWrench(System):
         if not (np.isfinite(force).all() and np.isfinite(torque).all()):
             raise element.error("<force> and <torque> of ApplyLinkWrench must be finite")
         return _Wrench(0, name, kind, force, torque, np.zeros(3))
-
-    def bind(self) -> None:
-        """Clear the forces of the last step, because body ids may have changed."""
-        self.world.data.xfrc_applied[:] = 0.0
-        self._pushed: list[int] = []
 
     def start(self) -> None:
         self._once: deque[_Wrench] = deque(maxlen=_MOST)
@@ -118,10 +115,6 @@ class ApplyLinkWrench(System):
         return _Wrench(*_entity(message.entity), force, torque, offset)
 
     def pre_update(self, info: UpdateInfo) -> None:
-        data = self.world.data
-        for body in self._pushed:
-            data.xfrc_applied[body] = 0.0
-        self._pushed.clear()
         while self._clear:
             gone = self._find(*self._clear.popleft())
             self._persistent = [
@@ -146,13 +139,9 @@ class ApplyLinkWrench(System):
             )
         if body <= 0:
             return
-        data = self.world.data
         self.world.truth.refresh()
-        # MuJoCo applies forces at the centre of mass.
-        lever = data.xpos[body] - data.xipos[body] + rotate(data.xquat[body], wrench.offset)
-        data.xfrc_applied[body, :3] += wrench.force
-        data.xfrc_applied[body, 3:] += wrench.torque + np.cross(lever, wrench.force)
-        self._pushed.append(body)
+        place = self.world.data.xpos[body] + rotate(self.world.data.xquat[body], wrench.offset)
+        push(self.world.data, body, wrench.force, place, wrench.torque)
 
     def _find(self, number: int, name: str, kind: str) -> str:
         """Return the MuJoCo name of the link a wrench acts on, empty if there is none."""

@@ -67,9 +67,9 @@ class LinearBatteryPlugin(System):
         """Read the parameters. Raises SdfError without name, voltage or capacity."""
         element = plugin.element
         self._world = world
-        self._scope = ModelScope(world, model, plugin, self.name)
-        self._battery = element.text_of("battery_name")
-        if not self._battery:
+        self.scope = ModelScope(world, model, plugin, self.name)
+        self.battery = element.text_of("battery_name")
+        if not self.battery:
             raise element.error("LinearBatteryPlugin needs a <battery_name>, none was found")
         self._full_voltage = _positive(element, "voltage")
         self._capacity = _positive(element, "capacity")
@@ -81,17 +81,19 @@ class LinearBatteryPlugin(System):
         self._right = element.flag("fix_issue_225", False)
         self._sign = -1.0 if element.flag("invert_current_sign", False) else 1.0
         self._load = element.number("power_load", 0.0)
+        self.loads: dict[object, float] = {}
+        """The power [W] that each other system of the world draws from this battery."""
         self._drains_at_start = element.flag("start_draining", False)
         self._starting = [child.text for child in element.all("power_draining_topic")]
         self._stopping = [child.text for child in element.all("stop_power_draining_topic")]
         self._rechargeable = element.flag("enable_recharge", False)
         self._by_topic = element.find("recharge_by_topic") is not None
         self._charging_hours = _positive(element, "charging_time") if self._rechargeable else math.inf
-        self.topic = valid_topic(f"/model/{self._scope.name}/battery/{self._battery}")
+        self.topic = valid_topic(f"/model/{self.scope.name}/battery/{self.battery}")
         self._publisher: Any = None
 
     def bind(self) -> None:
-        model, prefix = self._world.model, f"{self._scope.model.name}::"
+        model, prefix = self._world.model, f"{self.scope.model.name}::"
         names = (mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_ACTUATOR, number) for number in range(model.nu))
         self._controls = np.array([number for number, name in enumerate(names) if name.startswith(prefix)], dtype=int)
 
@@ -141,7 +143,8 @@ class LinearBatteryPlugin(System):
     def _update(self, dt: float) -> None:
         if not self._charging and (self._voltage < _LEAST_VOLTAGE or self.state_of_charge < 0.0):
             return
-        drawn = self._load / max(self._voltage, _LEAST_VOLTAGE) if self._draining else 0.0
+        load = self._load + sum(self.loads.values())
+        drawn = load / max(self._voltage, _LEAST_VOLTAGE) if self._draining else 0.0
         if self._charging and self.state_of_charge < _CHARGED:
             drawn -= self._capacity / self._charging_hours
         self._current += dt / max(self._tau, dt) * (drawn - self._current)

@@ -42,7 +42,7 @@ def test_a_built_in_model_comes_by_its_name(name: str) -> None:
 
 def test_everything_stands_in_the_readme() -> None:
     missing = [name for name in (*systems(), *WORLDS) if not re.search(rf"\b{re.escape(name)}\b", README)]
-    aliases = {"depth", "gps", "gpu_ray", "ray", "rgbd", "segmentation"}
+    aliases = {"depth", "gps", "gpu_ray", "ray", "rgbd", "segmentation", "boundingbox", "thermal"}
     missing += [kind for kind in sensor_types() if kind not in aliases and f"`{kind}`" not in README]
     missing += [name for name in MODELS if f"`{name}`" not in README]
     assert not missing

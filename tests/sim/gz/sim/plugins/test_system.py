@@ -14,7 +14,10 @@ from gz_course.sim.gz.sim.world import World
         ("filename='libobstacle1.so' name='obstacle1'", "is not one of Gazebo's own"),
         ("filename='gz-sim-dif-drive-system' name='gz::sim::systems::DifDrive'", "did you mean 'DiffDrive'"),
         ("filename='libgz-sim-imo-system.so' name=''", "no system is called"),
-        ("filename='gz-sim-buoyancy-system' name='gz::sim::systems::Buoyancy'", "exists in Gazebo but not in this"),
+        (
+            "filename='gz-sim-breadcrumbs-system' name='gz::sim::systems::Breadcrumbs'",
+            "exists in Gazebo but not in this",
+        ),
         ("filename='libgazebo_ros_diff_drive.so' name='d'", "is of Gazebo Classic"),
     ],
 )

@@ -59,10 +59,10 @@ def warning_about(name: str, filename: str) -> str:
 def test_a_plugin_of_ones_own_is_not_taken_for_a_misspelt_one() -> None:
     assert "did you mean" not in warning_about("Obstacle1Plugin", "libObstacle1Plugin.so")
     assert "did you mean 'TouchPlugin'" in warning_about("gz::sim::systems::TouchPlugn", "gz-sim-touchplugn-system")
-    assert "exists in Gazebo but not in this simulator" in warning_about("gz::sim::systems::WindEffects", "x")
+    missing = min(other_gazebo_systems())
+    assert "exists in Gazebo but not in this simulator" in warning_about(f"gz::sim::systems::{missing}", "x")
 
 
 def test_no_system_that_runs_here_is_called_missing() -> None:
     assert not other_gazebo_systems() & systems().keys()
-    assert "WindEffects" in other_gazebo_systems()
-    assert "Imu" in GAZEBO_SYSTEMS
+    assert systems().keys() <= GAZEBO_SYSTEMS | {"ViewBroadcaster"}, "or the list is not that of Gazebo"
