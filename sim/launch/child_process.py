@@ -15,7 +15,7 @@ import subprocess
 import threading
 from collections.abc import Callable, Mapping, Sequence
 
-from gz_course.sim.launch.orphan_watch import unwatch, watch
+from gz_course.sim.orphan_watch import unwatch, watch
 
 _CHUNK = 65536
 _LARGEST_PIPE = 1 << 20

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 from typing import TYPE_CHECKING, Any
 
@@ -31,6 +32,9 @@ class LaunchDescriptionSource:
         self.__launch_description = launch_description
         self.__location = [] if location is None else normalize_to_list_of_substitutions(location)
         self.__expanded_location: str | None = None
+        self.__known_location: str | None = None
+        self.__is_known = False
+        self.__looked_into: LaunchDescription | None = None
         self.method = method
 
     @property
@@ -39,32 +43,55 @@ class LaunchDescriptionSource:
         return self.__expanded_location or describe_substitutions(self.__location)
 
     @property
-    def plain_location(self) -> str | None:
-        """Return the path if it is known before the launch runs, else None."""
+    def has_plain_location(self) -> bool:
+        """Return whether the path is plain text, without other substitutions."""
         from gz_course.sim.launch.substitutions import TextSubstitution
 
-        texts = [part.text for part in self.__location if isinstance(part, TextSubstitution)]
-        return "".join(texts) if texts and len(texts) == len(self.__location) else None
+        return bool(self.__location) and all(isinstance(part, TextSubstitution) for part in self.__location)
 
-    def try_get_launch_description_without_context(self) -> LaunchDescription | None:
-        """Return the launch description if it is available before the launch runs, else None.
+    def known_location(self, including_file: str | None = None) -> str | None:
+        """Return the path if it is known before the launch runs, else None.
+
+        Substitutions are performed as far as they need no running launch; ThisLaunchFileDir is the folder of
+        `including_file`.
+        """
+        if self.__expanded_location is not None or not self.__location:
+            return self.__expanded_location
+        if not self.__is_known:
+            from gz_course.sim.launch.launch_context import LaunchContext
+
+            self.__is_known = True
+            context = LaunchContext()
+            if including_file is not None:
+                folder = os.path.dirname(including_file)  # noqa: PTH120
+                context.extend_locals({"current_launch_file_path": including_file})
+                context.extend_locals({"current_launch_file_directory": folder})
+            with contextlib.suppress(Exception):  # reported when the launch runs
+                self.__known_location = perform_substitutions(context, self.__location)
+        return self.__known_location
+
+    def try_get_launch_description_without_context(self, including_file: str | None = None) -> LaunchDescription | None:
+        """Return the launch description if its path is known before the launch runs, else None.
 
         Raises the errors of loading the file.
         """
-        if self.__launch_description is None and self.plain_location is not None:
-            self._load(self.plain_location)
-        return self.__launch_description
+        if self.__launch_description is None and self.__looked_into is None:
+            location = self.known_location(including_file)
+            if location is None:
+                return None
+            self.__looked_into = self._get_launch_description(location)
+        return self.__launch_description or self.__looked_into
 
     def get_launch_description(self, context: LaunchContext) -> LaunchDescription:
         """Return the launch description, loaded at the first call."""
         if self.__launch_description is None:
-            self._load(perform_substitutions(context, self.__location))
-        assert self.__launch_description is not None
+            location = perform_substitutions(context, self.__location)
+            self.__expanded_location = os.path.abspath(location) if location else location  # noqa: PTH100
+            if self.__looked_into is not None and self.__known_location == location:
+                self.__launch_description = self.__looked_into
+            else:
+                self.__launch_description = self._get_launch_description(location)
         return self.__launch_description
-
-    def _load(self, location: str) -> None:
-        self.__expanded_location = os.path.abspath(location) if location else location  # noqa: PTH100
-        self.__launch_description = self._get_launch_description(location)
 
     def _get_launch_description(self, location: str) -> LaunchDescription:
         raise InvalidLaunchFileError(f"{type(self).__name__} does not say how '{location}' is loaded")

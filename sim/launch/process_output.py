@@ -5,7 +5,7 @@
     screen   both streams on the screen
     log      both in launch.log, stderr also on the screen (the default)
     both     both in launch.log and on the screen
-    own_log  <label>-stdout.log, <label>-stderr.log and <label>.log (both streams) in the log folder
+    own_log  <label>-stdout.log, <label>-stderr.log and <label>.log (both streams) in the log folder, lines as on screen
     full     all of these
 
 or with a dict: `{"stdout": "screen", "stderr": {"log", "own_log"}}`.
@@ -115,13 +115,13 @@ class ProcessOutput:
         if "screen" in sinks:
             launch_config.write_to_screen("".join([self._format(line) + "\n" for line in lines]))
         if "own_log" in sinks:
-            self._write_file(f"{self._label}-{stream}.log", raw)
+            self._write_file(f"{self._label}-{stream}.log", lines)
         if _OWN_OF_BOTH in sinks:
-            self._write_file(f"{self._label}.log", raw)
+            self._write_file(f"{self._label}.log", lines)
 
-    def _write_file(self, name: str, lines: Iterable[bytes]) -> None:
+    def _write_file(self, name: str, lines: Iterable[str]) -> None:
         with contextlib.suppress(OSError):
             if name not in self._files:
                 path = Path(launch_config.log_dir) / name.replace(os.sep, "_")
                 self._files[name] = path.open("ab", buffering=0)
-            self._files[name].write(b"".join([line + b"\n" for line in lines]))
+            self._files[name].write("".join([self._format(line) + "\n" for line in lines]).encode(errors="replace"))

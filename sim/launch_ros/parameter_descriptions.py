@@ -14,14 +14,15 @@ from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
 from gz_course.sim.launch.substitution import Substitution
 from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
-from gz_course.sim.launch_ros.parameter_values import Value, check_value, coerce, evaluate_value
+from gz_course.sim.launch_ros.parameter_values import Value, check_type, check_value, coerce, evaluate_value
 
 
 class ParameterValue:
     """A value of a given type: `value_type` is str, int, float, bool or List[...] of one of them.
 
-    Without a type it is the value itself. A text, such as the result of `Command`, is parsed as YAML unless
-    `value_type` is str.
+    Without a type it is the value itself. A substitution, such as `Command`, is converted to the type; its text is
+    parsed as YAML unless that is str. Any other value must have the type: ParameterTypeError (a TypeError) for `'3'`
+    with int.
     """
 
     def __init__(self, value: Any, *, value_type: Any = None) -> None:
@@ -29,6 +30,8 @@ class ParameterValue:
         self.value_type = value_type
         if not (isinstance(value, list | tuple) and any(isinstance(item, Substitution) for item in value)):
             check_value("ParameterValue", value)
+            if value_type is not None:
+                check_type(value, value_type)
 
     @property
     def value(self) -> Any:

@@ -49,6 +49,20 @@ def check_value(name: str, value: Any) -> None:
         )
 
 
+def check_type(value: Any, value_type: Any) -> None:
+    """Raise ParameterTypeError if a value that needs no conversion, such as `3`, is not of the type given with it."""
+    items, item_type = [value], value_type
+    if isinstance(value, Substitution | Mapping):
+        return
+    if get_origin(value_type) is list and isinstance(value, list | tuple):
+        items, item_type = uniform("ParameterValue", value), get_args(value_type)[0]
+    if item_type not in SCALARS:
+        raise _not_of_type("", value, value_type) if get_origin(value_type) is list else _no_type("", value_type)
+    if not all(isinstance(item, item_type) for item in items):
+        error = _not_of_type("", value, value_type)
+        raise ParameterTypeError(f"{error}; only substitutions are converted")
+
+
 def evaluate_value(context: LaunchContext, name: str, value: Any) -> Value:
     """Return the value for the node. Raises ParameterTypeError."""
     from gz_course.sim.launch_ros.parameter_descriptions import ParameterValue
@@ -133,10 +147,7 @@ def coerce(name: str, value: Any, value_type: Any) -> Value:
             raise _not_of_type(name, value, value_type)
         return uniform(name, [coerce(name, item, item_type) for item in value])
     if value_type not in SCALARS:
-        raise ParameterTypeError(
-            f"value_type={value_type!r} of the parameter '{name}' is no type of parameters; bool, int, float, str and "
-            "List[...] of them are"
-        )
+        raise _no_type(name, value_type)
     if value_type is str:
         return value if isinstance(value, str) else str(value)
     read = from_yaml(name, value) if isinstance(value, str) else value
@@ -149,8 +160,14 @@ def coerce(name: str, value: Any, value_type: Any) -> Value:
 
 def _not_of_type(name: str, value: Any, value_type: Any) -> ParameterTypeError:
     wanted = getattr(value_type, "__name__", str(value_type)) if get_origin(value_type) is None else str(value_type)
+    whose = f" of the parameter '{name}'" if name else " of ParameterValue"
+    return ParameterTypeError(f"the value {value!r}{whose} is no {wanted}, which value_type asks for")
+
+
+def _no_type(name: str, value_type: Any) -> ParameterTypeError:
+    whose = f" of the parameter '{name}'" if name else ""
     return ParameterTypeError(
-        f"the value {value!r} of the parameter '{name}' is no {wanted}, which value_type asks for"
+        f"value_type={value_type!r}{whose} is no type of parameters; bool, int, float, str and List[...] of them are"
     )
 
 

@@ -1,4 +1,4 @@
-"""Runs the program of `ros2 run` in the foreground and forwards signals to it.
+"""Runs the program of `ros2 run` in the foreground, forwards signals to it, and lets it end with `ros2 run`.
 
 Without a terminal the child has its own process group, and a signal sent to this process is forwarded to that group. On
 a terminal the child stays in this process's group, so that Ctrl-C, Ctrl-Z and reading keys work as if it had been
@@ -13,6 +13,8 @@ import signal
 import sys
 from collections.abc import Sequence
 from typing import Any
+
+from gz_course.sim.orphan_watch import unwatch, unwatch_process, watch, watch_process
 
 PASSED_ON = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
@@ -34,19 +36,28 @@ def run_child(command: Sequence[str]) -> int:
     try:
         on_terminal = _on_terminal()
         child = _start(command, own_group=not on_terminal)
-        while True:
-            received = signal.sigwaitinfo(awaited)
-            if received.si_signo == signal.SIGCHLD:
-                pid, status = os.waitpid(child, os.WNOHANG)
-                if pid:
-                    return os.waitstatus_to_exitcode(status)
-            elif not on_terminal:
-                os.killpg(child, received.si_signo)
-            elif received.si_code <= 0:
-                # Sent by a process; a signal of the terminal has a positive code and has already reached the child.
-                os.kill(child, received.si_signo)
+        (watch_process if on_terminal else watch)(child)
+        try:
+            return _wait(child, awaited, on_terminal)
+        finally:
+            (unwatch_process if on_terminal else unwatch)(child)
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _wait(child: int, awaited: set[signal.Signals], on_terminal: bool) -> int:
+    """Return the exit code of the child; meanwhile forward signals to it."""
+    while True:
+        received = signal.sigwaitinfo(awaited)
+        if received.si_signo == signal.SIGCHLD:
+            pid, status = os.waitpid(child, os.WNOHANG)
+            if pid:
+                return os.waitstatus_to_exitcode(status)
+        elif not on_terminal:
+            os.killpg(child, received.si_signo)
+        elif received.si_code <= 0:
+            # Sent by a process; a signal of the terminal has a positive code and has already reached the child.
+            os.kill(child, received.si_signo)
 
 
 def _on_terminal() -> bool:

@@ -18,7 +18,7 @@ from gz_course.sim.launch.action import Action
 from gz_course.sim.launch.child_process import ChildProcess
 from gz_course.sim.launch.conditions.evaluate_condition_expression_impl import as_bool, evaluate_condition_expression
 from gz_course.sim.launch.descriptions.executable import Executable
-from gz_course.sim.launch.errors import LaunchError, UsedTwiceError, locate
+from gz_course.sim.launch.errors import LaunchError, UsedTwiceError, locate, sentence
 from gz_course.sim.launch.event import Event
 from gz_course.sim.launch.event_handler import EventHandler, answer, known_entities
 from gz_course.sim.launch.events import Shutdown
@@ -193,6 +193,8 @@ class ExecuteLocal(Action):
     async def _run_once(self, context: LaunchContext, settings: ProcessSettings) -> bool:
         """Run the process once; return whether it may be restarted."""
         child = self._start(context, settings)
+        if child is None:
+            return False
         self.__child = child
         self.__ended.clear()
         self.__gone.clear()
@@ -232,7 +234,8 @@ class ExecuteLocal(Action):
             )
         await child.wait_for_group()
 
-    def _start(self, context: LaunchContext, settings: ProcessSettings) -> ChildProcess:
+    def _start(self, context: LaunchContext, settings: ProcessSettings) -> ChildProcess | None:
+        """Start the process; return None, after an error in the log, if that fails. The others run on."""
         description = self.process_description
         command = description.final_cmd or []
         printed = self.__printed
@@ -259,7 +262,10 @@ class ExecuteLocal(Action):
                 on_output=take,
             )
         except (OSError, ValueError) as error:
-            raise LaunchError(why_not_started(error, command, description.final_cwd, context)) from None
+            failure = LaunchError(why_not_started(error, command, description.final_cwd, context))
+            locate(failure, self._place)
+            settings.logger.error(sentence(failure))
+            return None
         self.process_details = {
             "name": description.final_name,
             "pid": child.pid,

@@ -14,7 +14,7 @@ from gz_course.sim.launch.action import Action
 from gz_course.sim.launch.actions.opaque_coroutine import OpaqueCoroutine
 from gz_course.sim.launch.actions.opaque_function import OpaqueFunction
 from gz_course.sim.launch.actions.set_launch_configuration import SetLaunchConfiguration
-from gz_course.sim.launch.errors import LaunchError, MissingArgumentError
+from gz_course.sim.launch.errors import LaunchError, MissingArgumentError, NotTextError
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.launch_description import LaunchDescription
 from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity
@@ -47,7 +47,7 @@ class IncludeLaunchDescription(Action):
         super().__init__(**kwargs)
         self.launch_description_source = as_source(launch_description_source)
         pairs = launch_arguments.items() if isinstance(launch_arguments, Mapping) else (launch_arguments or ())
-        self.launch_arguments = [_as_pair(pair) for pair in pairs]
+        self.launch_arguments = [_as_pair(pair) for pair in pairs]  # values are looked at on execution
 
     def describe(self) -> str:
         return f"IncludeLaunchDescription({self.launch_description_source.location})"
@@ -55,7 +55,7 @@ class IncludeLaunchDescription(Action):
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """Return the launch description if it can be loaded now; errors are reported on execution."""
         try:
-            description = self.launch_description_source.try_get_launch_description_without_context()
+            description = self.launch_description_source.try_get_launch_description_without_context(self._file)
         except Exception as error:
             launch_logging.get_logger("launch").debug(
                 f"{self.launch_description_source.location} cannot be looked into: {error}"
@@ -63,10 +63,19 @@ class IncludeLaunchDescription(Action):
             return []
         return [] if description is None else [description]
 
+    @property
+    def _file(self) -> str | None:
+        """Return the file that creates the action, in whose folder ThisLaunchFileDir is before the launch runs."""
+        return None if self._place is None else self._place[0]
+
+    @property
+    def _known_location(self) -> str | None:
+        return self.launch_description_source.known_location(self._file)
+
     def leads_back_into(self, chain: Iterable[IncludeLaunchDescription]) -> bool:
         """Return whether one of the including files is the file itself."""
-        own = self.launch_description_source.plain_location
-        others = [each.launch_description_source.plain_location for each in chain]
+        own = self._known_location
+        others = [each._known_location for each in chain]
         return own is not None and any(other is not None and _same(own, other) for other in others)
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
@@ -81,11 +90,12 @@ class IncludeLaunchDescription(Action):
         inside: dict[str, Any] = {_CHAIN: self._extended_chain(before[_CHAIN] or (), context)}
         if location != "''":
             inside |= {CURRENT_FILE: location, CURRENT_FOLDER: os.path.dirname(location)}  # noqa: PTH120
-        given = [perform_substitutions(context, name) for name, _ in self.launch_arguments]
+        pairs = [_normalized(pair) for pair in self.launch_arguments]
+        given = [perform_substitutions(context, name) for name, _ in pairs]
         self._warn_of_unknown(description, given)
         self._check_required(description, given, context)
         context.extend_locals(inside)
-        setting = [SetLaunchConfiguration(name, value) for name, value in self.launch_arguments]
+        setting = [SetLaunchConfiguration(name, value) for name, value in pairs]
 
         def leave(context: LaunchContext) -> None:
             context.extend_locals(before)
@@ -96,7 +106,7 @@ class IncludeLaunchDescription(Action):
         """Return the files being included with their configurations. Raises LaunchError for endless recursion."""
         configurations = repr(sorted(context.launch_configurations.items(), key=lambda item: item[0]))
         here = (self.launch_description_source.location, configurations)
-        if self.launch_description_source.plain_location is None and here[0] == "''":
+        if here[0] == "''":
             return chain
         if here in chain or len(chain) >= _DEEPEST:
             names = " -> ".join(path for path, _ in (*chain[-4:], here))
@@ -139,20 +149,27 @@ def _may_use_anything(entity: LaunchDescriptionEntity, chain: list[IncludeLaunch
     if isinstance(entity, IncludeLaunchDescription):
         if entity.leads_back_into(chain):
             return False
-        if not entity.get_sub_entities():
+        if not entity.launch_description_source.has_plain_location or not entity.get_sub_entities():
             return True
         chain = [*chain, entity]
     groups = [entity.describe_sub_entities(), *[group for _, group in entity.describe_conditional_sub_entities()]]
     return any(_may_use_anything(each, chain) for group in groups for each in group)
 
 
-def _as_pair(pair: Any) -> tuple[list[Substitution], list[Substitution]]:
+def _as_pair(pair: Any) -> tuple[Any, Any]:
     if not isinstance(pair, tuple | list) or len(pair) != 2:
         raise TypeError(
             f"launch_arguments holds {pair!r}; pairs of name and value are expected: "
             'launch_arguments={"name": "value"}.items()'
         )
-    return normalize_to_list_of_substitutions(pair[0]), normalize_to_list_of_substitutions(pair[1])
+    return pair[0], pair[1]
+
+
+def _normalized(pair: tuple[Any, Any]) -> tuple[list[Substitution], list[Substitution]]:
+    name, value = pair
+    if value is None:
+        raise NotTextError(f"the launch argument {name!r} has the value None; leave it out, or give it as text")
+    return normalize_to_list_of_substitutions(name), normalize_to_list_of_substitutions(value)
 
 
 def _same(one: str, other: str) -> bool:

@@ -78,6 +78,9 @@ class TimerAction(Action):
         self.__timer = loop.call_later(period, context.emit_event_sync, TimerEvent(timer_action=self))
         return None
 
+    def _announce_completion(self, context: LaunchContext) -> None:
+        """Emit nothing: OnExecutionComplete is not for timers, whose actions follow later."""
+
     def _settle(self) -> None:
         if self.__timer is not None:
             self.__timer.cancel()

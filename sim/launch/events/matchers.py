@@ -1,20 +1,14 @@
-"""Matchers of events, for EventHandler."""
+"""The matcher of actions for SignalProcess and ShutdownProcess."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from gz_course.sim.launch.event import Event
-
 if TYPE_CHECKING:
     from gz_course.sim.launch.action import Action
 
 
-def matches_action(target_action: Action) -> Callable[[Event], bool]:
-    """Return a matcher for events of this action."""
-
-    def matches(event: Event) -> bool:
-        return getattr(event, "action", None) is target_action
-
-    return matches
+def matches_action(target_action: Action) -> Callable[[Action], bool]:
+    """Return a matcher for exactly this action."""
+    return lambda action: action is target_action

@@ -2,7 +2,8 @@
 
     launch.logging.get_logger("my_launch").info("up and running")
 
-prints `[INFO] [my_launch]: up and running` and writes the same with a time stamp to `launch.log`. The log folder is
+prints `[INFO] [my_launch]: up and running` and writes the same with a time stamp to `launch.log`. The environment
+variables OVERRIDE_LAUNCH_SCREEN_FORMAT and OVERRIDE_LAUNCH_LOG_FORMAT change these lines. The log folder is
 `<date>-<time>-<host>-<pid>` below ROS_LOG_DIR, else ROS_HOME/log, else ~/.ros/log; the first logged line creates it.
 
 Source: ros2/launch, launch/launch/logging/__init__.py
@@ -32,6 +33,8 @@ class LaunchConfig:
         self._reset()
 
     def _reset(self) -> None:
+        self._screen_format = _given_format("OVERRIDE_LAUNCH_SCREEN_FORMAT")
+        self._log_format = _given_format("OVERRIDE_LAUNCH_LOG_FORMAT")
         if self._log_file is not None:
             self._log_file.close()
         self._level = logging.INFO
@@ -80,6 +83,14 @@ class LaunchConfig:
         get_logger("launch").info(f"All log files can be found below {folder}")
         get_logger("launch").info(f"Default logging verbosity is set to {logging.getLevelName(self._level)}")
 
+    def write_record(self, record: logging.LogRecord) -> None:
+        """Write a record of a logger to screen and launch.log."""
+        message = record.getMessage()
+        if record.exc_info:
+            message += "\n" + logging.Formatter().formatException(record.exc_info)
+        self.write_to_screen(_line(self._screen_format, SCREEN_FORMAT, record, message))
+        self.write_to_log(_line(self._log_format, LOG_FORMAT, record, message))
+
     def write_to_screen(self, text: str) -> None:
         """Write whole lines to stdout; a closed pipe does not stop the launch."""
         if self._screen_is_gone:
@@ -124,6 +135,33 @@ class LaunchConfig:
             _point_latest_at(base, folder)
 
 
+def _given_format(variable: str) -> logging.Formatter | None:
+    """Return the line format that an environment variable gives, None for the default.
+
+    The fields are those of `logging.Formatter` in style `{`, in which escapes such as that of a tab are
+    replaced. Two names stand for formats: `default` and `default_with_timestamp`.
+    """
+    text = os.environ.get(variable, "")
+    if text in ("", "default"):
+        return None
+    if text == "default_with_timestamp":
+        text = "{created:.7f} [{levelname}] [{name}]: {msg}"
+    try:
+        formatter = logging.Formatter(text.encode("latin1", "replace").decode("unicode_escape"), style="{")
+        formatter.format(logging.LogRecord("launch", logging.INFO, "", 0, "", (), None))
+    except (ValueError, KeyError, IndexError, AttributeError, TypeError) as error:
+        print(f"{variable}={text!r} is no format of log lines ({error}); the default is used", file=sys.stderr)
+        return None
+    return formatter
+
+
+def _line(given: logging.Formatter | None, default: str, record: logging.LogRecord, message: str) -> str:
+    if given is None:
+        return default.format(record, message) + "\n"
+    copy = logging.makeLogRecord({**record.__dict__, "msg": message, "args": (), "exc_info": None})
+    return given.format(copy) + "\n"
+
+
 def _log_base() -> Path:
     if os.environ.get("ROS_LOG_DIR"):
         return Path(os.environ["ROS_LOG_DIR"]).expanduser()
@@ -147,11 +185,7 @@ class _Handler(logging.Handler):
     """Writes to screen and log file."""
 
     def emit(self, record: logging.LogRecord) -> None:
-        message = record.getMessage()
-        if record.exc_info:
-            message += "\n" + logging.Formatter().formatException(record.exc_info)
-        launch_config.write_to_screen(SCREEN_FORMAT.format(record, message) + "\n")
-        launch_config.write_to_log(LOG_FORMAT.format(record, message) + "\n")
+        launch_config.write_record(record)
 
 
 class _Logger(logging.Logger):

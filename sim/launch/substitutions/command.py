@@ -26,8 +26,8 @@ _TRACE = ("Traceback (most recent", "During handling of the above", "The above e
 class Command(Substitution):
     """The output of `command`, which is split into words like in a shell and started without one.
 
-    `on_stderr` selects what output on stderr does: `fail` (the default), `ignore`, `warn`, or `capture` to append it. A
-    failing command always raises SubstitutionFailure.
+    `on_stderr` selects what output on stderr does: `fail` (the default), `ignore`, `warn`, or `capture`, with which it
+    stands in the result where it was written. A failing command always raises SubstitutionFailure.
     """
 
     def __init__(self, command: SomeSubstitutionsType, *, on_stderr: SomeSubstitutionsType = "fail") -> None:
@@ -49,10 +49,11 @@ class Command(Substitution):
             raise SubstitutionFailure(f"the command {text!r} cannot be split into words: {error}") from None
         if not words:
             raise SubstitutionFailure("the command of Command is empty")
-        code, output, errors = _run(words, context)
+        code, output, errors = _run(words, context, one_stream=on_stderr == "capture")
         if code != 0:
             ended = f"exit code {code}" if code > 0 else f"signal {signal.Signals(-code).name}"
-            said = f": {_without_traces(errors)}" if errors.strip() else ""
+            printed = output if on_stderr == "capture" else errors
+            said = f": {_without_traces(printed)}" if printed.strip() else ""
             raise SubstitutionFailure(f"the command '{text}' failed with {ended}{said}")
         if errors and on_stderr == "fail":
             raise SubstitutionFailure(
@@ -62,7 +63,7 @@ class Command(Substitution):
             launch_logging.get_logger("launch.substitutions.command").warning(
                 f"the command '{text}' wrote to stderr: {errors.strip()}"
             )
-        return output + errors if on_stderr == "capture" else output
+        return output
 
 
 def _without_traces(errors: str) -> str:
@@ -72,8 +73,11 @@ def _without_traces(errors: str) -> str:
     return "; ".join(line for line in errors.splitlines() if line and not line.startswith((" ", *_TRACE)))
 
 
-def _run(words: list[str], context: LaunchContext) -> tuple[int, str, str]:
-    """Return exit code, stdout and stderr of a command; an interruption of this function kills it."""
+def _run(words: list[str], context: LaunchContext, *, one_stream: bool) -> tuple[int, str, str]:
+    """Return exit code, stdout and stderr of a command; with `one_stream` stdout holds both.
+
+    An interruption of this function kills the command.
+    """
     process = None
     try:
         with context.uninterrupted():
@@ -81,7 +85,7 @@ def _run(words: list[str], context: LaunchContext) -> tuple[int, str, str]:
                 words,
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.PIPE,
-                stderr=subprocess.PIPE,
+                stderr=subprocess.STDOUT if one_stream else subprocess.PIPE,
                 env=dict(context.environment),
                 process_group=0,
             )
@@ -98,4 +102,4 @@ def _run(words: list[str], context: LaunchContext) -> tuple[int, str, str]:
                     os.killpg(process.pid, signal.SIGKILL)
                 with process:  # closes the pipes and reaps the process
                     pass
-    return process.returncode, output.decode(errors="replace"), errors.decode(errors="replace")
+    return process.returncode, output.decode(errors="replace"), (errors or b"").decode(errors="replace")

@@ -129,7 +129,8 @@ def _pairs(words: Sequence[str]) -> list[tuple[str, str]]:
     pairs: dict[str, str] = {}
     for word in words:
         name, mark, value = word.partition(":=")
-        if not mark or not name:
+        # `a:=` is refused, but not `a:=b:=`: as ROS 2 counts the marks.
+        if not mark or not name or (not value and word.count(":=") == 1):
             raise CommandError(f"malformed launch argument '{word}', expected format '<name>:=<value>'")
         pairs.pop(name, None)
         pairs[name] = value

@@ -22,14 +22,12 @@ from gz_course.sim.launch.actions import (
 )
 from gz_course.sim.launch.descriptions import Executable
 from gz_course.sim.launch.event_handlers import OnProcessExit, OnProcessIO, OnProcessStart
-from gz_course.sim.launch.events import matches_action
 from gz_course.sim.launch.events.process import (
     ProcessStdin,
     ShutdownProcess,
     SignalProcess,
     matches_executable,
     matches_name,
-    matches_pid,
 )
 from gz_course.sim.launch.substitutions import LaunchConfiguration, LocalSubstitution
 from gz_course.tests.descriptors import own_descriptors
@@ -328,17 +326,6 @@ def test_input_for_who_does_not_read_is_lost(run):
 
     result = run(action, when_printed(action, "up", OpaqueFunction(function=talk)))
     assert result.code == 0
-
-
-def test_matchers(run):
-    action = sh("true")
-    run(action)
-    pid = action.process_details["pid"]
-    assert matches_pid(pid)(action) and not matches_pid(pid + 1)(action)
-    assert matches_name("sh")(action) and matches_name("sh-1")(action) and not matches_name("s")(action)
-    assert not matches_name("sh")(LogInfo(msg=""))
-    event = type("Event", (), {"action": action})()
-    assert matches_action(action)(event) and not matches_action(LogInfo(msg=""))(event)
 
 
 def test_fifty_at_once(run):

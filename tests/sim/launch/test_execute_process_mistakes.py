@@ -2,33 +2,47 @@
 
 import pytest
 
-from gz_course.sim.launch.actions import ExecuteProcess
+from gz_course.sim.launch.actions import ExecuteProcess, Shutdown
 
 
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"cmd": ["no-such-program"]}, "there is no program 'no-such-program' to be started"),
-        ({"cmd": ["slep", "1"]}, "there is no program 'slep' to be started; did you mean 'sleep'?"),
-        ({"cmd": ["true"], "cwd": "/no/such/folder"}, "in the folder '/no/such/folder', which does not exist"),
-        ({"cmd": ["{}/text"]}, "not executable"),
-        ({"cmd": ["{}/program"]}, "its first line must be #!"),
         ({"cmd": []}, "the command is empty"),
         ({"cmd": ["true"], "prefix": "'"}, "cannot be split"),
         ({"cmd": ["true"], "additional_env": {"A=B": "1"}}, "cannot be set"),
-        ({"cmd": ["a\0b"]}, "null byte"),
     ],
 )
-def test_what_cannot_be_started_ends_the_launch(run, tmp_path, options, words):
-    (tmp_path / "text").touch()
-    (tmp_path / "program").write_text("text")
-    (tmp_path / "program").chmod(0o755)
-    options = {**options, "cmd": [word.format(tmp_path) for word in options["cmd"]]}
+def test_what_has_no_command_ends_the_launch(run, options, words):
     result = run(ExecuteProcess(cmd=["sleep", "1000"]), ExecuteProcess(**options))
     assert result.code == 1
     (said,) = (line for line in result.lines if "Caught exception in launch" in line)
     assert words in said
     assert f"{__file__}:" in said, "the place where the action was made"
+    assert "Traceback" not in result.text
+
+
+def test_what_cannot_be_started_fails_alone(run, tmp_path):
+    (tmp_path / "text").touch()
+    (tmp_path / "program").write_text("text")
+    (tmp_path / "program").chmod(0o755)
+    mistakes = [
+        ({"cmd": ["no-such-program"]}, "there is no program 'no-such-program' to be started"),
+        ({"cmd": ["slep", "1"]}, "there is no program 'slep' to be started; did you mean 'sleep'?"),
+        ({"cmd": ["true"], "cwd": "/no/such/folder"}, "in the folder '/no/such/folder', which does not exist"),
+        ({"cmd": [f"{tmp_path}/text"]}, "not executable"),
+        ({"cmd": [f"{tmp_path}/program"]}, "its first line must be #!"),
+        ({"cmd": ["a\0b"]}, "null byte"),
+    ]
+    wrong = [ExecuteProcess(respawn=True, on_exit=Shutdown(), **options) for options, _ in mistakes]
+    result = run(*wrong, ExecuteProcess(cmd=["echo", "runs"], output="screen"))
+    assert (result.code, result.printed_by("echo")) == (0, ["runs"])
+    errors = [line for line in result.lines if line.startswith("[ERROR] [")]
+    assert len(errors) == len(mistakes)
+    for (options, words), said in zip(mistakes, errors, strict=True):
+        label = options["cmd"][0].rpartition("/")[2]
+        assert said.startswith(f"[ERROR] [{label}-") and words in said
+        assert f"{__file__}:" in said, "the place where the action was made"
     assert "Traceback" not in result.text
 
 

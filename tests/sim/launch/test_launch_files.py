@@ -10,6 +10,8 @@ from gz_course.sim.launch.actions import (
     GroupAction,
     IncludeLaunchDescription,
     LogInfo,
+    OpaqueFunction,
+    SetEnvironmentVariable,
     SetLaunchConfiguration,
 )
 from gz_course.sim.launch.conditions import IfCondition
@@ -77,6 +79,36 @@ def test_arguments_as_pairs_or_a_dict_or_a_path_alone(run, write):
         IncludeLaunchDescription(str(path), launch_arguments=["x"])
     with pytest.raises(TypeError, match="PythonLaunchDescriptionSource"):
         IncludeLaunchDescription(3)
+
+
+def test_an_argument_without_a_value_is_refused_only_when_the_include_is_visited(run, write):
+    path = write("a.launch.py", 'LogInfo(msg="visited")')
+    options = {"launch_arguments": {"x": None}.items()}
+    result = run(IncludeLaunchDescription(str(path), condition=IfCondition("false"), **options), LogInfo(msg="on"))
+    assert (result.code, said(result)) == (0, ["on"])
+    result = run(IncludeLaunchDescription(str(path), **options))
+    assert result.code == 1 and "the launch argument 'x' has the value None" in result.text
+
+
+def test_includes_are_looked_into_when_their_path_needs_no_launch(run, write, tmp_path, monkeypatch):
+    """Their substitutions are performed; ThisLaunchFileDir is the folder of the including file."""
+    monkeypatch.setenv("FOLDER", str(tmp_path))
+    write("inner/deep.launch.py", 'DeclareLaunchArgument("deep", default_value="1")')
+    write("inner/b.launch.py", "IncludeLaunchDescription([ThisLaunchFileDir(), '/deep.launch.py'])")
+    path = write(
+        "a.launch.py",
+        'DeclareLaunchArgument("x", default_value="1"),'
+        'IncludeLaunchDescription(PathJoinSubstitution([EnvironmentVariable("FOLDER"), "inner", "b.launch.py"])),'
+        'IncludeLaunchDescription([ThisLaunchFileDir(), "/a.launch.py"], condition=IfCondition("false")),'
+        'IncludeLaunchDescription([LaunchConfiguration("x"), "/none.launch.py"], condition=IfCondition("false")),',
+    )
+    description = get_launch_description_from_python_launch_file(str(path))
+    assert [each.name for each in description.get_launch_arguments()] == ["x", "deep"]
+    (tmp_path / "other").mkdir()
+    write("other/inner/b.launch.py", 'LogInfo(msg="of the other folder")')
+    look = OpaqueFunction(function=lambda context: description.get_launch_arguments() and None)
+    result = run(look, SetEnvironmentVariable("FOLDER", str(tmp_path / "other")), description)
+    assert said(result) == ["of the other folder"], "what was looked into is not what is launched"
 
 
 def test_an_include_shares_the_scope_unless_it_is_grouped(run, write):

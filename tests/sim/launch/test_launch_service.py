@@ -230,6 +230,9 @@ def test_handlers_come_and_go(run):
     )
     calls = [OpaqueFunction(function=lambda context: None) for _ in range(2)]
     assert said(run(RegisterEventHandler(once), *calls)) == ["once"]
+    timer = TimerAction(period=0.0, actions=[note("due")])
+    never = OnExecutionComplete(target_action=timer, on_completion=[note("never")])
+    assert said(run(RegisterEventHandler(never), timer)) == ["due"]
     result = run(RegisterEventHandler(handler), UnregisterEventHandler(handler), UnregisterEventHandler(handler))
     assert result.code == 1 and "is not registered" in result.text
 

@@ -18,6 +18,25 @@ def test_a_line_has_a_level_and_a_name_and_in_the_file_a_time(capsys, log_folder
     assert re.fullmatch(r"\d+\.\d{7} \[WARNING\] \[robot\]: low battery\n", text)
 
 
+def test_the_environment_changes_the_lines(capsys, log_folder, monkeypatch):
+    monkeypatch.setenv("OVERRIDE_LAUNCH_SCREEN_FORMAT", "{levelname:<8}\\t{message}")
+    monkeypatch.setenv("OVERRIDE_LAUNCH_LOG_FORMAT", "default_with_timestamp")
+    launch_logging.reset()
+    launch_logging.get_logger("robot").warning("%d percent", 5)
+    assert capsys.readouterr().out == "WARNING \t5 percent\n"
+    (text,) = (path.read_text() for path in log_folder.glob("*-*/launch.log"))
+    assert re.fullmatch(r"\d+\.\d{7} \[WARNING\] \[robot\]: 5 percent\n", text)
+
+
+def test_a_format_of_lines_that_means_nothing_is_told(capsys, monkeypatch):
+    monkeypatch.setenv("OVERRIDE_LAUNCH_SCREEN_FORMAT", "{nothing}")
+    launch_logging.reset()
+    launch_logging.get_logger("robot").info("hello")
+    seen = capsys.readouterr()
+    assert seen.out == "[INFO] [robot]: hello\n"
+    assert seen.err.startswith("OVERRIDE_LAUNCH_SCREEN_FORMAT='{nothing}' is no format of log lines")
+
+
 def test_the_folder_is_named_after_the_time_the_host_and_the_process(log_folder):
     name = os.path.basename(launch_logging.launch_config.log_dir)  # noqa: PTH119
     assert re.fullmatch(rf"\d{{4}}-\d\d-\d\d-\d\d-\d\d-\d\d-\d{{6}}-.+-{os.getpid()}", name)

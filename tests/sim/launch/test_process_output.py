@@ -94,9 +94,9 @@ def test_files_of_its_own():
     folder = Path(launch_logging.launch_config.log_dir)
     texts = {path.name: path.read_text() for path in folder.glob("robot-1*")}
     assert texts == {
-        "robot-1-stdout.log": "one\nthree\n",
-        "robot-1-stderr.log": "two\n",
-        "robot-1.log": "one\ntwo\nthree\n",
+        "robot-1-stdout.log": "[robot-1] one\n[robot-1] three\n",
+        "robot-1-stderr.log": "[robot-1] two\n",
+        "robot-1.log": "[robot-1] one\n[robot-1] two\n[robot-1] three\n",
     }
 
 

@@ -157,6 +157,8 @@ def test_commands(performed):
     script = "sh -c 'echo out; echo err >&2'"
     assert performed(Command(script, on_stderr="ignore")) == "out\n"
     assert performed(Command(script, on_stderr="capture")) == "out\nerr\n"
+    mixed = "sh -c 'echo err >&2; echo out; echo more >&2'"
+    assert performed(Command(mixed, on_stderr="capture")) == "err\nout\nmore\n"
 
 
 def test_a_command_may_warn_of_stderr(performed, capsys):

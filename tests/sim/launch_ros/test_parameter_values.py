@@ -62,11 +62,12 @@ TABLE = [
     (ParameterValue([text("<robot>: "), text("[")], value_type=str), "<robot>: ["),
     (ParameterValue(text("5"), value_type=float), 5.0),
     (ParameterValue(text("5"), value_type=int), 5),
-    (ParameterValue("true", value_type=bool), True),
+    (ParameterValue(True, value_type=bool), True),
     (ParameterValue(text("[1, 2]"), value_type=list[float]), [1.0, 2.0]),
-    (ParameterValue(["1", "2"], value_type=list[int]), [1, 2]),
+    (ParameterValue([1, 2], value_type=list[int]), [1, 2]),
+    (ParameterValue([1, 2.5], value_type=list[float]), [1.0, 2.5]),
     (ParameterValue(text("5")), 5),
-    (ParameterValue(3, value_type=float), 3.0),
+    (ParameterValue(3.0, value_type=float), 3.0),
 ]
 
 
@@ -101,6 +102,25 @@ def test_the_table(given_value, value):
 def test_what_no_parameter_can_be(value, words):
     with pytest.raises(TypeError) as error:
         evaluated(value)
+    assert words in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("value", "value_type", "words"),
+    [
+        ("3", int, "the value '3' of ParameterValue is no int, which value_type asks for; only substitutions are"),
+        ("true", bool, "'true' of ParameterValue is no bool"),
+        (3, float, "3 of ParameterValue is no float"),
+        (3, str, "3 of ParameterValue is no str"),
+        (["1", "2"], list[int], "['1', '2'] of ParameterValue is no list[int]"),
+        ("[1]", list[int], "'[1]' of ParameterValue is no list[int]"),
+        ([1], int, "[1] of ParameterValue is no int"),
+        (1, dict, "value_type=<class 'dict'> is no type of parameters"),
+    ],
+)
+def test_a_plain_value_must_have_the_type_it_is_given_with(value, value_type, words):
+    with pytest.raises(TypeError) as error:
+        ParameterValue(value, value_type=value_type)
     assert words in str(error.value)
 
 

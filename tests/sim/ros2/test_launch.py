@@ -81,10 +81,10 @@ def test_a_file_by_its_path_and_its_arguments(ros2, write):
         'DeclareLaunchArgument("a"), DeclareLaunchArgument("b", default_value="2"), '
         'LogInfo(msg=[LaunchConfiguration("a"), "|", LaunchConfiguration("b"), "|", LaunchConfiguration("c")])'
     )
-    arguments = ["a:=x:=y z", "c:=1", "c:=", "b:=-r -s"]
+    arguments = ["a:=x:=y z", "c:=1", "c:=2", "b:=-r -s"]
     code, text, errors = ros2("launch", path, *arguments)
     assert (code, errors) == (0, "")
-    assert after_greeting(text)[-1] == "[INFO] [launch.user]: x:=y z|-r -s|"
+    assert after_greeting(text)[-1] == "[INFO] [launch.user]: x:=y z|-r -s|2"
 
 
 @pytest.mark.parametrize(
@@ -98,6 +98,7 @@ def test_a_file_by_its_path_and_its_arguments(ros2, write):
         (["{}/robt.launch.py"], "there is no launch file '{}/robt.launch.py'; did you mean 'robot.launch.py'?"),
         (["{}/robot.launch.py", "a=1"], "malformed launch argument 'a=1', expected format '<name>:=<value>'"),
         (["{}/robot.launch.py", ":=1"], "malformed launch argument ':=1', expected format '<name>:=<value>'"),
+        (["{}/robot.launch.py", "a:="], "malformed launch argument 'a:=', expected format '<name>:=<value>'"),
         (["-s", "{}/broken.launch.py"], "{}/broken.launch.py:1: SyntaxError"),
     ],
 )

@@ -30,7 +30,8 @@ def test_prefix(ros2, arguments, folder):
 
 @pytest.mark.parametrize("verb", ["prefix", "executables", "xml"])
 def test_an_unknown_package_is_an_error_that_names_the_nearest(ros2, verb):
-    sentence = "Package not found; did you mean 'ros_gz_bridge'?\n"
+    whole = "Package 'ros_gz_brige' not found" if verb == "executables" else "Package not found"
+    sentence = f"{whole}; did you mean 'ros_gz_bridge'?\n"
     assert ros2("pkg", verb, "ros_gz_brige") == (1, "", sentence)
 
 

@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 
+import psutil
 import pytest
 
 # Prints the signals it receives, after its own child has printed them.
@@ -89,6 +90,17 @@ def test_a_signal_to_ros2_reaches_the_whole_group_of_the_child(start, workspace,
         f"parent heard {number.name}",
         f"[ros2run]: Process exited with failure {code}",
     ]
+
+
+def test_a_killed_ros2_leaves_no_child(start, workspace):
+    command = start("run", "my_robot", "listener", environment=workspace("listener", LISTENER))
+    command.wait_for("up")
+    family = psutil.Process(command.process.pid).children(recursive=True)
+    left = [each for each in family if "orphan_watch" not in each.cmdline()]
+    assert len(left) == 2
+    command.process.kill()
+    assert psutil.wait_procs(left, timeout=120)[1] == []
+    assert "parent heard SIGINT" in command.wait()[1]
 
 
 def test_signals_the_parent_ignores_are_heard_all_the_same(start, workspace):

@@ -15,5 +15,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def main(arguments: argparse.Namespace) -> None:
     packages = [arguments.package_name] if arguments.package_name else package_names()
     for package in packages:
-        for path in executables(package):
+        for path in executables(package, unknown=f"Package '{package}' not found"):
             print(path if arguments.full_path else f"{package} {path.name}")

@@ -1,9 +1,9 @@
-"""Ends processes whose launch was killed.
+"""Ends processes whose launch was killed, or whose `ros2 run` was.
 
 `ChildProcess` registers each process group from its start to its end. While there is one, a small shell outside of the
 launch's session reads the groups from a pipe. The pipe closes when the launch ends for any reason; the groups that are
 still registered then get SIGINT, later SIGTERM and later SIGKILL. After a normal end none is registered, and the shell
-exits at once.
+exits at once. `ros2 run` registers its child, alone if that is in the group of a terminal's foreground.
 """
 
 from __future__ import annotations
@@ -14,7 +14,8 @@ import subprocess
 import threading
 
 PATIENCE = 50  # [0.1 s] after each signal
-# It reads lines `+ GROUP` and `- GROUP`; its only argument is PATIENCE.
+# It reads lines `+ TARGET` and `- TARGET`, where a target is a number for kill, negative for a process group; its only
+# argument is PATIENCE.
 SCRIPT = """\
 trap '' HUP INT QUIT TERM
 groups=
@@ -25,11 +26,11 @@ while read -r change group; do
     [ "$change" = + ] && groups="$groups $group"
 done
 for name in INT TERM KILL; do
-    for each in $groups; do kill -s $name -- "-$each"; done
+    for each in $groups; do kill -s $name -- "$each"; done
     left=$1
     while [ "$left" -gt 0 ]; do
         living=
-        for each in $groups; do kill -s 0 -- "-$each" && living="$living $each"; done
+        for each in $groups; do kill -s 0 -- "$each" && living="$living $each"; done
         groups=$living
         [ "$groups" ] || exit 0
         sleep 0.1
@@ -44,24 +45,24 @@ class _Watch:
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._groups: set[int] = set()
+        self._targets: set[int] = set()
         self._shell: subprocess.Popen[bytes] | None = None
         self._pipe = -1
 
-    def add(self, group: int) -> None:
+    def add(self, target: int) -> None:
         with self._lock:
-            if not self._groups:
+            if not self._targets:
                 self._start()
-            self._groups.add(group)
-            self._write_line(f"+ {group}\n")
+            self._targets.add(target)
+            self._write_line(f"+ {target}\n")
 
-    def remove(self, group: int) -> None:
+    def remove(self, target: int) -> None:
         with self._lock:
-            if group not in self._groups:
+            if target not in self._targets:
                 return
-            self._groups.remove(group)
-            self._write_line(f"- {group}\n")
-            if not self._groups:
+            self._targets.remove(target)
+            self._write_line(f"- {target}\n")
+            if not self._targets:
                 self._end()
 
     def _start(self) -> None:
@@ -109,9 +110,19 @@ os.register_at_fork(after_in_child=_forget)
 
 def watch(group: int) -> None:
     """End this process group if this process is killed."""
-    _watch.add(group)
+    _watch.add(-group)
 
 
 def unwatch(group: int) -> None:
     """Forget a process group that has ended."""
-    _watch.remove(group)
+    _watch.remove(-group)
+
+
+def watch_process(pid: int) -> None:
+    """End this process, but not the others of its group, if this process is killed."""
+    _watch.add(pid)
+
+
+def unwatch_process(pid: int) -> None:
+    """Forget a process that has ended."""
+    _watch.remove(pid)

@@ -10,9 +10,10 @@ import sys
 import psutil
 import pytest
 
-from gz_course.sim.launch import orphan_watch
+from gz_course.sim import orphan_watch
 from gz_course.sim.launch.actions import ExecuteProcess, OpaqueFunction, RegisterEventHandler, Shutdown
 from gz_course.sim.launch.event_handlers import OnProcessStart
+from gz_course.tests.sim.launch.conftest import log_folder, run  # noqa: F401
 
 KILLED = """\
 import sys
@@ -98,7 +99,7 @@ def test_it_escalates(ignored, patience, end):
         assert child.stdout.readline() == b"up\n"
         gone = subprocess.Popen(["true"], process_group=0)
         gone.wait(120)
-        watch.stdin.write(f"+ {gone.pid}\n+ {child.pid}\n- {gone.pid}\n")
+        watch.stdin.write(f"+ -{gone.pid}\n+ -{child.pid}\n- -{gone.pid}\n")
         watch.stdin.close()
         assert child.wait(120) == end
 
@@ -108,12 +109,12 @@ def test_who_has_ended_is_left_alone():
         subprocess.Popen(["sleep", "1000"], process_group=0) as other,
         subprocess.Popen(["sh", "-c", orphan_watch.SCRIPT, "sh", "2"], stdin=-1, text=True) as watch,
     ):
-        watch.communicate(f"+ {other.pid}\n- {other.pid}\n", timeout=120)
+        watch.communicate(f"+ -{other.pid}\n- -{other.pid}\n", timeout=120)
         assert (watch.returncode, other.poll()) == (0, None)
         other.kill()
 
 
-def test_it_lives_as_long_as_there_are_processes(run, watchers):
+def test_it_lives_as_long_as_there_are_processes(run, watchers):  # noqa: F811
     seen = []
 
     def look(context):
