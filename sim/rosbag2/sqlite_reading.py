@@ -78,7 +78,7 @@ class SqliteReading:
                 database.text_factory = lambda raw: raw.decode(errors="replace")
                 self._check_tables(database)
                 yield database
-        except (sqlite3.Error, OverflowError, MemoryError) as error:
+        except (sqlite3.Error, OverflowError, MemoryError, UnicodeError) as error:
             raise BagError(f"{self._path} is not a readable database of rosbag2: {error}") from None
 
     def _check_tables(self, database: sqlite3.Connection) -> None:
