@@ -134,10 +134,10 @@ class McapReading:
 
     def _take(self, file: BinaryIO, opcode: int, offset: int, length: int) -> None:
         if opcode == Opcode.CHUNK:
-            start, *_ = _CHUNK.unpack(file.read(_CHUNK.size))
+            start, *_ = _CHUNK.unpack(file.read(min(length, _CHUNK.size)))
             self._parts.append(_Part(start, offset, length, True))
         elif opcode == Opcode.MESSAGE:
-            _, _, time, _ = _MESSAGE.unpack(file.read(_MESSAGE.size))
+            _, _, time, _ = _MESSAGE.unpack(file.read(min(length, _MESSAGE.size)))
             self._parts.append(_Part(time, offset, length, False))
         elif opcode in (Opcode.SCHEMA, Opcode.CHANNEL, Opcode.METADATA, Opcode.STATISTICS):
             if length > _LARGEST_RECORD:

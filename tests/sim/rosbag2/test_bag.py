@@ -192,6 +192,15 @@ def test_a_chunk_that_claims_too_much_takes_no_memory(tmp_path):
         assert "not whole" in bag.complaints[0]
 
 
+def test_a_message_shorter_than_its_head_is_left_out(tmp_path):
+    whole = write_bag(tmp_path / "s", count=1, preset="fastwrite") / "s_0.mcap"
+    short = tmp_path / "short.mcap"
+    short.write_bytes(MAGIC + struct.pack("<BQ", 5, 3) + b"abc" + whole.read_bytes()[len(MAGIC) :])
+    bag = Bag(short)
+    assert "a record cannot be read" in bag.complaints[0]
+    assert len(texts(bag)) == 1
+
+
 def test_metadata_of_older_versions_and_of_no_version():
     old = {
         "version": 4,
