@@ -1,4 +1,4 @@
-"""`ros2 doctor`, `ros2 bag` and `ros2 daemon`: commands that are elsewhere or missing here."""
+"""`ros2 doctor` and `ros2 daemon`: commands that are elsewhere or missing here."""
 
 import argparse
 import subprocess
@@ -50,13 +50,6 @@ def test_what_is_missing_is_said(course, monkeypatch, text, sentence):
         course(text)
     with pytest.raises(CommandError, match=sentence):
         run()
-
-
-def test_bags_are_recordings_here(ros2):
-    code, text, errors = ros2("bag", "record", "-a")
-    assert (code, text) == (1, "")
-    assert "course show RECORDING" in errors
-    assert len(errors.splitlines()) == 1
 
 
 def test_the_daemon_does_not_run(ros2):

@@ -1,0 +1,74 @@
+"""Message types that exist only in a bag: made from the definitions that it holds."""
+
+from __future__ import annotations
+
+import importlib
+import os
+import re
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from gz_course.sim.rosbag2.definitions import ENCODING, parts_of
+from gz_course.sim.rosbag2.errors import BagError
+from gz_course.sim.rosidl import packages
+from gz_course.sim.rosidl.package_index import write_index
+
+_NAME = re.compile(r"([a-z][a-z0-9_]{0,99})/msg/([A-Z][A-Za-z0-9]{0,99})")
+_LONGEST = 1 << 20  # characters of a definition
+
+
+class StoredTypes:
+    """Finds the classes of message types; packages that are not installed come from definitions of a bag.
+
+    They are in a folder of its own until the end of its `with` block, and importable in this process from then on.
+    """
+
+    def __init__(self, definitions: Mapping[str, tuple[str, str]]) -> None:
+        self._definitions = definitions
+        self._folder = tempfile.TemporaryDirectory(prefix="rosbag2-types-")
+        self._before = os.environ.get("AMENT_PREFIX_PATH")
+
+    def __enter__(self) -> StoredTypes:
+        known = packages.packages(packages.ALL)
+        texts: dict[str, str] = {}
+        for name, (encoding, text) in self._definitions.items():
+            if encoding == ENCODING and len(text) <= _LONGEST:
+                texts = parts_of(name, text) | texts
+        missing = {name: text for name, text in texts.items() if name.partition("/")[0] not in known}
+        for name, text in missing.items():
+            if match := _NAME.fullmatch(name):
+                file = Path(self._folder.name, "share", match[1], "msg", f"{match[2]}.msg")
+                file.parent.mkdir(parents=True, exist_ok=True)
+                file.write_text(text, encoding="utf-8", errors="replace")
+        if Path(self._folder.name, "share").is_dir():
+            write_index(Path(self._folder.name))
+            path = [self._folder.name, *([self._before] if self._before else [])]
+            os.environ["AMENT_PREFIX_PATH"] = os.pathsep.join(reversed(path))
+            importlib.invalidate_caches()
+        return self
+
+    def message_class(self, type_name: str) -> Any:
+        """Return the class of a message type. Raises BagError with the reason if there is none."""
+        match = _NAME.fullmatch(type_name)
+        if match is None:
+            raise BagError(f"'{type_name}' is not the name of a message type")
+        try:
+            return getattr(importlib.import_module(f"{match[1]}.msg"), match[2])
+        except (ImportError, AttributeError, ValueError, RecursionError) as error:
+            encoding, text = self._definitions.get(type_name, ("", ""))
+            if not text:
+                reason = "it is not installed, and the bag does not hold its definition"
+            elif encoding != ENCODING:
+                reason = f"it is not installed, and its definition in the bag is in {encoding!r}, not in '{ENCODING}'"
+            else:
+                reason = str(error).partition("\n")[0]
+            raise BagError(f"the type {type_name} is not known here: {reason}") from None
+
+    def __exit__(self, *_: object) -> None:
+        if self._before is None:
+            os.environ.pop("AMENT_PREFIX_PATH", None)
+        else:
+            os.environ["AMENT_PREFIX_PATH"] = self._before
+        self._folder.cleanup()
