@@ -5,7 +5,7 @@ PIP := $(BIN)/pip --disable-pip-version-check --quiet install --constraint const
 
 # Tests side by side: domains, partitions and folders are reserved by each worker.
 # `exec`, so that whatever ends make ends the test run: the shell between them would not pass a signal on.
-WORKERS ?= 3
+WORKERS ?= 4
 PARALLEL := --numprocesses $(WORKERS) --dist worksteal
 
 # Hundreds of Pythons are started: they find the modules compiled, whatever the caller's environment says.
@@ -66,7 +66,8 @@ verify: .venv/with-tools
 prove-exercises: .venv/with-tools
 	exec $(BIN)/course verify
 prove-long: .venv/with-tools
-	exec $(BIN)/pytest -q -m proof --ignore=tests/hostile $(PYTEST_OPTIONS) $(PARALLEL)
+	exec $(BIN)/pytest -q -m "proof or hypothesis" --hypothesis-profile=all_examples --ignore=tests/hostile \
+	    $(PYTEST_OPTIONS) $(PARALLEL)
 attacks: .venv/with-tools
 	exec $(BIN)/pytest -q tests/hostile $(PYTEST_OPTIONS) $(PARALLEL)
 

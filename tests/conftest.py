@@ -16,8 +16,10 @@ signal.signal(signal.SIGHUP, signal.SIG_DFL)
 # Whoever turns a test red has changed something: the examples are the same each time. `make fuzz` looks for new ones.
 # No deadline: how long an example takes is a matter of what else the machine does.
 settings.register_profile("new_examples", settings.default, deadline=None)
-settings.register_profile("repeatable", derandomize=True, deadline=None, max_examples=50)
+settings.register_profile("all_examples", derandomize=True, deadline=None, max_examples=50)
+settings.register_profile("repeatable", settings.get_profile("all_examples"))
 settings.load_profile("repeatable")
+MOST_EXAMPLES = 20  # of a test, unless the profile is another; `make verify` asks for all that a test names
 
 gc.disable()  # until everything is imported: it would find nothing to collect
 
@@ -25,6 +27,9 @@ gc.disable()  # until everything is imported: it would find nothing to collect
 @pytest.hookimpl(trylast=True)  # when the profile is that of the command line
 def pytest_configure():
     watch_over_this_process()
+    if settings.get_current_profile_name() == "repeatable":
+        fewer = property(lambda each: min(each._max_examples, MOST_EXAMPLES))
+        type.__setattr__(settings, "max_examples", fewer)
     if settings().derandomize:
         # Hypothesis also draws numbers and texts that stand in the modules which are loaded. Those are others in each
         # worker and change with any file: a test would be asked for other examples than the last time.

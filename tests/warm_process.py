@@ -33,17 +33,23 @@ DEADLINE_S = 120.0
 # `sys.modules`, is not among them, nor what starts threads (rerun).
 TRANSPORT = (
     "asyncio",
+    "zmq",
     "gz_course.sim.gz.command_line",
     "gz_course.sim.gz.transport.commands.topic",
     "gz_course.sim.gz.transport.commands.service",
+)
+MESSAGES = (
+    "geometry_msgs.msg",
+    "rcl_interfaces.srv",
+    "rosgraph_msgs.msg",
+    "rosidl_generator_py",  # which rclpy imports for its first node
+    "std_msgs.msg",
 )
 ROS = (
     *TRANSPORT,
     "rclpy.action",
     "rclpy.executors",
-    "geometry_msgs.msg",
-    "rosgraph_msgs.msg",
-    "std_msgs.msg",
+    *MESSAGES,
     "std_srvs.srv",
     "gz_course.sim.ros_gz_bridge.bridge",
     "gz_course.sim.ros_gz_bridge.parameter_bridge",
@@ -55,9 +61,22 @@ ROS = (
 )
 WITHOUT_ROS = (
     *TRANSPORT,
+    *MESSAGES,
+    "nav_msgs.msg",
+    "sensor_msgs.msg",
+    "pydantic.type_adapter",  # for typer
     "rich.console",
+    "rich.table",
+    "sqlite3",
     "gz_course.sim.gz.sim.commands.sim",
+    "gz_course.sim.gz.sim.scene.graph",
+    "gz_course.sim.gz.sim.sensors.camera",
+    "gz_course.sim.gz.sim.sensors.lidar",
     "gz_course.sim.gz.sim.server",
+    "gz_course.sim.gz.sim.systems.diff_drive",
+    "gz_course.sim.gz.sim.systems.log_record",
+    "gz_course.sim.gz.sim.systems.scene_broadcaster",
+    "gz_course.sim.gz.sim.systems.user_commands",
     "gz_course.sim.gz.sim.world",
     "gz_course.grader.course",
     "gz_course.grader.grade",
@@ -160,8 +179,8 @@ def inherited():
 
 
 def modules_in(folder):
-    """Return the names that `import` would find in a folder."""
-    if folder is None:
+    """Return the names that `import` would find in a folder; beside our programs lie only programs."""
+    if folder is None or Path(folder) == PROGRAMS:
         return set()
     with contextlib.suppress(OSError), os.scandir(folder) as entries:
         return {each.name.partition(".")[0] for each in entries if each.name.endswith((".py", ".so")) or each.is_dir()}

@@ -80,6 +80,7 @@ def lossy(pair, expected):
     return expected
 
 
+@pytest.mark.hypothesis
 @pytest.mark.parametrize("pair", ALIKE, ids=lambda pair: f"{pair.ros_type}={pair.gz_type}")
 def test_there_and_back_is_the_same_message(pair):
     @settings(max_examples=50, suppress_health_check=[HealthCheck.too_slow])

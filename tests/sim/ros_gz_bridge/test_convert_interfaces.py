@@ -178,6 +178,7 @@ def fill(param, tree):
         fill(param.children.add(), child)
 
 
+@pytest.mark.hypothesis
 def test_nested_parameters_find_their_way_back(pair_of):
     one, several = (pair_of("ros_gz_interfaces/msg/ParamVec", name) for name in ("Param", "Param_V"))
 
