@@ -249,8 +249,10 @@ def _unlimited(profile: Any) -> Any:
 
     It comes at once, and how much of it a node has taken when the next piece comes depends on the machine.
     """
-    from rclpy.qos import HistoryPolicy, QoSProfile
+    from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
 
+    if profile.to_dict()["durability"] != DurabilityPolicy.TRANSIENT_LOCAL:
+        return profile
     asked = QoSProfile(**profile.to_dict())
     if not kept_depth(asked):
         return profile
