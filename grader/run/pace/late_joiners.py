@@ -17,22 +17,20 @@ class LateJoiners:
 
     def __init__(self) -> None:
         self.due: Counter[str] = Counter()
-        self._asking: Counter[tuple[int, str]] = (
-            Counter()
-        )  # subscriptions of a process that were seen, by topic and type
+        self._asking: Counter[tuple[int, str]] = Counter()  # subscriptions of a process, by topic and type
         self._keeping: set[tuple[int, str]] = set()  # processes that were seen to have such a publisher
 
     def look(self, participants: Iterable[Participant]) -> None:
         """Count the pairs that are new."""
         reports = [(each.number, each.progress) for each in participants if each.progress]
         keeping = [(number, key, kept) for number, report in reports for key, kept in report.kept.items()]
-        asking = [(number, key, depths) for number, report in reports for key, depths in report.asked.items()]
+        asking = [(number, key, count) for number, report in reports for key, count in report.asked.items()]
         for publisher, key, kept in keeping:
             is_new = (publisher, key) not in self._keeping
-            for subscriber, asked, depths in asking:
+            for subscriber, asked, count in asking:
                 if asked == key:
-                    new = depths if is_new else depths[self._asking[subscriber, key] :]
-                    self.due[key.partition(" ")[0]] += sum(min(kept, depth) for depth in new)
+                    new = count if is_new else max(0, count - self._asking[subscriber, key])
+                    self.due[key.partition(" ")[0]] += kept * new
         self._keeping.update((number, key) for number, key, _ in keeping)
-        for number, key, depths in asking:
-            self._asking[number, key] = len(depths)
+        for number, key, count in asking:
+            self._asking[number, key] = count

@@ -43,9 +43,7 @@ class Progress:
     # topic -> [ns] of real time: what it published earlier is only for those who join late and ask for it
     found_at: dict[str, int] = field(default_factory=dict)
     kept: dict[str, int] = field(default_factory=dict)  # "TOPIC TYPE" -> messages that publishers keep for late joiners
-    asked: dict[str, tuple[int, ...]] = field(
-        default_factory=dict
-    )  # the same -> how many of them each subscription takes
+    asked: dict[str, int] = field(default_factory=dict)  # the same -> subscriptions that take them when they come
     endpoints: tuple[Endpoint, ...] = ()
 
     @staticmethod
@@ -73,7 +71,7 @@ class Progress:
                 lost=_counts(raw.get("lost", {})),
                 found_at=_counts(raw.get("found_at", {})),
                 kept=_counts(raw.get("kept", {})),
-                asked={str(topic): tuple(map(_count, depths)) for topic, depths in raw.get("asked", {}).items()},
+                asked=_counts(raw.get("asked", {})),
                 endpoints=tuple(_endpoint(e) for e in raw["endpoints"])
                 if "endpoints" in raw
                 else before.endpoints

@@ -2,7 +2,8 @@
 
 DDS hands it over when the two are connected, whatever the time is. The grader computes from these numbers how many
 messages every subscription will get, and lets simulated time stand still until it has taken them (`late_joiners.py`).
-Only reliable endpoints count: to others nothing is handed over again.
+Only reliable endpoints count: to others nothing is handed over again. A subscription gets all that is kept, one after
+the other; its own depth does not matter, because it takes each as it comes (`rclpy_7_1.py`).
 
 Source: DDS 1.4, 2.2.3.4 DURABILITY and 2.2.3.18 HISTORY.
 """
@@ -26,7 +27,7 @@ class History:
         self._topic_of = topic_of
         self._lock = _thread.allocate_lock()
         self._kept: Counter[str] = Counter()
-        self._asked: dict[str, list[int]] = {}
+        self._asked: Counter[str] = Counter()
 
     def count(self, publisher: Any) -> None:
         """Count a message that was published."""
@@ -49,8 +50,8 @@ class History:
                     if kept_depth(publisher.qos_profile):  # who keeps nothing yet is known from now on
                         self._kept[self._key(publisher)] += getattr(publisher, "course_kept", 0)
                 for subscription in list(node.subscriptions):
-                    if depth := kept_depth(subscription.qos_profile):
-                        self._asked.setdefault(self._key(subscription), []).append(depth)
+                    if kept_depth(subscription.qos_profile):
+                        self._asked[self._key(subscription)] += 1
 
     def _key(self, endpoint: Any) -> str:
         return f"{self._topic_of(endpoint)} {type_name(endpoint.msg_type)}"
@@ -63,7 +64,7 @@ class History:
 
 
 def kept_depth(qos: Any) -> int:
-    """Return how many messages an endpoint keeps for those who join late, or asks for when it does."""
+    """Return how many messages a publisher keeps for those who join late; 0 if a subscription does not ask for them."""
     if qos.durability.name != "TRANSIENT_LOCAL" or qos.reliability.name == "BEST_EFFORT":
         return 0
     return ALL if qos.history.name == "KEEP_ALL" else max(1, qos.depth)

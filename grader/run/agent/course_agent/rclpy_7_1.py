@@ -17,7 +17,8 @@ from typing import Any
 
 from .channel import channel
 from .endpoint_description import type_name
-from .executor_monitor import HOLD, HOUSEKEEPING, TOPICS, ExecutorMonitor
+from .executor_monitor import HOLD, HOUSEKEEPING, SIMULATED_CLOCKS, TOPICS, ExecutorMonitor
+from .history import kept_depth
 from .inbox import Kept, fill, has_kept, is_copy, kept
 from .python_3 import install_threads
 from .rclpy_7_1_waits import may_ask, nudge, watch_waits
@@ -221,12 +222,13 @@ def _make_subscriptions_reliable(monitor: ExecutorMonitor) -> None:
     from rclpy.impl.implementation_singleton import rclpy_implementation as rcl
 
     subscription = rcl.Subscription
+    simulated = bool(os.environ.get(SIMULATED_CLOCKS))
 
     def lossless_subscription(node: Any, kind: Any, topic: str, profile: Any) -> Any:
         name = rcl.rclpy_resolve_name(node, topic, False, False)
         if name != CLOCK and monitor.sent_reliably(name, type_name(kind)):
             profile = _reliable(profile)
-        return subscription(node, kind, topic, profile)
+        return subscription(node, kind, topic, _unlimited(profile) if simulated else profile)
 
     rcl.Subscription = lossless_subscription
 
@@ -239,6 +241,22 @@ def _reliable(profile: Any) -> Any:
     if asked.reliability != ReliabilityPolicy.BEST_EFFORT:
         return profile
     asked.reliability = ReliabilityPolicy.RELIABLE
+    return asked.get_c_qos_profile()
+
+
+def _unlimited(profile: Any) -> Any:
+    """Return the same profile, but with room for all that publishers keep for those who join late, if it asks for that.
+
+    It comes at once, and how much of it a node has taken when the next piece comes depends on the machine.
+    """
+    from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
+
+    if profile.to_dict()["durability"] != DurabilityPolicy.TRANSIENT_LOCAL:
+        return profile
+    asked = QoSProfile(**profile.to_dict())
+    if not kept_depth(asked):
+        return profile
+    asked.history = HistoryPolicy.KEEP_ALL
     return asked.get_c_qos_profile()
 
 

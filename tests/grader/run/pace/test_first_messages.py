@@ -159,6 +159,28 @@ def test_who_joins_later_gets_first_what_was_kept_and_then_what_comes(play):
     assert heard["early"][:4] == [0, 1, 2, 3] and heard["late"][:3] == [2, 3, 4], runs[0].heard
 
 
+@pytest.mark.proof
+def test_who_keeps_less_than_the_publisher_gets_all_the_same(play):
+    code = """
+    from rclpy.qos import DurabilityPolicy, QoSProfile
+    kept = [QoSProfile(depth=depth, durability=DurabilityPolicy.TRANSIENT_LOCAL) for depth in (50, 1)]
+    """
+    speaker = f"""{code}
+    publisher = node.create_publisher(Int32, "/numbers", kept[0])
+    for number in range(50): publisher.publish(Int32(data=number))
+    rclpy.spin(node)
+    """
+    ear = f"""{code}
+    said = node.create_publisher(String, "/said", 10)
+    heard = []
+    node.create_subscription(Int32, "/numbers", lambda m: heard.append(m.data), kept[1])
+    node.create_timer(0.2, lambda: said.publish(String(data=" ".join(map(str, heard)))))
+    rclpy.spin(node)
+    """
+    played = play(ticks=3, simulated=True, ear=ear, speaker=speaker)
+    assert (played.heard, played.pace.paced_ticks) == ([" ".join(map(str, range(50)))], 0), played.lines
+
+
 ONE_COMMAND_AT_THE_START = """
 import rclpy
 from geometry_msgs.msg import Twist

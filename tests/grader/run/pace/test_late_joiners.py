@@ -2,14 +2,14 @@
 
 from types import SimpleNamespace
 
-from gz_course.grader.run.agent.course_agent.history import ALL, History
+from gz_course.grader.run.agent.course_agent.history import History
 from gz_course.grader.run.pace.late_joiners import LateJoiners
 from gz_course.grader.run.processes.progress import Progress
 
 KEY = "/kept gz_course/msg/Progress"
 
 
-def process(number, kept=0, asked=(), kind="x/msg/Y"):
+def process(number, kept=0, asked=0, kind="x/msg/Y"):
     key = f"/kept {kind}"
     report = Progress(kept={key: kept} if kept is not None else {}, asked={key: asked} if asked else {})
     return SimpleNamespace(number=number, progress=report)
@@ -19,30 +19,30 @@ def test_what_is_kept_when_a_subscription_comes_is_due():
     late = LateJoiners()
     late.look([process(0, 3), process(1, None)])
     assert late.due == {}
-    late.look([process(0, 4), process(1, None, (ALL,))])
-    late.look([process(0, 9), process(1, None, (ALL,))])
+    late.look([process(0, 4), process(1, None, 1)])
+    late.look([process(0, 9), process(1, None, 1)])
     assert late.due == {"/kept": 4}
-    late.look([process(0, 9), process(1, None, (ALL, 2))])  # a second one, which takes two
-    assert late.due == {"/kept": 6}
+    late.look([process(0, 9), process(1, None, 2)])  # a second one
+    assert late.due == {"/kept": 13}
 
 
 def test_what_is_published_to_subscriptions_that_are_there_is_not_due_again():
     late = LateJoiners()
-    late.look([process(0, 0), process(1, None, (1,))])
-    late.look([process(0, 5), process(1, None, (1,)), process(2, None)])
+    late.look([process(0, 0), process(1, None, 1)])
+    late.look([process(0, 5), process(1, None, 1), process(2, None)])
     assert late.due == {"/kept": 0}
 
 
 def test_what_came_before_the_publisher_was_seen_is_due_to_all():
     late = LateJoiners()
-    late.look([process(1, None, (1, 1))])
-    late.look([process(0, 1), process(1, None, (1, 1))])
+    late.look([process(1, None, 2)])
+    late.look([process(0, 1), process(1, None, 2)])
     assert late.due == {"/kept": 2}
 
 
 def test_subscriptions_of_another_type_get_nothing():
     late = LateJoiners()
-    late.look([process(0, 3), process(1, None, (1,), kind="x/msg/Z")])
+    late.look([process(0, 3), process(1, None, 1, kind="x/msg/Z")])
     assert late.due == {}
 
 
@@ -61,7 +61,7 @@ def test_a_publisher_keeps_as_many_as_its_depth():
         SimpleNamespace(publishers=[publisher, plain], subscriptions=[asking, endpoint(reliability="BEST_EFFORT")])
     ]
     history.look(nodes)
-    assert history.report() == {"kept": {KEY: 0}, "asked": {KEY: [ALL]}}
+    assert history.report() == {"kept": {KEY: 0}, "asked": {KEY: 1}}
     for _ in range(5):
         history.count(publisher)
         history.count(plain)
