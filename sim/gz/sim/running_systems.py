@@ -51,6 +51,7 @@ class RunningSystems:
         self._options_of: Node | None = None
         self._shared_topics = SharedTopics(world.diagnostics)
         self.pre_updates: list[Hook] = []
+        self.in_steps: list[Hook] = []
         self.post_updates: list[Hook] = []
         self.paused_updates: list[Hook] = []
 
@@ -121,6 +122,7 @@ class RunningSystems:
         self.pre_updates = self._hooks("pre_update")
         if any(each.pushes for each in self):
             self.pre_updates.insert(0, self._clear_forces)
+        self.in_steps = self._hooks("in_step")
         self.post_updates = self._hooks("post_update")
         self.paused_updates = self._hooks("paused_update")
 

@@ -271,7 +271,7 @@ class World:
                 if ended is not None and ended():
                     break
             model, data, colliding = self.model, self.data, self._overlaps
-            pre_updates, post_updates = systems.pre_updates, systems.post_updates
+            pre_updates, in_steps, post_updates = systems.pre_updates, systems.in_steps, systems.post_updates
             origin_ns, step_ns = self._origin_ns, self.description.step_size_ns
             requests.enter_step()
             try:
@@ -283,7 +283,13 @@ class World:
                     truth.stale = True
                     for pre_update in pre_updates:
                         pre_update(info)
-                    advance(model, data)
+                    if in_steps:
+                        mujoco.mj_step1(model, data)
+                        for in_step in in_steps:
+                            in_step(info)
+                        mujoco.mj_step2(model, data)
+                    else:
+                        advance(model, data)
                     if colliding.active:
                         colliding.relax(data)
                     truth.stale = True  # a system may have refreshed the poses before the step

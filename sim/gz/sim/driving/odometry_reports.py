@@ -1,4 +1,4 @@
-"""Publishes the wheel odometry of DiffDrive and AckermannSteering as `Odometry` and, for transforms, as `Pose_V`.
+"""Publishes the odometry of a drive such as DiffDrive as `Odometry` and, for transforms, as `Pose_V`.
 
 The topics are `/model/M/odometry` and `/model/M/tf`, the rate is `<odom_publish_frequency>`.
 
@@ -68,13 +68,18 @@ class OdometryReports:
         self._last_ns = now_ns
         return True
 
-    def publish(self, now_ns: int, pose: tuple[float, float, float], linear: float, angular: float) -> None:
-        """Publish to subscribers: `pose` is x, y [m] and heading [rad]; the speeds are in [m/s] and [rad/s]."""
+    def publish(
+        self, now_ns: int, pose: tuple[float, float, float], linear: float, angular: float, left: float = 0.0
+    ) -> None:
+        """Publish to subscribers: `pose` is x, y [m] and heading [rad]; `linear` (forward) and `left` are in [m/s],
+        `angular` is in [rad/s].
+        """
         if self._publisher is not None and self._publisher.has_connections():
             message = self._odometry_type()
             fill_odometry_header(message.header, now_ns, self.frame_id, self.child_frame_id)
             _fill_pose(message.pose, pose)
             message.twist.linear.x = linear
+            message.twist.linear.y = left
             message.twist.angular.z = angular
             self._publisher.publish(message)
         if self._tf_publisher is not None and self._tf_publisher.has_connections():

@@ -3,8 +3,8 @@
 A system is a file in `gz/sim/systems` with a class under the `@system` decorator; nothing else has to be edited.
 `RunningSystems` calls `find_system` for every plugin and then the hooks of the class: `servos` before the physics model
 is built, `configure` once, `bind` after each build, `start` at time zero and after a reset, `connect` when a transport
-node is attached, `pre_update` and `post_update` around every physics step, and `paused_update` while a server is
-paused.
+node is attached, `pre_update` and `post_update` around every physics step and `in_step` within, and `paused_update`
+while a server is paused.
 
 Source: https://gazebosim.org/api/sim/8/createsystemplugins.html
 """
@@ -80,6 +80,9 @@ class System:
 
     def pre_update(self, info: UpdateInfo) -> None:
         """Act before the physics step, for example set controls."""
+
+    def in_step(self, info: UpdateInfo) -> None:
+        """Change the constraints of the physics step: MuJoCo has found contacts, but not their forces."""
 
     def post_update(self, info: UpdateInfo) -> None:
         """Read the result of the physics step, for example publish it."""

@@ -250,7 +250,7 @@ def test_all_spellings_of_the_system_are_found(spelling: str) -> None:
         ("filename='x' name='gz::sim::systems::DifDrive'", "did you mean 'DiffDrive'"),
         ("filename='libgazebo_ros_diff_drive.so' name='d'", "use gz-sim-diff-drive-system"),
         (
-            "filename='gz-sim-thruster-system' name='gz::sim::systems::Thruster'",
+            "filename='gz-sim-breadcrumbs-system' name='gz::sim::systems::Breadcrumbs'",
             "exists in Gazebo but not in this",
         ),
     ],
