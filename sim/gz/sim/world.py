@@ -65,7 +65,7 @@ class World:
         self.resources = resources
         self.seed = seed
         self.render_engine = check_engine(render_engine)
-        """The render engine of the cameras: `raycast` or `mujoco`."""
+        """The render engine of the cameras; `rendering/renderer.py` has the names."""
         self.node: Node | None = None
         self.iterations = 0
         self.dropped_commands: dict[str, int] = {}

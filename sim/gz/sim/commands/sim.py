@@ -74,10 +74,12 @@ def add_arguments(parser: Parser) -> None:
         "--record-period", type=positive_number, metavar="S", help="shortest time between recorded poses [s]"
     )
     recording.add_argument("--log-overwrite", action="store_true", help="use the folder even if it holds a recording")
-    engine = "'raycast' (default), or 'mujoco' for its renderer on a machine with OpenGL"
+    engine = "'auto' (default: OpenGL if it is faster), 'raycast' (always the same bytes), 'mujoco' (OpenGL) or 'fast'"
     for option in ("--render-engine", "--render-engine-server"):
-        parser.add_argument(option, dest="render_engine", default="raycast", metavar="NAME", help=engine)
+        parser.add_argument(option, dest="render_engine", default="auto", metavar="NAME", help=engine)
         engine = "the same"
+    fast = "cameras cast a quarter of their pixels; the same as --render-engine fast"
+    parser.add_argument("--fast-camera", dest="render_engine", action="store_const", const="fast", help=fast)
     parser.add_argument("--headless-rendering", action="store_true", help="accepted; sensors never need a display here")
     for option, metavar in _ACCEPTED.items():
         parser.add_argument(option, metavar=metavar, help="accepted, changes nothing here")

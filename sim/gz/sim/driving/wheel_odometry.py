@@ -12,12 +12,13 @@ import math
 from collections import deque
 
 WINDOW = 10
+_MOST_WAITING = 1000
 
 
 class WheelOdometry:
-    """A planar pose `x`, `y` [m], `heading` [rad] (not wrapped), and the speeds `linear` [m/s], `angular` [rad/s]."""
+    """A planar pose and speeds; steps are stored and integrated when a value is read."""
 
-    __slots__ = ("_angular", "_left", "_linear", "_radius", "_right", "_separation", "heading", "x", "y")
+    __slots__ = ("_angular", "_heading", "_left", "_linear", "_radius", "_right", "_separation", "_waiting", "_x", "_y")
 
     def __init__(self, wheel_separation: float, wheel_radius: float) -> None:
         self._separation = wheel_separation
@@ -26,39 +27,72 @@ class WheelOdometry:
 
     def reset(self, left_angle: float, right_angle: float) -> None:
         """Start at the origin with the wheels at these angles [rad]."""
-        self.x = self.y = self.heading = 0.0
+        self._x = self._y = self._heading = 0.0
         self._left = left_angle
         self._right = right_angle
         self._linear: deque[float] = deque(maxlen=WINDOW)
         self._angular: deque[float] = deque(maxlen=WINDOW)
+        self._waiting: list[tuple[float, float, float]] = []
 
     def update(self, left_angle: float, right_angle: float, dt: float) -> None:
-        """Integrate the wheel angles [rad] after a step of `dt` [s]."""
-        left = (left_angle - self._left) * self._radius
-        right = (right_angle - self._right) * self._radius
-        self._left = left_angle
-        self._right = right_angle
-        distance = (left + right) * 0.5
-        turn = (right - left) / self._separation
-        heading = self.heading
-        if -1e-6 < turn < 1e-6:
-            middle = heading + turn * 0.5
-            self.x += distance * math.cos(middle)
-            self.y += distance * math.sin(middle)
-        else:
-            radius = distance / turn
-            self.x += radius * (math.sin(heading + turn) - math.sin(heading))
-            self.y -= radius * (math.cos(heading + turn) - math.cos(heading))
-        self.heading = heading + turn
-        self._linear.append(distance / dt)
-        self._angular.append(turn / dt)
+        """Take the wheel angles [rad] after a step of `dt` [s]."""
+        self._waiting.append((left_angle, right_angle, dt))
+        if len(self._waiting) >= _MOST_WAITING:
+            self._catch_up()
+
+    def _catch_up(self) -> None:
+        """Integrate the stored steps."""
+        wheel, separation = self._radius, self._separation
+        before_left, before_right = self._left, self._right
+        x, y, heading = self._x, self._y, self._heading
+        linear, angular, cos, sin = self._linear, self._angular, math.cos, math.sin
+        for left_angle, right_angle, dt in self._waiting:
+            left = (left_angle - before_left) * wheel
+            right = (right_angle - before_right) * wheel
+            before_left, before_right = left_angle, right_angle
+            distance = (left + right) * 0.5
+            turn = (right - left) / separation
+            if -1e-6 < turn < 1e-6:
+                middle = heading + turn * 0.5
+                x += distance * cos(middle)
+                y += distance * sin(middle)
+            else:
+                radius = distance / turn
+                x += radius * (sin(heading + turn) - sin(heading))
+                y -= radius * (cos(heading + turn) - cos(heading))
+            heading += turn
+            linear.append(distance / dt)
+            angular.append(turn / dt)
+        self._waiting.clear()
+        self._left, self._right = before_left, before_right
+        self._x, self._y, self._heading = x, y, heading
+
+    @property
+    def x(self) -> float:
+        """The way along the x axis of the start [m]."""
+        self._catch_up()
+        return self._x
+
+    @property
+    def y(self) -> float:
+        """The way along the y axis of the start [m]."""
+        self._catch_up()
+        return self._y
+
+    @property
+    def heading(self) -> float:
+        """The turn since the start [rad], not wrapped."""
+        self._catch_up()
+        return self._heading
 
     @property
     def linear(self) -> float:
         """Mean forward speed [m/s] over the last ten steps."""
+        self._catch_up()
         return sum(self._linear) / len(self._linear) if self._linear else 0.0
 
     @property
     def angular(self) -> float:
         """Mean turning speed [rad/s] over the last ten steps."""
+        self._catch_up()
         return sum(self._angular) / len(self._angular) if self._angular else 0.0

@@ -126,6 +126,7 @@ class Channels:
         self._wanders = any(noise.wanders for noise in self._each)
         self._mean = np.array([noise.mean for noise in self._each])
         self._stddev = np.array([noise.stddev for noise in self._each])
+        self._coarse = [(index, noise) for index, noise in enumerate(self._each) if noise.precision > 0.0]
         self.bias = np.zeros(len(self._each))
         """The present bias of each channel."""
 
@@ -150,7 +151,6 @@ class Channels:
         noisy = values + self.bias + self._mean
         if self._white:
             noisy += self._stddev * self._sensor.random().standard_normal(len(self._each))
-        for index, noise in enumerate(self._each):
-            if noise.precision > 0.0:
-                noisy[index : index + 1] = noise.quantized(noisy[index : index + 1])
+        for index, noise in self._coarse:
+            noisy[index : index + 1] = noise.quantized(noisy[index : index + 1])
         return noisy

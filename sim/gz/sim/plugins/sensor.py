@@ -96,7 +96,8 @@ class SensorBase:
         self.next_update_ns = 0
         self.updates = 0
         self._last_ns: int | None = None
-        self._generators: dict[str, np.random.Generator] = {}
+        self._generators: dict[str, tuple[Any, np.random.Generator, np.random.BitGenerator]] = {}
+        """The hash of the text before the number of the update, and the generator, by purpose."""
 
     def bind(self) -> None:
         """Look up ids in MuJoCo's model, which was just built or rebuilt."""
@@ -191,13 +192,17 @@ class SensorBase:
         return self._generator(purpose, -1)
 
     def _generator(self, purpose: str, update: int) -> np.random.Generator:
-        text = f"{self.world.seed}/{self.scoped_name}/{purpose}/{update}"
-        key = np.frombuffer(hashlib.sha256(text.encode()).digest(), dtype="<u8", count=2)
-        generator = self._generators.get(purpose)
-        if generator is None:
-            generator = self._generators[purpose] = np.random.Generator(np.random.Philox(key=0))
+        found = self._generators.get(purpose)
+        if found is None:
+            begun = hashlib.sha256(f"{self.world.seed}/{self.scoped_name}/{purpose}/".encode())
+            generator = np.random.Generator(np.random.Philox(key=0))
+            found = self._generators[purpose] = begun, generator, generator.bit_generator
+        begun, generator, bits = found
+        text = begun.copy()
+        text.update(b"%d" % update)
         # Setting the key is much faster than making a generator, and draws the same numbers.
-        generator.bit_generator.state = {**_FRESH, "state": {"counter": _ZEROS, "key": key}}
+        key = np.frombuffer(text.digest(), dtype="<u8", count=2)
+        bits.state = {**_FRESH, "state": {"counter": _ZEROS, "key": key}}
         return generator
 
     def fill_header(self, header: Any, now_ns: int) -> None:

@@ -38,7 +38,7 @@ class CameraSensor(SensorBase):
     near_hides = True
     """True if surfaces nearer than the near plane are invisible."""
     lens: ClassVar[type[Pinhole]] = Pinhole
-    wanted: dict[str, str] = {}  # noqa: RUF012 - some cameras replace it by one of their own
+    wanted: ClassVar[dict[str, str]] = {}
     """The message type of each published topic, by the suffix of the topic."""
 
     def __init__(self, world: WorldAccess, description: Sensor) -> None:
@@ -64,10 +64,14 @@ class CameraSensor(SensorBase):
         near = self.pinhole.near / along if self.near_hides else np.zeros(len(along))
         self._along = along
         tiles = Tiles(self.pinhole.width, self.pinhole.height, self.directions, near, self.pinhole.far / along)
-        mask = camera.mask("visibility_mask", ALL_BITS)
-        self.caster = TileCaster(world, description, tiles, mask)
+        self.mask = camera.mask("visibility_mask", ALL_BITS)
+        self.caster = TileCaster(world, description, tiles, self.mask)
         self.publishers: dict[str, Any] = {}
         self._info: Any = None
+
+    def published(self) -> dict[str, str]:
+        """Return the message type of each published topic, by the suffix of the topic."""
+        return self.wanted
 
     def bind(self) -> None:
         self.caster.bind()
@@ -82,12 +86,14 @@ class CameraSensor(SensorBase):
         from gz_course.sim.gz.msgs.camera_info_pb2 import CameraInfo
         from gz_course.sim.gz.msgs.image_pb2 import Image
 
-        types: dict[str, Any] = {kind: message_class(f"gz.msgs.{kind}") for kind in ("Image", *self.wanted.values())}
+        types: dict[str, Any] = {
+            kind: message_class(f"gz.msgs.{kind}") for kind in ("Image", *self.published().values())
+        }
         self._types = types
         self._info_type = CameraInfo
         self._formats = Image.DESCRIPTOR.file.enum_types_by_name["PixelFormatType"].values_by_name
         self._info = node.advertise(self.info_topic, CameraInfo)
-        for suffix, kind in self.wanted.items():
+        for suffix, kind in self.published().items():
             self.publishers[suffix] = node.advertise(self.topic + suffix, types[kind])
         if self._triggered:
             node.subscribe(Boolean, self.trigger_topic, self._on_trigger)

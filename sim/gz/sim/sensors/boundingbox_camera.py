@@ -88,12 +88,14 @@ class BoundingBoxCamera(CameraSensor):
             hint = did_you_mean(stated, _TYPES, listing="known names are")
             raise self.camera.error(f"<box_type> '{stated}' is not known{hint}")
         self.box_type = _TYPES[stated]
-        boxes = "AnnotatedOriented3DBox_V" if self.box_type == SOLID else "AnnotatedAxisAligned2DBox_V"
-        self.wanted = {"": boxes, "_image": "Image"}
         self._shader = Shader(world)
 
     def topic_suffix(self) -> str:
         return "boundingbox"
+
+    def published(self) -> dict[str, str]:
+        boxes = "AnnotatedOriented3DBox_V" if self.box_type == SOLID else "AnnotatedAxisAligned2DBox_V"
+        return {"": boxes, "_image": "Image"}
 
     def bind(self) -> None:
         """Find the labelled objects and their geoms."""
@@ -186,7 +188,7 @@ class BoundingBoxCamera(CameraSensor):
             self._publish(boxes, now_ns)
 
     def _publish(self, boxes: list[Flat] | list[Solid], now_ns: int) -> None:
-        message = self._types[self.wanted[""]]()
+        message = self._types[self.published()[""]]()
         self.fill_header(message.header, now_ns)
         for box in boxes:
             entry = message.annotated_box.add()

@@ -69,6 +69,7 @@ class Imu(SiteSensor):
         super().start()
         found = self._reference_frame()
         self.reference = self.motion.quaternion() if found is None else found
+        self._from_reference = self.reference * (1.0, -1.0, -1.0, -1.0)
 
     def fill_constant(self, message: Any) -> None:
         message.entity_name = self.scoped_name
@@ -89,7 +90,7 @@ class Imu(SiteSensor):
 
     def orientation(self) -> Vector:
         """Return the sensor's orientation (wxyz) in the reference frame."""
-        return multiply(self.reference * (1.0, -1.0, -1.0, -1.0), self.motion.quaternion())
+        return multiply(self._from_reference, self.motion.quaternion())
 
     def _reference_frame(self) -> Vector | None:
         """Return the quaternion (wxyz) of the reference frame, None for the initial orientation."""

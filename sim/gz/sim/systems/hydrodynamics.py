@@ -151,4 +151,4 @@ def _answer(added: Vector, link: Link) -> tuple[Vector, Vector] | None:
     inertia[:3, :3] = mass * np.eye(3)
     inertia[:3, 3:], inertia[3:, :3] = -mass * lever, mass * lever
     inertia[3:, 3:] = turn @ tensor(link.inertial.moments) @ turn.T + mass * point_inertia(pose.position)
-    return inertia, np.linalg.inv(inertia + added)
+    return inertia, np.linalg.inv(inertia + added).astype(np.float64)

@@ -109,7 +109,7 @@ def test_tracks_without_a_controller_here_are_told_by_topics(node: Node) -> None
 
 
 def test_a_conveyor_carries_until_the_command_is_old(node: Node) -> None:
-    made = conveyor("<max_command_age>0.8</max_command_age><max_acceleration>2</max_acceleration>")
+    made = conveyor("<max_command_age>0.8</max_command_age><min_acceleration>-2</min_acceleration>")
     made.attach(node)
     command = node.advertise("/model/belt/link/l/track_cmd_vel", Double)
     made.step(50)  # the parcel comes to rest
