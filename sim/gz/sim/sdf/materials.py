@@ -3,7 +3,8 @@
 Warns about direction-dependent friction, which is not simulated.
 
 Source: SDFormat, elements `<material>` and `<surface>`, http://sdformat.org/spec
-Source: gazebo-classic, media/materials/scripts/gazebo.material (names of scripts)
+Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/rendering/MaterialParser/gazebo.material (names and diffuse
+colours of scripts, of which Gazebo reads neither alpha nor textures)
 """
 
 from __future__ import annotations
@@ -18,6 +19,10 @@ from gz_course.sim.gz.sim.sdf.textures import Pixels
 
 Rgba = tuple[float, float, float, float]
 GREY: Rgba = (0.7, 0.7, 0.7, 1.0)
+_PAVED = (0.8, 0.8, 0.8)
+_PAVED_NAMES = (
+    "footway lane_1 lanes_2 lanes_4 lanes_6 motorway pedestrian primary residential road secondary steps tertiary trunk"
+)
 _SCRIPT_COLOURS: dict[str, tuple[float, ...]] = {
     "grey": (0.7, 0.7, 0.7),
     "gray": (0.7, 0.7, 0.7),
@@ -30,49 +35,57 @@ _SCRIPT_COLOURS: dict[str, tuple[float, ...]] = {
     "redbright": (0.87, 0.26, 0.07),
     "green": (0.0, 1.0, 0.0),
     "blue": (0.0, 0.0, 1.0),
-    "skyblue": (0.13, 0.44, 0.7),
+    "skyblue": (0.0, 0.0, 1.0),
     "yellow": (1.0, 1.0, 0.0),
-    "zincyellow": (0.97, 0.95, 0.2),
+    "zincyellow": (0.9725, 0.9529, 0.2078),
     "darkyellow": (0.7, 0.7, 0.0),
-    "orange": (1.0, 0.51, 0.0),
+    "orange": (1.0, 0.5088, 0.0468),
     "purple": (1.0, 0.0, 1.0),
     "turquoise": (0.0, 1.0, 1.0),
     "indigo": (0.33, 0.0, 0.5),
-    "gold": (0.8, 0.65, 0.2),
-    "whiteglow": (1.0, 1.0, 1.0),
+    "gold": (0.8, 0.64869, 0.120759),
+    "pioneer2body": (0.681193, 0.000923, 0.000923),
+    "lighton": (0.0, 1.0, 0.0),
+    "lightoff": (1.0, 0.0, 0.0),
     "redglow": (1.0, 0.0, 0.0),
+    "turquoiseglowoutline": (0.0, 1.0, 1.0),
+    "greentransparent": (0.0, 1.0, 0.0),
+    "bluetransparent": (0.0, 0.0, 1.0),
+    "yellowtransparent": (1.0, 1.0, 0.0),
+    "orangetransparent": (1.0, 0.44, 0.0),
+    "darkmagentatransparent": (0.6, 0.0, 0.6),
+    "greytransparent": (0.5, 0.5, 0.5),
+    "blacktransparent": (0.0, 0.0, 0.0),
+    "bluelaser": (0.0, 0.0, 1.0),
+    "lightbluelaser": (0.5, 0.5, 1.0),
+    "jointanchor": (1.0, 1.0, 1.0),
+    # gz-sim reads no textures of scripts, so these are white.
+    "wood": (1.0, 1.0, 1.0),
+    "woodpallet": (1.0, 1.0, 1.0),
+    "bricks": (1.0, 1.0, 1.0),
+    "buildingframe": (1.0, 1.0, 1.0),
+    **dict.fromkeys(_PAVED_NAMES.split(), _PAVED),
+}
+_MEANT_COLOURS: dict[str, tuple[float, ...]] = {
+    # The scripts of these state no diffuse colour: their other words, or their pictures, say what is meant.
+    "whiteglow": (1.0, 1.0, 1.0),
     "greenglow": (0.0, 1.0, 0.0),
     "blueglow": (0.0, 0.0, 1.0),
     "yellowglow": (1.0, 1.0, 0.0),
     "purpleglow": (1.0, 0.0, 1.0),
     "turquoiseglow": (0.0, 1.0, 1.0),
-    "turquoiseglowoutline": (0.0, 1.0, 1.0),
     "redtransparent": (1.0, 0.0, 0.0, 0.5),
-    "greentransparent": (0.0, 1.0, 0.0, 0.5),
-    "bluetransparent": (0.0, 0.0, 1.0, 0.5),
-    "yellowtransparent": (1.0, 1.0, 0.0, 0.5),
-    "orangetransparent": (1.0, 0.51, 0.0, 0.5),
-    "darkmagentatransparent": (0.6, 0.0, 0.6, 0.5),
-    "greytransparent": (0.5, 0.5, 0.5, 0.5),
-    "blacktransparent": (0.0, 0.0, 0.0, 0.5),
     "redtransparentoverlay": (1.0, 0.0, 0.0, 0.5),
+    "greentransparentoverlay": (0.0, 1.0, 0.0, 0.5),
     "bluetransparentoverlay": (0.0, 0.0, 1.0, 0.5),
-    "lighton": (0.0, 1.0, 0.0),
-    "lightoff": (1.0, 0.0, 0.0),
-    "wood": (0.6, 0.45, 0.25),
+    "orangetransparentoverlay": (1.0, 0.5088, 0.0468, 0.8),
+    "darkorangetransparentoverlay": (0.6, 0.305, 0.028, 0.8),
     "woodfloor": (0.55, 0.4, 0.25),
-    "woodpallet": (0.6, 0.45, 0.25),
     "ceilingtiled": (0.85, 0.85, 0.82),
     "paintedwall": (0.8, 0.78, 0.7),
     "pioneerbody": (0.5, 0.0, 0.0),
-    "pioneer2body": (0.5, 0.0, 0.0),
-    "bricks": (0.55, 0.25, 0.2),
-    "road": (0.25, 0.25, 0.25),
-    "residential": (0.35, 0.35, 0.35),
     "tarmac": (0.2, 0.2, 0.2),
     "runway": (0.3, 0.3, 0.3),
-    "motorway": (0.25, 0.25, 0.25),
-    "pedestrian": (0.6, 0.58, 0.55),
     "grass": (0.25, 0.5, 0.2),
     "mud": (0.35, 0.25, 0.15),
     "cloudysky": (0.7, 0.8, 0.9),
@@ -127,7 +140,7 @@ def _unit(value: float) -> float:
 
 
 def _is_known(script: Element | None) -> bool:
-    """Return whether a script is one of Gazebo's own, whose colours take precedence over those beside it."""
+    """Return whether a script is one of Gazebo's own with a colour, which takes precedence over that beside it."""
     name = script.text_of("name", script.text) if script is not None else ""
     return name.startswith("Gazebo/") and name.rsplit("/", 1)[-1].lower() in _SCRIPT_COLOURS
 
@@ -135,11 +148,12 @@ def _is_known(script: Element | None) -> bool:
 def _script_colour(script: Element, diagnostics: Diagnostics) -> Rgba:
     """Return the colour that `<script><name>Gazebo/Red</name></script>` names; old files name it in `<script>`."""
     name = script.text_of("name", script.text)
-    found = _SCRIPT_COLOURS.get(name.rsplit("/", 1)[-1].lower())
+    known = _SCRIPT_COLOURS | _MEANT_COLOURS
+    found = known.get(name.rsplit("/", 1)[-1].lower())
     if found is not None:
         return found[0], found[1], found[2], found[3] if len(found) == 4 else 1.0
     if name.startswith("Gazebo/"):
-        hint = did_you_mean(name.rsplit("/", 1)[-1].lower(), _SCRIPT_COLOURS, listing="colours that are known are")
+        hint = did_you_mean(name.rsplit("/", 1)[-1].lower(), known, listing="colours that are known are")
         diagnostics.warn(script.where, f"material script '{name}' is not known, grey is used{hint}")
     else:
         text = f"material script '{name}' is a file of its own, which is not read; grey is used, give a <diffuse>"

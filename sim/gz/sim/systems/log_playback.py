@@ -10,14 +10,16 @@ Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/log/LogPlay
 from __future__ import annotations
 
 import math
+import sqlite3
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import mujoco
 import numpy as np
+from google.protobuf.message import DecodeError
 from numpy.typing import NDArray
 
-from gz_course.sim.gz.sim.errors import Diagnostics, SimError
+from gz_course.sim.gz.sim.errors import LOG, Diagnostics, SimError
 from gz_course.sim.gz.sim.physics.builder import scoped
 from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, system
 from gz_course.sim.gz.sim.pose import Pose, multiply, rotate
@@ -59,6 +61,8 @@ def recorded_world(path: Path) -> tuple[WorldDescription, int]:
         for model in description.models:
             model.plugins = []
         return description, max(each.last_ns for each in topics)
+    except (sqlite3.Error, DecodeError) as error:
+        raise SimError(f"'{log.path}' is damaged ({error}); record it again") from None
     finally:
         log.close()
 
@@ -84,6 +88,7 @@ class LogPlayback(System):
         self._world = world
         self._log: Log | None = None
         self._shown_ns: int | None = None
+        self._positions: NDArray[np.float64] | None = None
         if not world.resources.opens_files:
             world.diagnostics.warn(element.where, "LogPlayback reads no file here, nothing is played back")
             return
@@ -105,7 +110,7 @@ class LogPlayback(System):
                 name = scoped(above[0].described, vertex.described.name)
                 self._links.append((mujoco.mj_name2id(world.model, mujoco.mjtObj.mjOBJ_BODY, name), above))
         self._links.sort(key=lambda each: each[0])
-        self._shown_ns = None
+        self._shown_ns, self._positions = None, None
 
     def start(self) -> None:
         """Show the state at the present time, also after a reset."""
@@ -124,11 +129,17 @@ class LogPlayback(System):
         if self._log is None:
             return
         data = self._world.data
-        found = self._log.latest(_topic(self._world.name), now_ns)
-        if found is not None and found.time_ns != self._shown_ns:
-            self._shown_ns = found.time_ns
-            self._positions = self._decoded(found.data)
-        if found is not None:
+        try:
+            found = self._log.latest(_topic(self._world.name), now_ns)
+            if found is not None and found.time_ns != self._shown_ns:
+                self._shown_ns = found.time_ns
+                positions = self._decoded(found.data)
+                if np.isfinite(positions).all():
+                    self._positions = positions
+        except (sqlite3.Error, DecodeError) as error:
+            LOG.error("%s is damaged (%s); the playback ends here", self._log.path, error)
+            self._log = None
+        if self._positions is not None:
             data.qpos[:] = self._positions
         data.qvel[:] = 0.0
         self._world.truth.stale = True
@@ -154,7 +165,9 @@ class LogPlayback(System):
 
 def _read(message: Any) -> Pose:
     at, turn = message.position, message.orientation
-    return Pose((at.x, at.y, at.z), (turn.w, turn.x, turn.y, turn.z))
+    quaternion = np.array((turn.w, turn.x, turn.y, turn.z))
+    norm = float(np.linalg.norm(quaternion))
+    return Pose((at.x, at.y, at.z), quaternion / norm if norm > 1e-9 else (1.0, 0.0, 0.0, 0.0))
 
 
 def _set_joints(model: mujoco.MjModel, body: int, pose: Pose, positions: NDArray[np.float64]) -> None:

@@ -244,6 +244,10 @@ def test_values_that_change_nothing_are_not_mentioned(inside: str) -> None:
         ("<material><diffuse>1 2 -1 0.5</diffuse></material><transparency>0.5</transparency>", (1, 1, 0, 0.25)),
         ("<material><script><name>Gazebo/Blue</name></script></material>", (0, 0, 1, 1)),
         ("<material><script>Gazebo/RedTransparent</script></material>", (1, 0, 0, 0.5)),
+        ("<material><script><name>Gazebo/Bricks</name></script><diffuse>0 1 0</diffuse></material>", (1, 1, 1, 1)),
+        ("<material><script><name>Gazebo/Lanes_4</name></script></material>", (0.8, 0.8, 0.8, 1)),
+        ("<material><script><name>Gazebo/BlueTransparent</name></script></material>", (0, 0, 1, 1)),
+        ("<material><script><name>Gazebo/Grass</name></script><diffuse>0 1 0</diffuse></material>", (0, 1, 0, 1)),
     ],
 )
 def test_colours(material: str, rgba: tuple[float, ...]) -> None:

@@ -66,7 +66,7 @@ def test_a_recording_is_shown_again(node: Node, tmp_path: Path) -> None:
     log = Log(folder)
     times = sorted({each.time_ns for each in log.messages("/world/w/dynamic_pose/info")})
     log.close()
-    assert len(times) > 5 and not seen[times[0]]["universal"].is_close(seen[times[-1]]["universal"], 1e-3)
+    assert len(times) > 5 and not seen[times[0]]["universal"].is_close(seen[times[-1]]["universal"], 1e-4)
     with Node(node.options) as other:
         shown, end_ns = _recorded(folder, [])
         assert end_ns == times[-1] and [each.name for each in shown.systems] == ["LogPlayback", "SceneBroadcaster"]
@@ -117,4 +117,28 @@ def test_what_is_no_recording_of_a_world(tmp_path: Path, topic: str, words: str)
     writer.write(Entry(topic, "gz.msgs.StringMsg", 0, data))
     writer.close()
     with pytest.raises(SimError, match=words):
+        _recorded(tmp_path, [])
+
+
+def test_a_damaged_recording_ends_with_a_sentence(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    from gz_course.sim.gz.msgs.pose_v_pb2 import Pose_V
+    from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
+
+    world = "<sdf version='1.10'><world name='w'><model name='m'><link name='l'/></model></world></sdf>"
+    nowhere = Pose_V()
+    for number in range(1, 9):
+        nowhere.pose.add(id=number).position.x = float("nan")
+    writer = LogWriter(tmp_path / "state.tlog")
+    writer.write(Entry("/w/log/sdf", "gz.msgs.StringMsg", 0, StringMsg(data=world).SerializeToString()))
+    topic = "/world/w/dynamic_pose/info"
+    writer.write(Entry(topic, "gz.msgs.Pose_V", 0, b""))
+    writer.write(Entry(topic, "gz.msgs.Pose_V", 5_000_000, nowhere.SerializeToString()))
+    writer.write(Entry(topic, "gz.msgs.Pose_V", 10_000_000, b"no message"))
+    writer.close()
+    shown, _ = _recorded(tmp_path, [])
+    shown.step(20)
+    assert shown.truth.pose("m").is_close(Pose()) and caplog.text.count("is damaged") == 1
+    shown.close()
+    (tmp_path / "state.tlog").write_bytes((tmp_path / "state.tlog").read_bytes()[:6000])
+    with pytest.raises(SimError, match=r"damaged|not a log"):
         _recorded(tmp_path, [])
