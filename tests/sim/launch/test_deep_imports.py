@@ -25,6 +25,7 @@ SEVERAL = {
         "OrSubstitution",
     },
     "launch.logging": {"LaunchConfig"},
+    "launch.frontend.parser": {"InvalidFrontendLaunchFileError"},
     "launch_ros.parameter_descriptions": {"Parameter", "ParameterFile", "ParameterValue"},
     "launch_ros.substitutions.find_package": {"FindPackagePrefix", "FindPackageShare"},
 }
@@ -38,7 +39,9 @@ OWN = {
         "NotTextError",
         "UsedTwiceError",
     },
+    "launch.frontend.entity": {"EntityError", "LaunchText"},
     "launch_ros.parameter_values": {"ParameterTypeError"},
+    "launch_ros.ros_adapters": {"ROSAdapter"},  # the module of this name in ROS 2's launch_ros
 }
 # Modules of ROS 2's launch that hold a type, not a class.
 ALIASES = {"launch.some_entities_type": "SomeEntitiesType", "launch.some_substitutions_type": "SomeSubstitutionsType"}
