@@ -13,6 +13,7 @@ Source: ros2/launch_ros, launch_ros/launch_ros/actions/node.py (parse_nested_par
 from __future__ import annotations
 
 from collections.abc import Iterable
+from types import GenericAlias
 from typing import TYPE_CHECKING, Any
 
 from gz_course.sim.did_you_mean import did_you_mean
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from gz_course.sim.launch.frontend import Parser
 
 _TYPES: dict[str, Any] = {"bool": bool, "int": int, "float": float, "double": float, "str": str, "string": str}
-_TYPES |= {f"{name}[]": list[kind] for name, kind in _TYPES.items()}
+_TYPES |= {f"{name}[]": GenericAlias(list, (kind,)) for name, kind in _TYPES.items()}
 Pairs = list[tuple[list[Any], list[Any]]]
 
 

@@ -73,5 +73,5 @@ class EntityError(InvalidLaunchFileError, AttributeError, TypeError, ValueError)
 
     def __init__(self, entity: Entity, sentence: str, attribute: str | None = None) -> None:
         place = entity.place(attribute)
-        super().__init__(f"{place[0]}:{place[1]}: {sentence}")
+        super().__init__(f"{place[0]}:{place[1]}: {' '.join(sentence.split())}")
         self.launch_place = place

@@ -31,7 +31,8 @@ def expose_action(name: str) -> Callable[[Made], Made]:
     """Register the decorated class, which has a class method `parse(entity, parser)`, or that function itself."""
 
     def expose(exposed: Made) -> Made:
-        action_parse_methods[name] = getattr(exposed, "parse", exposed)  # type: ignore[assignment]
+        parse: Any = exposed
+        action_parse_methods[name] = getattr(exposed, "parse", parse)
         return exposed
 
     return expose
@@ -41,7 +42,8 @@ def expose_substitution(name: str) -> Callable[[Made], Made]:
     """Register the decorated class as `$(name argument ...)`; its class method `parse` gets the arguments."""
 
     def expose(exposed: Made) -> Made:
-        parse = getattr(exposed, "parse", exposed)
+        function: Any = exposed
+        parse = getattr(exposed, "parse", function)
 
         def make(arguments: Arguments) -> Substitution:
             kind, options = parse(arguments)

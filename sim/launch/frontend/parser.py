@@ -42,7 +42,10 @@ _OTHER_NAMES = {
 
 
 class InvalidFrontendLaunchFileError(InvalidLaunchFileError):
-    """A launch file in XML or YAML is not valid."""
+    """A launch file in XML or YAML is not valid; the text is one line."""
+
+    def __init__(self, sentence: str) -> None:
+        super().__init__(" ".join(sentence.split()))
 
 
 class Parser:

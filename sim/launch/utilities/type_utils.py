@@ -161,7 +161,7 @@ def normalize_typed_substitution(value: Any, data_type: Any = None) -> Any:
         return normalize_to_list_of_substitutions(value)
     if not isinstance(value, Iterable):
         raise TypeError(f"{value!r} is neither a value nor a substitution")
-    items = [normalize_to_list_of_substitutions(item) if is_substitution(item) else item for item in value]
+    items: list[Any] = [normalize_to_list_of_substitutions(item) if is_substitution(item) else item for item in value]
     plain = [item for item in items if not is_normalized_substitution(item)]
     if {type(item) for item in plain} == {int, float}:
         items = [float(item) if isinstance(item, int) else item for item in items]

@@ -97,6 +97,13 @@ class LifecycleNode(Node):
 
     async def change_state(self, context: LaunchContext, transition: int) -> None:
         """Request a transition as soon as the node offers its service, unless the launch or the node ends before."""
+        try:
+            await self._request(context, transition)
+        except Exception:
+            if not context.is_shutdown:  # the ROS node of the launch ends with it
+                raise
+
+    async def _request(self, context: LaunchContext, transition: int) -> None:
         loop, client = asyncio.get_running_loop(), self.__client
         while not await loop.run_in_executor(None, client.wait_for_service, _PATIENCE):
             if self._is_over(context):
