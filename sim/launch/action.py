@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.launch.condition import Condition
-from gz_course.sim.launch.errors import locate, place_of_caller
+from gz_course.sim.launch.errors import LaunchError, locate, place_of_caller
 from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
+    from gz_course.sim.launch.frontend import Entity, Parser
     from gz_course.sim.launch.launch_context import LaunchContext
 
 
@@ -30,6 +31,21 @@ class Action(LaunchDescriptionEntity):
             )
         self.__condition = condition
         self._place = place_of_caller()
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+        """Return the class and the arguments that an element of an XML or YAML launch file has for every action."""
+        from gz_course.sim.launch.conditions import IfCondition, UnlessCondition
+
+        holds = entity.get_attr("if", optional=True)
+        not_holds = entity.get_attr("unless", optional=True)
+        if holds is not None and not_holds is not None:
+            raise LaunchError("`if` and `unless` exclude each other")
+        if holds is not None:
+            return cls, {"condition": IfCondition(parser.parse_substitution(holds))}
+        if not_holds is not None:
+            return cls, {"condition": UnlessCondition(parser.parse_substitution(not_holds))}
+        return cls, {}
 
     @property
     def condition(self) -> Condition | None:

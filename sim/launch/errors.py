@@ -6,20 +6,26 @@ otherwise the line at which the action was created (`place_of_caller`, `locate`)
 
 from __future__ import annotations
 
+import contextlib
 import os
 import sys
 import sysconfig
 import traceback
+from collections.abc import Iterator
+from contextvars import ContextVar
 
 from gz_course.sim.launch.ament_prefix import nearest_package_of
 
 _OWN_FOLDER = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))  # noqa: PTH100, PTH120 - at every start
-_OWN_FOLDERS = tuple(os.path.join(_OWN_FOLDER, name) + os.sep for name in ("launch", "launch_ros", "ros2"))  # noqa: PTH118
+_OWN_ROOMS = ("launch", "launch_ros", "launch_xml", "launch_yaml", "ros2")
+_OWN_FOLDERS = tuple(os.path.join(_OWN_FOLDER, name) + os.sep for name in _OWN_ROOMS)  # noqa: PTH118
 _LIBRARIES = tuple(
     folder + os.sep
     for folder in {sysconfig.get_path(name) for name in ("stdlib", "platstdlib", "purelib", "platlib", "scripts")}
 )
-Place = tuple[str, int]
+Place = tuple[str, int | str]
+"""A file and a line, or a text `line:column`."""
+_written_at: ContextVar[Place | None] = ContextVar("_written_at", default=None)
 
 
 class LaunchError(Exception):
@@ -47,7 +53,10 @@ class NotTextError(LaunchError, TypeError):
 
 
 def place_of_caller() -> Place | None:
-    """Return file and line of the calling user code, or None."""
+    """Return file and line of the calling user code, or of the tag that is being read; None if there is neither."""
+    written = _written_at.get()
+    if written is not None:
+        return written
     frame = sys._getframe(1)
     while frame is not None:
         path = frame.f_code.co_filename
@@ -55,6 +64,16 @@ def place_of_caller() -> Place | None:
             return path, frame.f_lineno
         frame = frame.f_back  # type: ignore[assignment]
     return None
+
+
+@contextlib.contextmanager
+def written_at(place: Place) -> Iterator[None]:
+    """Let entities that are created in the block have this place, which is not in Python code."""
+    token = _written_at.set(place)
+    try:
+        yield
+    finally:
+        _written_at.reset(token)
 
 
 def locate(error: BaseException, place: Place | None) -> None:

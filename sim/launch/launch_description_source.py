@@ -63,9 +63,9 @@ class LaunchDescriptionSource:
             self.__is_known = True
             context = LaunchContext()
             if including_file is not None:
-                folder = os.path.dirname(including_file)  # noqa: PTH120
-                context.extend_locals({"current_launch_file_path": including_file})
-                context.extend_locals({"current_launch_file_directory": folder})
+                path = os.path.abspath(including_file)  # noqa: PTH100
+                context.extend_locals({"current_launch_file_path": path})
+                context.extend_locals({"current_launch_file_directory": os.path.dirname(path)})  # noqa: PTH120
             with contextlib.suppress(Exception):  # reported when the launch runs
                 self.__known_location = perform_substitutions(context, self.__location)
         return self.__known_location

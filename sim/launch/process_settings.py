@@ -21,11 +21,13 @@ _DEFAULT_TIMEOUT = 5  # [s]
 
 @dataclass(frozen=True)
 class ProcessSettings:
-    """The performed settings; `timeouts` [s] are those after SIGINT and after SIGTERM."""
+    """The performed settings; `timeouts` [s] are those after SIGINT and after SIGTERM, `respawn_delay` is in [s]."""
 
     output: Any
     emulate_tty: bool
     respawn: bool
+    respawn_delay: float
+    respawn_max_retries: int
     timeouts: dict[signal.Signals, float]
     logger: logging.Logger
 
@@ -34,18 +36,32 @@ def timeout_substitutions(name: str, value: Any) -> list[Substitution]:
     """Return a time-out [s] as substitutions; None means the launch configuration `name`, with default 5."""
     if value is None:
         return [LaunchConfiguration(name, default=_DEFAULT_TIMEOUT)]
-    return normalize_to_list_of_substitutions(str(value) if isinstance(value, int | float) else value)
+    return plain_or_substitutions(value)
+
+
+def plain_or_substitutions(value: Any) -> list[Substitution]:
+    """Return a bool, a number or substitutions as a list of substitutions."""
+    return normalize_to_list_of_substitutions(str(value) if isinstance(value, bool | int | float) else value)
+
+
+def whole_number(context: LaunchContext, parts: list[Substitution]) -> int:
+    """Return the performed number of restarts. Raises LaunchError if it is none."""
+    text = perform_substitutions(context, parts)
+    try:
+        return int(text)
+    except ValueError:
+        raise LaunchError(f"respawn_max_retries is {text!r}, not a whole number") from None
 
 
 def seconds(context: LaunchContext, parts: list[Substitution]) -> float:
-    """Return the performed time-out [s]. Raises LaunchError if it is no number of seconds."""
+    """Return the performed time-out or delay [s]. Raises LaunchError if it is no number of seconds."""
     text = perform_substitutions(context, parts)
     try:
         value = float(text)
     except ValueError:
         value = math.nan
     if not 0.0 <= value < math.inf:
-        raise LaunchError(f"the time-out {text!r} is no number of seconds")
+        raise LaunchError(f"the time {text!r} is no number of seconds")
     return value
 
 

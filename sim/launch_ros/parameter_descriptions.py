@@ -46,6 +46,13 @@ class ParameterValue:
             isinstance(value, list | tuple) and any(isinstance(item, Substitution) for item in value)
         ):
             value = perform_substitutions(context, normalize_to_list_of_substitutions(value))
+        elif isinstance(value, list | tuple):
+            value = [
+                perform_substitutions(context, normalize_to_list_of_substitutions(item))
+                if isinstance(item, list | tuple)
+                else item
+                for item in value
+            ]
         return coerce(name, value, self.value_type)
 
 

@@ -54,11 +54,15 @@ def check_type(value: Any, value_type: Any) -> None:
     items, item_type = [value], value_type
     if isinstance(value, Substitution | Mapping):
         return
-    if get_origin(value_type) is list and isinstance(value, list | tuple):
-        items, item_type = uniform("ParameterValue", value), get_args(value_type)[0]
+    if isinstance(value, list | tuple) and get_origin(value_type) is not list:
+        if value_type in SCALARS and not any(isinstance(item, Substitution) for item in value):
+            raise _not_of_type("", value, value_type)
+    elif isinstance(value, list | tuple):
+        plain = [item for item in value if not isinstance(item, Substitution | list | tuple)]
+        items, item_type = uniform("ParameterValue", plain) if plain else [], get_args(value_type)[0]
     if item_type not in SCALARS:
         raise _not_of_type("", value, value_type) if get_origin(value_type) is list else _no_type("", value_type)
-    if not all(isinstance(item, item_type) for item in items):
+    if not all(isinstance(item, item_type | Substitution | list | tuple) for item in items):
         error = _not_of_type("", value, value_type)
         raise ParameterTypeError(f"{error}; only substitutions are converted")
 

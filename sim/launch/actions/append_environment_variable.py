@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import os
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gz_course.sim.launch.actions.set_environment_variable import SetEnvironmentVariable
+from gz_course.sim.launch.frontend.expose import expose_action
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
 from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
+if TYPE_CHECKING:
+    from gz_course.sim.launch.frontend import Entity, Parser
 
+
+@expose_action("append_env")
 class AppendEnvironmentVariable(SetEnvironmentVariable):
     """Appends a value to a variable, or prepends it with `prepend`; `separator` stands between the values."""
 
@@ -25,6 +30,18 @@ class AppendEnvironmentVariable(SetEnvironmentVariable):
         super().__init__(name, value, **kwargs)
         self.prepend = normalize_to_list_of_substitutions(str(prepend) if isinstance(prepend, bool) else prepend)
         self.separator = normalize_to_list_of_substitutions(separator)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+        """Read `<append_env name= value= [prepend=] [separator=]/>`."""
+        _, options = super().parse(entity, parser)
+        prepend = entity.get_attr("prepend", data_type=bool, optional=True)
+        separator = entity.get_attr("separator", optional=True)
+        if prepend is not None:
+            options["prepend"] = parser.parse_if_substitutions(prepend)
+        if separator is not None:
+            options["separator"] = parser.parse_substitution(separator)
+        return cls, options
 
     def execute(self, context: LaunchContext) -> None:
         from gz_course.sim.launch.conditions import evaluate_condition_expression

@@ -3,18 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import gz_course.sim.launch.logging as launch_logging
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.launch.action import Action
 from gz_course.sim.launch.errors import InvalidArgumentError, MissingArgumentError
+from gz_course.sim.launch.frontend.entity import Entity
+from gz_course.sim.launch.frontend.expose import expose_action
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
 from gz_course.sim.launch.substitutions import TextSubstitution
 from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
+if TYPE_CHECKING:
+    from gz_course.sim.launch.frontend import Parser
 
+
+@expose_action("arg")
 class DeclareLaunchArgument(Action):
     """Declares the argument `name`, whose value becomes the launch configuration of that name.
 
@@ -46,6 +52,24 @@ class DeclareLaunchArgument(Action):
                     f'Argument "{name}" has the default value "{default}", which is not one of its choices: '
                     f"{self.choices}"
                 )
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+        """Read `<arg name= [default=] [description=]/>`, which can hold `<choice value=/>`."""
+        _, options = super().parse(entity, parser)
+        options["name"] = parser.escape_characters(entity.get_attr("name"))
+        default = entity.get_attr("default", optional=True)
+        if default is not None:
+            options["default_value"] = parser.parse_substitution(default)
+        description = entity.get_attr("description", optional=True)
+        if description is not None:
+            options["description"] = parser.escape_characters(description)
+        choices = entity.get_attr("choice", data_type=list[Entity], optional=True)
+        if choices is not None:
+            options["choices"] = [parser.escape_characters(choice.get_attr("value")) for choice in choices]
+            for choice in choices:
+                choice.assert_entity_completely_parsed()
+        return cls, options
 
     def describe(self) -> str:
         return f"DeclareLaunchArgument('{self.name}')"

@@ -10,11 +10,12 @@ import asyncio
 import contextlib
 import signal
 import sys
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any
 
 import gz_course.sim.launch.logging as launch_logging
 from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.actions.emit_event import EmitEvent
 from gz_course.sim.launch.child_process import ChildProcess
 from gz_course.sim.launch.conditions.evaluate_condition_expression_impl import as_bool, evaluate_condition_expression
 from gz_course.sim.launch.descriptions.executable import Executable
@@ -39,15 +40,30 @@ from gz_course.sim.launch.process_settings import (
     ProcessSettings,
     normalized_output,
     performed_output,
+    plain_or_substitutions,
     seconds,
     timeout_substitutions,
+    whole_number,
     why_not_started,
 )
 from gz_course.sim.launch.some_entities_type import SomeEntitiesType
 from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
-from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions
+
+if TYPE_CHECKING:
+    from gz_course.sim.launch.frontend import Entity, Parser
 
 _IO_EVENTS = {"stdout": ProcessStdout, "stderr": ProcessStderr}
+# The attributes of an XML or YAML launch file, with their types.
+_ATTRIBUTES: dict[str, Any] = {
+    "output": str,
+    "output_format": str,
+    "respawn": bool,
+    "respawn_delay": float,
+    "respawn_max_retries": int,
+    "sigterm_timeout": float,
+    "sigkill_timeout": float,
+    "emulate_tty": bool,
+}
 _GRACE = 1.0  # [s] for background processes, after the process itself has ended
 OnExit = SomeEntitiesType | Callable[[ProcessExited, LaunchContext], SomeEntitiesType | None] | None
 
@@ -69,15 +85,15 @@ class ExecuteLocal(Action):
         shell: bool = False,
         sigterm_timeout: SomeSubstitutionsType | float | None = None,
         sigkill_timeout: SomeSubstitutionsType | float | None = None,
-        emulate_tty: bool = False,
+        emulate_tty: bool | SomeSubstitutionsType = False,
         output: Any = "log",
         output_format: str | None = None,
         cached_output: bool = False,
         log_cmd: bool = False,
         on_exit: OnExit = None,
         respawn: bool | SomeSubstitutionsType = False,
-        respawn_delay: float | None = None,
-        respawn_max_retries: int = -1,
+        respawn_delay: float | SomeSubstitutionsType | None = None,
+        respawn_max_retries: int | SomeSubstitutionsType = -1,
         **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
@@ -95,9 +111,9 @@ class ExecuteLocal(Action):
         self.__on_exit = on_exit
         if on_exit is not None:
             known_entities(on_exit, "on_exit")
-        self.__respawn = normalize_to_list_of_substitutions(str(respawn) if isinstance(respawn, bool) else respawn)
-        self.__respawn_delay = respawn_delay or 0.0
-        self.__respawn_max_retries = respawn_max_retries
+        self.__respawn = plain_or_substitutions(respawn)
+        self.__respawn_delay = plain_or_substitutions(0.0 if respawn_delay is None else respawn_delay)
+        self.__respawn_max_retries = plain_or_substitutions(respawn_max_retries)
         self.__task: asyncio.Task[None] | None = None
         self.__child: ChildProcess | None = None
         self.__printed: ProcessOutput | None = None
@@ -107,6 +123,27 @@ class ExecuteLocal(Action):
         self.__must_stop = asyncio.Event()
         self.__ended = asyncio.Event()
         self.__gone = asyncio.Event()
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser, ignore: Iterable[str] = ()) -> tuple[Any, dict[str, Any]]:
+        """Read the attributes of a process, those in `ignore` aside."""
+        _, options = super().parse(entity, parser)
+        for name, data_type in _ATTRIBUTES.items():
+            value = None if name in ignore else entity.get_attr(name, data_type=data_type, optional=True)
+            if value is not None:
+                options[name] = parser.parse_if_substitutions(value)
+        # Numbers that are not substitutions are checked here, where the place of the attribute is known.
+        delay = options.get("respawn_delay")
+        if isinstance(delay, int | float) and delay < 0.0:
+            raise LaunchError(f"respawn_delay={delay} is less than 0")
+        if "shell" not in ignore:
+            shell = entity.get_attr("shell", data_type=bool, optional=True, can_be_str=False)
+            options |= {} if shell is None else {"shell": shell}
+        if "on_exit" not in ignore and (reaction := entity.get_attr("on_exit", optional=True)) is not None:
+            if reaction != "shutdown":
+                raise LaunchError(f"on_exit is '{reaction}'; it can be 'shutdown'")
+            options["on_exit"] = EmitEvent(event=Shutdown(reason="a required process has ended"))
+        return cls, options
 
     def get_stdout(self) -> str:
         """Return the output so far. Raises LaunchError without `cached_output`."""
@@ -158,8 +195,11 @@ class ExecuteLocal(Action):
         assert label is not None
         settings = ProcessSettings(
             output=performed_output(self.output, context),
-            emulate_tty=self.emulate_tty or as_bool(context.launch_configurations.get("emulate_tty", "")) is True,
+            emulate_tty=evaluate_condition_expression(context, plain_or_substitutions(self.emulate_tty))
+            or as_bool(context.launch_configurations.get("emulate_tty", "")) is True,
             respawn=evaluate_condition_expression(context, self.__respawn),
+            respawn_delay=seconds(context, self.__respawn_delay),
+            respawn_max_retries=whole_number(context, self.__respawn_max_retries),
             timeouts={number: seconds(context, parts) for number, parts in self.__timeouts.items()},
             logger=launch_logging.get_logger(label),
         )
@@ -180,10 +220,10 @@ class ExecuteLocal(Action):
             while not (context.is_shutdown or self.__must_stop.is_set()):
                 if not await self._run_once(context, settings) or not settings.respawn:
                     break
-                if 0 <= self.__respawn_max_retries <= retries:
+                if 0 <= settings.respawn_max_retries <= retries:
                     break
                 retries += 1
-                await _happens(self.__must_stop, self.__respawn_delay)
+                await _happens(self.__must_stop, settings.respawn_delay)
         except Exception as error:
             locate(error, self._place)
             raise

@@ -3,15 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gz_course.sim.launch.actions.execute_local import ExecuteLocal
 from gz_course.sim.launch.descriptions.executable import Environment, Executable
+from gz_course.sim.launch.frontend.command_words import command_words
+from gz_course.sim.launch.frontend.entity import Entity
+from gz_course.sim.launch.frontend.expose import expose_action
+from gz_course.sim.launch.frontend.named_values import named_values
 from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
 from gz_course.sim.launch.substitution import Substitution
 from gz_course.sim.launch.utilities import describe_substitutions
 
+if TYPE_CHECKING:
+    from gz_course.sim.launch.frontend import Parser
 
+
+@expose_action("executable")
 class ExecuteProcess(ExecuteLocal):
     """Runs `cmd`, a list of words; with `shell=True` they are joined by spaces and passed to /bin/sh.
 
@@ -35,6 +43,21 @@ class ExecuteProcess(ExecuteLocal):
             raise TypeError(f"cmd={cmd!r} is one text; write a list of words, cmd={cmd.split()}, or add shell=True")
         description = Executable(cmd=cmd, prefix=prefix, name=name, cwd=cwd, env=env, additional_env=additional_env)
         super().__init__(process_description=description, **kwargs)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser, ignore: Iterable[str] = ()) -> tuple[Any, dict[str, Any]]:
+        """Read `<executable cmd= ...>`, which can hold `<env name= value=/>`; attributes in `ignore` aside."""
+        _, options = super().parse(entity, parser, ignore)
+        if "cmd" not in ignore:
+            options["cmd"] = command_words(entity.get_attr("cmd"), parser)
+        for name, option in (("cwd", "cwd"), ("name", "name"), ("launch-prefix", "prefix")):
+            value = None if name in ignore else entity.get_attr(name, optional=True)
+            if value is not None:
+                options[option] = parser.parse_substitution(value)
+        environment = None if "env" in ignore else entity.get_attr("env", data_type=list[Entity], optional=True)
+        if environment is not None:
+            options["additional_env"] = named_values(environment, parser)
+        return cls, options
 
     @property
     def name(self) -> list[Substitution] | str | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gz_course.sim.launch.action import Action
 from gz_course.sim.launch.actions.pop_environment import PopEnvironment
@@ -13,11 +13,18 @@ from gz_course.sim.launch.actions.push_launch_configurations import PushLaunchCo
 from gz_course.sim.launch.actions.reset_environment import ResetEnvironment
 from gz_course.sim.launch.actions.reset_launch_configurations import ResetLaunchConfigurations
 from gz_course.sim.launch.actions.set_launch_configuration import SetLaunchConfiguration
+from gz_course.sim.launch.frontend.entity import Entity
+from gz_course.sim.launch.frontend.expose import expose_action
+from gz_course.sim.launch.frontend.named_values import named_values
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity, listed
 from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
 
+if TYPE_CHECKING:
+    from gz_course.sim.launch.frontend import Parser
 
+
+@expose_action("group")
 class GroupAction(Action):
     """Visits `actions`; with `scoped` their changes of configurations and environment end with the group.
 
@@ -39,6 +46,20 @@ class GroupAction(Action):
         self.__forwarding = forwarding
         self.__launch_configurations = dict(launch_configurations or {})
         self.__entities: list[LaunchDescriptionEntity] | None = None
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+        """Read `<group [scoped=] [forwarding=]>`, which can hold `<keep name= value=/>` beside actions."""
+        _, options = super().parse(entity, parser)
+        for name in ("scoped", "forwarding"):
+            value = entity.get_attr(name, data_type=bool, optional=True, can_be_str=False)
+            if value is not None:
+                options[name] = value
+        kept = entity.get_attr("keep", data_type=list[Entity], optional=True)
+        if kept is not None:
+            options["launch_configurations"] = named_values(kept, parser)
+        options["actions"] = [parser.parse_action(child) for child in entity.children if child.type_name != "keep"]
+        return cls, options
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
         if self.__entities is None:

@@ -6,7 +6,7 @@ import os
 import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import gz_course.sim.launch.logging as launch_logging
 from gz_course.sim.did_you_mean import did_you_mean
@@ -15,6 +15,9 @@ from gz_course.sim.launch.actions.opaque_coroutine import OpaqueCoroutine
 from gz_course.sim.launch.actions.opaque_function import OpaqueFunction
 from gz_course.sim.launch.actions.set_launch_configuration import SetLaunchConfiguration
 from gz_course.sim.launch.errors import LaunchError, MissingArgumentError, NotTextError
+from gz_course.sim.launch.frontend.entity import Entity
+from gz_course.sim.launch.frontend.expose import expose_action
+from gz_course.sim.launch.frontend.named_values import named_values
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.launch_description import LaunchDescription
 from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity
@@ -25,11 +28,15 @@ from gz_course.sim.launch.substitutions.this_launch_file import CURRENT_FILE
 from gz_course.sim.launch.substitutions.this_launch_file_dir import CURRENT_FOLDER
 from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
+if TYPE_CHECKING:
+    from gz_course.sim.launch.frontend import Parser
+
 _CHAIN = "launch_file_chain"
 _DEEPEST = 50
 Pairs = Iterable[tuple[SomeSubstitutionsType, SomeSubstitutionsType]]
 
 
+@expose_action("include")
 class IncludeLaunchDescription(Action):
     """Visits the launch description of `launch_description_source`, a source or a path.
 
@@ -48,6 +55,21 @@ class IncludeLaunchDescription(Action):
         self.launch_description_source = as_source(launch_description_source)
         pairs = launch_arguments.items() if isinstance(launch_arguments, Mapping) else (launch_arguments or ())
         self.launch_arguments = [_as_pair(pair) for pair in pairs]  # values are looked at on execution
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+        """Read `<include file=>`, which can hold `<arg name= value=/>` or `<let name= value=/>`."""
+        _, options = super().parse(entity, parser)
+        options["launch_description_source"] = parser.parse_substitution(entity.get_attr("file"))
+        options["launch_arguments"] = [
+            pair
+            for name in ("arg", "let")
+            for pair in named_values(
+                entity.get_attr(name, data_type=list[Entity], optional=True) or (),
+                parser,
+            ).items()
+        ]
+        return cls, options
 
     def describe(self) -> str:
         return f"IncludeLaunchDescription({self.launch_description_source.location})"

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import gz_course.sim.launch.logging as launch_logging
 from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.frontend.expose import expose_action
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
 from gz_course.sim.launch.utilities import (
@@ -14,13 +15,24 @@ from gz_course.sim.launch.utilities import (
     perform_substitutions,
 )
 
+if TYPE_CHECKING:
+    from gz_course.sim.launch.frontend import Entity, Parser
 
+
+@expose_action("log")
 class LogInfo(Action):
     """Logs `[INFO] [launch.user]: msg`."""
 
     def __init__(self, *, msg: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.msg = normalize_to_list_of_substitutions(msg)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+        """Read `<log message=/>`."""
+        _, options = super().parse(entity, parser)
+        options["msg"] = parser.parse_substitution(entity.get_attr("message"))
+        return cls, options
 
     def describe(self) -> str:
         return f"LogInfo({describe_substitutions(self.msg)})"

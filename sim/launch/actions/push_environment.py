@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.frontend.expose import expose_action
 from gz_course.sim.launch.launch_context import LaunchContext
 
 
+@expose_action("push_env")
 class PushEnvironment(Action):
     """Saves the environment for PopEnvironment."""
 

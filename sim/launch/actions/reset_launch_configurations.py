@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.frontend.entity import Entity
+from gz_course.sim.launch.frontend.expose import expose_action
+from gz_course.sim.launch.frontend.named_values import named_values
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
 from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
+if TYPE_CHECKING:
+    from gz_course.sim.launch.frontend import Parser
 
+
+@expose_action("reset")
 class ResetLaunchConfigurations(Action):
     """Removes all launch configurations and sets the given ones."""
 
@@ -24,6 +31,15 @@ class ResetLaunchConfigurations(Action):
             (normalize_to_list_of_substitutions(name), normalize_to_list_of_substitutions(value))
             for name, value in (launch_configurations or {}).items()
         ]
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+        """Read `<reset/>`, which can hold `<keep name= value=/>`."""
+        _, options = super().parse(entity, parser)
+        kept = entity.get_attr("keep", data_type=list[Entity], optional=True)
+        if kept is not None:
+            options["launch_configurations"] = named_values(kept, parser)
+        return cls, options
 
     def execute(self, context: LaunchContext) -> None:
         """Evaluate the new values before removing the configurations, to which they may refer."""

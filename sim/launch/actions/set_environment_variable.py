@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import MutableMapping
 
 from gz_course.sim.launch.actions.set_variable import SetVariable
+from gz_course.sim.launch.frontend.expose import expose_action
 from gz_course.sim.launch.launch_context import LaunchContext
 
 
+@expose_action("set_env")
 class SetEnvironmentVariable(SetVariable):
     """Sets an environment variable of this process, which child processes inherit."""
 

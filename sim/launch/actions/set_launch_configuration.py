@@ -6,9 +6,11 @@ from collections.abc import MutableMapping
 from typing import Any
 
 from gz_course.sim.launch.actions.set_variable import SetVariable
+from gz_course.sim.launch.frontend.expose import expose_action
 from gz_course.sim.launch.launch_context import LaunchContext
 
 
+@expose_action("let")
 class SetLaunchConfiguration(SetVariable):
     """Sets the value of a launch configuration."""
 

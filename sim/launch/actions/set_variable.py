@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import MutableMapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gz_course.sim.launch.action import Action
 from gz_course.sim.launch.launch_context import LaunchContext
@@ -14,6 +14,9 @@ from gz_course.sim.launch.utilities import (
     perform_substitutions,
 )
 
+if TYPE_CHECKING:
+    from gz_course.sim.launch.frontend import Entity, Parser
+
 
 class SetVariable(Action):
     """Base of actions that set the variable `name`; `_variables` returns the mapping it belongs to."""
@@ -22,6 +25,14 @@ class SetVariable(Action):
         super().__init__(**kwargs)
         self.name = normalize_to_list_of_substitutions(name)
         self.value = normalize_to_list_of_substitutions(value)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+        """Read the attributes `name` and `value`."""
+        _, options = super().parse(entity, parser)
+        options["name"] = parser.parse_substitution(entity.get_attr("name"))
+        options["value"] = parser.parse_substitution(entity.get_attr("value"))
+        return cls, options
 
     def describe(self) -> str:
         return f"{type(self).__name__}({describe_substitutions(self.name)}, {describe_substitutions(self.value)})"

@@ -4,20 +4,25 @@ from __future__ import annotations
 
 import asyncio
 import math
-from collections.abc import Iterable
-from typing import Any
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any
 
 from gz_course.sim.launch.action import Action
 from gz_course.sim.launch.errors import LaunchError
 from gz_course.sim.launch.event import Event
 from gz_course.sim.launch.event_handler import EventHandler
 from gz_course.sim.launch.events import Shutdown, TimerEvent
+from gz_course.sim.launch.frontend.expose import expose_action
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity, listed
 from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
 from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
+if TYPE_CHECKING:
+    from gz_course.sim.launch.frontend import Entity, Parser
 
+
+@expose_action("timer")
 class TimerAction(Action):
     """Visits `actions` once, `period` [s] after its execution; the end of the launch cancels it."""
 
@@ -36,11 +41,20 @@ class TimerAction(Action):
             str(cancel_on_shutdown) if isinstance(cancel_on_shutdown, bool) else cancel_on_shutdown
         )
         self.__future: asyncio.Future[None] | None = None
-        self.__timer: asyncio.TimerHandle | None = None
+        self.__cancel_timer: Callable[[], None] | None = None
         self.__canceled = False
 
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+        """Read `<timer period=>`, which holds actions."""
+        _, options = super().parse(entity, parser)
+        period = entity.get_attr("period", data_type=float)
+        options["period"] = parser.parse_if_substitutions(period)
+        options["actions"] = [parser.parse_action(child) for child in entity.children]
+        return cls, options
+
     def describe(self) -> str:
-        return f"TimerAction(period={' + '.join(part.describe() for part in self.period)})"
+        return f"{type(self).__name__}(period={' + '.join(part.describe() for part in self.period)})"
 
     def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
         return [(f"After {self.describe()}", self.actions)]
@@ -63,10 +77,10 @@ class TimerAction(Action):
         except ValueError:
             period = math.nan
         if not 0.0 <= period < math.inf:
-            raise LaunchError(f"period={text!r} of TimerAction is no number of seconds")
+            raise LaunchError(f"period={text!r} of {type(self).__name__} is no number of seconds")
         loop = context.asyncio_loop
         if loop is None:
-            raise LaunchError("TimerAction can only be executed by a LaunchService that runs")
+            raise LaunchError(f"{type(self).__name__} can only be executed by a LaunchService that runs")
         if self.__canceled or context.is_shutdown:
             return None
         self._settle()
@@ -75,15 +89,22 @@ class TimerAction(Action):
         handler = _TimerHandler(self, cancel_on_shutdown)
         context.register_event_handler(handler)
         self.__future.add_done_callback(lambda _: context.unregister_event_handler(handler))
-        self.__timer = loop.call_later(period, context.emit_event_sync, TimerEvent(timer_action=self))
+        due = TimerEvent(timer_action=self)
+        self.__cancel_timer = self._call_later(context, period, lambda: context.emit_event_sync(due))
         return None
+
+    def _call_later(self, context: LaunchContext, period: float, call: Callable[[], None]) -> Callable[[], None]:
+        """Call a function after `period` [s]; return one that prevents it."""
+        assert context.asyncio_loop is not None
+        return context.asyncio_loop.call_later(period, call).cancel
 
     def _announce_completion(self, context: LaunchContext) -> None:
         """Emit nothing: OnExecutionComplete is not for timers, whose actions follow later."""
 
     def _settle(self) -> None:
-        if self.__timer is not None:
-            self.__timer.cancel()
+        if self.__cancel_timer is not None:
+            self.__cancel_timer()
+            self.__cancel_timer = None
         if self.__future is not None and not self.__future.done():
             self.__future.set_result(None)
 

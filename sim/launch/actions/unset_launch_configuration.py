@@ -2,20 +2,32 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.frontend.expose import expose_action
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
 from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
+if TYPE_CHECKING:
+    from gz_course.sim.launch.frontend import Entity, Parser
 
+
+@expose_action("unset")
 class UnsetLaunchConfiguration(Action):
     """Removes a launch configuration, if it is set."""
 
     def __init__(self, name: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.name = normalize_to_list_of_substitutions(name)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+        """Read `<unset name=/>`."""
+        _, options = super().parse(entity, parser)
+        options["name"] = parser.parse_substitution(entity.get_attr("name"))
+        return cls, options
 
     def execute(self, context: LaunchContext) -> None:
         context.launch_configurations.pop(perform_substitutions(context, self.name), None)

@@ -1,5 +1,6 @@
 """Event handlers for RegisterEventHandler."""
 
+from gz_course.sim.launch.event_handlers.event_named import event_named
 from gz_course.sim.launch.event_handlers.on_action_event_base import OnActionEventBase
 from gz_course.sim.launch.event_handlers.on_execution_complete import OnExecutionComplete
 from gz_course.sim.launch.event_handlers.on_process_exit import OnProcessExit
@@ -14,4 +15,5 @@ __all__ = [
     "OnProcessIO",
     "OnProcessStart",
     "OnShutdown",
+    "event_named",
 ]

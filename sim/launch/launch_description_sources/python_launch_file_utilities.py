@@ -26,13 +26,17 @@ def load_python_launch_file_as_module(python_launch_file_path: str) -> ModuleTyp
     path = Path(python_launch_file_path)
     try:
         source = path.read_bytes()
-    except OSError as error:
-        raise InvalidPythonLaunchFileError(f"{_not_readable(path, error)}{_a_package_has(path)}") from None
+    except (OSError, ValueError) as error:
+        raise InvalidPythonLaunchFileError(why_not_readable(path, error)) from None
     module = ModuleType("python_launch_file")
     module.__file__ = str(path)
     try:
         code = compile(source, str(path), "exec")
     except (SyntaxError, ValueError) as error:
+        if source.lstrip().startswith(b"<"):
+            raise InvalidPythonLaunchFileError(
+                f"{path}: this is XML, not Python; name it .launch.xml, and include it with AnyLaunchDescriptionSource"
+            ) from None
         if isinstance(error, SyntaxError) and error.filename:
             raise
         # for example null bytes
@@ -73,14 +77,16 @@ def _described(value: object) -> str:
     return f"{text} of type {type(value).__name__}" if len(text) <= 60 else f"a {type(value).__name__}"
 
 
-def _not_readable(path: Path, error: OSError) -> str:
+def why_not_readable(path: Path, error: OSError | ValueError) -> str:
+    """Return why a launch file cannot be read, in one sentence."""
     if not isinstance(error, FileNotFoundError):
-        return f"the launch file '{path}' cannot be read: {error.strerror}"
+        return f"the launch file '{path}' cannot be read: {getattr(error, 'strerror', None) or error}"
     sentence = f"there is no launch file '{path}'"
     if not path.is_absolute():
         sentence += f" in the current folder {Path.cwd()}"
     folder = path.parent if path.parent.is_dir() else None
-    return sentence + (did_you_mean(path.name, os.listdir(folder)) if folder else "")  # noqa: PTH208
+    sentence += did_you_mean(path.name, os.listdir(folder)) if folder else ""  # noqa: PTH208
+    return sentence + _a_package_has(path)
 
 
 def _a_package_has(path: Path) -> str:

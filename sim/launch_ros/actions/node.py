@@ -14,10 +14,13 @@ import os
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import gz_course.sim.launch.logging as launch_logging
 from gz_course.sim.launch.actions.execute_process import ExecuteProcess
+from gz_course.sim.launch.frontend.command_words import command_words
+from gz_course.sim.launch.frontend.entity import Entity
+from gz_course.sim.launch.frontend.expose import expose_action
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
 from gz_course.sim.launch.substitution import Substitution
@@ -25,15 +28,28 @@ from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, p
 from gz_course.sim.launch_ros.actions.push_ros_namespace import NAMESPACE
 from gz_course.sim.launch_ros.actions.set_parameter import PARAMETERS
 from gz_course.sim.launch_ros.actions.set_remap import REMAPS
+from gz_course.sim.launch_ros.nested_parameters import parse_nested_parameters, parse_remappings
 from gz_course.sim.launch_ros.node_name import check_namespace, check_node_name, joined
 from gz_course.sim.launch_ros.parameter_descriptions import Parameter, ParameterFile, write_parameter_file
 from gz_course.sim.launch_ros.parameter_values import ParameterTypeError, as_argument, as_file, check_value, flattened
 from gz_course.sim.launch_ros.substitutions import ExecutableInPackage
 
+if TYPE_CHECKING:
+    from gz_course.sim.launch.frontend import Parser
+
+# Attributes in XML and YAML -> arguments.
+_ATTRIBUTES = {
+    "exec": "executable",
+    "pkg": "package",
+    "name": "name",
+    "namespace": "namespace",
+    "exec_name": "exec_name",
+}
 _NODE_NAMES = "launch_ros_node_names"
 _LOG = launch_logging.get_logger("launch_ros.actions.node")
 
 
+@expose_action("node")
 class Node(ExecuteProcess):
     """Starts `executable` of `package`, or without a package the one on PATH.
 
@@ -73,6 +89,27 @@ class Node(ExecuteProcess):
         self.__expanded_name: str | None = None
         self.expanded_node_namespace: str | None = None
         self.expanded_remapping_rules: list[tuple[str, str]] | None = None
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser, ignore: Iterable[str] = ()) -> tuple[Any, dict[str, Any]]:
+        """Read `<node pkg= exec= ...>`, which can hold `<param>`, `<remap from= to=/>` and `<env name= value=/>`."""
+        _, options = super().parse(entity, parser, (*ignore, "cmd", "name"))
+        for name, option in _ATTRIBUTES.items():
+            needed = name == "exec"
+            value = None if name in ignore else entity.get_attr(name, optional=not needed)
+            if value is not None:
+                options[option] = parser.parse_substitution(value)
+        for name, option in (("args", "arguments"), ("ros_args", "ros_arguments")):
+            words = entity.get_attr(name, optional=True)
+            if words is not None:
+                options[option] = command_words(words, parser)
+        remappings = entity.get_attr("remap", data_type=list[Entity], optional=True)
+        if remappings is not None:
+            options["remappings"] = parse_remappings(remappings, parser)
+        parameters = entity.get_attr("param", data_type=list[Entity], optional=True)
+        if parameters is not None:
+            options["parameters"] = parse_nested_parameters(parameters, parser)
+        return cls, options
 
     @property
     def node_name(self) -> str | None:

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.frontend.expose import expose_action
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
 from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from gz_course.sim.launch_ros.node_name import check_namespace, joined
 
+if TYPE_CHECKING:
+    from gz_course.sim.launch.frontend import Entity, Parser
+
 NAMESPACE = "ros_namespace"
 
 
+@expose_action("push_ros_namespace")
+@expose_action("push-ros-namespace")
 class PushROSNamespace(Action):
     """Adds a namespace for the following nodes; an absolute one replaces it.
 
@@ -22,6 +28,13 @@ class PushROSNamespace(Action):
     def __init__(self, namespace: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.namespace = normalize_to_list_of_substitutions(namespace)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+        """Read `<push_ros_namespace namespace=/>`."""
+        _, options = super().parse(entity, parser)
+        options["namespace"] = parser.parse_substitution(entity.get_attr("namespace"))
+        return cls, options
 
     def execute(self, context: LaunchContext) -> None:
         namespace = perform_substitutions(context, self.namespace)

@@ -1,8 +1,19 @@
-"""The description of a node for a container; such nodes cannot be loaded here, see `launch_ros.actions`."""
+"""The description of a node for a container."""
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+from gz_course.sim.launch.action import Action
+from gz_course.sim.launch.frontend.entity import Entity
+from gz_course.sim.launch.launch_context import LaunchContext
+from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from gz_course.sim.launch_ros.component_programs import program_of
+from gz_course.sim.launch_ros.nested_parameters import parse_nested_parameters, parse_remappings
+
+if TYPE_CHECKING:
+    from gz_course.sim.launch.frontend import Parser
 
 
 class ComposableNode:
@@ -28,3 +39,51 @@ class ComposableNode:
         self.remappings = remappings
         self.extra_arguments = extra_arguments
         self.condition = condition
+
+    @classmethod
+    def parse(cls, parser: Parser, entity: Entity) -> tuple[Any, dict[str, Any]]:
+        """Read `<composable_node pkg= plugin= [name=] [namespace=]>` with `<param>`, `<remap>` and `<extra_arg>`."""
+        _, options = Action.parse(entity, parser)
+        for name, option in (("pkg", "package"), ("plugin", "plugin"), ("name", "name"), ("namespace", "namespace")):
+            value = entity.get_attr(name, optional=name not in ("pkg", "plugin"))
+            if value is not None:
+                options[option] = parser.parse_substitution(value)
+        parameters = entity.get_attr("param", data_type=list[Entity], optional=True)
+        if parameters is not None:
+            options["parameters"] = parse_nested_parameters(parameters, parser)
+        remappings = entity.get_attr("remap", data_type=list[Entity], optional=True)
+        if remappings is not None:
+            options["remappings"] = parse_remappings(remappings, parser)
+        extra = entity.get_attr("extra_arg", data_type=list[Entity], optional=True)
+        if extra is not None:
+            options["extra_arguments"] = parse_nested_parameters(extra, parser)
+        entity.assert_entity_completely_parsed()
+        return cls, options
+
+    @classmethod
+    def parsed(cls, entities: Iterable[Entity], parser: Parser) -> list[ComposableNode]:
+        """Return the descriptions of `<composable_node>` elements."""
+        return [kind(**options) for kind, options in (cls.parse(parser, entity) for entity in entities)]
+
+    def as_process(self, context: LaunchContext, **options: Any) -> list[Action]:
+        """Return the action that runs the node as a process, none if its condition does not hold.
+
+        Raises NotAvailableError if no program runs the component.
+        """
+        from gz_course.sim.launch_ros.actions.node import Node
+
+        if self.condition is not None and not self.condition.evaluate(context):
+            return []
+        package = perform_substitutions(context, normalize_to_list_of_substitutions(self.package))
+        plugin = perform_substitutions(context, normalize_to_list_of_substitutions(self.node_plugin))
+        return [
+            Node(
+                package=package,
+                executable=program_of(package, plugin),
+                name=self.node_name,
+                namespace=self.node_namespace,
+                parameters=self.parameters,
+                remappings=self.remappings,
+                **options,
+            )
+        ]

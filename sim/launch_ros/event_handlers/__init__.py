@@ -1,4 +1,4 @@
-"""Event handlers for lifecycle nodes. They can be written in a launch file; lifecycle nodes are not executed here."""
+"""Event handlers for lifecycle nodes."""
 
 from gz_course.sim.launch_ros.event_handlers.on_state_transition import OnStateTransition
 

@@ -75,7 +75,7 @@ def launch_file(arguments: argparse.Namespace) -> tuple[str, list[str]]:
     if Path(package).is_file():
         return package, [*([name] if name is not None else []), *words]
     if name is None or ":=" in name:
-        if "/" in package or package.endswith((".py", ".xml", ".yaml", ".yml")):
+        if "/" in package or package.endswith((".py", ".xml", ".yaml", ".yml", ".launch")):
             raise CommandError(f"there is no launch file '{package}'{_nearest_file(Path(package))}")
         files = launch_files_of(package) if package in package_names() else {}
         known = f"; '{package}' has {', '.join(sorted(files))}" if files else did_you_mean(package, package_names())

@@ -25,6 +25,7 @@ SEVERAL = {
         "OrSubstitution",
     },
     "launch.logging": {"LaunchConfig"},
+    "launch.frontend.parser": {"InvalidFrontendLaunchFileError"},
     "launch_ros.parameter_descriptions": {"Parameter", "ParameterFile", "ParameterValue"},
     "launch_ros.substitutions.find_package": {"FindPackagePrefix", "FindPackageShare"},
 }
@@ -38,10 +39,17 @@ OWN = {
         "NotTextError",
         "UsedTwiceError",
     },
+    "launch.frontend.entity": {"EntityError", "LaunchText"},
     "launch_ros.parameter_values": {"ParameterTypeError"},
+    "launch_ros.ros_adapters": {"ROSAdapter"},  # the module of this name in ROS 2's launch_ros
 }
 # Modules of ROS 2's launch that hold a type, not a class.
-ALIASES = {"launch.some_entities_type": "SomeEntitiesType", "launch.some_substitutions_type": "SomeSubstitutionsType"}
+ALIASES = {
+    "launch.some_entities_type": "SomeEntitiesType",
+    "launch.some_substitutions_type": "SomeSubstitutionsType",
+    "launch_ros.parameters_type": "SomeParameters",
+    "launch_ros.remap_rule_type": "SomeRemapRules",
+}
 
 
 def snake(name):
@@ -113,9 +121,56 @@ def test_no_module_only_forwards_to_another():
         "from launch.actions.shutdown_action import Shutdown",
         "from launch.actions.append_environment_variable import AppendEnvironmentVariable",
         "from launch.events.process.process_matchers import matches_pid",
+        "from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution",
+        "from launch.utilities import ensure_argument_type, is_a, is_a_subclass, create_future",
+        "from launch.event_handlers.event_named import event_named",
+        "from launch.frontend import Entity, Parser, expose_action, expose_substitution",
+        "from launch_xml.launch_description_sources import XMLLaunchDescriptionSource",
+        "from launch_yaml.launch_description_sources import YAMLLaunchDescriptionSource",
+        "from launch_ros.utilities import evaluate_parameters, normalize_parameters, normalize_remap_rules",
+        "from launch_ros.parameters_type import SomeParameters, SomeParametersDict, ParameterFile",
+        "from launch_ros.remap_rule_type import SomeRemapRules",
+        "from launch_ros.ros_adapters import get_ros_node, get_ros_adapter",
+        "from launch_ros.actions import LifecycleTransition, RosTimer, SetROSLogDir",
+        "from launch_ros.actions.lifecycle_node import LifecycleNode",
         "from launch.launch_description_sources.any_launch_file_utilities import "
         "get_launch_description_from_any_launch_file",
     ],
 )
 def test_styles_of_import(statement):
     exec(statement, {})
+
+
+def test_parameters_and_namespaces_as_actions_of_ones_own_want_them():
+    from launch_ros import utilities
+    from launch_ros.descriptions import Parameter
+
+    context = launch.LaunchContext()
+    text = launch.substitutions.TextSubstitution(text="5")
+    found = utilities.evaluate_parameters(context, [{"a": {"b": text}}, Parameter("c", 1), "/x.yaml"])
+    assert found == ({"a.b": 5}, {"c": 1}, Path("/x.yaml"))
+    assert [utilities.prefix_namespace("/a", name) for name in ("b", "/b", "", None)] == ["/a/b", "/b", "/a", "/a"]
+    assert utilities.make_namespace_absolute("a") == "/a" and utilities.is_root_namespace("/")
+    assert len(utilities.normalize_remap_rules([("a", "b")])) == 1
+
+
+def test_a_typed_value_is_what_it_says():
+    from launch.utilities.type_utils import coerce_to_type, normalize_typed_substitution, perform_typed_substitution
+
+    context = launch.LaunchContext()
+    text = launch.substitutions.TextSubstitution(text="5")
+    for value, kind, result in [
+        (text, int, 5),
+        (["1", text], float, 15.0),
+        (True, bool, True),
+        ([1, [text]], list[int], [1, 5]),
+        ([1, 2.5], list[float], [1.0, 2.5]),
+        (text, None, 5),
+    ]:
+        assert perform_typed_substitution(context, normalize_typed_substitution(value, kind), kind) == result
+    for value, kind in (("5", int), ([1], int), (3, None.__class__)):
+        with pytest.raises((TypeError, ValueError)):
+            normalize_typed_substitution(value, kind)
+    assert coerce_to_type("$(var x)", float, can_be_str=True) == "$(var x)"
+    with pytest.raises(ValueError, match="is not true or false"):
+        coerce_to_type("5", bool)

@@ -258,7 +258,7 @@ def test_who_ignores_both_gets_sigkill(run):
 def test_a_time_out_that_is_no_number(run):
     result = run(sh("true"), arguments={"sigterm_timeout": "soon"})
     assert result.code == 1
-    assert "the time-out 'soon' is no number of seconds" in result.lines[-1]
+    assert "the time 'soon' is no number of seconds" in result.lines[-1]
 
 
 def test_all_that_a_shell_has_started_ends_with_it(run):

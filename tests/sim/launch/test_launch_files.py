@@ -4,7 +4,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from gz_course.sim.launch import InvalidLaunchFileError, LaunchContext, LaunchDescription, LaunchIntrospector
+from gz_course.sim.launch import LaunchContext, LaunchDescription, LaunchIntrospector
 from gz_course.sim.launch.actions import (
     DeclareLaunchArgument,
     GroupAction,
@@ -19,7 +19,6 @@ from gz_course.sim.launch.errors import InvalidArgumentError, MissingArgumentErr
 from gz_course.sim.launch.launch_description_sources import (
     AnyLaunchDescriptionSource,
     PythonLaunchDescriptionSource,
-    get_launch_description_from_any_launch_file,
     get_launch_description_from_python_launch_file,
 )
 from gz_course.sim.launch.substitutions import LaunchConfiguration, TextSubstitution, ThisLaunchFile, ThisLaunchFileDir
@@ -284,13 +283,6 @@ def test_a_file_that_is_not_there(run, write, tmp_path, monkeypatch):
         "the package my_robot has one of that name: write PathJoinSubstitution([FindPackageShare"
         '("my_robot"), "launch", "drive.launch.py"])' in result.lines[-1]
     )
-
-
-@pytest.mark.parametrize(("name", "kind"), [("a.launch.xml", "an XML"), ("a.launch.yaml", "a YAML")])
-def test_other_kinds_of_launch_files_are_refused(write, name, kind):
-    path = write(name, text="<launch/>")
-    with pytest.raises(InvalidLaunchFileError, match=f"is {kind} launch file; only Python launch files"):
-        get_launch_description_from_any_launch_file(str(path))
 
 
 def test_files_that_include_each_other_without_end(run, write, tmp_path):

@@ -38,6 +38,8 @@ def package(tmp_path, monkeypatch):
     index.mkdir(parents=True)
     (index / "my_robot").touch()
     (prefix / "share/my_robot").mkdir()
+    (index.parent / "component_programs").mkdir()
+    (index.parent / "component_programs/my_robot").write_text("my::Tell;tell\n")
     (prefix / "lib/my_robot").mkdir(parents=True)
     (prefix / "lib/my_robot/tell").write_text(TELL)
     (prefix / "lib/my_robot/tell").chmod(0o755)

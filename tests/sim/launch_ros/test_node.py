@@ -1,6 +1,7 @@
 """Node: the resulting command, and the errors if it cannot be built."""
 
 import stat
+from unittest.mock import ANY
 
 import pytest
 import yaml
@@ -12,6 +13,7 @@ from rclpy.validate_node_name import validate_node_name
 
 from gz_course.sim.launch import LaunchContext
 from gz_course.sim.launch.actions import GroupAction
+from gz_course.sim.launch.conditions import IfCondition
 from gz_course.sim.launch.errors import LaunchError
 from gz_course.sim.launch.substitutions import LaunchConfiguration, TextSubstitution
 from gz_course.sim.launch_ros.actions import (
@@ -228,9 +230,9 @@ def test_respawned_nodes_keep_their_parameter_files(tell):
         (lambda: node(name="my robot"), "the node name 'my robot' is not valid"),
         (lambda: node(namespace="1a"), "the namespace '/1a' is not valid"),
         (lambda: PushRosNamespace("a//b"), "the namespace '/a//b' is not valid"),
-        (lambda: ComposableNodeContainer(name="a"), "needs a full ROS 2 installation and cannot be executed here"),
-        (lambda: LifecycleNode(package="a", executable="b", name="c", namespace=""), "use Node for a node"),
-        (lambda: LoadComposableNodes(target_container="a"), "switch it off with its condition"),
+        (lambda: composed("x::Tell"), "the component 'x::Tell' of 'my_robot' cannot be loaded: containers need a full"),
+        (lambda: composed("my::Tel"), "no program is registered that runs it; did you mean 'my::Tell'?"),
+        (lambda: LifecycleNode(package="my_robot", executable="tell", name=""), "the name of a LifecycleNode is empty"),
         (lambda: node(parameters=[{"a": LaunchConfiguration("x")}]), "launch configuration 'x' does not exist"),
     ],
 )
@@ -283,13 +285,29 @@ def test_without_any_prefix_it_says_so(performed, monkeypatch):
         performed(FindPackageShare("my_robot"))
 
 
-def test_composable_nodes_can_be_described():
-    described = ComposableNode(package="a", plugin="b::C", name="d", parameters=[{"e": 1}])
+def composed(plugin, **options):
+    return LoadComposableNodes(
+        target_container="container",
+        composable_node_descriptions=[ComposableNode(package="my_robot", plugin=plugin, **options)],
+    )
+
+
+def test_composable_nodes_run_as_processes_of_their_own(tell):
+    """Each by the program that its package has registered, with what the description says."""
+    options = {"name": "a", "parameters": [{"b": 1}], "remappings": [("c", "d")]}
+    described = [
+        ComposableNode(package="my_robot", plugin="my::Tell", **options),
+        ComposableNode(package="my_robot", plugin="no::Such", condition=IfCondition("false")),
+    ]
     container = ComposableNodeContainer(
         name="x", namespace="", package="rclcpp_components", executable="component_container",
-        composable_node_descriptions=[described], output="screen",
+        composable_node_descriptions=described, output="screen",
     )  # fmt: skip
-    assert "composable_node_descriptions" in container.describe()
+    result = tell(container, composed("my::Tell", name="later"))
+    assert "the nodes of the container 'x' run as processes of their own (1)" in result.text
+    assert result.words == [["--ros-args", "-r", "__node:=a", "--params-file", ANY, "-r", "c:=d"]]
+    assert result.files == [["/**:\n  ros__parameters:\n    b: 1\n"]]
+    assert "[tell-2]: process has finished cleanly" in result.text
 
 
 def test_parameters_as_values_with_a_type():

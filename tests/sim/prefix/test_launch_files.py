@@ -166,15 +166,8 @@ def test_a_model_with_its_bridge(start, tmp_path):
     assert not waiting
 
 
-@pytest.mark.parametrize(
-    ("package", "file", "arguments"),
-    [
-        ("ros_gz_bridge", "ros_gz_bridge.launch.py", ["bridge_name:=a", "config_file:=b"]),
-        ("ros_gz_sim", "gz_server.launch.py", ["world_sdf_file:=empty.sdf"]),
-    ],
-)
-def test_composition_is_refused(start, package, file, arguments):
-    process = start(package, file, *arguments, "use_composition:=True")
-    output, _ = process.communicate(timeout=120)
-    assert process.returncode == 1
-    assert "LoadComposableNodes needs a full ROS 2 installation" in output
+def test_what_is_composed_runs_as_a_process_of_its_own(start):
+    arguments = ["world_sdf_file:=empty.sdf", "use_composition:=True", "create_own_container:=True"]
+    process = start("ros_gz_sim", "gz_server.launch.py", *arguments, "verbosity_level:=3")
+    said = lines_until(process, "world 'empty' is loaded")
+    assert "the nodes of the container 'ros_gz_container' run as processes of their own (1)" in said

@@ -1,4 +1,4 @@
-"""Events of lifecycle nodes. They can be written in a launch file; lifecycle nodes are not executed here."""
+"""Events of lifecycle nodes."""
 
 from gz_course.sim.launch_ros.events.lifecycle.change_state import ChangeState
 from gz_course.sim.launch_ros.events.lifecycle.state_transition import StateTransition

@@ -15,7 +15,14 @@ from launch_ros.parameter_descriptions import ParameterValue
 def generate_launch_description() -> LaunchDescription:
     composed = LaunchConfiguration("use_composition")
     own_container = LaunchConfiguration("create_own_container")
-    bridge = ComposableNode(package="ros_gz_bridge", plugin="ros_gz_bridge::RosGzBridge")
+    parameters = [{"config_file": ParameterValue(LaunchConfiguration("config_file"), value_type=str)}]
+    bridge = ComposableNode(
+        package="ros_gz_bridge",
+        plugin="ros_gz_bridge::RosGzBridge",
+        name=LaunchConfiguration("bridge_name"),
+        namespace=LaunchConfiguration("namespace"),
+        parameters=parameters,
+    )
     return LaunchDescription(
         [
             DeclareLaunchArgument("bridge_name", description="Name of the bridge's node"),
@@ -30,7 +37,7 @@ def generate_launch_description() -> LaunchDescription:
             DeclareLaunchArgument(
                 "use_composition",
                 default_value="False",
-                description="Whether the bridge runs in a container (not available here)",
+                description="Whether the bridge runs in a container (here as a process of its own)",
             ),
             DeclareLaunchArgument(
                 "use_respawn", default_value="False", description="Whether the bridge is restarted after it has ended"
@@ -45,12 +52,13 @@ def generate_launch_description() -> LaunchDescription:
                 output="screen",
                 respawn=LaunchConfiguration("use_respawn"),
                 respawn_delay=2.0,
-                parameters=[{"config_file": ParameterValue(LaunchConfiguration("config_file"), value_type=str)}],
+                parameters=parameters,
                 ros_arguments=["--log-level", LaunchConfiguration("log_level")],
             ),
             ComposableNodeContainer(
                 condition=IfCondition(AndSubstitution(composed, own_container)),
                 name=LaunchConfiguration("container_name"),
+                output="screen",
                 composable_node_descriptions=[bridge],
             ),
             LoadComposableNodes(

@@ -12,7 +12,15 @@ from launch_ros.parameter_descriptions import ParameterValue
 def generate_launch_description() -> LaunchDescription:
     composed = LaunchConfiguration("use_composition")
     own_container = LaunchConfiguration("create_own_container")
-    server = ComposableNode(package="ros_gz_sim", plugin="ros_gz_sim::GzServer")
+    parameters = [
+        {
+            "world_sdf_file": _value("world_sdf_file", str),
+            "world_sdf_string": _value("world_sdf_string", str),
+            "initial_sim_time": _value("initial_sim_time", float),
+            "verbosity_level": _value("verbosity_level", int),
+        }
+    ]
+    server = ComposableNode(package="ros_gz_sim", plugin="ros_gz_sim::GzServer", parameters=parameters)
     return LaunchDescription(
         [
             DeclareLaunchArgument("world_sdf_file", default_value="", description="World to simulate"),
@@ -26,7 +34,7 @@ def generate_launch_description() -> LaunchDescription:
             DeclareLaunchArgument(
                 "use_composition",
                 default_value="False",
-                description="Whether the server runs in a container (not available here)",
+                description="Whether the server runs in a container (here as a process of its own)",
             ),
             DeclareLaunchArgument("initial_sim_time", default_value="0.0", description="Initial simulation time, s"),
             DeclareLaunchArgument("verbosity_level", default_value="1", description="Verbosity: 0 to 4"),
@@ -35,18 +43,12 @@ def generate_launch_description() -> LaunchDescription:
                 package="ros_gz_sim",
                 executable="gzserver",
                 output="screen",
-                parameters=[
-                    {
-                        "world_sdf_file": _value("world_sdf_file", str),
-                        "world_sdf_string": _value("world_sdf_string", str),
-                        "initial_sim_time": _value("initial_sim_time", float),
-                        "verbosity_level": _value("verbosity_level", int),
-                    }
-                ],
+                parameters=parameters,
             ),
             ComposableNodeContainer(
                 condition=IfCondition(AndSubstitution(composed, own_container)),
                 name=LaunchConfiguration("container_name"),
+                output="screen",
                 composable_node_descriptions=[server],
             ),
             LoadComposableNodes(

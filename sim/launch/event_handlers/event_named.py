@@ -1,0 +1,12 @@
+"""The matcher of events by their names, for EventHandler."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from gz_course.sim.launch.event import Event
+
+
+def event_named(event_name: str) -> Callable[[Event], bool]:
+    """Return a matcher for events whose `name` is this, such as `launch.events.Shutdown`."""
+    return lambda event: event.name == event_name
