@@ -60,7 +60,7 @@ def test_the_library_of_mcap_reads_it(tmp_path):
         told = {each.name: each.metadata for each in reader.iter_metadata()}
     assert yaml.safe_load(told["rosbag2"]["serialized_metadata"])["version"] == 9
     schemas = Bag(folder).definitions()
-    assert "=" * 80 + "\nMSG: geometry_msgs/msg/Vector3\n" in schemas["geometry_msgs/msg/Twist"][1]
+    assert "=" * 80 + "\nMSG: geometry_msgs/Vector3\n" in schemas["geometry_msgs/msg/Twist"][1]
 
 
 def test_a_bag_is_split_by_size_and_by_time(tmp_path):

@@ -67,7 +67,7 @@ def test_topics_are_recorded_with_the_qos_of_their_publishers(nodes, tmp_path):
     messages = list(bag.messages())
     assert next(m.data for m in messages if m.topic == "/a/map") == string("sent before")
     assert all(0 < m.sent <= m.received < time.time_ns() for m in messages)
-    assert "geometry_msgs/msg/Transform" in bag.definitions()["tf2_msgs/msg/TFMessage"][1]
+    assert "MSG: geometry_msgs/Transform" in bag.definitions()["tf2_msgs/msg/TFMessage"][1]
     for end in (*ends.values(), late):
         nodes.other.destroy_publisher(end)
 
