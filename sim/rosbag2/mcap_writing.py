@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from mcap.writer import CompressionType, Writer
 
@@ -69,7 +69,7 @@ class McapFile:
     """An MCAP file being written. Raises DiskFullError when it cannot grow; then only `abandon` may follow."""
 
     def __init__(self, path: Path, preset: str = "none") -> None:
-        self._sink: Any = _Sink(path)
+        self._sink = cast(Any, _Sink(path))
         options = {"compression": CompressionType.NONE, "chunk_size": CHUNK_BYTES, **PRESETS[preset]}
         self._writer = Writer(self._sink, **options)
         self._writer.start(profile="ros2", library="gz_course")
