@@ -11,17 +11,16 @@ from gz_course.sim.ros2 import interruption
 from gz_course.sim.ros2.bag import bag_errors, default_folder, warn
 from gz_course.sim.ros2.errors import CommandError, UsageError
 from gz_course.sim.ros2.graph import Graph
-from gz_course.sim.ros2.interface import message_class
 from gz_course.sim.ros2.option_values import positive_number, whole_number
 from gz_course.sim.ros_program.abandoned_segments import remove_abandoned_segments
 from gz_course.sim.rosbag2 import keys
 from gz_course.sim.rosbag2.bag_writer import BagWriter
-from gz_course.sim.rosbag2.errors import BagError
 from gz_course.sim.rosbag2.mcap_writing import PRESETS
 from gz_course.sim.rosbag2.qos import overrides
 from gz_course.sim.rosbag2.recorder import Recorder, RecordOptions
 from gz_course.sim.rosbag2.selection import SERVICE_EVENTS, Selection, absolute
 from gz_course.sim.rosbag2.services import offer_recorder
+from gz_course.sim.rosbag2.stored_types import installed_class
 from gz_course.sim.rosbag2.writing_thread import WritingThread
 
 _SMALLEST_SPLIT = 1024  # bytes
@@ -122,7 +121,7 @@ def _record(arguments: argparse.Namespace, options: RecordOptions, writing: Writ
         remove_abandoned_segments()
     place = argparse.Namespace(spin_time=None, use_sim_time=arguments.use_sim_time)
     with Graph(place, node_name=arguments.node_name) as graph:
-        recorder = Recorder(graph.node, writing, options, _class_or_bag_error)
+        recorder = Recorder(graph.node, writing, options, installed_class)
         log = graph.node.get_logger()
         offer_recorder(graph.node, recorder)
         recorder.paused = arguments.start_paused
@@ -152,13 +151,6 @@ def _listen(graph: Graph, recorder: Recorder, writing: WritingThread, look_every
             recorder.look()
             next_look = now + look_every
         graph.spin_once(min(look_every or 0.1, 0.1))
-
-
-def _class_or_bag_error(type_name: str) -> type:
-    try:
-        return message_class(type_name)
-    except CommandError as error:
-        raise BagError(str(error)) from None
 
 
 def _selection(arguments: argparse.Namespace) -> Selection:
