@@ -18,7 +18,6 @@ from gz_course.sim.rosbag2.errors import BagError
 from gz_course.sim.rosbag2.metadata import Metadata, Topic
 from gz_course.sim.rosbag2.yaml_text import to_yaml
 
-SUFFIX = ".mcap"
 CHUNK_BYTES = 786432
 PRESETS: dict[str, dict[str, Any]] = {
     "none": {},
