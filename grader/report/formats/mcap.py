@@ -10,6 +10,7 @@ Source: https://mcap.dev/spec/registry (profile `ros2`)
 
 from __future__ import annotations
 
+import bisect
 import io
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
@@ -62,8 +63,9 @@ def _rows(recording: Recording, left_out: list[str]) -> Iterator[Row]:
     for entity, kind in topics.items():
         topic = entity.removeprefix("topics")
         times, pictures = recording.pictures(entity)
+        frame = _Text(recording, f"{entity}/header/frame_id")
         for time, picture in zip(times.tolist(), pictures, strict=True):
-            header = {"stamp": _stamp(time), "frame_id": _text_at(recording, f"{entity}/header/frame_id", time)}
+            header = {"stamp": _stamp(time), "frame_id": frame.at(time)}
             fields = {"header": header, "format": "jpeg", "data": picture}
             yield time, f"{topic}/compressed", _COMPRESSED, fields
         leaves = _leaves(str(kind))
@@ -74,8 +76,8 @@ def _rows(recording: Recording, left_out: list[str]) -> Iterator[Row]:
     for entity, name in _LOGS.items():
         for line in recording.lines(entity):
             level = _LEVELS.get(line.level, 20)
-            fields = {"stamp": _stamp(line.time_ns), "level": level, "name": name, "msg": line.text}
-            yield line.time_ns, "/rosout", "rcl_interfaces/msg/Log", fields
+            log: dict[str, Any] = {"stamp": _stamp(line.time_ns), "level": level, "name": name, "msg": line.text}
+            yield line.time_ns, "/rosout", "rcl_interfaces/msg/Log", log
 
 
 def _leaves(kind: str) -> dict[str, str] | None:
@@ -126,6 +128,7 @@ def _messages(recording: Recording, entity: str, kind: str, leaves: Mapping[str,
     columns: dict[str, Any] = {path: recording.signal(f"{entity}{path}") for path in numbers}
     main = next(iter(columns.values())) if columns else recording.signal(f"{entity}/count")
     rows = {path: recording.arrays(f"{entity}{path}") for path in lists}
+    said = {path: _Text(recording, f"{entity}{path}") for path in texts}
     places = dict.fromkeys(lists, 0)
     for number, time in enumerate(main.times.tolist()):
         fields: dict[str, Any] = {}
@@ -140,8 +143,8 @@ def _messages(recording: Recording, entity: str, kind: str, leaves: Mapping[str,
                 _set(fields, path, [_number(value, leaves[path]) for value in values[place].tolist()])
                 place += 1
             places[path] = place
-        for path in texts:
-            _set(fields, path, _text_at(recording, f"{entity}{path}", time))
+        for path, text in said.items():
+            _set(fields, path, text.at(time))
         for path, each in leaves.items():
             if each == "stamp":
                 _set(fields, path, _stamp(time))
@@ -166,8 +169,16 @@ def _stamp(time: int) -> dict[str, int]:
     return {"sec": seconds, "nanosec": nanoseconds}
 
 
-def _text_at(recording: Recording, entity: str, time: int) -> str:
-    return next((line.text for line in reversed(recording.lines(entity)) if line.time_ns <= time), "")
+class _Text:
+    """A text field over time: recorded only when it changes."""
+
+    def __init__(self, recording: Recording, entity: str) -> None:
+        self._lines = recording.lines(entity)
+        self._times = [line.time_ns for line in self._lines]
+
+    def at(self, time: int) -> str:
+        place = bisect.bisect_right(self._times, time)
+        return self._lines[place - 1].text if place else ""
 
 
 FORMAT = Format(
