@@ -30,6 +30,7 @@ def record_message(recorder: Recorder, topic: str, message: Any) -> None:
     base = f"topics/{topic.strip('/')}"
     leaves = list(fields(message, base))
     bad = [entity for entity, value in leaves if isinstance(value, float) and not math.isfinite(value)]
+    recorder.typed(base, f"{type(message).__module__.partition('.')[0]}/msg/{type(message).__name__}")
     recorder.scalar(f"{base}/count", 1.0)
     for entity in bad:
         recorder.scalar(f"{entity}/not_finite", 1.0)

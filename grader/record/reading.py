@@ -184,6 +184,11 @@ class Recording:
         row = self._last_row(entity, "EncodedImage:blob", time_ns)
         return b"" if row is None else bytes(np.asarray(row.values.flatten(), dtype=np.uint8))
 
+    def pictures(self, entity: str) -> tuple[np.ndarray, list[bytes]]:
+        """Return the encoded images of an entity: times [ns] and one file each."""
+        times, rows = self._column(entity, "EncodedImage:blob")
+        return times, [bytes(np.concatenate(row).astype(np.uint8)) for row in rows]
+
     def _last_row(self, entity: str, component: str, time_ns: int) -> Any:
         """Return the Arrow list of the last row at or before a time [ns], or None."""
         found, when = None, -1

@@ -12,7 +12,8 @@ Entities (checks in a manifest name them without the leading slash):
     /truth/MODEL/{x,y,z,qw,qx,qy,qz,yaw,linear_x,angular_z,distance}   the simulator's truth
     /topics/TOPIC/FIELD/...                  every numeric field of every message seen on a ROS topic; texts when they
                                              change
-    /topics/TOPIC                            EncodedImage, pictures as JPEG, at most one each PICTURE_NS
+    /topics/TOPIC                            EncodedImage, pictures as JPEG, at most one each PICTURE_NS; `ros_type`,
+                                             the type of the topic's messages
     /log/SOURCE                              TextLog; the source is student, given_node (the exercise's own), grader or
                                              verdicts
     /checks/ID                               StateChange, written after scoring
@@ -69,6 +70,7 @@ class Recorder:
         self._tracks: dict[str, tuple[Any, Any]] = {}  # corners of the boxes in which models moved
         self.now_ns = 0
         self._named: set[str] = set()
+        self._typed: set[str] = set()
         self._said: dict[str, str] = {}
         self._pictured: dict[str, int] = {}
         self._block_end = BLOCK_NS
@@ -145,6 +147,12 @@ class Recorder:
         if entity not in self._named:
             self._named.add(entity)
             self.static(entity, rr.SeriesLines(names=name))
+
+    def typed(self, entity: str, ros_type: str) -> None:
+        """Set the type of a topic's messages, such as `geometry_msgs/msg/Twist`."""
+        if entity not in self._typed:
+            self._typed.add(entity)
+            self.static(entity, rr.AnyValues(ros_type=ros_type))
 
     def static(self, entity: str, archetype: Any) -> None:
         """Log a component that never changes, such as a shape."""

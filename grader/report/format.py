@@ -19,12 +19,13 @@ if TYPE_CHECKING:
 class Format:
     """A format of reports.
 
-    `as_text` raises UsageError if a recording it needs cannot be read. `file` is the name of the report in a student's
-    folder of a class. `help` describes the option of `course grade` and `course score`, `class_help` that of `course
-    grade-all` (None: no such option). `before` names the formats whose options and reports come later.
+    `as_text` returns the bytes of the file if it is no text; it raises UsageError if a recording it needs cannot be
+    read. `file` is the name of the report in a student's folder of a class. `help` describes the option of `course
+    grade` and `course score`, `class_help` that of `course grade-all` (None: no such option). `before` names the
+    formats whose options and reports come later.
     """
 
-    as_text: Callable[[Report], str]
+    as_text: Callable[[Report], str | bytes]
     file: str
     help: str
     class_help: str | None = None

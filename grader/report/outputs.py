@@ -44,10 +44,10 @@ class Outputs:
     def write(self, report: Report) -> None:
         """Write every report that was asked for. Raises UsageError if one cannot be written."""
         for name, path in self.files.items():
-            text = formats()[name].as_text(report)
+            made = formats()[name].as_text(report)
             check_writable(path)
             try:
-                path.write_bytes(text.encode(errors="replace"))
+                path.write_bytes(made if isinstance(made, bytes) else made.encode(errors="replace"))
             except OSError as error:
                 raise UsageError(f"cannot write {_named(path)}: {error.strerror}") from None
 

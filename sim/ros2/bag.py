@@ -10,7 +10,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from gz_course.sim.ros2.errors import CommandError
-from gz_course.sim.rosbag2.bag import STORAGES, Bag
+from gz_course.sim.rosbag2.bag import Bag
+from gz_course.sim.rosbag2.bag_writer import STORAGES
 from gz_course.sim.rosbag2.errors import BagError
 
 

@@ -147,9 +147,16 @@ def _values(given: Given) -> Iterable[str]:
     return [to_line(message_class(given["message_type"])())]
 
 
+def _bags(given: Given) -> Iterable[str]:
+    """Return the bags in the working directory: folders, and single files."""
+    folders = (path.parent.name for path in Path().glob("*/metadata.yaml"))
+    return (*folders, *(path.name for pattern in ("*.mcap", "*.db3") for path in Path().glob(pattern)))
+
+
 _COMPLETERS: Mapping[str, Callable[[Given], Iterable[str]]] = MappingProxyType(
     {
         "topic_name": lambda given: _live(lambda graph: (name for name, _ in graph.topics())),
+        "topic_names": lambda given: _live(lambda graph: (name for name, _ in graph.topics())),
         "message_type": _types("topic_name", "topics", "msg"),
         "service_name": lambda given: _live(lambda graph: (name for name, _ in graph.services())),
         "service_type": _types("service_name", "services", "srv"),
@@ -164,6 +171,7 @@ _COMPLETERS: Mapping[str, Callable[[Given], Iterable[str]]] = MappingProxyType(
         "launch_arguments": _launch_arguments,
         "type": _interfaces,
         "values": _values,
+        "bag_path": _bags,
         "goal": _values,
     }
 )

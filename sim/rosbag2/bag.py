@@ -19,7 +19,7 @@ from gz_course.sim.rosbag2.metadata import FILE, FileInformation, Metadata, Topi
 from gz_course.sim.rosbag2.sqlite_reading import SqliteReading
 from gz_course.sim.rosbag2.yaml_text import load_yaml
 
-STORAGES = {"mcap": ".mcap", "sqlite3": ".db3"}
+_SUFFIXES = {"mcap": ".mcap", "sqlite3": ".db3"}
 _COMPRESSED = (".zstd", ".zst")
 
 
@@ -103,11 +103,11 @@ class Bag:
                 raise BagError(f"Bag path '{self.path}' does not exist!")
             return [self.path.name]
         if stored is None:
-            found = [entry.name for entry in os.scandir(self.path) if entry.name.endswith(tuple(STORAGES.values()))]
+            found = [entry.name for entry in os.scandir(self.path) if entry.name.endswith(tuple(_SUFFIXES.values()))]
             if not found:
                 raise BagError(f"{self.path} is not a bag: it has neither {FILE} nor .mcap or .db3 files")
             return sorted(found, key=lambda name: (len(name), name))
-        if stored.storage not in STORAGES:
+        if stored.storage not in _SUFFIXES:
             raise BagError(f"{self.path} has the storage '{stored.storage}'; here bags are read in {_known_storages()}")
         if stored.compression_mode == "message":
             raise BagError(f"{self.path} has messages compressed one by one, which are not read here")
@@ -174,7 +174,7 @@ class Bag:
 
 
 def _known_storages() -> str:
-    return " and ".join(f"'{name}'" for name in STORAGES)
+    return " and ".join(f"'{name}'" for name in _SUFFIXES)
 
 
 def reindex(folder: Path) -> Metadata:

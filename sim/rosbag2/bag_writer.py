@@ -1,4 +1,4 @@
-"""Writes a bag: a folder with `metadata.yaml` and one MCAP file, or several if it is split."""
+"""Writes a bag: a folder with `metadata.yaml` and one file of its storage, or several if it is split."""
 
 from __future__ import annotations
 
@@ -6,8 +6,15 @@ from pathlib import Path
 
 from gz_course.sim.rosbag2.bag import write_metadata
 from gz_course.sim.rosbag2.errors import BagError
-from gz_course.sim.rosbag2.mcap_writing import SUFFIX, DiskFullError, McapFile
+from gz_course.sim.rosbag2.mcap_writing import PRESETS, DiskFullError, McapFile
 from gz_course.sim.rosbag2.metadata import FileInformation, Metadata, Topic
+from gz_course.sim.rosbag2.sqlite_writing import SqliteFile
+
+STORAGES: dict[str, tuple[str, type[McapFile] | type[SqliteFile], tuple[str, ...]]] = {
+    "mcap": (".mcap", McapFile, tuple(PRESETS)),
+    "sqlite3": (".db3", SqliteFile, ("none", "resilient")),
+}
+"""The storages that are written: suffix, class of a file and preset profiles."""
 
 
 class BagWriter:
@@ -20,6 +27,7 @@ class BagWriter:
     def __init__(
         self,
         folder: Path,
+        storage: str = "mcap",
         preset: str = "none",
         split_bytes: int = 0,
         split_ns: int = 0,
@@ -27,7 +35,10 @@ class BagWriter:
         custom_data: dict[str, str] | None = None,
     ) -> None:
         self.folder = folder
-        self.metadata = Metadata("mcap", custom_data=custom_data or {})
+        self.metadata = Metadata(storage, custom_data=custom_data or {})
+        self._suffix, self._kind, presets = STORAGES[storage]
+        if preset not in presets:
+            raise BagError(f"the storage '{storage}' has no preset profile '{preset}'; it has {', '.join(presets)}")
         self._preset = preset
         self._split_bytes, self._split_ns, self._keep = split_bytes, split_ns, keep
         self._definitions: dict[str, tuple[str, str]] = {}
@@ -89,9 +100,9 @@ class BagWriter:
         self._file.abandon()
 
     def _open(self) -> None:
-        name = f"{self.folder.resolve().name}_{self._number}{SUFFIX}"
+        name = f"{self.folder.resolve().name}_{self._number}{self._suffix}"
         try:
-            self._file = McapFile(self.folder / name, self._preset)
+            self._file = self._kind(self.folder / name, self._preset)
         except OSError as error:
             raise DiskFullError(f"{self.folder / name} cannot be written: {error.strerror}") from None
         self.metadata.files.append(FileInformation(name))

@@ -1,6 +1,7 @@
 """The definition of a message type as one text, with those of all types in it.
 
-Source: https://github.com/ros2/rosbag2, docs/message_definition_encoding.md (`ros2msg`)
+Source: https://github.com/ros2/rosbag2, docs/message_definition_encoding.md (`ros2msg`), and rosbag2_cpp 0.26
+(`local_message_definition_source.cpp`), which names the types without `msg`; https://mcap.dev/spec/registry
 """
 
 from __future__ import annotations
@@ -38,8 +39,13 @@ def definition(type_name: str) -> tuple[str, str]:
         texts[here] = text
         todo += nested_types(text, here.partition("/")[0])
     first, *others = texts
-    parts = [texts[first], *(f"{SEPARATOR}\nMSG: {name}\n{texts[name]}" for name in others)]
+    parts = [texts[first], *(f"{SEPARATOR}\nMSG: {_short(name)}\n{texts[name]}" for name in others)]
     return ENCODING, "\n".join(part.rstrip("\n") for part in parts) + "\n"
+
+
+def _short(name: str) -> str:
+    """Return `package/Name`: readers find the types of fields by the names that texts have."""
+    return name.replace("/msg/", "/", 1)
 
 
 def nested_types(text: str, package: str) -> Iterator[str]:

@@ -17,7 +17,7 @@ _LFLAG = 3  # the place of the local modes in what `tcgetattr` returns
 @contextlib.contextmanager
 def keys(actions: Mapping[str, Callable[[], None]]) -> Iterator[bool]:
     """Call the action of each key that is pressed inside the block; yield whether there is a terminal."""
-    if not sys.stdin or not sys.stdin.isatty() or os.tcgetpgrp(sys.stdin.fileno()) != os.getpgrp():
+    if not _is_ours():
         yield False
         return
     terminal = sys.stdin.fileno()
@@ -37,6 +37,14 @@ def keys(actions: Mapping[str, Callable[[], None]]) -> Iterator[bool]:
         os.close(closed)
         with contextlib.suppress(termios.error):  # the window was closed
             termios.tcsetattr(terminal, termios.TCSANOW, before)
+
+
+def _is_ours() -> bool:
+    """Return whether the standard input is a terminal whose keys go to this process."""
+    try:
+        return sys.stdin.isatty() and os.tcgetpgrp(sys.stdin.fileno()) == os.getpgrp()
+    except (AttributeError, OSError, ValueError):  # closed, or the terminal of another session
+        return False
 
 
 def _listen(terminal: int, closed: int, actions: Mapping[str, Callable[[], None]]) -> None:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from mcap.writer import CompressionType, Writer
 
@@ -18,7 +18,6 @@ from gz_course.sim.rosbag2.errors import BagError
 from gz_course.sim.rosbag2.metadata import Metadata, Topic
 from gz_course.sim.rosbag2.yaml_text import to_yaml
 
-SUFFIX = ".mcap"
 CHUNK_BYTES = 786432
 PRESETS: dict[str, dict[str, Any]] = {
     "none": {},
@@ -69,7 +68,7 @@ class McapFile:
     """An MCAP file being written. Raises DiskFullError when it cannot grow; then only `abandon` may follow."""
 
     def __init__(self, path: Path, preset: str = "none") -> None:
-        self._sink: Any = _Sink(path)
+        self._sink = cast(Any, _Sink(path))
         options = {"compression": CompressionType.NONE, "chunk_size": CHUNK_BYTES, **PRESETS[preset]}
         self._writer = Writer(self._sink, **options)
         self._writer.start(profile="ros2", library="gz_course")

@@ -38,6 +38,7 @@ class SqliteReading:
             if isinstance(first, int) and isinstance(last, int):
                 self.start, self.end = max(0, first), max(0, first, last)
             self._definitions = dict(self._read_definitions(database))
+            self._read_metadata(database)
 
     @functools.cached_property
     def counts(self) -> Counter[str]:
@@ -83,7 +84,8 @@ class SqliteReading:
 
     def _check_tables(self, database: sqlite3.Connection) -> None:
         """Fail if a table is a view: one of unknown origin may have no end."""
-        query = "SELECT sql FROM sqlite_master WHERE name IN ('topics', 'messages', 'message_definitions')"
+        names = "('topics', 'messages', 'message_definitions', 'metadata')"
+        query = f"SELECT sql FROM sqlite_master WHERE name IN {names}"
         found = [str(row[0]) for row in database.execute(query)]
         if len(found) < 2 or not all(each.upper().startswith("CREATE TABLE") for each in found):
             raise BagError(f"{self._path} is not a database of rosbag2: it has no tables 'topics' and 'messages'")
@@ -106,6 +108,12 @@ class SqliteReading:
                 self.damage, qos = self.damage or str(error), ()
             type_hash = values.get("type_description_hash", "")
             yield Topic(values["name"], values["type"], values["serialization_format"], qos, type_hash)
+
+    def _read_metadata(self, database: sqlite3.Connection) -> None:
+        if "metadata" in self._columns(database, "metadata"):
+            row = database.execute("SELECT metadata FROM metadata ORDER BY id DESC").fetchone()
+            if row is not None and isinstance(row[0], str):
+                self.metadata = {"serialized_metadata": row[0]}
 
     def _read_definitions(self, database: sqlite3.Connection) -> Iterator[tuple[str, tuple[str, str]]]:
         if not self._columns(database, "message_definitions") >= {"topic_type", "encoded_message_definition"}:

@@ -13,10 +13,22 @@ from typing import Any
 from gz_course.sim.rosbag2.definitions import ENCODING, parts_of
 from gz_course.sim.rosbag2.errors import BagError
 from gz_course.sim.rosidl import packages
+from gz_course.sim.rosidl.nested_classes import class_of
 from gz_course.sim.rosidl.package_index import write_index
 
-_NAME = re.compile(r"([a-z][a-z0-9_]{0,99})/msg/([A-Z][A-Za-z0-9]{0,99})")
+_NAME = re.compile(r"([a-z][a-z0-9_]{0,99})/(msg|srv|action)/([A-Z][A-Za-z0-9_]{0,99})")
 _LONGEST = 1 << 20  # characters of a definition
+
+
+def installed_class(type_name: str) -> Any:
+    """Return the class of `package/msg/Name`, or of a message of a service or an action. Raises BagError."""
+    match = _NAME.fullmatch(type_name)
+    if match is None:
+        raise BagError(f"'{type_name}' is not the name of a message type")
+    try:
+        return class_of(type_name)
+    except (ImportError, AttributeError, ValueError, RecursionError) as error:
+        raise BagError(f"the type {type_name} is not known here: {str(error).splitlines()[0]}") from None
 
 
 class StoredTypes:
@@ -38,8 +50,8 @@ class StoredTypes:
                 texts = parts_of(name, text) | texts
         missing = {name: text for name, text in texts.items() if name.partition("/")[0] not in known}
         for name, text in missing.items():
-            if match := _NAME.fullmatch(name):
-                file = Path(self._folder.name, "share", match[1], "msg", f"{match[2]}.msg")
+            if (match := _NAME.fullmatch(name)) and match[2] == "msg":
+                file = Path(self._folder.name, "share", match[1], "msg", f"{match[3]}.msg")
                 file.parent.mkdir(parents=True, exist_ok=True)
                 file.write_text(text, encoding="utf-8", errors="replace")
         if Path(self._folder.name, "share").is_dir():
@@ -51,20 +63,16 @@ class StoredTypes:
 
     def message_class(self, type_name: str) -> Any:
         """Return the class of a message type. Raises BagError with the reason if there is none."""
-        match = _NAME.fullmatch(type_name)
-        if match is None:
-            raise BagError(f"'{type_name}' is not the name of a message type")
         try:
-            return getattr(importlib.import_module(f"{match[1]}.msg"), match[2])
-        except (ImportError, AttributeError, ValueError, RecursionError) as error:
+            return installed_class(type_name)
+        except BagError as error:
             encoding, text = self._definitions.get(type_name, ("", ""))
-            if not text:
-                reason = "it is not installed, and the bag does not hold its definition"
-            elif encoding != ENCODING:
-                reason = f"it is not installed, and its definition in the bag is in {encoding!r}, not in '{ENCODING}'"
-            else:
-                reason = str(error).partition("\n")[0]
-            raise BagError(f"the type {type_name} is not known here: {reason}") from None
+            if not _NAME.fullmatch(type_name) or (text and encoding == ENCODING):
+                raise
+            reason = "the bag does not hold its definition"
+            if text:
+                reason = f"its definition in the bag is in '{encoding}', not in '{ENCODING}'"
+            raise BagError(f"{error}, and {reason}") from None
 
     def __exit__(self, *_: object) -> None:
         if self._before is None:

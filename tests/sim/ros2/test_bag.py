@@ -43,12 +43,21 @@ def test_info_reindex_and_convert(bag, tmp_path, monkeypatch):
     assert (code, "unknown key 'regexp' of an output bag; did you mean 'regex'?" in said) == (1, True)
 
 
+def test_bags_of_the_folder_are_offered(offered, tmp_path, monkeypatch):
+    write_bag(tmp_path / "driving", count=1)
+    (tmp_path / "one.mcap").touch()
+    monkeypatch.chdir(tmp_path)
+    assert offered("bag", "play", "") == ["driving", "one.mcap"]
+    assert offered("bag", "") == ["convert", "info", "list", "play", "record", "reindex"]
+    assert offered("bag", "record", "--storage-preset-profile", "zstd_") == ["zstd_fast", "zstd_small"]
+
+
 def test_what_cannot_be_done_is_said_in_a_sentence(bag, tmp_path):
     for words, code, sentence in [
         (("play", tmp_path / "none"), 1, "does not exist!"),
         (("info", tmp_path), 1, "is not a bag"),
         (("record",), 2, "Need to specify at least one option"),
-        (("record", "-a", "-s", "sqlite3"), 2, "written as mcap here"),
+        (("record", "-a", "-s", "sqlite3", "--storage-preset-profile", "zstd_fast"), 1, "it has none, resilient"),
         (("record", "-a", "--compression-mode", "file", "--compression-format", "zstd"), 2, "storage-preset-profile"),
         (("record", "-e", "["), 1, "'[' is not a regular expression"),
         (("record", "-a", "-o", tmp_path), 1, "already exists."),

@@ -5,7 +5,6 @@ import time
 
 import pytest
 
-from gz_course.sim.ros2.interface import message_class
 from gz_course.sim.rosbag2.bag import Bag
 from gz_course.sim.rosbag2.bag_writer import BagWriter
 from gz_course.sim.rosbag2.errors import BagError
@@ -15,7 +14,7 @@ from gz_course.sim.rosbag2.qos import overrides, to_offer
 from gz_course.sim.rosbag2.recorder import Recorder, RecordOptions
 from gz_course.sim.rosbag2.selection import Selection
 from gz_course.sim.rosbag2.services import offer_player
-from gz_course.sim.rosbag2.stored_types import StoredTypes
+from gz_course.sim.rosbag2.stored_types import StoredTypes, installed_class
 from gz_course.sim.rosbag2.writing_thread import WritingThread
 from gz_course.tests.sim.rosbag2.bags import CHATTER, START, STEP, TWIST, string, write_bag
 
@@ -40,7 +39,7 @@ def test_topics_are_recorded_with_the_qos_of_their_publishers(nodes, tmp_path):
     keep = writing.write
     writing.write = lambda topic, *rest: (taken.setdefault(topic, []).append(rest), keep(topic, *rest))
     selection = Selection(regex="^/a/", without_regex="left")
-    recorder = Recorder(nodes.own, writing, RecordOptions(selection), message_class)
+    recorder = Recorder(nodes.own, writing, RecordOptions(selection), installed_class)
     wanted = ["/a/map", "/a/odd", "/a/tf"]
     nodes.until(lambda: recorder.topics() == wanted, recorder.look)
     nodes.until(lambda: all(ends[name].get_subscription_count() for name in ("map", "odd", "tf")))
@@ -67,7 +66,7 @@ def test_topics_are_recorded_with_the_qos_of_their_publishers(nodes, tmp_path):
     messages = list(bag.messages())
     assert next(m.data for m in messages if m.topic == "/a/map") == string("sent before")
     assert all(0 < m.sent <= m.received < time.time_ns() for m in messages)
-    assert "geometry_msgs/msg/Transform" in bag.definitions()["tf2_msgs/msg/TFMessage"][1]
+    assert "MSG: geometry_msgs/Transform" in bag.definitions()["tf2_msgs/msg/TFMessage"][1]
     for end in (*ends.values(), late):
         nodes.other.destroy_publisher(end)
 
@@ -79,7 +78,7 @@ def played(nodes):
 
     running = []
 
-    def start(bag, type_name="std_msgs/msg/String", topic="/chatter", types=message_class, **options):
+    def start(bag, type_name="std_msgs/msg/String", topic="/chatter", types=installed_class, **options):
         heard = []
         player = Player(nodes.own, bag, PlayOptions(**options), types)
         end = nodes.other.create_subscription(types(type_name), topic, heard.append, qos_profile_sensor_data)
@@ -167,13 +166,21 @@ def test_types_that_are_not_installed_come_from_the_bag(nodes, played, tmp_path)
     writer.close()
     bag = Bag(folder)
     with StoredTypes(bag.definitions()) as types:
-        with pytest.raises(BagError, match="not installed, and the bag does not hold its definition"):
+        with pytest.raises(BagError, match=r"not known here: .*, and the bag does not hold its definition"):
             types.message_class("not_in_any_bag/msg/X")
         with pytest.raises(BagError, match="is not the name of a message type"):
             types.message_class("../../etc/msg/X")
         _, heard, _ = played(bag, type_name=kind, topic="/reading", types=types.message_class)
         nodes.until(lambda: heard)
     assert (heard[0].distance, heard[0].kind.value, heard[0].where.z) == (5.0, 9, 1.0)
+
+
+def test_events_of_services_and_parts_of_actions_have_classes():
+    from example_interfaces.action import Fibonacci
+    from std_srvs.srv import SetBool
+
+    assert installed_class("std_srvs/srv/SetBool_Event") is SetBool.Event
+    assert installed_class("example_interfaces/action/Fibonacci_FeedbackMessage") is Fibonacci.Impl.FeedbackMessage
 
 
 def test_qos_overrides_are_read(tmp_path):

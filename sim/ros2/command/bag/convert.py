@@ -10,10 +10,9 @@ from typing import Any
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.ros2.bag import bag_errors, opened
 from gz_course.sim.ros2.errors import UsageError
-from gz_course.sim.rosbag2.bag import STORAGES, Bag
-from gz_course.sim.rosbag2.bag_writer import BagWriter
+from gz_course.sim.rosbag2.bag import Bag
+from gz_course.sim.rosbag2.bag_writer import STORAGES, BagWriter
 from gz_course.sim.rosbag2.errors import BagError
-from gz_course.sim.rosbag2.mcap_writing import PRESETS
 from gz_course.sim.rosbag2.selection import Selection, absolute
 from gz_course.sim.rosbag2.yaml_text import load_yaml
 
@@ -59,17 +58,15 @@ class _Output:
                 raise BagError(f"{file}: '{key}' cannot be {str(value)[:80]!r}; expected {_KEYS[key].__name__}")
         if not values.get("uri"):
             raise BagError(f"{file}: an output bag has no 'uri', the folder to create")
-        if values.get("storage_id", "mcap") not in ("", "mcap"):
-            raise BagError(f"{file}: 'storage_id' cannot be {values['storage_id']!r}; bags are written as mcap here")
+        self._storage = values.get("storage_id") or "mcap"
+        if self._storage not in STORAGES:
+            raise BagError(f"{file}: unknown 'storage_id' {self._storage!r}{did_you_mean(self._storage, STORAGES)}")
         if values.get("compression_mode", "none").lower() not in ("", "none"):
             raise BagError(
-                f"{file}: 'compression_mode' is not for mcap, which compresses its chunks; "
-                "use 'storage_preset_profile: zstd_small'"
+                f"{file}: 'compression_mode' of files and messages is not offered here; "
+                "mcap compresses its chunks with 'storage_preset_profile: zstd_small'"
             )
         self._preset = values.get("storage_preset_profile") or "none"
-        if self._preset not in PRESETS:
-            hint = did_you_mean(self._preset, PRESETS)
-            raise BagError(f"{file}: there is no storage_preset_profile {self._preset!r}{hint}")
         self._folder = Path(values["uri"])
         self._values = values
         everything = values.get("all") or values.get("all_topics")
@@ -88,6 +85,7 @@ class _Output:
         """Write the messages of all input bags in the order of their times."""
         writer = BagWriter(
             self._folder,
+            storage=self._storage,
             preset=self._preset,
             split_bytes=max(0, self._values.get("max_bagfile_size", 0)),
             split_ns=max(0, self._values.get("max_bagfile_duration", 0)) * 10**9,

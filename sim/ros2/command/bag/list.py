@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 _PLUGINS = {
-    "storage": {"mcap": "read and write", "sqlite3": "read only"},
+    "storage": {"mcap": "read and write", "sqlite3": "read and write"},
     "converter": {"cdr": "as messages are sent; there is nothing to convert to"},
     "compressor": {"zstd": "of chunks: `--storage-preset-profile zstd_fast` or `zstd_small`"},
 }

@@ -11,19 +11,18 @@ from gz_course.sim.ros2 import interruption
 from gz_course.sim.ros2.bag import bag_errors, default_folder, warn
 from gz_course.sim.ros2.errors import CommandError, UsageError
 from gz_course.sim.ros2.graph import Graph
-from gz_course.sim.ros2.interface import message_class
 from gz_course.sim.ros2.option_values import positive_number, whole_number
 from gz_course.sim.ros_program.abandoned_segments import remove_abandoned_segments
 from gz_course.sim.rosbag2 import keys
-from gz_course.sim.rosbag2.bag_writer import BagWriter
-from gz_course.sim.rosbag2.errors import BagError
-from gz_course.sim.rosbag2.mcap_writing import PRESETS
+from gz_course.sim.rosbag2.bag_writer import STORAGES, BagWriter
 from gz_course.sim.rosbag2.qos import overrides
 from gz_course.sim.rosbag2.recorder import Recorder, RecordOptions
 from gz_course.sim.rosbag2.selection import SERVICE_EVENTS, Selection, absolute
 from gz_course.sim.rosbag2.services import offer_recorder
+from gz_course.sim.rosbag2.stored_types import installed_class
 from gz_course.sim.rosbag2.writing_thread import WritingThread
 
+_PRESETS = sorted({preset for _, _, presets in STORAGES.values() for preset in presets})
 _SMALLEST_SPLIT = 1024  # bytes
 _NOT_HERE = {
     "snapshot_mode": "--snapshot-mode is not offered here: record with `--max-bag-duration` and `--max-bag-files`, "
@@ -47,7 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--exclude-topic-types", nargs="+", default=[], metavar="TYPE", help="Types whose topics are left out")
     add("--exclude-services", nargs="+", default=[], metavar="SERVICE", help="Services to leave out")
     add("-o", "--output", type=Path, help="Folder to create; default: a name with the time of the day")
-    add("-s", "--storage", choices=["mcap", "sqlite3"], default="mcap", help="Only mcap is written here")
+    add("-s", "--storage", choices=STORAGES, default="mcap", help="Storage of the bag (default: mcap)")
     add("-f", "--serialization-format", choices=["", "cdr"], default="", help="Only cdr")
     add("--include-unpublished-topics", action="store_true", help="Also topics that nobody publishes")
     add("--include-hidden-topics", action="store_true", help="Also topics with a part that begins with _")
@@ -67,7 +66,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--use-sim-time", action="store_true", help="Time messages by /clock; none before its first message")
     add("--node-name", default="rosbag2_recorder", help="Name of the recorder's node")
     add("--custom-data", nargs="*", default=[], metavar="KEY=VALUE", help="Stored in the metadata of the bag")
-    add("--storage-preset-profile", choices=PRESETS, default="none", help="How the file is written")
+    add("--storage-preset-profile", choices=_PRESETS, default="none", help="How the file is written")
     add("--compression-mode", choices=["none", "file", "message"], default="none", help="Only none; see the profiles")
     add("--compression-format", choices=["", "zstd"], default="", help="See --storage-preset-profile zstd_fast")
     add("--disable-keyboard-controls", action="store_true", help="Do not listen to the keys")
@@ -86,6 +85,7 @@ def main(arguments: argparse.Namespace) -> int:
         profiles = overrides(path) if (path := arguments.qos_profile_overrides_path) else {}
         writer = BagWriter(
             arguments.output or default_folder(),
+            storage=arguments.storage,
             preset=arguments.storage_preset_profile,
             split_bytes=arguments.max_bag_size,
             split_ns=arguments.max_bag_duration * 10**9,
@@ -122,7 +122,7 @@ def _record(arguments: argparse.Namespace, options: RecordOptions, writing: Writ
         remove_abandoned_segments()
     place = argparse.Namespace(spin_time=None, use_sim_time=arguments.use_sim_time)
     with Graph(place, node_name=arguments.node_name) as graph:
-        recorder = Recorder(graph.node, writing, options, _class_or_bag_error)
+        recorder = Recorder(graph.node, writing, options, installed_class)
         log = graph.node.get_logger()
         offer_recorder(graph.node, recorder)
         recorder.paused = arguments.start_paused
@@ -154,24 +154,15 @@ def _listen(graph: Graph, recorder: Recorder, writing: WritingThread, look_every
         graph.spin_once(min(look_every or 0.1, 0.1))
 
 
-def _class_or_bag_error(type_name: str) -> type:
-    try:
-        return message_class(type_name)
-    except CommandError as error:
-        raise BagError(str(error)) from None
-
-
 def _selection(arguments: argparse.Namespace) -> Selection:
     """Return what is recorded. Raises UsageError for options that make no bag."""
     for name, sentence in _NOT_HERE.items():
         if getattr(arguments, name):
             raise UsageError(sentence)
-    if arguments.storage != "mcap":
-        raise UsageError("bags are written as mcap here, and every ROS 2 since Iron plays them: leave out --storage")
     if arguments.compression_mode != "none":
         raise UsageError(
-            f"--compression-mode {arguments.compression_mode} is not for mcap, which compresses its chunks: "
-            "use --storage-preset-profile zstd_fast"
+            f"--compression-mode {arguments.compression_mode} is not offered here; mcap compresses its chunks with "
+            "--storage-preset-profile zstd_fast"
         )
     if 0 < arguments.max_bag_size < _SMALLEST_SPLIT:
         raise UsageError(f"--max-bag-size must be 0 or at least {_SMALLEST_SPLIT} bytes")
