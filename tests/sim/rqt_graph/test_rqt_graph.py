@@ -1,5 +1,6 @@
 """The picture of a live ROS graph and a live Gazebo graph, as a file and as a page."""
 
+import signal
 import threading
 import urllib.error
 import urllib.request
@@ -18,7 +19,7 @@ from gz_course.sim.rqt_graph.page import Page
 from gz_course.sim.rqt_graph.picture import Box, Picture
 from gz_course.sim.rqt_graph.rqt_graph import main
 from gz_course.sim.rqt_graph.svg import svg
-from gz_course.tests.sim.ros2.conftest import ros_domain  # noqa: F401
+from gz_course.tests.sim.ros2.conftest import ros_domain, start  # noqa: F401
 
 ROS = [
     End("/scan", "/ros_gz_bridge", "sensor_msgs/msg/LaserScan", True),
@@ -91,7 +92,8 @@ def test_the_page_gets_each_new_picture():
 
 @pytest.fixture
 def signals_as_they_are(monkeypatch):
-    """Leave the signals of the test process alone."""
+    """Leave the signals and the environment of the test process alone."""
+    monkeypatch.setenv("FASTDDS_BUILTIN_TRANSPORTS", "UDPv4")  # as the command sets it
     for name in ("listen", "ignore"):
         monkeypatch.setattr(interruption, name, lambda: None)
 
@@ -122,7 +124,19 @@ def test_one_picture_of_what_runs(ros_domain, signals_as_they_are, tmp_path, mon
     assert {"/talker", "/chatter", "std_msgs/msg/String", "gz sim: world moon", "/word", "gz.msgs.StringMsg"} <= texts
 
 
-def test_a_file_that_cannot_be_written_is_one_sentence(ros_domain, signals_as_they_are, tmp_path, monkeypatch, capsys):  # noqa: F811
-    monkeypatch.setenv("GZ_PARTITION", f"graph_{ros_domain}")
+def test_a_file_that_cannot_be_written_is_one_sentence(tmp_path, capsys):
     assert main(["--svg", str(tmp_path / "no/graph.svg")], "course graph") == 1
-    assert capsys.readouterr().err.endswith("graph.svg cannot be written: No such file or directory\n")
+    assert capsys.readouterr().err.endswith("graph.svg cannot be written: there is no such folder\n")
+
+
+@pytest.mark.proof
+def test_the_program_shows_the_graph_until_ctrl_c(ros_domain, start):  # noqa: F811
+    environment = {"GZ_PARTITION": f"graph_{ros_domain}", "DISPLAY": "", "WAYLAND_DISPLAY": ""}
+    command = start("run", "rqt_graph", "rqt_graph", environment=environment)
+    command.wait_for("open this page in a browser: ")
+    command.wait_for("Ctrl-C ends it")
+    address = command._lines["stdout"][0].split()[-1]
+    assert "<svg " in _get(f"{address}graph.svg?after=")
+    command.process.send_signal(signal.SIGINT)
+    code, _, errors = command.wait()
+    assert (code, errors) == (0, "")
