@@ -13,10 +13,10 @@ _LISTED = 12
 def nearest_name(name: str, known: Iterable[str], cutoff: float = 0.6) -> str:
     """Return the known name that is most similar to `name`, ignoring case; empty if none is similar enough.
 
-    `cutoff` is the minimum similarity, from 0 to 1.
+    The name itself is never returned. `cutoff` is the minimum similarity, from 0 to 1.
     """
     originals: dict[str, str] = {}
-    for each in sorted(set(known))[:_MOST]:
+    for each in sorted(set(known) - {name})[:_MOST]:
         originals.setdefault(each[:_LONGEST].lower(), each)
     close = get_close_matches(name[:_LONGEST].lower(), originals, n=1, cutoff=cutoff)
     return originals[close[0]] if close else ""
@@ -28,7 +28,7 @@ def did_you_mean(name: str, known: Iterable[str], *, listing: str = "", cutoff: 
     If no known name is similar it is `; its links are: a, b, ...` for the `listing` `its links are`, else an empty
     text.
     """
-    names = sorted(set(known))
+    names = sorted(set(known) - {name})
     if near := nearest_name(name, names, cutoff):
         return f"; did you mean '{near}'?"
     if not (listing and names):

@@ -8,6 +8,11 @@ quality counts only after success. `gate` is one gate or a list:
     gate = { signal = "truth/robot/distance", reaches = 0.5, otherwise = "the robot never drove" }
     gate = { signal = "truth/robot/x", falls_to = -1.0, otherwise = "the robot never drove back" }
     gate = { check = "arrives", otherwise = "the robot never arrived" }      # another check must pass
+
+Any check may ask why velocity commands are wrong; `explanations/commands.py` tries what programs with a common
+misconception send. The speed [m/s] and the time [s] are those that the exercise asks for:
+
+    explain = { commands = "topics/cmd_vel", linear_x = 0.5, seconds = 5.0 }
 """
 
 from __future__ import annotations
@@ -22,6 +27,7 @@ from gz_course.grader.exercise import CheckSpec
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.registry import modules
+from gz_course.grader.score.explanations.commands import WantedDrive
 from gz_course.sim.did_you_mean import did_you_mean
 
 
@@ -42,6 +48,7 @@ class Finding:
 
     `gated` marks a check that failed only because its gate did: another check gives the reason. `timing` marks a check
     that, if it failed, saw the right thing at the wrong time or for the wrong time: perhaps a node reads another clock.
+    `explanation` names the misconception that fits what was seen; empty if none does.
     """
 
     passed: bool
@@ -51,6 +58,7 @@ class Finding:
     bands: tuple[Band, ...] = ()
     gated: bool = False
     timing: bool = False
+    explanation: str = ""
 
 
 Kind = Callable[[Recording, Table], Finding]
@@ -124,8 +132,11 @@ def perform(
     if parameters.has("gate"):
         several = isinstance(spec.parameters["gate"], list)
         gates = parameters.tables("gate") if several else [parameters.table("gate")]
+    wanted = WantedDrive.read(parameters.table("explain")) if parameters.has("explain") else None
     finding = kinds[spec.kind](recording, parameters)
     parameters.end()
+    if wanted and not finding.passed:
+        finding = replace(finding, explanation=wanted.explain(recording))
     closed = [sentence for gate in gates if (sentence := _closed(gate, recording, finding_of))]
     if closed:
         return replace(finding, passed=False, measured=closed[0], at_s=None, gated=True)

@@ -9,12 +9,23 @@ from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.launched import launch_facts
 
+# Fault of the fact `time_reckoning` -> what is wrong with it.
+RECKONED = {
+    "ticks": "your node counts ticks; a timer can miss some, so ask the node's clock, self.get_clock().now(), how much "
+    "time has passed",
+    "nanosec": "these are the nanoseconds within the current second, without the whole seconds; a time in seconds is "
+    "sec + nanosec / 1e9, or time.nanoseconds / 1e9",
+    "sec": "these are the whole seconds only, without the fraction; a time in seconds is sec + nanosec / 1e9, or "
+    "time.nanoseconds / 1e9",
+}
+
 
 def clock_fault(recording: Recording, findings: Iterable[Finding]) -> str:
     """Return one sentence about the clock a node reads; empty if no check failed because of time.
 
-    The evidence: the places in the file that read the wall clock (the fact `wall_clock`), and the nodes that never
-    subscribed to /clock, as a node does that uses simulated time.
+    The evidence: the places in the file that read the wall clock (the fact `wall_clock`), that count ticks or take a
+    part of a time for the whole (`time_reckoning`), and the nodes that never subscribed to /clock, as a node does that
+    uses simulated time.
     """
     if not any(finding.timing and not finding.passed and not finding.gated for finding in findings):
         return ""
@@ -29,6 +40,8 @@ def clock_fault(recording: Recording, findings: Iterable[Finding]) -> str:
                 "clock, self.get_clock().now()"
             )
         return shown(f"{sentence}.")
+    for place in facts.get("time_reckoning", []):
+        return shown(f"{place['file']}, line {place['line']}: {place['code']}: {RECKONED[place['fault']]}.")
     endpoints = facts.get("endpoints", [])
     follows = {e["node"] for e in endpoints if e["kind"] == "subscription" and e["topic"] == "/clock"}
     # bridges do not need the time

@@ -95,7 +95,24 @@ def whole_number_fault(recording: Recording, findings: Iterable[Finding] = ()) -
 
 def cannot_run(recording: Recording, facts: dict[str, Any]) -> str:
     """Return why the file cannot be run at all."""
-    return str(facts["fault"]) if facts.get("fault") else ""
+    if not facts.get("fault"):
+        return ""
+    said = meaning(str(facts["fault"]))
+    return f"{facts['fault']}. What that means: {said}." if said else str(facts["fault"])
+
+
+def slip(recording: Recording, facts: dict[str, Any]) -> str:
+    """Name the mistake in the file for which the node died, ended, never spun or never spoke; then say that it did."""
+    what = next(filter(None, (look(recording, facts) for look in (died, ended_early, never_spun, out_of_time))), "")
+    what = what or (silent(recording, facts) if _of(facts, "publisher") else "")
+    return f"{slips(recording)} {what}" if what and facts.get("slips") else ""
+
+
+def slips(recording: Recording, findings: Iterable[Finding] = ()) -> str:
+    """Return one sentence about a mistake in the file that raises no error of its own; empty if there is none."""
+    for place in recording.facts().get("slips", []):
+        return shown(f"{place['file']}, line {place['line']}: {place['said']}.", 400)
+    return ""
 
 
 def broke_a_limit(recording: Recording, facts: dict[str, Any]) -> str:

@@ -18,6 +18,8 @@ SAID = re.compile(r"^\[[^\]]+\] (gz sim|parameter_bridge|create|gzserver): (.*)"
 OUTPUT = re.compile(r"^\[([^\] ]+-\d+)\] (.*\S)")  # a line of a process that the launch started
 DIED = re.compile(r"^\[ERROR\] \[([^\]]+-\d+)\]: process has died .*exit code (-?\d+)")
 ERROR = re.compile(r"^\[ERROR\] (?:\[[\d.]+\] )?\[[^\]]+\]: (.*)")  # of a ROS log
+# A file that was given by a relative path and not found, as the bridge and Python say it (Python adds its folder).
+NO_FILE = re.compile(r"(?:^|: |open file ')((?:/(?!submission)\w+/)?[\w.-]+\.\w+)'?: .*No such file or directory")
 PLACE = re.compile(r"^\S*?([^/\s]+):(\d+): ")  # prefix of an error in a launch file
 
 
@@ -88,6 +90,17 @@ def deaths(recording: Recording) -> Iterator[Death]:
                 yield Death(match.group(1).rpartition("-")[0], int(match.group(2)), last.get(match.group(1), ""))
         elif match := OUTPUT.match(line.text):
             last[match.group(1)] = match.group(2)
+
+
+def looked_elsewhere(said: str) -> str:
+    """Return why a file was not found, given what a program said of it; empty if it said nothing of that kind."""
+    if not (match := NO_FILE.search(said)):
+        return ""
+    name = match.group(1).rpartition("/")[2]
+    return (
+        f"{name} was looked for in the folder in which ros2 launch was called, not beside the launch file: give its "
+        f"full path, str(Path(__file__).parent / '{name}')"
+    )
 
 
 def launch_fault(recording: Recording) -> str:

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import re
 
+from gz_course.sim.did_you_mean import nearest_name
+
 # Pattern of the error's first line -> what to change. {0}, {1} are the groups of the pattern.
 MEANINGS = (
     (
@@ -82,13 +84,194 @@ MEANINGS = (
         re.compile(r"TypeError: 'property' object is not iterable"),
         "rclpy.spin() takes a node, not its class: with brackets, MyNode(), it is one",
     ),
+    (
+        re.compile(r"NotInitializedException"),
+        "rclpy.init() must be called before the first node is made",
+    ),
+    (
+        re.compile(r"TypeError: Node\.__init__\(\) missing 1 required positional argument: 'node_name'"),
+        "a node needs a name: super().__init__('NODE_NAME')",
+    ),
+    (
+        re.compile(r"TypeError: Node\.create_(?:subscription|publisher)\(\) missing 1 required .*'qos_profile'"),
+        "the last argument, the depth of the queue, is missing, such as 10",
+    ),
+    (
+        re.compile(r"TypeError: Expected QoSProfile or int, but received"),
+        "the order is create_publisher(TYPE, '/topic', 10) and create_subscription(TYPE, '/topic', callback, 10); the "
+        "last one is the depth, a number, and further arguments are given by their names",
+    ),
+    (
+        re.compile(r"TypeError: Node\.create_(subscription|publisher)\(\) takes \d+ positional arguments but \d+ were"),
+        "what follows the depth is given by its name, as callback_group=... is",
+    ),
+    (
+        re.compile(
+            r"TypeError: Node\.create_timer\(\) missing|"
+            r"TypeError: float\(\) argument must be .* not '\w*(?:function|method)'"
+        ),
+        "the order is create_timer(PERIOD in seconds, callback)",
+    ),
+    (
+        re.compile(r"TypeError: (?:\w+\.)?(\w+)\(\) missing 1 required positional argument: 'self'"),
+        "{0} is called on the class, not on an object: self.{0}() inside of the class",
+    ),
+    (
+        re.compile(r"TypeError: \w+\.(?!__|create_|info|log)(\w+)\(\) missing 1 required positional argument: '(\w+)'"),
+        "a timer calls its callback without arguments, a subscription with the message: def {0}(self) is one for a "
+        "timer, def {0}(self, {1}) one for a subscription",
+    ),
+    (
+        re.compile(r"TypeError: spin\(\) missing 1 required positional argument: 'node'"),
+        "rclpy.spin() needs the node that is to run: rclpy.spin(node)",
+    ),
+    (
+        re.compile(r"TypeError: spin_once\(\) takes 1 positional argument"),
+        "the time is given by its name: spin_once(node, timeout_sec=0.1)",
+    ),
+    (
+        re.compile(r"RuntimeError: Executor is already spinning|ValueError: generator already executing"),
+        "a callback is called by spin(); inside of it the node must not be spun again",
+    ),
+    (
+        re.compile(
+            r"ImportError: cannot import name 'Node' from 'rclpy'|No module named 'rclpy\.Node'|"
+            r"module 'rclpy' has no attribute 'Node'"
+        ),
+        "the class is in the module rclpy.node: from rclpy.node import Node",
+    ),
+    (
+        re.compile(r"AttributeError: module 'rclpy' has no attribute '(create_\w+|get_\w+)'"),
+        "{0} belongs to a node: self.{0}(...) inside of its class",
+    ),
+    (
+        re.compile(r"ModuleNotFoundError: No module named '(std|sensor|geometry|nav)_msg(?:\.msg)?'"),
+        "the package is called {0}_msgs: from {0}_msgs.msg import ...",
+    ),
+    (
+        re.compile(r"ModuleNotFoundError: No module named '(\w+_msgs)\.(?!msg')\w+'"),
+        "message types are in the module {0}.msg",
+    ),
+    (
+        re.compile(r"ImportError: cannot import name '(\w+)' from '(\w+_msgs\.msg)'"),
+        "{1} has no message of that name; capitals count, as in LaserScan, and ros2 interface package lists the names",
+    ),
+    (
+        re.compile(r"TypeError: 'NoneType' object is not callable"),
+        "a callback is handed over without brackets, self.on_timer; self.on_timer() calls it at once and hands over "
+        "None",
+    ),
+    (
+        re.compile(r"AttributeError: '(?:function|method|builtin_function_or_method)' object has no attribute '(\w+)'"),
+        "brackets are missing: what stands before .{0} must be called, as in self.get_logger().info(...)",
+    ),
+    (
+        re.compile(r"AttributeError: 'Time' object has no attribute 'nanoseconds'"),
+        "the stamp of a message has sec and nanosec; in seconds it is stamp.sec + stamp.nanosec / 1e9, and "
+        "rclpy.time.Time.from_msg(stamp) makes a Time of it",
+    ),
+    (
+        re.compile(r"TypeError: unsupported operand type\(s\) for -: '(?:Time|float|int)' and 'NoneType'"),
+        "the start has not been set when it is subtracted: set it, if it is None, before",
+    ),
+    (
+        re.compile(r"TypeError: unsupported operand type\(s\) for [-+]: 'NoneType'|'NoneType' object has no attribute"),
+        "a variable is None: it was never set, or it holds the result of a function that returns nothing",
+    ),
+    (
+        re.compile(
+            r"ValueError: (min|max)\(\) (?:iterable argument|arg) is (?:an )?empty|"
+            r"ValueError: zero-size array to reduction operation (min|max)"
+        ),
+        "the list is empty: the condition has kept no value at all",
+    ),
+    (
+        re.compile(
+            r"TypeError: 'Metaclass_(\w+)' object|TypeError: 'property' object is not (?:subscriptable|iterable)"
+        ),
+        "that is the class of the message; the message itself is the callback's argument",
+    ),
+    (
+        re.compile(r"InvalidTopicNameException|InvalidNodeNameException"),
+        "names consist of letters, digits and _, topics also of /; there are no spaces or hyphens in them",
+    ),
+    (
+        re.compile(r"UnboundLocalError: .*variable '(\w+)'"),
+        "a function that assigns to {0} has a {0} of its own; what is to last is kept as self.{0}",
+    ),
+    (
+        re.compile(
+            r"NameError: name '(Twist|LaserScan|String|Float32|Odometry|Node|rclpy|math|Duration|np)' is not defined"
+        ),
+        "the import of {0} is missing",
+    ),
+    (
+        re.compile(r"NameError: name 'self' is not defined"),
+        "the method has no parameter self, or the line stands outside of a method",
+    ),
+    (
+        re.compile(r"NameError: name '(\w+)' is not defined"),
+        "no variable or function of that name exists here; what belongs to the node is reached with self.{0}",
+    ),
+    (
+        re.compile(
+            r"AttributeError: '(?!Twist|LaserScan|String|Float|Odometry|Vector3|Header)(?=[A-Z])(\w+)' object has no "
+            r"attribute '(\w+)'"
+        ),
+        "self.{1} is not set when it is used: set it in __init__ before timers and callbacks, spelt the same way",
+    ),
+    (
+        re.compile(r"TypeError: can only concatenate str|TypeError: must be str, not"),
+        "a number becomes a part of a text in an f-string: f'{{value:.2f}}'",
+    ),
+    (
+        re.compile(r"IndentationError: unexpected indent"),
+        "this line stands further to the right than the lines it belongs to",
+    ),
+    (
+        re.compile(r"IndentationError: expected an indented block"),
+        "what belongs to the line above stands four spaces further to the right",
+    ),
+    (
+        re.compile(r"IndentationError: unindent does not match|TabError"),
+        "the lines of one block must begin in the same column, with spaces only",
+    ),
     (re.compile(r"RuntimeError: Context\.init\(\) must only be called once"), "call rclpy.init() once, at the start"),
     (re.compile(r"EOFError: EOF when reading a line"), "there is no keyboard here: do not call input()"),
 )
 
 
+# Fields of the messages that beginners meet first, for misspelt ones.
+FIELDS = {
+    "LaserScan": (
+        "header", "angle_min", "angle_max", "angle_increment", "time_increment", "scan_time", "range_min", "range_max",
+        "ranges", "intensities",
+    ),
+    "Twist": ("linear", "angular"),
+    "Vector3": ("x", "y", "z"),
+    "Odometry": ("header", "child_frame_id", "pose", "twist"),
+    "Header": ("stamp", "frame_id"),
+    "String": ("data",), "Float32": ("data",), "Float64": ("data",),
+}  # fmt: skip
+NO_FIELD = re.compile(r"AttributeError: '(\w+)' object has no attribute '(\w+)'")
+
+
+def _field(error: str) -> str:
+    """Return the fields of the message whose field is misspelt; empty if it is another error."""
+    match = NO_FIELD.search(error)
+    if match is None or match.group(1) not in FIELDS:
+        return ""
+    kind, name = match.groups()
+    known = FIELDS[kind]
+    if near := nearest_name(name, known) or (known[0] if len(known) == 1 else ""):
+        return f"the field of a {kind} is called {near}"
+    return f"a {kind} has the fields {', '.join(known)}"
+
+
 def meaning(error: str) -> str:
     """Return what to change, given the first line of an error as Python prints it; empty if unknown."""
+    if said := _field(error):
+        return said
     for pattern, words in MEANINGS:
         if match := pattern.search(error):
             return words.format(*match.groups())

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 
 from gz_course.grader.kinds.kind import Kind, RunPlan
 from gz_course.grader.kinds.programs import node_command
+from gz_course.grader.lint.slips import slips
+from gz_course.grader.lint.time_reckoning import time_reckoning
 from gz_course.grader.lint.wall_clock import wall_clock
 from gz_course.grader.lint.whole_numbers import float_fields, whole_numbers
 from gz_course.grader.printable import shown
@@ -66,6 +68,8 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     entries, content = exercise_bridge(exercise), submission.files[submission.main]
     heard = {e.ros_type for e in entries if e.direction.to_gz} | set(exercise.observe.values())
     places = {
+        "slips": slips(content),
+        "time_reckoning": time_reckoning(content),
         "wall_clock": wall_clock(content),
         "whole_numbers": whole_numbers(content, float_fields(heard)),
     }
@@ -93,6 +97,7 @@ def diagnosis() -> Diagnosis:
             looks.tampered,
             looks.cannot_run,
             looks.broke_a_limit,
+            looks.slip,
             looks.died,
             looks.ended_early,
             looks.never_spun,
@@ -103,7 +108,7 @@ def diagnosis() -> Diagnosis:
             looks.dropped,
             looks.unstable,
         ),
-        (looks.whole_number_fault, clock_fault, looks.too_early),
+        (looks.slips, looks.whole_number_fault, clock_fault, looks.too_early),
     )
 
 

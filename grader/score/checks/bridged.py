@@ -20,8 +20,8 @@ from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.graphs import WAYS, Bridged, bridges
-from gz_course.grader.score.launched import by_python, deaths, logged_error
-from gz_course.sim.did_you_mean import did_you_mean, nearest_name
+from gz_course.grader.score.launched import by_python, deaths, logged_error, looked_elsewhere
+from gz_course.sim.did_you_mean import nearest_name
 
 KEYS = ("ros_topic", "ros_type", "gz_topic", "gz_type", "direction")
 CLOCK = "/clock"
@@ -42,9 +42,12 @@ def bridged(recording: Recording, parameters: Table) -> Finding:
     if not candidates:
         died = next((each for each in deaths(recording) if each.process == "parameter_bridge"), None)
         if died is not None and not made:
-            return Finding(False, expected, f"parameter_bridge ended with exit code {died.code}{died.words}")
+            why = looked_elsewhere(died.said)
+            measured = f"parameter_bridge ended with exit code {died.code}{died.words}"
+            return Finding(False, expected, measured, explanation=why)
         said = logged_error(recording, "parameter_bridge")
-        return Finding(False, expected, _not_there(wanted, made) + (f"; parameter_bridge said: {said}" if said else ""))
+        measured = _not_there(wanted, made) + (f"; parameter_bridge said: {said}" if said else "")
+        return Finding(False, expected, measured, explanation=looked_elsewhere(said))
     if measured := by_python(recording, "parameter_bridge"):
         return Finding(False, expected, measured)
     faults = [_fault(bridge, wanted, same, facts) for bridge in candidates]
@@ -91,8 +94,9 @@ def _wrong_gz_topic(bridge: Bridged, wanted: dict[str, str], gz: dict[str, Any])
     does = "listens to" if wanted["direction"] == "ROS_TO_GZ" else "publishes"
     if "gz sim" in gz.get(bridge.gz_topic, {}).get(kind, []):
         return f"{bridge.gz_topic} is not the Gazebo topic that belongs to {bridge.ros_topic}"
-    near = did_you_mean(bridge.gz_topic, [wanted["gz_topic"]], cutoff=0.3)
-    return f"nobody in Gazebo {does} {bridge.gz_topic}{near}"
+    near = nearest_name(bridge.gz_topic, [wanted["gz_topic"]], 0.9)
+    typo = "it is nearly right, look at its spelling: " if near else ""
+    return f"nobody in Gazebo {does} {bridge.gz_topic}; {typo}gz topic -l lists the topics there are"
 
 
 def _why(wanted: dict[str, str]) -> str:

@@ -6,6 +6,9 @@ count = [1, 1]            # at least, at most; the second may be left out
 window = [0.9, 3.0]       # [s], optional: only messages that arrive then count
 field = "data"            # optional, with `says`: only messages whose text field equals it count
 says = "hello, robot"
+
+Where `count` has an upper limit and neither time nor text matters, messages that were lost because nobody had found the
+publisher yet count too: the node has sent them.
 """
 
 from __future__ import annotations
@@ -17,6 +20,7 @@ from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.events import texts as texts_of
+from gz_course.grader.score.explanations.texts import difference, wrong_moment
 from gz_course.grader.score.steps import told
 
 LONGEST_QUOTE = 60  # characters of a message's text that are quoted
@@ -41,16 +45,26 @@ def messages(recording: Recording, parameters: Table) -> Finding:
     if says is not None:
         counts &= np.array([text == says for text in texts], dtype=bool)
         expected += f" saying {says!r}"
-    passed = bool(least <= counts.sum() <= most)
+    lost = recording.facts().get("too_early", {}).get(f"/{topic}", 0)
+    sent = int(counts.sum()) + (lost if window is None and says is None and len(times) else 0)
+    passed = bool(least <= counts.sum() and sent <= most)
     if not len(times):
         return Finding(passed, expected, "no message arrived")
     # Report the message that decides: the first one too many, else the first that does not count.
     wrong = np.flatnonzero(counts)[int(most) :] if counts.sum() > most else np.flatnonzero(~counts)
     at = float(times[wrong[0] if len(wrong) and not passed else 0])
     measured = f"1 message arrived, at {told(at)} s" if len(times) == 1 else _many(times)
+    if sent > most >= counts.sum():
+        was, they = ("was", "it was") if lost == 1 else ("were", "they were")
+        measured += f"; {lost} more {was} sent before anybody had found the publisher: {they} lost, but sent"
     if says is not None:
         measured += f"; it said {_quoted(texts[0])}" if len(times) == 1 else f"; the first said {_quoted(texts[0])}"
-    return Finding(passed, expected, measured, round(at, 3), timing=window is not None)
+    why = ""
+    if not passed and says is not None:
+        why = next((said for text in texts if (said := difference(text or "", says))), "")
+    elif not passed and window is not None:
+        why = wrong_moment(times, (window[0], window[1]))
+    return Finding(passed, expected, measured, round(at, 3), timing=window is not None, explanation=why)
 
 
 def _number(least: float, most: float) -> str:

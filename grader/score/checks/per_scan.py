@@ -8,13 +8,16 @@ r"""`per_scan`: is every scan answered with the right number?
     signal = "topics/nearest_obstacle/data"    # the answer is a message
     at_least = 0.95           # of all scans
 
-The answer to a scan is the first one between it and the next scan; it is compared with the scan that was sent. A range
+The answers to a scan are those between it and the next scan; every one of them must be right. They are compared with
+the scan that was sent. A range
 is valid if it lies between range_min and range_max; answers that include or exclude the limits are both accepted.
+Wrong answers are compared with those of common misconceptions (`explanations/of_answers/`).
 """
 
 from __future__ import annotations
 
 import re
+from bisect import bisect_left
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -25,6 +28,7 @@ from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.events import log_lines, not_logged
+from gz_course.grader.score.explanations.answers import Asked, Scans, explain
 
 LONGEST_LINE = 120  # [characters] of a line that is quoted
 
@@ -37,11 +41,18 @@ STATISTICS: dict[str, Callable[[np.ndarray], float]] = {
 
 @dataclass(frozen=True)
 class Scan:
-    """One scan as it was sent: its time [s], the time of the next [s], and the accepted answers."""
+    """One scan as it was sent: its number, its time [s], the time of the next [s], and the accepted answers.
 
+    `row` are its ranges [m], `low` and `high` their bounds [m].
+    """
+
+    number: int
     start: float
     end: float
     answers: tuple[float, ...]
+    row: np.ndarray
+    low: float
+    high: float
 
 
 def scans(recording: Recording, topic: str, statistic: str) -> list[Scan]:
@@ -51,14 +62,14 @@ def scans(recording: Recording, topic: str, statistic: str) -> list[Scan]:
     highs = recording.signal(f"topics/{topic}/range_max").values
     ends = [*(times[1:] / 1e9), np.inf] if len(times) else []
     found = []
-    for time, end, row, low, high in zip(times / 1e9, ends, rows, lows, highs, strict=True):
+    for number, (time, end, row, low, high) in enumerate(zip(times / 1e9, ends, rows, lows, highs, strict=True)):
         # A message holds 0.12 as the nearest float32, so the student's node receives that value.
         low, high, row = np.float32(low), np.float32(high), row.astype(np.float32).astype(np.float64)
         strict = row[(row > low) & (row < high)]
         loose = row[(row >= low) & (row <= high)]
         if len(strict):
             answers = tuple(STATISTICS[statistic](valid) for valid in (strict, loose))
-            found.append(Scan(float(time), float(end), answers))
+            found.append(Scan(number, float(time), float(end), answers, row, float(low), float(high)))
     return found
 
 
@@ -67,7 +78,8 @@ def per_scan(recording: Recording, parameters: Table) -> Finding:
     """Pass if at least the fraction `at_least` of all scans got the right answer."""
     what = parameters.choice("statistic", STATISTICS)
     tolerance, share = parameters.number("tolerance"), parameters.number("at_least", 0.95)
-    asked = scans(recording, parameters.text("scan"), what)
+    topic = parameters.text("scan")
+    asked = scans(recording, topic, what)
     if parameters.has("signal"):
         signal = parameters.text("signal")
         given, printed, other = _messages(recording, signal), "", ""
@@ -80,15 +92,19 @@ def per_scan(recording: Recording, parameters: Table) -> Finding:
         where = "in the node's log"
     expected = f"{what.replace('_', ' ')} of every scan {where}, within {tolerance:g}"
     right, unanswered, wrong = 0, 0, ""
+    times = [time for time, _ in given]
     at: float | None = None
     for scan in asked:
-        answer = next((value for time, value in given if scan.start <= time < scan.end), None)
-        if answer is not None and any(abs(answer - truth) <= tolerance for truth in scan.answers):
+        answers = [value for _, value in given[bisect_left(times, scan.start) : bisect_left(times, scan.end)]]
+        off = [v for v in answers if not any(abs(v - truth) <= tolerance for truth in scan.answers)]
+        if answers and not off:
             right += 1
             continue
+        answer = off[0] if answers else None
         unanswered += answer is None
         if answer is not None and not wrong:
-            wrong = f"; at {scan.start:.2f} s it said {answer:g}, the truth was {round(scan.answers[0], 3):g}"
+            which = f" (one of {len(answers)} answers to that scan)" if len(answers) > 1 else ""
+            wrong = f"; at {scan.start:.2f} s it said {answer:g}{which}, the truth was {round(scan.answers[0], 3):g}"
         if at is None:
             at = round(scan.start, 3)
     if printed and not given:
@@ -101,7 +117,43 @@ def per_scan(recording: Recording, parameters: Table) -> Finding:
         wrong += f"; {not_finite} answers were inf, -inf or nan"
     measured = f"{right} of {len(asked)} scans right" + (f", {unanswered} without an answer" if unanswered else "")
     passed = bool(asked) and right >= share * len(asked)
-    return Finding(passed, expected, measured + wrong, None if passed else at)
+    if passed or not asked:
+        return Finding(passed, expected, measured + wrong, None if passed else at)
+    infinite = recording.signal(f"{signal}/not_finite").times / 1e9 if parameters.has("signal") else np.empty(0)
+    why = explain(_asked(recording, topic, what, tolerance, asked, given + [(float(t), np.nan) for t in infinite]))
+    return Finding(False, expected, measured + wrong, at, explanation=why)
+
+
+def _asked(
+    recording: Recording, topic: str, what: str, tolerance: float, asked: list[Scan], given: list[tuple[float, float]]
+) -> Asked:
+    """Return questions and answers as the explanations see them; NaN stands for an answer that is not finite."""
+    given = sorted(given, key=lambda answer: answer[0])
+    times = np.array([time for time, _ in given])
+    first = np.searchsorted(times, [scan.start for scan in asked])
+    answered = np.array([i < len(given) and given[i][0] < scan.end for i, scan in zip(first, asked, strict=True)])
+    values = np.array([given[i][1] if there else np.nan for i, there in zip(first, answered, strict=True)])
+
+    def limit(name: str, otherwise: float) -> np.ndarray:
+        values = recording.signal(f"topics/{topic}/{name}").values
+        return np.array([values[scan.number] if scan.number < len(values) else otherwise for scan in asked])
+
+    return Asked(
+        what,
+        np.array([scan.start for scan in asked]),
+        np.array([scan.answers[0] for scan in asked]),
+        values,
+        answered,
+        tolerance,
+        STATISTICS[what],
+        Scans(
+            [scan.row for scan in asked],
+            np.array([scan.low for scan in asked]),
+            np.array([scan.high for scan in asked]),
+            limit("angle_min", -np.pi),
+            limit("angle_max", np.pi),
+        ),
+    )
 
 
 def _messages(recording: Recording, name: str) -> list[tuple[float, float]]:

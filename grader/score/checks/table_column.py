@@ -4,11 +4,13 @@ kind = "table_column"
 column = "gz_type"        # ros_type | gz_topic | gz_type | direction | publisher
 at_least = 5              # rows that must be correct, so that an empty table earns nothing
 
-`table_rows` checks for rows of topics that are not bridged, and for missing rows.
+`table_rows` checks for rows of topics that are not bridged, and for missing rows. Its sentences say what is wrong with
+a name and never the right one, which is the answer.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -16,8 +18,9 @@ from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.graphs import WAYS, Link, links
-from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.did_you_mean import did_you_mean, nearest_name
 
+ROS_TYPE = re.compile(r"[a-z]\w*/msg/[A-Z]\w*")
 WORDS = {
     "ros_type": "the ROS type",
     "gz_topic": "the Gazebo topic",
@@ -64,27 +67,39 @@ def _fits(column: str, said: str, link: Link) -> bool:
 
 
 def _ros_type(said: str, link: Link, facts: dict[str, Any]) -> str:
-    if said.startswith("gz.msgs."):
+    known = {kind for topic in facts["ros_topics"].values() for kind in topic["types"]}
+    if said.startswith(("gz.msgs.", "gz/msgs/", "ignition.msgs.")):
         return f"{said} is Gazebo's type; {link.ros_topic} has another one in ROS, such as package/msg/Name"
-    known = sorted({kind for topic in facts["ros_topics"].values() for kind in topic["types"]})
-    return f"{link.ros_topic} does not carry {said} in ROS{did_you_mean(said, known)}"
+    if not ROS_TYPE.fullmatch(said):
+        return f"{said} is no type of ROS 2: they are written package/msg/Name, in three parts"
+    if said in known:
+        return f"{said} is carried by another topic of ROS, not by {link.ros_topic}"
+    return f"{link.ros_topic} does not carry {said} in ROS{_spelling(said, link.ros_type)}"
 
 
 def _gz_type(said: str, link: Link, facts: dict[str, Any]) -> str:
-    if "/" in said:
-        return f"{said} is the ROS type; in Gazebo {link.gz_topic} has a type of its own, such as gz.msgs.Name"
-    known = sorted({kind for topic in facts["gz_topics"].values() for kind in topic["types"]})
-    return f"{link.gz_topic} does not carry {said} in Gazebo{did_you_mean(said, known)}"
+    known = {kind for topic in facts["gz_topics"].values() for kind in topic["types"]}
+    if ROS_TYPE.fullmatch(said) and not said.startswith(("gz/", "ignition/")):
+        return f"{said} is a ROS type; in Gazebo {link.gz_topic} has a type of its own, such as gz.msgs.Name"
+    if not said.startswith("gz.msgs."):
+        return f"{said} is not how Gazebo writes a type: gz.msgs.Name, with points"
+    if said in known:
+        return f"{said} is carried by another topic of Gazebo, not by {link.gz_topic}"
+    return f"{link.gz_topic} does not carry {said} in Gazebo{_spelling(said, link.gz_type)}"
 
 
 def _gz_topic(said: str, link: Link, facts: dict[str, Any]) -> str:
     name = f"/{said.lstrip('/')}"
     if name in facts["gz_topics"]:
         return f"{name} is a topic of Gazebo, but not the one that {link.ros_topic} is joined with"
-    near = did_you_mean(name, [link.gz_topic], cutoff=0.3)
     if name == link.ros_topic:
-        return f"{name} is what ROS calls it; Gazebo has no topic of that name{near}"
-    return f"Gazebo has no topic {name}{near}"
+        return f"{name} is what ROS calls it; Gazebo has no topic of that name"
+    return f"Gazebo has no topic {name}{_spelling(name, link.gz_topic)}"
+
+
+def _spelling(said: str, right: str) -> str:
+    """Return the end of a sentence on a name that is right but for its spelling; the right name is not given away."""
+    return "; it is nearly right: look at its spelling" if nearest_name(said, [right], 0.9) else ""
 
 
 def _direction(said: str, link: Link, facts: dict[str, Any]) -> str:
@@ -103,8 +118,7 @@ def _publisher(said: str, link: Link, facts: dict[str, Any]) -> str:
         return f"{name} listens to {link.ros_topic}; it does not publish there"
     if name in nodes:
         return f"{name} is a node, but it does not publish on {link.ros_topic}"
-    hint = did_you_mean(name, nodes, cutoff=0.5)
-    return f"no node called {name} is in the ROS graph; Gazebo itself is not in it{hint}"
+    return f"no node called {name} is in the ROS graph, whose nodes ros2 node list names; Gazebo itself is not in it"
 
 
 EXPLAIN: dict[str, Callable[[str, Link, dict[str, Any]], str]] = {

@@ -12,7 +12,7 @@ from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.diagnosis import OWN_TOPICS
 from gz_course.grader.score.graphs import links
-from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.did_you_mean import nearest_name
 
 
 @check_kind("table_rows")
@@ -44,10 +44,9 @@ def _why(topic: str, times: int, wanted: list[str], facts: dict) -> str:
     ros, gz = facts.get("ros_topics", {}), facts.get("gz_topics", {})
     if topic in ros or topic in OWN_TOPICS:
         return f"{topic} is a topic of ROS alone; nothing of it goes across the bridge"
-    near = did_you_mean(topic, wanted)
     if topic in gz:
-        across = [b["ros_topic"] for b in facts["bridges"] if b["gz_topic"] == topic]
-        if across:
-            return f"{topic} is what Gazebo calls it; in ROS it is {across[0]}"
+        if any(bridge["gz_topic"] == topic for bridge in facts["bridges"]):
+            return f"{topic} is what Gazebo calls it; in ROS it has another name, which bridge.yaml says"
         return f"{topic} is a topic of Gazebo alone; no bridge takes it to ROS"
+    near = "; it is nearly right: look at its spelling" if nearest_name(topic, wanted, 0.8) else ""
     return f"there is no topic {topic} in ROS{near}"

@@ -47,8 +47,12 @@ def _was_right(recording: Recording, conditions: list[Condition]) -> bool:
 
 
 def _usual(recording: Recording, c: Condition) -> str:
+    """Return in words the values of a signal: the usual one that is not 0, and how often it is 0 if that is oftener."""
     values = recording.signal(c.signal).values
     moving = values[np.abs(values) > 0.01]
     if not len(moving):
         return "was always 0" if len(values) else "was never seen"
-    return f"was mostly {told(float(np.median(moving)))}{c.unit}"
+    usual = f"{told(float(np.median(moving)))}{c.unit}"
+    if 2 * len(moving) < len(values):
+        return f"was {usual} in {len(moving)} of {len(values)} values and 0 in the others"
+    return f"was mostly {usual}"

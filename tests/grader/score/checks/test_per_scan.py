@@ -78,7 +78,12 @@ def test_an_answer_belongs_to_the_scan_before_it(scanned):
     assert per_scan(scanned(signals=late), every).measured.startswith("18 of 20")
 
 
-def test_only_the_first_answer_to_a_scan_counts(scanned):
+def test_every_answer_to_a_scan_counts(scanned):
+    twice = {"topics/nearest/data": sorted((t + d, 1.0) for t in TIMES for d in (0.01, 0.02))}
+    assert per_scan(scanned(signals=twice), TOPIC).passed, "the same once more is no fault"
+    then = {"topics/nearest/data": sorted((t + d, v) for t in TIMES for d, v in ((0.01, 1.0), (0.02, 5.0)))}
+    finding = per_scan(scanned(signals=then), TOPIC)
+    assert not finding.passed and "it said 5" in finding.measured
     both = {"topics/nearest/data": sorted((t + d, v) for t in TIMES for d, v in ((0.01, 5.0), (0.02, 1.0)))}
     assert not per_scan(scanned(signals=both), TOPIC).passed
 

@@ -1,0 +1,188 @@
+"""Mistakes of a first month with Python that raise no error, or one that does not name them.
+
+A kind of submission that is Python records these places as facts of a run. The diagnosis names them only if the run
+lost points.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from typing import Any
+
+MOST = 3  # places reported at most
+LONGEST_PERIOD = 60.0  # [s] a longer period of a timer was hardly meant
+ACTIONS = frozenset({"cancel", "publish", "spin", "init", "shutdown", "destroy_node", "reset"})
+CREATE = {"create_timer": 1, "create_subscription": 2}  # method -> position of its callback
+MESSAGE_FIELDS = frozenset({"data", "x", "y", "z", "w"})
+
+Place = tuple[int, str]
+
+
+def slips(content: bytes) -> list[dict[str, Any]]:
+    """Return `line` and `said`, the words of a sentence, of each such place; nothing if the file is not Python."""
+    try:
+        tree = ast.parse(content)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return []
+    found = [place for look in LOOKS for place in look(tree)]
+    return [{"line": line, "said": said} for line, said in found[:MOST]]
+
+
+def _calls(tree: ast.AST) -> Iterator[tuple[ast.Call, str]]:
+    """Yield every call with the last part of the name that is called."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call):
+            yield node, ast.unparse(node.func).rpartition(".")[2]
+
+
+def constructors(tree: ast.AST) -> Iterator[Place]:
+    for each in (node for node in ast.walk(tree) if isinstance(node, ast.ClassDef)):
+        for node in each.body:
+            wrong = isinstance(node, ast.FunctionDef) and node.name.strip("_") in ("init", "int", "ini")
+            if isinstance(node, ast.FunctionDef) and wrong and node.name.startswith("_") and node.name != "__init__":
+                yield (
+                    node.lineno,
+                    f"the method {node.name} is never called: the constructor is __init__, with two underscores on "
+                    "either side",
+                )
+
+
+def main_not_called(tree: ast.Module) -> Iterator[Place]:
+    """Find a function main that no code of the module calls."""
+    main = next((node for node in tree.body if isinstance(node, ast.FunctionDef) and node.name == "main"), None)
+    if main is None:
+        return
+    outside = [node for node in tree.body if node is not main]
+    if not any(name == "main" for part in outside for _, name in _calls(part)):
+        yield (
+            main.lineno,
+            "main() is defined, but nothing calls it: the file ends with  if __name__ == '__main__': main()",
+        )
+
+
+def not_called(tree: ast.AST) -> Iterator[Place]:
+    """Find a statement that only names a function, such as `self.timer.cancel`."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Attribute | ast.Name):
+            name = ast.unparse(node.value)
+            if name.rpartition(".")[2] in ACTIONS | {"main"}:
+                yield node.lineno, f"{name} without brackets names the function and does not call it: {name}(...)"
+
+
+def periods(tree: ast.AST) -> Iterator[Place]:
+    for call, name in _calls(tree):
+        if name == "create_timer" and call.args and isinstance(call.args[0], ast.Constant):
+            period = call.args[0].value
+            if isinstance(period, int | float) and period >= LONGEST_PERIOD:
+                yield (
+                    call.lineno,
+                    f"the timer's period is in seconds: create_timer({period!r}, ...) fires for the first time after "
+                    f"{period / 60:.0f} minutes; {period:g} ms are {period / 1000:g}",
+                )
+
+
+def called_callbacks(tree: ast.AST) -> Iterator[Place]:
+    """Find a callback that is called where it should be handed over."""
+    for call, name in _calls(tree):
+        place = CREATE.get(name)
+        given = call.args[place] if place is not None and len(call.args) > place else None
+        given = next((each.value for each in call.keywords if each.arg == "callback"), given)
+        if isinstance(given, ast.Call) and not given.args and place is not None:
+            function = ast.unparse(given.func)
+            if function.startswith("self.") or isinstance(given.func, ast.Name):
+                yield (
+                    call.lineno,
+                    f"{function}() calls the function at once and hands over what it returns; the callback itself is "
+                    f"{function}, without brackets",
+                )
+
+
+def decimal_commas(tree: ast.AST) -> Iterator[Place]:
+    for node in ast.walk(tree):
+        values: list[ast.expr] = []
+        if isinstance(node, ast.Assign) and isinstance(node.value, ast.Tuple) and len(node.targets) == 1:
+            values = node.value.elts if isinstance(node.targets[0], ast.Name | ast.Attribute) else []
+        elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith("create_timer") and len(node.args) >= 3:
+            values = node.args[:2]
+        if _two_whole(values):
+            yield node.lineno, _comma(values)
+
+
+def _two_whole(values: list[ast.expr]) -> bool:
+    return len(values) == 2 and all(isinstance(v, ast.Constant) and isinstance(v.value, int) for v in values)
+
+
+def _comma(values: list[ast.expr]) -> str:
+    ahead, behind = (ast.unparse(value) for value in values)
+    return f"{ahead}, {behind} are two numbers: Python writes the decimal point as a point, {ahead}.{behind}"
+
+
+def sets_for_numbers(tree: ast.AST) -> Iterator[Place]:
+    """Find `{x}` where a number or a text belongs: braces make a set outside of an f-string."""
+    for node in ast.walk(tree):
+        values: list[ast.expr] = []
+        if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Attribute):
+            values = [node.value] if node.targets[0].attr in MESSAGE_FIELDS else []
+        elif isinstance(node, ast.Call):
+            values = [each.value for each in node.keywords if each.arg in MESSAGE_FIELDS]
+        for value in values:
+            if isinstance(value, ast.Set) and len(value.elts) == 1:
+                inside = ast.unparse(value.elts[0])
+                yield value.lineno, f"{{{inside}}} is a set with one element, not its value: write {inside}"
+
+
+def strings_with_braces(tree: ast.AST) -> Iterator[Place]:
+    """Find a text with `{name}` in it that lacks the f before its quotes, where it is logged or published."""
+    for call, name in _calls(tree):
+        if name not in ("info", "warn", "warning", "error", "String"):
+            continue
+        for value in [*call.args, *(each.value for each in call.keywords)]:
+            text = value.value if isinstance(value, ast.Constant) else ""
+            if isinstance(text, str) and "{" in text and "}" in text[text.index("{") :]:
+                yield value.lineno, "this text holds {...} but has no f before its quotes, so it is sent as it stands"
+
+
+def stray_methods(tree: ast.AST) -> Iterator[Place]:
+    """Find a function with the parameter self that stands outside of a class, because of its indentation."""
+    owned = {id(node) for each in ast.walk(tree) if isinstance(each, ast.ClassDef) for node in each.body}
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.FunctionDef) or id(node) in owned or node.decorator_list:
+            continue
+        if [each.arg for each in node.args.args[:1]] == ["self"]:
+            yield (
+                node.lineno,
+                f"{node.name}(self, ...) is no method of the class: by its indentation it stands outside of the class, "
+                "or inside of another method",
+            )
+
+
+def blocking(tree: ast.AST) -> Iterator[Place]:
+    """Find an endless loop, or a Rate, inside a callback: while it runs, no other callback and no clock does."""
+    callbacks = set()
+    for call, name in _calls(tree):
+        place = CREATE.get(name)
+        if place is not None and len(call.args) > place:
+            callbacks.add(ast.unparse(call.args[place]).rpartition(".")[2])
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.FunctionDef) or node.name not in callbacks:
+            continue
+        rates = [call for call, name in _calls(node) if name == "create_rate"]
+        for inner in ast.walk(node):
+            if not isinstance(inner, ast.While):
+                continue
+            names = {name for _, name in _calls(inner)}
+            if names & {"spin_once", "spin_some"}:
+                continue
+            if rates or "sleep" in names or not names - {"ok", "now", "get_clock", "publish", "info"}:
+                yield (
+                    inner.lineno,
+                    f"the loop in the callback {node.name} keeps the executor: while it runs, no other callback and no "
+                    "clock does. A timer calls a function again and again; return from it each time",
+                )
+
+
+LOOKS = (
+    constructors, main_not_called, called_callbacks, periods, not_called, decimal_commas, sets_for_numbers,
+    strings_with_braces, stray_methods, blocking,
+)  # fmt: skip

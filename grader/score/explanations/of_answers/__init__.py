@@ -1,0 +1,1 @@
+"""Explanations of numbers that answer scans; registered in `answers.py`."""

@@ -1,0 +1,135 @@
+"""The right value, changed by one step of arithmetic: rounded, in another unit, with another sign, scaled."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gz_course.grader.score.explanations.answers import Asked, predicts
+
+MEAN, COUNT, MINIMUM = "mean", "valid_count", "minimum"
+LENGTHS = (MINIMUM, MEAN)
+
+
+@predicts("rounded to two decimals", only=LENGTHS)
+def two_decimals(asked: Asked) -> np.ndarray:
+    return np.round(asked.truth, 2)
+
+
+@predicts("rounded to one decimal", only=LENGTHS)
+def one_decimal(asked: Asked) -> np.ndarray:
+    return np.round(asked.truth, 1)
+
+
+@predicts("cut off after two decimals", only=LENGTHS)
+def cut_off(asked: Asked) -> np.ndarray:
+    return np.floor(asked.truth * 100) / 100
+
+
+@predicts("cut off after one decimal", only=LENGTHS)
+def cut_off_at_one(asked: Asked) -> np.ndarray:
+    return np.floor(asked.truth * 10) / 10
+
+
+@predicts("whole numbers: the decimals are cut off, as int() and // do", only=LENGTHS)
+def whole(asked: Asked) -> np.ndarray:
+    return np.floor(asked.truth)
+
+
+@predicts("rounded to whole numbers", only=LENGTHS)
+def rounded(asked: Asked) -> np.ndarray:
+    return np.round(asked.truth)
+
+
+@predicts("in millimetres; metres are asked for", only=LENGTHS)
+def millimetres(asked: Asked) -> np.ndarray:
+    return _scaled(asked, 1000.0)
+
+
+@predicts("in centimetres; metres are asked for", only=LENGTHS)
+def centimetres(asked: Asked) -> np.ndarray:
+    return _scaled(asked, 100.0)
+
+
+@predicts("in kilometres; metres are asked for", only=LENGTHS)
+def kilometres(asked: Asked) -> np.ndarray:
+    return _scaled(asked, 0.001)
+
+
+@predicts("divided by 100; metres are asked for", only=LENGTHS)
+def hundredths(asked: Asked) -> np.ndarray:
+    return _scaled(asked, 0.01)
+
+
+@predicts("in feet; metres are asked for", only=LENGTHS)
+def feet(asked: Asked) -> np.ndarray:
+    return _scaled(asked, 3.28084)
+
+
+@predicts("twice the right value")
+def doubled(asked: Asked) -> np.ndarray:
+    return _scaled(asked, 2.0)
+
+
+@predicts("half the right value")
+def halved(asked: Asked) -> np.ndarray:
+    return _scaled(asked, 0.5)
+
+
+@predicts("ten times the right value")
+def tenfold(asked: Asked) -> np.ndarray:
+    return _scaled(asked, 10.0)
+
+
+@predicts("a tenth of the right value")
+def tenth(asked: Asked) -> np.ndarray:
+    return _scaled(asked, 0.1)
+
+
+@predicts("in degrees; radians are asked for")
+def degrees(asked: Asked) -> np.ndarray:
+    return np.degrees(asked.truth)
+
+
+@predicts("in radians; degrees are asked for")
+def radians(asked: Asked) -> np.ndarray:
+    return np.radians(asked.truth)
+
+
+@predicts("the right value with the wrong sign")
+def negative(asked: Asked) -> np.ndarray:
+    return -asked.truth
+
+
+@predicts("the absolute value: the sign is lost")
+def absolute(asked: Asked) -> np.ndarray:
+    return np.abs(asked.truth) if (asked.truth < 0).any() else np.full(len(asked.truth), np.nan)
+
+
+@predicts("the square of the right value")
+def squared(asked: Asked) -> np.ndarray:
+    return asked.truth**2
+
+
+@predicts("the reciprocal of the right value, 1 / x")
+def reciprocal(asked: Asked) -> np.ndarray:
+    with np.errstate(divide="ignore"):
+        return 1 / asked.truth
+
+
+@predicts("the right value less range_min", only=LENGTHS)
+def less_range_min(asked: Asked) -> np.ndarray:
+    return asked.truth - asked.scans.low if asked.scans else np.full(len(asked.truth), np.nan)
+
+
+@predicts("the part of all rays that is valid, not their number", only=(COUNT,))
+def share(asked: Asked) -> np.ndarray:
+    return asked.truth / np.array([len(row) for row in asked.scans.rows]) if asked.scans else asked.truth * np.nan
+
+
+@predicts("the percentage of all rays that is valid, not their number", only=(COUNT,))
+def percentage(asked: Asked) -> np.ndarray:
+    return 100 * share(asked)
+
+
+def _scaled(asked: Asked, factor: float) -> np.ndarray:
+    return asked.truth * factor

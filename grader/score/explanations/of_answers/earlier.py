@@ -1,0 +1,135 @@
+"""Answers that mix in, or repeat, what belongs to earlier questions."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gz_course.grader.score.explanations.answers import Asked, predicts
+
+
+def _before(truth: np.ndarray, count: int) -> np.ndarray:
+    return np.concatenate([np.full(min(count, len(truth)), np.nan), truth[:-count]])
+
+
+@predicts("those of the scan before")
+def scan_before(asked: Asked) -> np.ndarray:
+    return _before(asked.truth, 1)
+
+
+@predicts("those of two scans before")
+def two_before(asked: Asked) -> np.ndarray:
+    return _before(asked.truth, 2)
+
+
+@predicts("those of three to ten scans before: they come late", rank=2)
+def long_before(asked: Asked) -> np.ndarray:
+    shifted = [_before(asked.truth, count) for count in range(3, 11)]
+    with np.errstate(all="ignore"):
+        met = [np.mean(np.abs(each - asked.given) <= asked.tolerance) for each in shifted]
+    return shifted[int(np.argmax(met))]
+
+
+@predicts("the smallest of all scans so far, not of this scan: start anew in every callback")
+def smallest_so_far(asked: Asked) -> np.ndarray:
+    return np.minimum.accumulate(asked.truth)
+
+
+@predicts("the largest of all scans so far, not of this scan: start anew in every callback")
+def largest_so_far(asked: Asked) -> np.ndarray:
+    return np.maximum.accumulate(asked.truth)
+
+
+@predicts("the average of all scans so far, not of this scan alone")
+def average_so_far(asked: Asked) -> np.ndarray:
+    return np.cumsum(asked.truth) / np.arange(1, len(asked.truth) + 1)
+
+
+@predicts("the average of all valid ranges so far, not of those of this scan alone", only=("mean",))
+def average_of_all_ranges(asked: Asked) -> np.ndarray:
+    if asked.scans is None:
+        return np.full(len(asked.truth), np.nan)
+    valid = asked.scans.valid()
+    return np.cumsum([v.sum() for v in valid]) / np.cumsum([len(v) for v in valid])
+
+
+@predicts("the sum over all scans so far: start anew in every callback")
+def sum_so_far(asked: Asked) -> np.ndarray:
+    return np.cumsum(asked.truth)
+
+
+@predicts("the average of this scan and the one before")
+def smoothed_over_two(asked: Asked) -> np.ndarray:
+    return (asked.truth + _before(asked.truth, 1)) / 2
+
+
+@predicts("a moving average over several scans, not the value of this scan", rank=2)
+def moving_average(asked: Asked) -> np.ndarray:
+    return _best(asked, [_window(asked.truth, width, np.mean) for width in range(3, 11)])
+
+
+@predicts("the smallest of the last few scans, not of this scan", rank=2)
+def smallest_of_a_few(asked: Asked) -> np.ndarray:
+    return _best(asked, [_window(asked.truth, width, np.min) for width in range(2, 11)])
+
+
+@predicts("a median over several scans, not the value of this scan", rank=2)
+def moving_median(asked: Asked) -> np.ndarray:
+    return _best(asked, [_window(asked.truth, width, np.median) for width in (3, 5, 7, 9)])
+
+
+@predicts("a low-pass filter of the values (a part of the last answer is kept), not the value of this scan", rank=2)
+def low_pass(asked: Asked) -> np.ndarray:
+    filtered = []
+    for keep in (0.5, 0.7, 0.75, 0.8, 0.9, 0.95, 0.3, 0.25, 0.2, 0.1):
+        values = asked.truth.copy()
+        for i in range(1, len(values)):
+            values[i] = keep * values[i - 1] + (1 - keep) * asked.truth[i]
+        filtered.append(values)
+    return _best(asked, filtered)
+
+
+@predicts("the change since the scan before, not the value of this scan")
+def change(asked: Asked) -> np.ndarray:
+    return asked.truth - _before(asked.truth, 1)
+
+
+@predicts("always that of the first scan")
+def first_scan(asked: Asked) -> np.ndarray:
+    moved = np.ptp(asked.truth) > 3 * asked.tolerance if len(asked.truth) else False
+    return np.full(len(asked.truth), asked.truth[0] if moved else np.nan)
+
+
+@predicts("always the same number, whatever the scan", rank=2)
+def constant(asked: Asked) -> np.ndarray:
+    values = asked.given[asked.answered & np.isfinite(asked.given)]
+    if not len(values):
+        return np.full(len(asked.truth), np.nan)
+    same = np.ptp(values) == 0 and np.ptp(asked.truth) > 3 * asked.tolerance and values[0] != 0
+    known = asked.scans is not None and values[0] in (asked.scans.low[0], asked.scans.high[0], len(asked.scans.rows[0]))
+    first = abs(values[0] - asked.truth[0]) <= asked.tolerance
+    return np.full(len(asked.truth), values[0] if same and not known and not first else np.nan)
+
+
+@predicts("0 in every scan", rank=0)
+def zero(asked: Asked) -> np.ndarray:
+    return np.zeros(len(asked.truth))
+
+
+@predicts("numbers that count up by one: a counter of the scans", rank=2)
+def counter(asked: Asked) -> np.ndarray:
+    values = asked.given
+    known = np.flatnonzero(asked.answered & np.isfinite(values))
+    start = values[known[0]] - known[0] if len(known) else np.nan
+    return np.arange(len(asked.truth)) + start
+
+
+def _window(truth: np.ndarray, width: int, value: object) -> np.ndarray:
+    assert callable(value)
+    return np.array([value(truth[max(0, i - width + 1) : i + 1]) for i in range(len(truth))], dtype=float)
+
+
+def _best(asked: Asked, candidates: list[np.ndarray]) -> np.ndarray:
+    """Return the candidate nearest to what was given."""
+    with np.errstate(all="ignore"):
+        met = [np.sum(np.abs(each - asked.given) <= asked.tolerance) for each in candidates]
+    return candidates[int(np.argmax(met))]

@@ -1,0 +1,143 @@
+"""The right statistic of the wrong rays: a wrong bound, a sector, a ray too few; numbers put in for what is invalid."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from gz_course.grader.score.explanations.answers import Asked, predicts
+
+Choice = Callable[[np.ndarray, float, float], np.ndarray]
+MEAN, COUNT, MINIMUM = "mean", "valid_count", "minimum"
+
+
+def _over(asked: Asked, choice: Choice) -> np.ndarray:
+    """Return the statistic that is asked for over the chosen ranges of each scan."""
+    if asked.scans is None:
+        return np.full(len(asked.truth), np.nan)
+    return asked.scans.each(lambda row, low, high: asked.of(choice(row, low, high)))
+
+
+def _valid(row: np.ndarray, low: float, high: float) -> np.ndarray:
+    return row[(row > low) & (row < high)]
+
+
+@predicts("those of all rays, the invalid ones (inf, -inf, nan) included")
+def all_rays(asked: Asked) -> np.ndarray:
+    return _over(asked, lambda row, low, high: row)
+
+
+@predicts("those of all rays but nan: inf and -inf are included")
+def all_but_nan(asked: Asked) -> np.ndarray:
+    if asked.scans is None or not any(np.isnan(row).any() for row in asked.scans.rows):
+        return np.full(len(asked.truth), np.nan)
+    return _over(asked, lambda row, low, high: row[~np.isnan(row)])
+
+
+@predicts("those of the rays above range_min: range_max was not asked about, so inf is included")
+def no_upper_bound(asked: Asked) -> np.ndarray:
+    return _over(asked, lambda row, low, high: row[row > low])
+
+
+@predicts("those of the rays below range_max: range_min was not asked about, so -inf is included")
+def no_lower_bound(asked: Asked) -> np.ndarray:
+    return _over(asked, lambda row, low, high: row[row < high])
+
+
+@predicts("those of the rays whose range lies between angle_min and angle_max: these are bounds of the angles [rad]")
+def bounds_of_the_angles(asked: Asked) -> np.ndarray:
+    if asked.scans is None:
+        return np.full(len(asked.truth), np.nan)
+    least, most = float(asked.scans.angle_min[0]), float(asked.scans.angle_max[0])
+    return _over(asked, lambda row, low, high: row[(row >= least) & (row <= most)])
+
+
+@predicts("those of the invalid rays: the condition is the wrong way round")
+def invalid_rays(asked: Asked) -> np.ndarray:
+    return _over(asked, lambda row, low, high: row[~((row > low) & (row < high))])
+
+
+@predicts("those with inf counted as range_max")
+def inf_is_range_max(asked: Asked) -> np.ndarray:
+    return _over(asked, lambda row, low, high: np.where(np.isposinf(row), high, row)[~np.isneginf(row)])
+
+
+@predicts("those with every range clipped to range_min and range_max: inf became range_max, -inf range_min")
+def clipped(asked: Asked) -> np.ndarray:
+    return _over(
+        asked, lambda row, low, high: np.clip(np.nan_to_num(row, nan=high, posinf=high, neginf=low), low, high)
+    )
+
+
+@predicts("those with 0 in place of the ranges that are not valid")
+def zero_for_invalid(asked: Asked) -> np.ndarray:
+    return _over(asked, lambda row, low, high: np.where((row > low) & (row < high), row, 0.0))
+
+
+@predicts("those of the first half of the rays only")
+def first_half(asked: Asked) -> np.ndarray:
+    return _over(asked, lambda row, low, high: _valid(row[: len(row) // 2], low, high))
+
+
+@predicts("those of the second half of the rays only")
+def second_half(asked: Asked) -> np.ndarray:
+    return _over(asked, lambda row, low, high: _valid(row[len(row) // 2 :], low, high))
+
+
+@predicts("those of every second ray only")
+def every_second_ray(asked: Asked) -> np.ndarray:
+    return _over(asked, lambda row, low, high: _valid(row[::2], low, high))
+
+
+@predicts("those of all rays but the first: indices begin at 0", only=(MEAN,))
+def without_the_first_ray(asked: Asked) -> np.ndarray:
+    return _over(asked, lambda row, low, high: _valid(row[1:], low, high))
+
+
+@predicts("those of all rays but the last: range(n) ends before n", only=(MEAN,))
+def without_the_last_ray(asked: Asked) -> np.ndarray:
+    return _over(asked, lambda row, low, high: _valid(row[:-1], low, high))
+
+
+@predicts("those of the rays ahead only, not of those all around", rank=2)
+def ahead(asked: Asked) -> np.ndarray:
+    """Return the answers of the sector, of the usual ones, that fits best."""
+    if asked.scans is None or asked.scans.angle_max[0] - asked.scans.angle_min[0] < np.pi:
+        return np.full(len(asked.truth), np.nan)
+    sector = (asked.scans.angle_max[0] - asked.scans.angle_min[0]) / 2
+    best, most = np.full(len(asked.truth), np.nan), -1
+    for degrees in (5, 10, 15, 20, 30, 45, 60, 90):
+        for last in (0, 1):  # a slice leaves its last ray out
+
+            def in_sector(
+                row: np.ndarray, low: float, high: float, degrees: int = degrees, last: int = last
+            ) -> np.ndarray:
+                middle, half = len(row) // 2, round(len(row) / 2 * np.radians(degrees) / sector)
+                return _valid(row[middle - half : middle + half + last], low, high)
+
+            found = _over(asked, in_sector)
+            met = int(np.sum(np.abs(found - asked.given) <= asked.tolerance))
+            best, most = (found, met) if met > most else (best, most)
+    return best
+
+
+@predicts("the sum of the valid ranges divided by the number of all rays, not of the valid ones", only=(MEAN,))
+def divided_by_all_rays(asked: Asked) -> np.ndarray:
+    if asked.scans is None:
+        return np.full(len(asked.truth), np.nan)
+    return asked.scans.each(lambda row, low, high: float(_valid(row, low, high).sum() / len(row)))
+
+
+@predicts(
+    "the average over one ray too few or too many: the sum is right, the number it is divided by is not", (MEAN,), 2
+)
+def divided_by_one_less(asked: Asked) -> np.ndarray:
+    if asked.scans is None:
+        return np.full(len(asked.truth), np.nan)
+    sums = asked.scans.each(lambda row, low, high: float(_valid(row, low, high).sum()))
+    counts = asked.scans.each(lambda row, low, high: float(len(_valid(row, low, high))))
+    near = [sums / (counts + off) for off in (-1, 1)]
+    return (
+        near[0] if np.nanmean(np.abs(near[0] - asked.given)) <= np.nanmean(np.abs(near[1] - asked.given)) else near[1]
+    )

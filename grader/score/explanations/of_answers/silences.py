@@ -1,0 +1,53 @@
+"""Which questions were answered at all."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gz_course.grader.score.explanations.answers import Asked, notices
+
+
+@notices
+def only_the_first(asked: Asked) -> str:
+    answered = np.flatnonzero(asked.answered)
+    if len(answered) != 1 or len(asked.answered) < 3:
+        return ""
+    which = {0: "the first scan", len(asked.answered) - 1: "the last scan"}.get(int(answered[0]), "one scan")
+    return f"your node answered {which} only: answer in every callback of the subscription"
+
+
+@notices
+def stopped_answering(asked: Asked) -> str:
+    answered = np.flatnonzero(asked.answered)
+    if len(answered) < 2 or answered[-1] - answered[0] + 1 != len(answered):
+        return ""
+    if answered[-1] < len(asked.answered) - max(2, 0.05 * len(asked.answered)):
+        at = asked.times[answered[-1]]
+        return f"your node answered no scan after {at:.2f} s: something ended the answers there"
+    if answered[0] > max(1, 0.05 * len(asked.answered)):
+        return f"your node did not answer before {asked.times[answered[0]]:.2f} s: it listens from then on only"
+    return ""
+
+
+@notices
+def every_nth(asked: Asked) -> str:
+    answered = np.flatnonzero(asked.answered)
+    steps = np.diff(answered)
+    if len(steps) < 2 or steps[0] < 2 or np.mean(steps == np.median(steps)) < 0.8:
+        return ""
+    step = int(np.median(steps))
+    which = {2: "every second scan", 3: "every third scan"}.get(step, f"one scan in {step}")
+    period = float(np.median(np.diff(asked.times[answered])))
+    return f"your node answered {which} only, once in {period:.2g} s: publish and log in the callback of each scan"
+
+
+@notices
+def alternates(asked: Asked) -> str:
+    known = asked.answered & np.isfinite(asked.given)
+    with np.errstate(invalid="ignore"):
+        right = np.abs(asked.given - asked.truth) <= asked.tolerance
+    if not known.all() or len(right) < 6 or not 0.4 <= right.mean() <= 0.6:
+        return ""
+    if np.mean(right[1:] != right[:-1]) < 0.9:
+        return ""
+    return "your answers alternate: every second one is right, the others are not"

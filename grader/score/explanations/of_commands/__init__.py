@@ -1,0 +1,1 @@
+"""Explanations of sequences of velocity commands; registered in `commands.py`."""

@@ -1,0 +1,93 @@
+"""Wrong sequences: one command only, no stop, commands that alternate, ramp or begin again."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gz_course.grader.score.explanations.commands import Drive, explains
+
+
+@explains
+def only_one(drive: Drive) -> str:
+    if len(drive.times) != 1 or not drive.moving[0]:
+        return ""
+    return (
+        f"one command only arrived, at {drive.times[0]:.2f} s, and nothing after it: the robot obeys it to the end, so "
+        "a command of zeros must follow"
+    )
+
+
+@explains
+def no_stop(drive: Drive) -> str:
+    """Find a drive that ceased without a stop."""
+    if len(drive.times) < 2 or not drive.moving[-1] or drive.ended - drive.times[-1] < 0.8:
+        return ""
+    return (
+        f"the last command came at {drive.times[-1]:.2f} s and drives on: your node falls silent, where a command "
+        "of zeros is needed"
+    )
+
+
+@explains
+def never_ends(drive: Drive) -> str:
+    """Find a drive that went on to the end of the run."""
+    pushes = drive.pushes
+    if len(drive.times) < 4 or len(pushes) != 1 or np.isfinite(pushes[0][1]) or drive.ended - drive.times[-1] >= 0.8:
+        return ""
+    if np.ptp(drive.linear[drive.moving, 0]) > 0.1 * abs(drive.steady):
+        return ""
+    return (
+        f"{len(drive.times)} commands in a row drive the robot and not one stops it: the time your node reckons with "
+        f"never reaches {drive.seconds:g} s (a count of ticks, nanoseconds without the seconds, a start that is set "
+        "anew in every callback), or it never compares"
+    )
+
+
+@explains
+def alternates(drive: Drive) -> str:
+    moving = drive.moving
+    if len(drive.pushes) < 4:
+        return ""
+    first, last = np.flatnonzero(moving)[[0, -1]]
+    changes = np.mean(moving[first + 1 : last + 1] != moving[first:last])
+    values = sorted({round(float(v), 2) for v in drive.linear[first : last + 1, 0]})
+    if changes < 0.6:
+        return ""
+    return (
+        f"linear.x alternates between {values[0]:.2f} and {values[-1]:.2f}: two parts of your node (two timers, or two "
+        "publish() calls in one callback) command the robot in turn"
+    )
+
+
+@explains
+def begins_again(drive: Drive) -> str:
+    if len(drive.pushes) < 2 or alternates(drive):
+        return ""
+    _, end, _ = drive.pushes[0]
+    again = drive.pushes[1][0]
+    return f"the robot was driven {len(drive.pushes)} times: stopped at {end:.2f} s, driven again at {again:.2f} s"
+
+
+@explains
+def ramps(drive: Drive) -> str:
+    values = drive.linear[drive.moving, 0]
+    if len(values) < 5 or np.ptp(values) < 0.2 * np.abs(values).max():
+        return ""
+    steps = np.diff(values)
+    growing, falling = np.mean(steps > 1e-4), np.mean(steps < -1e-4)
+    if growing < 0.4 and falling < 0.4:
+        return ""
+    if growing and falling and min(growing, falling) > 0.3:
+        return f"linear.x changes from command to command, from {values.min():.2f} to {values.max():.2f} m/s"
+    way = "grows" if growing > falling else "falls"
+    return (
+        f"linear.x {way} from {values[0]:.2f} to {values[-1]:.2f} m/s, a ramp: {drive.speed:g} m/s is asked for from "
+        "the first command on"
+    )
+
+
+@explains
+def still_turning(drive: Drive) -> str:
+    if drive.moving[-1] or abs(drive.angular[-1, 2]) <= 0.01 or not drive.moving.any():
+        return ""
+    return f"the last command stops linear.x, but angular.z stays at {drive.angular[-1, 2]:.2f} rad/s"

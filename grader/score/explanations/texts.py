@@ -1,0 +1,61 @@
+"""Explanations of a text that is nearly right, and of a message at the wrong moment."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Callable
+
+import numpy as np
+
+from gz_course.sim.did_you_mean import nearest_name
+
+# What makes a text equal to the wanted one if it is taken away -> its name.
+IGNORED: dict[str, Callable[[str], str]] = {
+    "capitals and small letters": str.lower,
+    "spaces": lambda text: re.sub(r"\s", "", text),
+    "quotation marks": lambda text: re.sub(r"['\"`\u2018\u2019\u201c\u201d]", "", text),
+    "punctuation marks": lambda text: re.sub(r"[.,;:!?\u2026-]", "", text),
+}
+
+
+def difference(said: str, wanted: str) -> str:
+    """Return in what a text differs from the wanted one; empty if it does not, or in more than can be named."""
+    if said == wanted or not said:
+        return ""
+    if said.strip() == wanted:
+        return "the text has white space before or after it"
+    if said.startswith(("std_msgs", "b'", "{'data", "data:")) or "String(data=" in said:
+        return "the text is that of a whole message or of bytes: only its words belong into data"
+    plain = unicodedata.normalize("NFKC", said)
+    found: list[str] = []
+    for name, without in IGNORED.items():
+        if without(plain) == without(wanted):
+            return f"the text differs in {name} only"
+    both = plain
+    target = wanted
+    for name, without in IGNORED.items():
+        if without(both) != both or without(target) != target:
+            both, target = without(both), without(target)
+            found.append(name)
+        if both == target:
+            return f"the text differs in {', '.join(found[:-1])} and {found[-1]}"
+    if nearest_name(said, [wanted], 0.8):
+        return "the text is nearly right: compare it letter by letter"
+    if wanted in said:
+        return "the text holds more than is asked for"
+    return ""
+
+
+def wrong_moment(times: np.ndarray, window: tuple[float, float]) -> str:
+    """Return why messages missed their window; empty if the time tells nothing."""
+    if not len(times):
+        return ""
+    first, (start, end) = float(times[0]), window
+    if start <= first <= end:
+        return ""
+    middle = 1.0 if start <= 1.0 <= end else (start + end) / 2
+    for factor, words in ((2, "twice"), (3, "three times"), (0.5, "half"), (0.1, "a tenth of"), (10, "ten times")):
+        if abs(first - factor * middle) <= 0.06 * factor * middle:
+            return f"the message came after {first:.2f} s, {words} the {middle:g} s that are asked for"
+    return f"the message came too {'soon' if first < start else 'late'}"
