@@ -262,7 +262,7 @@ def _blanked(text: str, file: str) -> str:
     """Replace comments, XML declarations and words before the first tag by their line breaks, and an & that begins no
     reference by `&amp;`.
 
-    libsdformat passes such words over and takes such an & for itself. Raises SdfError for an unterminated comment, and
+    libsdformat ignores such words and takes such an & for itself. Raises SdfError for an unterminated comment, and
     for a declaration behind anything else.
     """
     begin = _MARKUP.search(text)

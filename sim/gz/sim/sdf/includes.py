@@ -62,7 +62,7 @@ def read_root(text: str, file: str, diagnostics: Diagnostics) -> Element:
     root = parse(text, file)
     begin = text.lstrip().partition("<")[0].removeprefix("\ufeff").strip()
     if begin:
-        diagnostics.warn(f"{file}:1", f"the text before the first tag is passed over: '{begin[:20]}'")
+        diagnostics.warn(f"{file}:1", f"the text before the first tag is ignored: '{begin[:20]}'")
     restore_places(root)
     if root.tag == "robot":
         plausibility.check_origins(root, diagnostics)

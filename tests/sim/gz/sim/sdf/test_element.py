@@ -92,7 +92,7 @@ def test_a_declaration_stands_first_as_in_gazebo(text: str, line: int) -> None:
 @pytest.mark.parametrize(
     "text", ["two words\n<sdf><a/></sdf>", "\n <?xml?>\n<?xml?><sdf><a/></sdf>", "a < b <!-- <c> -->\n<sdf><a/></sdf>"]
 )
-def test_words_before_the_first_tag_are_passed_over(text: str) -> None:
+def test_words_before_the_first_tag_are_ignored(text: str) -> None:
     root = parse(text, "f.sdf")
     assert (root.tag, root.line, root.children[0].tag) == ("sdf", text.count("\n") + 1, "a")
 
