@@ -77,10 +77,10 @@ class Player:
     def play(self) -> None:
         """Play to the end, or until `stop`. Raises BagError if the bag cannot be read on."""
         ticking = threading.Thread(target=self._tick, name="clock", daemon=True)
-        if self._options.clock_hz:
-            ticking.start()
         try:
             while self._wait_for_delay():
+                if self._options.clock_hz and ticking.ident is None:
+                    ticking.start()  # not before the time of the bag runs
                 self._play_through()
                 if self._stopped or not self._options.loop:
                     break
