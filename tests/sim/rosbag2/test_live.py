@@ -1,5 +1,6 @@
 """Recorder and player over real DDS: what is published is recorded, what is recorded is played."""
 
+import dataclasses
 import threading
 import time
 
@@ -14,7 +15,7 @@ from gz_course.sim.rosbag2.qos import overrides, to_offer
 from gz_course.sim.rosbag2.recorder import Recorder, RecordOptions
 from gz_course.sim.rosbag2.selection import Selection
 from gz_course.sim.rosbag2.services import offer_player
-from gz_course.sim.rosbag2.stored_types import StoredTypes, installed_class
+from gz_course.sim.rosbag2.stored_types import StoredTypes, installed_class, installed_hash
 from gz_course.sim.rosbag2.writing_thread import WritingThread
 from gz_course.tests.sim.rosbag2.bags import CHATTER, SAID, START, STEP, TWIST, string, write_bag
 
@@ -171,6 +172,21 @@ def test_types_that_are_not_installed_come_from_the_bag(nodes, played, tmp_path)
         _, heard, _ = played(bag, type_name=kind, topic="/reading", types=types.message_class)
         nodes.until(lambda: heard)
     assert (heard[0].distance, heard[0].kind.value, heard[0].where.z) == (5.0, 9, 1.0)
+
+
+def test_another_definition_of_a_type_is_told(nodes, tmp_path, capfd):
+    assert installed_hash(CHATTER.type) == CHATTER.type_hash
+    assert installed_hash("no_such_package/msg/X") == ""
+    other = dataclasses.replace(SAID, name="/other", type_hash="RIHS01_" + "0" * 64)
+    bag = Bag(
+        write_bag(tmp_path / "o", count=2, topics=(dataclasses.replace(SAID, type_hash=CHATTER.type_hash), other))
+    )
+    player = Player(nodes.own, bag, PlayOptions(), installed_class)
+    said = capfd.readouterr().err
+    assert said.count("another definition of std_msgs/msg/String") == 1
+    assert "'/other' was recorded" in said
+    for publisher in player._publishers.values():
+        nodes.own.destroy_publisher(publisher)
 
 
 def test_events_of_services_and_parts_of_actions_have_classes():
