@@ -23,6 +23,7 @@ from gz_course.sim.rosbag2.playback_clock import PlaybackClock
 from gz_course.sim.rosbag2.qos import to_offer
 from gz_course.sim.rosbag2.read_ahead import ReadAhead
 from gz_course.sim.rosbag2.selection import SERVICE_EVENTS, Selection
+from gz_course.sim.rosbag2.stored_types import installed_hash
 
 _LONGEST_WAIT = 0.5  # [s] at a time, so that an interruption is not missed
 _ACKNOWLEDGED = 1.0  # [s] for the last messages to arrive
@@ -77,10 +78,10 @@ class Player:
     def play(self) -> None:
         """Play to the end, or until `stop`. Raises BagError if the bag cannot be read on."""
         ticking = threading.Thread(target=self._tick, name="clock", daemon=True)
-        if self._options.clock_hz:
-            ticking.start()
         try:
             while self._wait_for_delay():
+                if self._options.clock_hz and ticking.ident is None:
+                    ticking.start()  # not before the time of the bag runs
                 self._play_through()
                 if self._stopped or not self._options.loop:
                     break
@@ -166,6 +167,12 @@ class Player:
             except BagError as error:
                 self._warn(f"Ignoring a topic '{name}', reason: {error}")
                 continue
+            here = installed_hash(topic.type)
+            if here and topic.type_hash.startswith("RIHS01_") and topic.type_hash != here:
+                self._warn(
+                    f"'{name}' was recorded with another definition of {topic.type} than the one installed here: "
+                    "nodes may read wrong values"
+                )
             profile, agreed = offer_like(topic.qos)
             if not agreed:
                 self._warn(f"Not all original publishers on topic {name} offered the same QoS; the default is offered")

@@ -13,8 +13,10 @@ from typing import Any
 from gz_course.sim.rosbag2.definitions import ENCODING, parts_of
 from gz_course.sim.rosbag2.errors import BagError
 from gz_course.sim.rosidl import packages
+from gz_course.sim.rosidl.definitions import description
 from gz_course.sim.rosidl.nested_classes import class_of
 from gz_course.sim.rosidl.package_index import write_index
+from gz_course.sim.rosidl.type_description import type_hash
 
 _NAME = re.compile(r"([a-z][a-z0-9_]{0,99})/(msg|srv|action)/([A-Z][A-Za-z0-9_]{0,99})")
 _LONGEST = 1 << 20  # characters of a definition
@@ -29,6 +31,14 @@ def installed_class(type_name: str) -> Any:
         return class_of(type_name)
     except (ImportError, AttributeError, ValueError, RecursionError) as error:
         raise BagError(f"the type {type_name} is not known here: {str(error).splitlines()[0]}") from None
+
+
+def installed_hash(type_name: str) -> str:
+    """Return the hash of a type as it is installed here, an empty text if it is unknown."""
+    try:
+        return type_hash(description(type_name))
+    except (ImportError, KeyError, OSError, ValueError):
+        return ""
 
 
 class StoredTypes:

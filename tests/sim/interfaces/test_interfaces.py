@@ -65,6 +65,7 @@ COUNTS = {
     "gps_msgs": 2,
     "marine_acoustic_msgs": 8,
     "nav2_msgs": 35,
+    "rosbag2_interfaces": 15,
     "ros_gz_interfaces": 25,
     "turtlesim": 8,
     "vision_msgs": 16,

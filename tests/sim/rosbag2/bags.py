@@ -16,6 +16,7 @@ CHATTER = Topic(
     qos=(QosProfile(reliability="best_effort", durability="transient_local"),),
     type_hash="RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18",
 )
+SAID = Topic("/chatter", "std_msgs/msg/String", qos=(QosProfile(),))
 TWIST = Topic("/cmd_vel", "geometry_msgs/msg/Twist", qos=(QosProfile(),))
 
 
@@ -36,7 +37,7 @@ def write_bag(folder, count=100, topics=(CHATTER, TWIST), **options):
         writer.add_topic(topic, definition(topic.type))
     for number in range(count):
         topic = topics[number % len(topics)]
-        data = string(f"message {number}") if topic is CHATTER else twist(number)
+        data = string(f"message {number}") if topic.type == CHATTER.type else twist(number)
         writer.write(topic.name, START + number * STEP, START + number * STEP - 5, data)
     writer.close()
     return folder

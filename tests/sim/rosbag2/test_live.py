@@ -1,5 +1,6 @@
 """Recorder and player over real DDS: what is published is recorded, what is recorded is played."""
 
+import dataclasses
 import threading
 import time
 
@@ -14,9 +15,9 @@ from gz_course.sim.rosbag2.qos import overrides, to_offer
 from gz_course.sim.rosbag2.recorder import Recorder, RecordOptions
 from gz_course.sim.rosbag2.selection import Selection
 from gz_course.sim.rosbag2.services import offer_player
-from gz_course.sim.rosbag2.stored_types import StoredTypes, installed_class
+from gz_course.sim.rosbag2.stored_types import StoredTypes, installed_class, installed_hash
 from gz_course.sim.rosbag2.writing_thread import WritingThread
-from gz_course.tests.sim.rosbag2.bags import CHATTER, START, STEP, TWIST, string, write_bag
+from gz_course.tests.sim.rosbag2.bags import CHATTER, SAID, START, STEP, TWIST, string, write_bag
 
 
 def test_topics_are_recorded_with_the_qos_of_their_publishers(nodes, tmp_path):
@@ -43,9 +44,8 @@ def test_topics_are_recorded_with_the_qos_of_their_publishers(nodes, tmp_path):
     wanted = ["/a/map", "/a/odd", "/a/tf"]
     nodes.until(lambda: recorder.topics() == wanted, recorder.look)
     nodes.until(lambda: all(ends[name].get_subscription_count() for name in ("map", "odd", "tf")))
-    ends["tf"].publish(TFMessage())
     nodes.until(lambda: "/a/odd" in taken, lambda: ends["odd"].publish(Int32(data=7)))
-    nodes.until(lambda: "/a/tf" in taken and "/a/map" in taken)
+    nodes.until(lambda: "/a/tf" in taken and "/a/map" in taken, lambda: ends["tf"].publish(TFMessage()))
     # A best-effort publisher comes to a reliable topic: it is heard, too.
     late = nodes.other.create_publisher(String, "/a/map", lossy)
     nodes.until(lambda: late.get_subscription_count(), recorder.look)
@@ -74,16 +74,14 @@ def test_topics_are_recorded_with_the_qos_of_their_publishers(nodes, tmp_path):
 @pytest.fixture
 def played(nodes):
     """Play a bag in a thread; yields a function that returns the player and what a subscriber hears."""
-    from rclpy.qos import qos_profile_sensor_data
-
     running = []
 
     def start(bag, type_name="std_msgs/msg/String", topic="/chatter", types=installed_class, **options):
         heard = []
         player = Player(nodes.own, bag, PlayOptions(**options), types)
-        end = nodes.other.create_subscription(types(type_name), topic, heard.append, qos_profile_sensor_data)
-        nodes.until(lambda: nodes.other.count_publishers(topic) > 0)
-        nodes.until(lambda: all(each.get_subscription_count() for each in player._publishers.values()))
+        end = nodes.other.create_subscription(types(type_name), topic, heard.append, 100)
+        publishers = [*player._publishers.values(), *([player._clock_publisher] if player._clock_publisher else [])]
+        nodes.until(lambda: all(each.get_subscription_count() for each in publishers) and end.get_publisher_count())
         thread = threading.Thread(target=player.play)
         running.append((player, thread, end))
         thread.start()
@@ -101,7 +99,7 @@ def played(nodes):
 def test_a_paused_bag_is_stepped_sought_and_played_to_its_end(nodes, played, tmp_path):
     from rosbag2_interfaces.srv import GetRate, PlayNext, Seek, SetRate, TogglePaused
 
-    bag = Bag(write_bag(tmp_path / "p", count=40, topics=(CHATTER,)))
+    bag = Bag(write_bag(tmp_path / "p", count=40, topics=(SAID,)))
     player, heard, thread = played(bag, paused=True)
     offer_player(nodes.own, player)
 
@@ -132,9 +130,9 @@ def test_a_paused_bag_is_stepped_sought_and_played_to_its_end(nodes, played, tmp
 def test_part_of_a_bag_is_played_under_another_name_with_its_time(nodes, played, tmp_path):
     from rosgraph_msgs.msg import Clock
 
-    bag = Bag(write_bag(tmp_path / "q", count=10, topics=(CHATTER,)))
+    bag = Bag(write_bag(tmp_path / "q", count=10, topics=(SAID,)))
     clocks = []
-    end = nodes.other.create_subscription(Clock, "/clock", clocks.append, 10)
+    end = nodes.other.create_subscription(Clock, "/clock", clocks.append, 1000)
     _, heard, thread = played(
         bag,
         topic="/other_name",
@@ -149,6 +147,7 @@ def test_part_of_a_bag_is_played_under_another_name_with_its_time(nodes, played,
     nodes.until(lambda: clocks)
     times = [each.clock.sec * 10**9 + each.clock.nanosec for each in clocks]
     assert START + 3 * STEP <= times[0] <= times[-1] <= START + 7 * STEP
+    assert times == sorted(times), "time does not go back"
     nodes.other.destroy_subscription(end)
 
 
@@ -173,6 +172,21 @@ def test_types_that_are_not_installed_come_from_the_bag(nodes, played, tmp_path)
         _, heard, _ = played(bag, type_name=kind, topic="/reading", types=types.message_class)
         nodes.until(lambda: heard)
     assert (heard[0].distance, heard[0].kind.value, heard[0].where.z) == (5.0, 9, 1.0)
+
+
+def test_another_definition_of_a_type_is_told(nodes, tmp_path, capfd):
+    assert installed_hash(CHATTER.type) == CHATTER.type_hash
+    assert installed_hash("no_such_package/msg/X") == ""
+    other = dataclasses.replace(SAID, name="/other", type_hash="RIHS01_" + "0" * 64)
+    bag = Bag(
+        write_bag(tmp_path / "o", count=2, topics=(dataclasses.replace(SAID, type_hash=CHATTER.type_hash), other))
+    )
+    player = Player(nodes.own, bag, PlayOptions(), installed_class)
+    said = capfd.readouterr().err
+    assert said.count("another definition of std_msgs/msg/String") == 1
+    assert "'/other' was recorded" in said
+    for publisher in player._publishers.values():
+        nodes.own.destroy_publisher(publisher)
 
 
 def test_events_of_services_and_parts_of_actions_have_classes():

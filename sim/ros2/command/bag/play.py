@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import gc
 import os
+import sys
 import threading
 from collections.abc import Iterator
 from pathlib import Path
@@ -24,6 +26,7 @@ from gz_course.sim.rosbag2.services import offer_player
 from gz_course.sim.rosbag2.stored_types import StoredTypes
 
 _DISCOVERY = 1.0  # [s] for subscribers to be found before the first message
+_SWITCH_INTERVAL = 0.0005  # [s] for which another thread may keep the interpreter from the one that plays
 _NANOSECONDS = 10**9
 
 
@@ -90,6 +93,8 @@ def _play(arguments: argparse.Namespace, bag: Bag, options: PlayOptions, types: 
                 log.info("Press CURSOR_UP for Increase Rate 10%")
                 log.info("Press CURSOR_DOWN for Decrease Rate 10%")
             graph.settle(_DISCOVERY)
+            gc.freeze()  # looking through all that was imported takes longer than a message may be late
+            sys.setswitchinterval(_SWITCH_INTERVAL)
             with _answering(graph):
                 player.play()
 
