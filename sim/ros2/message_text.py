@@ -7,6 +7,7 @@ Source: ros2/rosidl_runtime_py, rosidl_runtime_py/convert.py
 
 from __future__ import annotations
 
+import argparse
 import array
 import sys
 from collections.abc import Iterator
@@ -15,6 +16,8 @@ from typing import Any
 
 import numpy as np
 import yaml
+
+from gz_course.sim.ros2.option_values import whole_number
 
 _SEQUENCES = (list, tuple, array.array, np.ndarray)
 
@@ -29,6 +32,28 @@ class TextFormat:
     flow_style: bool = False
 
 
+def add_text_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of every verb that prints messages as they arrive."""
+    parser.add_argument("-f", "--full-length", action="store_true", help="Output all elements and characters")
+    parser.add_argument(
+        "-l", "--truncate-length", type=whole_number, default=128, metavar="N", help="Cut at N items (default: 128)"
+    )
+    parser.add_argument("--no-arr", action="store_true", help="Don't print array fields of messages")
+    parser.add_argument("--no-str", action="store_true", help="Don't print string fields of messages")
+    parser.add_argument("--flow-style", action="store_true", help="Print collections in the block style inline")
+    parser.add_argument("--csv", action="store_true", help="Output all recursive fields separated by commas")
+
+
+def chosen_text(arguments: argparse.Namespace) -> TextFormat:
+    """Return the format of the options of `add_text_options`."""
+    return TextFormat(
+        limit=None if arguments.full_length else arguments.truncate_length,
+        arrays=not arguments.no_arr,
+        strings=not arguments.no_str,
+        flow_style=arguments.flow_style,
+    )
+
+
 def is_message(value: Any) -> bool:
     """Return whether a value is a message and not a plain field."""
     return hasattr(value, "get_fields_and_field_types")
@@ -36,8 +61,19 @@ def is_message(value: Any) -> bool:
 
 def to_yaml(message: Any, form: TextFormat) -> str:
     """Return the message as YAML, ending in a line break."""
+    return plain_to_yaml(to_plain(message, form), form)
+
+
+def to_plain(message: Any, form: TextFormat) -> dict[str, Any]:
+    """Return the fields of a message as dictionaries, lists and plain values."""
+    found: dict[str, Any] = _plain(message, "", form)
+    return found
+
+
+def plain_to_yaml(fields: dict[str, Any], form: TextFormat) -> str:
+    """Return what `to_plain` returned as YAML, ending in a line break."""
     return yaml.dump(
-        _plain(message, "", form),
+        fields,
         Dumper=_Dumper,
         sort_keys=False,
         allow_unicode=True,

@@ -8,13 +8,14 @@ from collections.abc import Callable
 from typing import Any
 
 import yaml
+from rclpy.event_handler import SubscriptionEventCallbacks
 
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.ros2.errors import CommandError
 from gz_course.sim.ros2.graph import Graph, add_graph_options
 from gz_course.sim.ros2.interface import message_class, message_type_name
-from gz_course.sim.ros2.message_text import TextFormat, is_message, to_csv, to_yaml
-from gz_course.sim.ros2.option_values import seconds, whole_number
+from gz_course.sim.ros2.message_text import add_text_options, chosen_text, is_message, to_csv, to_yaml
+from gz_course.sim.ros2.option_values import seconds
 from gz_course.sim.ros2.qos import add_qos_options, chosen_qos
 from gz_course.sim.ros2.topic import (
     following_qos,
@@ -37,15 +38,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--timeout", type=seconds, metavar="N", help="Set a timeout in seconds for waiting")
     parser.add_argument("--field", metavar="A.B", help="Echo a selected field of a message")
     parser.add_argument("--filter", metavar="EXPR", help="Python expression on the message m that must be true")
-    parser.add_argument("-f", "--full-length", action="store_true", help="Output all elements and characters")
-    parser.add_argument(
-        "-l", "--truncate-length", type=whole_number, default=128, metavar="N", help="Cut at N items (default: 128)"
-    )
-    parser.add_argument("--no-arr", action="store_true", help="Don't print array fields of messages")
-    parser.add_argument("--no-str", action="store_true", help="Don't print string fields of messages")
-    parser.add_argument("--flow-style", action="store_true", help="Print collections in the block style inline")
-    parser.add_argument("--csv", action="store_true", help="Output all recursive fields separated by commas")
+    add_text_options(parser)
     parser.add_argument("--raw", action="store_true", help="Echo the raw binary representation")
+    parser.add_argument("--no-lost-messages", action="store_true", help="Don't report when a message is lost")
+    parser.add_argument("--lost-messages", action="store_true", help=argparse.SUPPRESS)  # it is the default
     parser.add_argument("-i", "--include-message-info", action="store_true", help="Shows the message info")
     add_qos_options(parser, "what all publishers of the topic offer")
 
@@ -59,7 +55,8 @@ def main(arguments: argparse.Namespace) -> int:
         kind = _message_class(graph, name, given)
         printer = _Printer(arguments, kind, passes)
         qos = chosen_qos(arguments, following_qos(graph, name))
-        graph.node.create_subscription(kind, name, printer, qos, raw=arguments.raw)
+        events = None if arguments.no_lost_messages else SubscriptionEventCallbacks(message_lost=_report_lost)
+        graph.node.create_subscription(kind, name, printer, qos, raw=arguments.raw, event_callbacks=events)
         end = None if arguments.timeout is None else time.monotonic() + arguments.timeout
         while not (arguments.once and printer.count):
             left = 0.1 if end is None else min(0.1, end - time.monotonic())
@@ -83,6 +80,14 @@ def _message_class(graph: Graph, name: str, given: Any) -> Any:
     return only_type(name, types, "echo")
 
 
+def _report_lost(status: Any) -> None:
+    """Say that messages came faster than they were taken; the words are those of ROS 2."""
+    print(
+        f"A message was lost!!!\n\ttotal count change:{status.total_count_change}\n\ttotal count: {status.total_count}",
+        end="---\n",
+    )
+
+
 class _Printer:
     """Prints messages as the options say; `count` is the number printed so far."""
 
@@ -92,12 +97,7 @@ class _Printer:
         self._fields = arguments.field.strip(".").split(".") if arguments.field else []
         self._csv = arguments.csv
         self._with_info = arguments.include_message_info
-        self._form = TextFormat(
-            limit=None if arguments.full_length else arguments.truncate_length,
-            arrays=not arguments.no_arr,
-            strings=not arguments.no_str,
-            flow_style=arguments.flow_style,
-        )
+        self._form = chosen_text(arguments)
         if not arguments.raw:
             self._select(kind())
 
