@@ -64,7 +64,7 @@ def _explained(arguments: list[str]) -> int:
     interruption.listen()
     try:
         sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
-        return _run(COMMANDS, "ros2", arguments)
+        return run(COMMANDS, "ros2", arguments)
     except CommandError as error:
         print(error, file=sys.stderr)
         return 1
@@ -88,20 +88,20 @@ def found(folder: Path) -> dict[str, Path]:
     return {name: paths[name] for name in sorted(paths) if not name.startswith("_")}
 
 
-def _run(folder: Path, program: str, words: list[str]) -> int:
+def run(folder: Path, program: str, words: list[str]) -> int:
     """Run one of the commands in `folder`; `program` is what the user has typed so far."""
     known = found(folder)
-    menu = _menu(folder, program, known)
     first = words[0] if words else "--help"
-    if first in ("-h", "--help"):
-        menu.print_help()
-        return 0
-    if first.startswith("-"):
-        menu.error(_unrecognized(menu, [first]))
-    if first not in known:
+    if first not in known:  # the menu reads every file of the folder
+        menu = _menu(folder, program, known)
+        if first in ("-h", "--help"):
+            menu.print_help()
+            return 0
+        if first.startswith("-"):
+            menu.error(_unrecognized(menu, [first]))
         menu.error(f"invalid choice: {first!r} (choose from {', '.join(map(repr, known))}){did_you_mean(first, known)}")
     if known[first].is_dir():
-        return _run(known[first], f"{program} {first}", words[1:])
+        return run(known[first], f"{program} {first}", words[1:])
     module = load(known[first])
     parser = argparse.ArgumentParser(prog=f"{program} {first}", description=_summary(known[first]))
     module.add_arguments(parser)

@@ -168,10 +168,16 @@ class Graph:
         else:
             self._wait(lambda: self._complete(QUIET), deadline)
 
-    def wait_for(self, find: Callable[[], Found]) -> Found:
-        """Return the first true result of `find`; with --spin-time its result after exactly that time."""
+    def wait_for(self, find: Callable[[], Found], timeout: float | None = None) -> Found:
+        """Return the first true result of `find`; with --spin-time its result after exactly that time.
+
+        It is looked for until it seems to be missing, or for exactly `timeout` [s].
+        """
         if self._spin_time is not None:
             self.settle()
+        elif timeout is not None:
+            # Called each time, because it also sends scouts.
+            self._wait(lambda: (self._participants.all_known(), bool(find()))[1], timeout)
         else:
             given_up = self._created + GIVE_UP
 

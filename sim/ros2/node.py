@@ -8,14 +8,14 @@ from gz_course.sim.ros2.graph import Graph
 from gz_course.sim.ros2.topic import warn
 
 
-def find_node(graph: Graph, name: str, unknown: str) -> str:
+def find_node(graph: Graph, name: str, unknown: str, timeout: float | None = None) -> str:
     """Return the full name of a node as soon as it is found.
 
     A name without a leading / is in the root namespace. Warns if several nodes share the name. Raises CommandError
-    with the sentence `unknown` if the node is not found.
+    with the sentence `unknown` if the node is not found, after `timeout` [s] if it is given.
     """
     full = name if name.startswith("/") else f"/{name}"
-    count = graph.wait_for(lambda: graph.nodes(hidden=True).count(full))
+    count = graph.wait_for(lambda: graph.nodes(hidden=True).count(full), timeout)
     if not count:
         raise CommandError(unknown + did_you_mean(full, graph.nodes(hidden=True)))
     if count > 1:

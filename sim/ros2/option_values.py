@@ -35,3 +35,11 @@ def positive_number(text: str) -> int:
     if value < 1:
         raise ValueError
     return value
+
+
+def time_to_live(text: str) -> int:
+    """Parse the number of networks that a packet may cross, 1 to 255. Raises ValueError."""
+    value = int(text)
+    if not 1 <= value <= 255:
+        raise ValueError
+    return value

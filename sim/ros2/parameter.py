@@ -25,6 +25,7 @@ from gz_course.sim.ros2.errors import CommandError
 from gz_course.sim.ros2.graph import Graph, add_graph_options
 from gz_course.sim.ros2.message_value import parse_yaml
 from gz_course.sim.ros2.node import find_node
+from gz_course.sim.ros2.option_values import seconds
 from gz_course.sim.ros2.service import ANSWER_DEADLINE, call
 
 _FIELDS = {
@@ -47,16 +48,17 @@ _INT64 = range(-(2**63), 2**63)
 class NodeParameters:
     """The parameters of one node, through its services."""
 
-    def __init__(self, graph: Graph, node: str) -> None:
+    def __init__(self, graph: Graph, node: str, timeout: float | None = None) -> None:
         self.node = node
         self._graph = graph
+        self._timeout = timeout
 
     def _call(self, kind: Any, service: str, request: Any) -> Any:
         client = self._graph.node.create_client(kind, f"{self.node}/{service}")
-        if not self._graph.wait_for(client.service_is_ready):
+        if not self._graph.wait_for(client.service_is_ready, self._timeout):
             raise CommandError(f"The node {self.node} has no parameter services")
         hint = f"; the node {self.node} does not spin, is busy in a callback, or was killed: ros2 node list"
-        return call(self._graph, client, request, ANSWER_DEADLINE, hint)
+        return call(self._graph, client, request, self._timeout or ANSWER_DEADLINE, hint)
 
     def names(self, prefixes: Sequence[str] = ()) -> list[str]:
         """Return all parameters, or those with these prefixes, sorted."""
@@ -105,13 +107,25 @@ def add_node_options(parser: argparse.ArgumentParser) -> None:
     add_graph_options(parser)
     parser.add_argument("node_name", help="Name of the ROS node")
     parser.add_argument("--include-hidden-nodes", action="store_true", help="Accepted: a node is named anyway")
+    add_timeout(parser)
+
+
+def add_timeout(parser: argparse.ArgumentParser) -> None:
+    """Add the option for how long a node may take to appear, and then to answer."""
+    parser.add_argument(
+        "--timeout",
+        type=seconds,
+        metavar="N",
+        help="Wait for N seconds for the node and its answers (default: as needed)",
+    )
 
 
 @contextlib.contextmanager
 def node_parameters(arguments: argparse.Namespace) -> Iterator[NodeParameters]:
     """Open the parameters of the node that the arguments name. Raises CommandError if there is no such node."""
     with Graph(arguments) as graph:
-        yield NodeParameters(graph, find_node(graph, arguments.node_name, "Node not found"))
+        node = find_node(graph, arguments.node_name, "Node not found", arguments.timeout)
+        yield NodeParameters(graph, node, arguments.timeout)
 
 
 def python_value(value: ParameterValue) -> Any:

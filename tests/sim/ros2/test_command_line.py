@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from gz_course.sim.ros2.command_line import COMMANDS, found, load, main
+from gz_course.sim.ros2.command_line import COMMANDS, found, load, main, run
 from gz_course.sim.ros2.hand_over import environment_without_wheels
 
 
@@ -44,10 +44,18 @@ def test_every_verb_has_help_with_a_sentence_for_each_option(words, capsys):
     assert callable(module.main)
 
 
+def test_an_unknown_option_is_exit_code_2_in_every_verb(capsys):
+    for words in VERBS:
+        with pytest.raises(SystemExit) as ended:
+            run(COMMANDS, "ros2", [*filter(None, words), "--nonsense"])
+        assert ended.value.code == 2, words
+        assert f"{' '.join(words).strip()}: error: " in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["tpic"], "'topic'); did you mean 'topic'?"),
+        (["tpic"], "); did you mean 'topic'?"),
         (["topic", "ecoh"], "ros2 topic: error: invalid choice: 'ecoh'"),
         (["pkg", "list", "extra"], "ros2 pkg list: error: unrecognized arguments: extra"),
         (["topic", "--nonsense"], "ros2 topic: error: unrecognized arguments: --nonsense"),
@@ -110,7 +118,7 @@ def test_our_own_fault_is_one_sentence(monkeypatch, capsys):
     monkeypatch.setattr("signal.signal", lambda number, handler: None)
     monkeypatch.setattr("gz_course.sim.ros2.command_line.hand_over", lambda arguments: None)
     monkeypatch.setattr("sys.stdout.reconfigure", lambda **options: None, raising=False)
-    monkeypatch.setattr("gz_course.sim.ros2.command_line._run", lambda *arguments: 1 / 0)
+    monkeypatch.setattr("gz_course.sim.ros2.command_line.run", lambda *arguments: 1 / 0)
     assert main(["topic"]) == 1
     assert capsys.readouterr().err == "ros2: internal error: ZeroDivisionError: division by zero\n"
 

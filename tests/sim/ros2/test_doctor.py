@@ -26,7 +26,7 @@ def course(tmp_path, monkeypatch):
 
 
 def run(**options):
-    return doctor.main(argparse.Namespace(**{"json": False, **options}))
+    return doctor.main(argparse.Namespace(**{"json": False, "verb": None, **options}))
 
 
 def test_doctor_is_course_doctor(course, capfd):

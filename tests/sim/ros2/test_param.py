@@ -40,7 +40,7 @@ ASKED = {
     "hide type": ["get", NODE, "speed", "--hide-type"],
     "unset": ["get", NODE, "unset"],
     "no parameter": ["get", NODE, "sped"],
-    "no node": ["get", "/robot/drivr", "speed"],
+    "no node": ["get", "/robot/drivr", "speed", "--timeout", "1"],
     "no services": ["get", "/robot/idle", "speed"],
     "describe": ["describe", NODE, "speed", "serial", "frame.id", "count"],
     "describe none": ["describe", NODE, "sped"],

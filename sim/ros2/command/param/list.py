@@ -9,7 +9,7 @@ from collections.abc import Callable
 from gz_course.sim.ros2.errors import CommandError
 from gz_course.sim.ros2.graph import Graph, add_graph_options
 from gz_course.sim.ros2.node import find_node
-from gz_course.sim.ros2.parameter import NodeParameters, type_word
+from gz_course.sim.ros2.parameter import NodeParameters, add_timeout, type_word
 from gz_course.sim.ros2.topic import warn
 
 
@@ -21,6 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--param-prefixes", nargs="+", default=[], metavar="PREFIX", help="Only list parameters with the prefixes"
     )
     parser.add_argument("--param-type", action="store_true", help="Print parameter types with parameter names")
+    add_timeout(parser)
     parser.add_argument("--filter", metavar="REGEX", help="Only list parameters matching the regular expression")
 
 
@@ -31,7 +32,8 @@ def main(arguments: argparse.Namespace) -> None:
         raise CommandError(f"--filter '{arguments.filter}' is not a regular expression: {error}") from None
     with Graph(arguments) as graph:
         if arguments.node_name:
-            _print(NodeParameters(graph, find_node(graph, arguments.node_name, "Node not found")), arguments, matches)
+            node = find_node(graph, arguments.node_name, "Node not found", arguments.timeout)
+            _print(NodeParameters(graph, node, arguments.timeout), arguments, matches)
             return
         graph.settle()
         services = dict(graph.services(hidden=True))
@@ -39,7 +41,7 @@ def main(arguments: argparse.Namespace) -> None:
             if f"{node}/list_parameters" not in services:
                 continue
             try:
-                _print(NodeParameters(graph, node), arguments, matches, title=True)
+                _print(NodeParameters(graph, node, arguments.timeout), arguments, matches, title=True)
             except CommandError as error:
                 warn(str(error))
 

@@ -1,0 +1,1 @@
+"""Various multicast related sub-commands."""
