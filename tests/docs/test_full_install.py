@@ -16,6 +16,7 @@ OURS = (
     "ros_gz_image",
     "ros_gz_sim",
     "robot_state_publisher",
+    "rqt_graph",
     "rviz2",
     "teleop_twist_keyboard",
     "tf2_ros",
