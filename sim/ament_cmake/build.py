@@ -23,6 +23,7 @@ from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.rosidl.packages import ALL, INDEX, MARKS
 
 _INSTALLED = "install_manifest.txt"  # CMake calls it so, too
+_REMARKED = "remarks.txt"
 
 
 @dataclass(frozen=True)
@@ -37,7 +38,10 @@ class Package:
 
 @dataclass(frozen=True)
 class Built:
-    """What a build has to tell: sentences, and the hooks of the package as paths in the prefix."""
+    """What a build has to tell: sentences, and the hooks of the package as paths in the prefix.
+
+    A remark is told by the first build only, and again after it was without effect in between.
+    """
 
     remarks: list[str]
     faults: list[str]
@@ -76,7 +80,16 @@ def build(package: Package, prefixes: Sequence[Path]) -> Built:
     except OSError as error:
         return Built(remarks, [f"{error.filename or package.install_base}: {error.strerror or error}"], [])
     hooks = [name for name in files if name.startswith(f"share/{manifest.name}/environment/")]
-    return Built(remarks, [], hooks)
+    return Built(_news(package, remarks), [], hooks)
+
+
+def _news(package: Package, remarks: list[str]) -> list[str]:
+    """Return the remarks that the last build of the package has not told yet."""
+    record = package.build_base / _REMARKED
+    told = record.read_text(encoding="utf-8").splitlines() if record.is_file() else []
+    package.build_base.mkdir(parents=True, exist_ok=True)
+    record.write_text("".join(f"{each}\n" for each in remarks), encoding="utf-8")
+    return [each for each in remarks if each not in told]
 
 
 def _check_frame(lists: CMakeLists, manifest: PackageManifest) -> None:
@@ -107,13 +120,21 @@ def _remark_on_hidden(lists: CMakeLists, manifest: PackageManifest) -> None:
 
 
 def _remark_on_absent(lists: CMakeLists, prefixes: Sequence[Path]) -> None:
-    """Remark on each find_package() of a package that is not installed and no tool of the build."""
+    """Remark on packages in find_package() that are not installed and no tools of the build, misspelt ones first."""
+    absent: dict[str, int] = {}
     for name, line in lists.found.items():
         tool = name.startswith(("ament_", "rosidl_", "python_cmake_module", "Python")) or name in lists.dependencies
         if not tool and not any((prefix / "share" / name).is_dir() for prefix in prefixes):
             known = {path.name for prefix in prefixes for path in prefix.glob(f"{INDEX}/packages/*")}
             hint = did_you_mean(name, known, cutoff=0.85)
-            lists.remarks.append(at(lists.path, line, f"find_package({name}): there is no such package here{hint}"))
+            if hint:
+                lists.remarks.append(at(lists.path, line, f"find_package({name}): there is no such package here{hint}"))
+            else:
+                absent[name] = line
+    if absent:
+        names = ", ".join(absent)
+        sentence = f"not installed here: {names}; whoever starts something of these packages needs them"
+        lists.remarks.append(at(lists.path, next(iter(absent.values())), sentence))
 
 
 def _files(
@@ -145,7 +166,7 @@ def _files(
             ) from None
     for hook in lists.hooks:
         try:
-            files[f"{share}/environment/{hook.name}"] = _File(text=hook.text(package.folder))
+            files[f"{share}/environment/{hook.name}"] = _File(text=hook.text(package.folder, package.install_base))
         except (OSError, UnicodeDecodeError):
             raise PackageError(
                 f"ament_environment_hooks() cannot read '{hook.source}'", lists.path, hook.line

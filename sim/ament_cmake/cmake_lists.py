@@ -9,7 +9,7 @@ Source: rosidl_cmake 4.6 (`rosidl_generate_interfaces.cmake`), ament_cmake_core 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -22,6 +22,16 @@ from gz_course.sim.did_you_mean import nearest_name
 _INTERFACES = "rosidl_generate_interfaces"
 _COMPILED = ("add_executable", "add_library", "rclcpp_components_register_node", "rclcpp_components_register_nodes")
 _BLOCKS = {"foreach": "endforeach", "while": "endwhile", "function": "endfunction", "macro": "endmacro"}
+_MOST_STEPS = 100_000  # commands, those in loops each time
+# What `include(GNUInstallDirs)` sets.
+_GNU_DIRECTORIES = {
+    "CMAKE_INSTALL_BINDIR": "bin",
+    "CMAKE_INSTALL_LIBDIR": "lib",
+    "CMAKE_INSTALL_LIBEXECDIR": "libexec",
+    "CMAKE_INSTALL_INCLUDEDIR": "include",
+    "CMAKE_INSTALL_DATADIR": "share",
+    "CMAKE_INSTALL_DATAROOTDIR": "share",
+}
 # They say how to compile, link, test and export, or only change what others of them do.
 _WITHOUT_EFFECT = {
     *("cmake_minimum_required", "cmake_policy", "enable_language", "enable_testing", "mark_as_advanced"),
@@ -67,6 +77,16 @@ def read_cmake_lists(path: Path) -> CMakeLists:
     return reader.lists
 
 
+def _body(commands: Sequence[Command], start: int) -> Sequence[Command]:
+    """Return the commands between a `foreach()` and its end."""
+    depth = 0
+    for index in range(start, len(commands)):
+        depth += (commands[index].name == "foreach") - (commands[index].name == "endforeach")
+        if not depth:
+            return commands[start + 1 : index]
+    return []  # its end is missing, which is told at the end of the file
+
+
 class _Reader:
     """Follows the commands of one file; `variables` has the value of each variable."""
 
@@ -76,14 +96,22 @@ class _Reader:
         names = ("CMAKE_SOURCE_DIR", "CMAKE_CURRENT_SOURCE_DIR", "CMAKE_CURRENT_LIST_DIR", "PROJECT_SOURCE_DIR")
         self.variables = dict.fromkeys(names, str(path.parent))
         self.variables |= {"UNIX": "1", "CMAKE_INSTALL_PREFIX": "", "PYTHON_INSTALL_DIR": installed_files.PYTHON}
+        self.variables |= _GNU_DIRECTORIES
         self.line = 0
+        self.steps = 0
 
-    def run(self, commands: list[Command]) -> None:
-        """Follow the commands. The list `branches` has the open `if()`: whether a branch was taken, and its line."""
+    def run(self, commands: Sequence[Command]) -> bool:
+        """Follow the commands; return whether `return()` has ended them.
+
+        The list `branches` has the open `if()`: whether a branch was taken, and its line.
+        """
         branches: list[tuple[bool, bool, int]] = []  # taken before or now, now, line
         block = ("", 0)  # what ends the block that is passed over, and how many of these are open
-        for command in commands:
+        for index, command in enumerate(commands):
             self.line, name = command.line, command.name
+            self.steps += 1
+            if self.steps > _MOST_STEPS:
+                raise self._error(f"the loops of this file go on after {_MOST_STEPS} commands")
             if block[1]:
                 opens, closes = name in _BLOCKS and _BLOCKS[name] == block[0], name == block[0]
                 block = (block[0], block[1] + opens - closes)
@@ -101,16 +129,48 @@ class _Reader:
                     branches.append((taken or now, now, line))
             elif name in _BLOCKS:
                 block = (_BLOCKS[name], 1)
-                if active:
+                if active and name == "foreach":
+                    if self._repeat(command, _body(commands, index)):
+                        return True
+                elif active:
                     self._remark(f"what stands in '{name}()' is passed over; write it without '{name}()'")
             elif active:
                 if name == "return":
-                    return
+                    return True
                 self._do(command)
         if block[1]:
             raise PackageError(f"expected '{block[0]}()' before the end of the file", self.lists.path)
         if branches:
             raise PackageError("this 'if()' has no 'endif()'", self.lists.path, branches[-1][2])
+        return False
+
+    def _repeat(self, command: Command, body: Sequence[Command]) -> bool:
+        """Follow the commands of a `foreach()` for each of its items; return whether `return()` has ended them."""
+        values = values_of(command.arguments, self._lookup)
+        items = self._items(values[1:])
+        if not values or items is None:
+            self._remark("this form of 'foreach()' is passed over; of its words, IN, LISTS and ITEMS are read")
+            return False
+        before = self.variables.get(values[0])
+        for item in items:
+            self.variables[values[0]] = item
+            if self.run(body):
+                return True
+        if before is None:
+            self.variables.pop(values[0], None)
+        else:
+            self.variables[values[0]] = before
+        return False
+
+    def _items(self, words: list[str]) -> list[str] | None:
+        """Return what a `foreach()` goes through; None for a form that is not read."""
+        if words[:1] == ["RANGE"] or "ZIP_LISTS" in words:
+            return None
+        if words[:1] != ["IN"]:
+            return words
+        parts = installed_files.by_keyword(words[1:], ("LISTS", "ITEMS"))
+        held = [item for name in parts.get("LISTS", []) for item in self.variables.get(name, "").split(";") if item]
+        return held + parts.get("ITEMS", [])
 
     def _do(self, command: Command) -> None:
         name, values = command.name, values_of(command.arguments, self._lookup)

@@ -81,12 +81,13 @@ class Hook:
     def name(self) -> str:
         return Path(self.source).name.removesuffix(".in")
 
-    def text(self, folder: Path) -> str:
-        """Return the content to install. Raises OSError and UnicodeDecodeError."""
+    def text(self, folder: Path, prefix: Path) -> str:
+        """Return the content to install in a prefix. Raises OSError and UnicodeDecodeError."""
         text = (folder / self.source).read_text(encoding="utf-8")
         if not self.source.endswith(".in"):
             return text
-        return re.sub(r"@([A-Za-z0-9_]+)@", lambda match: self.variables.get(match[1], ""), text)
+        known = {**self.variables, "CMAKE_INSTALL_PREFIX": str(prefix)}
+        return re.sub(r"@([A-Za-z0-9_]+)@", lambda match: known.get(match[1], ""), text)
 
 
 def read(values: Sequence[str], line: int) -> list[InstalledFiles]:
