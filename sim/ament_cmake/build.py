@@ -62,6 +62,7 @@ def build(package: Package, prefixes: Sequence[Path]) -> Built:
     remarks: list[str] = []
     try:
         manifest = read_manifest(package.folder / "package.xml")
+        _check_type(manifest)
         lists = read_cmake_lists(package.folder / "CMakeLists.txt")
         remarks = lists.remarks
         _check_frame(lists, manifest)
@@ -90,6 +91,22 @@ def _news(package: Package, remarks: list[str]) -> list[str]:
     package.build_base.mkdir(parents=True, exist_ok=True)
     record.write_text("".join(f"{each}\n" for each in remarks), encoding="utf-8")
     return [each for each in remarks if each not in told]
+
+
+def _check_type(manifest: PackageManifest) -> None:
+    """Fail for a package that CMake would have to build."""
+    if manifest.build_type == "catkin":
+        raise PackageError(
+            "this package is for ROS 1: it has no <export><build_type>, so catkin would build it; for ROS 2 write "
+            "<build_type>ament_cmake</build_type> or ament_python",
+            manifest.path,
+        )
+    if manifest.build_type == "cmake":
+        raise PackageError(
+            "only CMake can build this package, and it is not installed; install CMake and a compiler, or make it a "
+            "package of build type ament_python (`ros2 pkg create --build-type ament_python`)",
+            manifest.path,
+        )
 
 
 def _check_frame(lists: CMakeLists, manifest: PackageManifest) -> None:

@@ -20,7 +20,7 @@ from colcon_core.shell import create_environment_hook
 from colcon_core.task import TaskExtensionPoint
 from colcon_ros.package_identification.ros import RosPackageIdentification
 
-from gz_course.sim.ament_cmake.installed_ament_cmake import ament_cmake_is_installed
+from gz_course.sim.ament_cmake.installed_ament_cmake import ament_cmake_is_installed, cmake_is_installed
 from gz_course.sim.rosidl.packages import BUILT_IN, prefixes
 
 _TYPE = "ros.ament_cmake"
@@ -34,8 +34,13 @@ def _concerns_user(record: logging.LogRecord) -> bool:
 logging.getLogger("colcon.colcon_ros.prefix_path.ament").addFilter(_concerns_user)
 
 
+def _cannot_be_built() -> set[str]:
+    """Return the types of packages whose build would end in an error of CMake's; ours is one sentence."""
+    return {"ros.catkin"} | (set() if cmake_is_installed() else {"ros.cmake"})
+
+
 class WithoutCMakeIdentification(RosPackageIdentification):
-    """Identify ROS packages of build type `ament_cmake` where ament_cmake is not installed."""
+    """Identify ROS packages of build type `ament_cmake`, and those nobody can build here, without ament_cmake."""
 
     PRIORITY = RosPackageIdentification.PRIORITY + 5
 
@@ -44,7 +49,7 @@ class WithoutCMakeIdentification(RosPackageIdentification):
             return
         found = type(desc)(desc.path)
         super().identify(found)
-        if _TYPE in (found.type, desc.type):
+        if _TYPE in (found.type, desc.type) or found.type in _cannot_be_built():
             desc.type = f"{_TYPE}_without_cmake"
             desc.name = desc.name or found.name
 

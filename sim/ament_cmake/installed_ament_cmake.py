@@ -16,7 +16,12 @@ _CONFIG = "share/ament_cmake/cmake/ament_cmakeConfig.cmake"
 
 def ament_cmake_is_installed() -> bool:
     """Whether CMake is on the path, and ament_cmake in a prefix of AMENT_PREFIX_PATH or CMAKE_PREFIX_PATH."""
-    if shutil.which(os.environ.get("CMAKE_COMMAND") or "cmake") is None:
+    if not cmake_is_installed():
         return False
     more = os.environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep)
     return any(Path(prefix, _CONFIG).is_file() for prefix in (*prefixes(), *more) if prefix)
+
+
+def cmake_is_installed() -> bool:
+    """Whether CMake is on the path."""
+    return shutil.which(os.environ.get("CMAKE_COMMAND") or "cmake") is not None

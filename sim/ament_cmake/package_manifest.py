@@ -16,12 +16,13 @@ _DEPENDENCIES = ("depend", "build_depend", "build_export_depend", "exec_depend")
 
 @dataclass(frozen=True)
 class PackageManifest:
-    """The name of a package, the packages it needs, and its groups."""
+    """The name of a package, the packages it needs, its groups, and its build type."""
 
     path: Path
     name: str
     dependencies: frozenset[str]
     groups: frozenset[str]
+    build_type: str = "ament_cmake"
 
 
 def read_manifest(path: Path) -> PackageManifest:
@@ -37,4 +38,5 @@ def read_manifest(path: Path) -> PackageManifest:
         return frozenset(each.text.strip() for tag in tags for each in root.findall(tag) if each.text)
 
     name = (root.findtext("name") or "").strip()
-    return PackageManifest(path, name, texts(*_DEPENDENCIES), texts("member_of_group"))
+    build_type = (root.findtext("export/build_type") or "catkin").strip()
+    return PackageManifest(path, name, texts(*_DEPENDENCIES), texts("member_of_group"), build_type)

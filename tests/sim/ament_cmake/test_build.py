@@ -229,6 +229,47 @@ def test_launch_files_programs_python_modules_and_hooks_are_installed(workspace)
     assert hook == "prepend-non-duplicate;GZ_SIM_RESOURCE_PATH;share/tutorial_interfaces/models\n"
 
 
+BRINGUP = """\
+include(GNUInstallDirs)
+set(NEEDED urdf xacro)
+foreach(each IN LISTS NEEDED ITEMS no_such_package)
+  find_package(${each} REQUIRED)
+endforeach()
+foreach(dir launch config)
+  foreach(kind a)
+    install(DIRECTORY ${dir}/${kind} DESTINATION ${CMAKE_INSTALL_DATADIR}/${PROJECT_NAME}/${dir})
+  endforeach()
+endforeach()
+ament_environment_hooks(env/models.dsv.in)
+"""
+
+
+def test_a_bringup_package_is_built_and_tells_its_remarks_once(workspace):
+    workspace.more = BRINGUP
+    workspace.texts |= {
+        "launch/a/b.launch.py": "",
+        "config/a/b.yaml": "",
+        "env/models.dsv.in": "set;X;@CMAKE_INSTALL_PREFIX@/share\n",
+    }
+    built = workspace.build()
+    (remark,) = built.remarks
+    assert "CMakeLists.txt:8: not installed here: urdf, xacro, no_such_package; whoever starts" in remark
+    share = "share/tutorial_interfaces"
+    assert {f"{share}/launch/a/b.launch.py", f"{share}/config/a/b.yaml"} <= workspace.installed()
+    assert (workspace.prefix / built.hooks[0]).read_text() == f"set;X;{workspace.prefix}/share\n"
+    assert workspace.build().remarks == []
+
+
+@pytest.mark.parametrize(
+    ("kind", "words"), [("catkin", "this package is for ROS 1"), ("cmake", "only CMake can build")]
+)
+def test_what_only_cmake_can_build_is_one_sentence(tmp_path, kind, words):
+    export = "" if kind == "catkin" else f"<export><build_type>{kind}</build_type></export>"
+    (tmp_path / "package.xml").write_text(f"<package><name>old</name>{export}</package>")
+    (fault,) = build(Package(tmp_path, tmp_path / "build", tmp_path / "install"), []).faults
+    assert fault.startswith(f"{tmp_path}/package.xml: {words}")
+
+
 def test_a_linked_program_must_be_executable(workspace):
     workspace.more = "install(PROGRAMS run.py DESTINATION lib/${PROJECT_NAME})"
     workspace.texts["run.py"] = ""
