@@ -6,8 +6,6 @@ Source: ament_copyright 0.17 (which ones ROS 2 knows)
 
 from __future__ import annotations
 
-from importlib import metadata
-
 KNOWN = (
     *("Apache-2.0", "BSL-1.0", "BSD-2-Clause", "BSD-3-Clause", "GPL-3.0-only", "LGPL-2.1-only", "LGPL-3.0-only"),
     *("MIT", "MIT-0"),
@@ -24,6 +22,8 @@ def text(license_name: str, holder: str) -> str:
 
 def _own_license() -> str:
     """Return the license of the course itself, which is Apache-2.0."""
+    from importlib import metadata  # takes longer than the rest
+
     try:
         files = metadata.files(_DISTRIBUTION) or []
         return next((str(file.read_text()) for file in files if file.name == "LICENSE"), "")

@@ -6,7 +6,7 @@ import argparse
 
 from gz_course.sim.ros2.graph import Graph, add_graph_options
 from gz_course.sim.ros2.interface import action_class, action_type_name
-from gz_course.sim.ros2.listing import print_names
+from gz_course.sim.ros2.listing import print_those_of
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -15,12 +15,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "action_type", help="Name of the ROS action type to find (e.g. 'example_interfaces/action/Fibonacci')"
     )
     parser.add_argument(
-        "-c", "--count-actions", "--count", action="store_true", help="Only display the number of actions"
+        "-c", "--count-actions", "--count", dest="count", action="store_true", help="Only display the number of actions"
     )
 
 
 def main(arguments: argparse.Namespace) -> None:
     wanted = action_type_name(action_class(arguments.action_type))
-    with Graph(arguments) as graph:
-        graph.settle()
-        print_names([name for name, types in graph.actions() if wanted in types], arguments.count_actions)
+    print_those_of(arguments, wanted, Graph.actions)

@@ -6,7 +6,7 @@ import argparse
 
 from gz_course.sim.ros2.action import action_name, action_types, nearest_action
 from gz_course.sim.ros2.graph import Graph, add_graph_options
-from gz_course.sim.ros2.topic import warn
+from gz_course.sim.ros2.listing import print_types
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -19,8 +19,4 @@ def main(arguments: argparse.Namespace) -> int:
     with Graph(arguments) as graph:
         name = action_name(graph, arguments.action_name)
         types = action_types(graph, name)
-        for kind in types:
-            print(kind)
-        if not types and (hint := nearest_action(graph, name)):
-            warn(f"Unknown action '{arguments.action_name}'{hint}")
-        return 0 if types else 1
+        return print_types("action", arguments.action_name, types, lambda: nearest_action(graph, name))

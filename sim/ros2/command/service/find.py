@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import argparse
 
-from gz_course.sim.ros2.graph import Graph
 from gz_course.sim.ros2.interface import service_class, service_type_name
-from gz_course.sim.ros2.listing import add_listing_options, print_names
+from gz_course.sim.ros2.listing import add_listing_options, print_those_of
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -16,6 +15,4 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(arguments: argparse.Namespace) -> None:
     wanted = service_type_name(service_class(arguments.service_type))
-    with Graph(arguments) as graph:
-        graph.settle()
-        print_names([name for name, types in graph.services(arguments.hidden) if wanted in types], arguments.count)
+    print_those_of(arguments, wanted, lambda graph: graph.services(arguments.hidden))

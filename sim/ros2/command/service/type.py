@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 
 from gz_course.sim.ros2.graph import Graph, add_graph_options
+from gz_course.sim.ros2.listing import print_types
 from gz_course.sim.ros2.service import nearest_service, service_name, service_types
-from gz_course.sim.ros2.topic import warn
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -19,8 +19,4 @@ def main(arguments: argparse.Namespace) -> int:
     with Graph(arguments) as graph:
         name = service_name(graph, arguments.service_name)
         types = service_types(graph, name)
-        for kind in types:
-            print(kind)
-        if not types and (hint := nearest_service(graph, name)):
-            warn(f"Unknown service '{arguments.service_name}'{hint}")
-        return 0 if types else 1
+        return print_types("service", arguments.service_name, types, lambda: nearest_service(graph, name))

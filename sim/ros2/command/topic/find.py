@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import argparse
 
-from gz_course.sim.ros2.graph import Graph
 from gz_course.sim.ros2.interface import message_class, message_type_name
-from gz_course.sim.ros2.listing import add_listing_options, print_names
+from gz_course.sim.ros2.listing import add_listing_options, print_those_of
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -16,6 +15,4 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(arguments: argparse.Namespace) -> None:
     wanted = message_type_name(message_class(arguments.message_type))
-    with Graph(arguments) as graph:
-        graph.settle()
-        print_names([name for name, types in graph.topics(arguments.hidden) if wanted in types], arguments.count)
+    print_those_of(arguments, wanted, lambda graph: graph.topics(arguments.hidden))

@@ -6,12 +6,12 @@ import argparse
 from collections.abc import Callable
 
 from gz_course.sim.ros2.graph import Graph, NamesAndTypes
-from gz_course.sim.ros2.listing import add_listing_options, print_names
+from gz_course.sim.ros2.listing import add_listing_options, add_show_types, print_all
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_listing_options(parser, "topic")
-    parser.add_argument("-t", "--show-types", action="store_true", help="Additionally show the topic type")
+    add_show_types(parser, "topic")
     parser.add_argument("-v", "--verbose", action="store_true", help="List full details about each topic")
 
 
@@ -23,8 +23,7 @@ def main(arguments: argparse.Namespace) -> None:
             _print_ends(topics, "Published", "publisher", graph.node.count_publishers)
             _print_ends(topics, "Subscribed", "subscriber", graph.node.count_subscribers)
             return
-    names = [f"{name} [{', '.join(types)}]" if arguments.show_types else name for name, types in topics]
-    print_names(names, arguments.count)
+    print_all(arguments, topics)
 
 
 def _print_ends(topics: NamesAndTypes, title: str, noun: str, count_of: Callable[[str], int]) -> None:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 
 from gz_course.sim.ros2.graph import Graph, add_graph_options
-from gz_course.sim.ros2.topic import nearest_topic, warn
+from gz_course.sim.ros2.listing import print_types
+from gz_course.sim.ros2.topic import nearest_topic
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -16,9 +17,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def main(arguments: argparse.Namespace) -> int:
     """Return 1, and print nothing to stdout, for an unknown topic."""
     with Graph(arguments) as graph:
-        types = graph.wait_for_topic(arguments.topic_name)
-        for name in types:
-            print(name)
-        if not types and (hint := nearest_topic(graph, arguments.topic_name)):
-            warn(f"Unknown topic '{arguments.topic_name}'{hint}")
-        return 0 if types else 1
+        name = arguments.topic_name
+        return print_types("topic", name, graph.wait_for_topic(name), lambda: nearest_topic(graph, name))
