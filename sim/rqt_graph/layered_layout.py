@@ -39,9 +39,9 @@ def layout(sizes: Mapping[str, Point], arrows: Iterable[Arrow]) -> Layout:
     heights: dict[str, float] = {key: size[1] for key, size in sizes.items()}
     neighbours: dict[str, list[str]] = defaultdict(list)
     for chain in chains.values():
-        for left, right in itertools.pairwise(chain):
-            neighbours[left].append(right)
-            neighbours[right].append(left)
+        for one, next_one in itertools.pairwise(chain):
+            neighbours[one].append(next_one)
+            neighbours[next_one].append(one)
         for middle, inner in enumerate(chain[1:-1], 1):
             heights[inner] = 0.0
             column[inner] = column[chain[0]] + middle

@@ -21,7 +21,7 @@ LOOKED_UP = {
 }
 CALLED = {
     "call": ["call", "/robot/enable", "std_srvs/srv/SetBool", "data: yes"],
-    "short type": ["call", "robot/enable", "std_srvs/SetBool"],
+    "short type": ["call", "robot/enable", "std_srvs/SetBool", "--qos-depth", "3"],
     "wrong field": ["call", "/robot/enable", "std_srvs/srv/SetBool", "{dta: true}"],
     "not yaml": ["call", "/robot/enable", "std_srvs/srv/SetBool", "{data: "],
     "wrong type": ["call", "/robot/enable", "std_srvs/srv/Trigger"],

@@ -1,5 +1,6 @@
 """The picture of a live ROS graph and a live Gazebo graph, as a file and as a page."""
 
+import signal
 import threading
 import urllib.error
 import urllib.request
@@ -18,7 +19,7 @@ from gz_course.sim.rqt_graph.page import Page
 from gz_course.sim.rqt_graph.picture import Box, Picture
 from gz_course.sim.rqt_graph.rqt_graph import main
 from gz_course.sim.rqt_graph.svg import svg
-from gz_course.tests.sim.ros2.conftest import ros_domain  # noqa: F401
+from gz_course.tests.sim.ros2.conftest import ros_domain, start  # noqa: F401
 
 ROS = [
     End("/scan", "/ros_gz_bridge", "sensor_msgs/msg/LaserScan", True),
@@ -126,3 +127,16 @@ def test_a_file_that_cannot_be_written_is_one_sentence(ros_domain, signals_as_th
     monkeypatch.setenv("GZ_PARTITION", f"graph_{ros_domain}")
     assert main(["--svg", str(tmp_path / "no/graph.svg")], "course graph") == 1
     assert capsys.readouterr().err.endswith("graph.svg cannot be written: No such file or directory\n")
+
+
+@pytest.mark.proof
+def test_the_program_shows_the_graph_until_ctrl_c(ros_domain, start):  # noqa: F811
+    environment = {"GZ_PARTITION": f"graph_{ros_domain}", "DISPLAY": "", "WAYLAND_DISPLAY": ""}
+    command = start("run", "rqt_graph", "rqt_graph", environment=environment)
+    command.wait_for("open this page in a browser: ")
+    command.wait_for("Ctrl-C ends it")
+    address = command._lines["stdout"][0].split()[-1]
+    assert "<svg " in _get(f"{address}graph.svg?after=")
+    command.process.send_signal(signal.SIGINT)
+    code, _, errors = command.wait()
+    assert (code, errors) == (0, "")

@@ -7,11 +7,14 @@ import sys
 import time
 from typing import Any
 
+from rclpy.qos import QoSPresetProfiles
+
 from gz_course.sim.ros2.errors import CommandError
 from gz_course.sim.ros2.graph import Graph, add_graph_options
 from gz_course.sim.ros2.interface import service_class, service_type_name
 from gz_course.sim.ros2.message_value import fill
 from gz_course.sim.ros2.option_values import rate, seconds
+from gz_course.sim.ros2.qos import add_qos_options, chosen_qos
 from gz_course.sim.ros2.service import call, nearest_service, service_name
 
 _AVAILABLE = 10.0  # [s] to wait for the service
@@ -37,6 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help=f"How long to wait for the service (default: {_AVAILABLE:g}) and for its answer (default: {_ANSWER:g}); "
         "0: for ever",
     )
+    add_qos_options(parser, "services_default")
 
 
 def main(arguments: argparse.Namespace) -> None:
@@ -46,7 +50,8 @@ def main(arguments: argparse.Namespace) -> None:
     stamps = fill(request, sys.stdin.read() if arguments.stdin else arguments.values)
     available, answer = (_AVAILABLE, _ANSWER) if arguments.timeout is None else (arguments.timeout,) * 2
     with Graph(arguments) as graph:
-        client = graph.node.create_client(kind, service_name(graph, arguments.service_name))
+        qos = chosen_qos(arguments, QoSPresetProfiles.get_from_short_key("services_default"))
+        client = graph.node.create_client(kind, service_name(graph, arguments.service_name), qos_profile=qos)
         while True:
             started = time.monotonic()
             _wait_for_service(graph, client, available or None)
