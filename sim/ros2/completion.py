@@ -105,6 +105,12 @@ def _packages(given: Given) -> Iterable[str]:
     return package_names()
 
 
+def _licenses(given: Given) -> Iterable[str]:
+    from gz_course.sim.ros2.new_package.license_texts import KNOWN
+
+    return KNOWN
+
+
 def _executables(given: Given) -> Iterable[str]:
     from gz_course.sim.ros2.packages import executables
 
@@ -159,6 +165,8 @@ _COMPLETERS: Mapping[str, Callable[[Given], Iterable[str]]] = MappingProxyType(
         "parameter_name": _parameters,
         "parameter_names": _parameters,
         "package_name": _packages,
+        "dependencies": _packages,
+        "license": _licenses,
         "executable_name": _executables,
         "launch_file_name": _launch_files,
         "launch_arguments": _launch_arguments,

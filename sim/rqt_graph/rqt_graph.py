@@ -35,6 +35,9 @@ def parser(program: str = NAME) -> argparse.ArgumentParser:
 def main(argv: list[str] | None = None, program: str = NAME) -> int:
     """Draw until Ctrl-C, or once; return the exit code."""
     given = parser(program).parse_args(_without_ros_arguments(sys.argv[1:] if argv is None else argv))
+    if given.svg is not None and not given.svg.absolute().parent.is_dir():
+        print(f"{program}: {given.svg} cannot be written: there is no such folder", file=sys.stderr)
+        return 1
     from gz_course.sim.ros2 import graph, interruption
     from gz_course.sim.ros2.errors import CommandError
 
@@ -51,7 +54,7 @@ def main(argv: list[str] | None = None, program: str = NAME) -> int:
         print(f"{program}: {error}", file=sys.stderr)
         return 1
     except OSError as error:
-        print(f"{program}: {given.svg or 'the page'} cannot be written: {error.strerror}", file=sys.stderr)
+        print(f"{program}: {error.filename or 'the page'}: {error.strerror}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         return 0

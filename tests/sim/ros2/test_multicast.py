@@ -53,6 +53,7 @@ def test_hello_counts_other_hosts_of_topic_and_multicast(robot, monkeypatch):
             raise KeyboardInterrupt
 
     monkeypatch.setattr(hello, "_print_table", table)
+    monkeypatch.setenv("FASTDDS_BUILTIN_TRANSPORTS", "UDPv4")  # as the command sets it
     arguments = argparse.Namespace(topic="can_you", emit_period=0.02, print_period=0.1, ttl=None, once=False)
     hello.hello(arguments)
     graph.destroy_ended()

@@ -12,7 +12,7 @@ GRAPHS = st.tuples(
 )
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=30, deadline=None)
 @given(GRAPHS)
 def test_boxes_are_apart_and_arrows_join_them(graph):
     sizes, arrows = graph
