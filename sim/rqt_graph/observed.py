@@ -80,7 +80,7 @@ def _bridges(ros: Iterable[End], gz: Iterable[End]) -> dict[str, str]:
     for process in sorted(ends_of):
         votes = Counter(node for end in ends_of[process] for node in of_topic[end.topic, not end.publishes])
         ranked = sorted(votes, key=lambda node: ("bridge" not in node, -votes[node], node))
-        # All topics can be renamed; then only the name tells, if there is no choice.
+        # If all topics are renamed, only the name is left, and there must be no other candidate.
         alone = named if len(named) == 1 and len(ends_of) == 1 else []
         for node in [*ranked, *alone][:1]:
             found[process] = node
@@ -109,7 +109,7 @@ def _add_gz(made: Picture, gz: Sequence[End], bridges: dict[str, str], everythin
 
 
 def _name_faults(made: Picture) -> None:
-    """Say what is wrong with topics: of Gazebo's only those that a bridge uses, because most sensors have no reader."""
+    """Mark what is wrong with topics; of Gazebo only those of a bridge, because most sensors have no reader."""
     published = {end for _, end in made.arrows}
     heard = {start for start, _ in made.arrows}
     bridged = {each for arrow in made.arrows for each in arrow if any(made.boxes[end].kind == BRIDGE for end in arrow)}
