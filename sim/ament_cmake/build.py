@@ -40,7 +40,7 @@ class Package:
 class Built:
     """What a build has to tell: sentences, and the hooks of the package as paths in the prefix.
 
-    A remark is told by the first build only, and again after it was without effect in between.
+    A build reports a remark only if the build before did not find it.
     """
 
     remarks: list[str]
@@ -85,7 +85,7 @@ def build(package: Package, prefixes: Sequence[Path]) -> Built:
 
 
 def _news(package: Package, remarks: list[str]) -> list[str]:
-    """Return the remarks that the last build of the package has not told yet."""
+    """Return the remarks that the last build of the package did not find, and record all."""
     record = package.build_base / _REMARKED
     told = record.read_text(encoding="utf-8").splitlines() if record.is_file() else []
     package.build_base.mkdir(parents=True, exist_ok=True)
@@ -150,7 +150,7 @@ def _remark_on_absent(lists: CMakeLists, prefixes: Sequence[Path]) -> None:
                 absent[name] = line
     if absent:
         names = ", ".join(absent)
-        sentence = f"not installed here: {names}; whoever starts something of these packages needs them"
+        sentence = f"these packages are not installed: {names}; a program that uses them fails at run time"
         lists.remarks.append(at(lists.path, next(iter(absent.values())), sentence))
 
 

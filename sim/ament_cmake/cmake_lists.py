@@ -84,7 +84,7 @@ def _body(commands: Sequence[Command], start: int) -> Sequence[Command]:
         depth += (commands[index].name == "foreach") - (commands[index].name == "endforeach")
         if not depth:
             return commands[start + 1 : index]
-    return []  # its end is missing, which is told at the end of the file
+    return []  # without an end; `run` reports it
 
 
 class _Reader:
@@ -149,7 +149,9 @@ class _Reader:
         values = values_of(command.arguments, self._lookup)
         items = self._items(values[1:])
         if not values or items is None:
-            self._remark("this form of 'foreach()' is passed over; of its words, IN, LISTS and ITEMS are read")
+            self._remark(
+                "this form of 'foreach()' is ignored; write 'foreach(NAME ITEM...)', or IN with LISTS or ITEMS"
+            )
             return False
         before = self.variables.get(values[0])
         for item in items:

@@ -1,7 +1,8 @@
 """The picture of what a ROS graph and a Gazebo graph hold at this moment.
 
 Gazebo's discovery names processes by a UUID only. The one that publishes a world's statistics is a simulator. Another
-one is a bridge if a ROS node has the opposite end of the same topics: what comes from Gazebo, that node publishes.
+one is a bridge if a ROS node has the opposite ends of the same topics: what a bridge takes from Gazebo, it publishes in
+ROS. A node whose name contains `bridge` needs one such topic, any other node needs two, and no other ends.
 
 Source: https://github.com/ros-visualization/rqt_graph (rqt_graph/dotcode.py: what is hidden by default)
 Source: https://github.com/gazebosim/gz-transport (Publisher.hh: what is known of a publisher)
@@ -75,15 +76,21 @@ def _bridges(ros: Iterable[End], gz: Iterable[End]) -> dict[str, str]:
     for end in gz:
         if end.owner not in servers:
             ends_of[end.owner].append(end)
-    named = sorted({end.owner for end in ros if "bridge" in end.owner})
+    candidates = []
+    for process, ends in ends_of.items():
+        votes = Counter(node for end in ends for node in of_topic[end.topic, not end.publishes])
+        for node, count in votes.items():
+            named = "bridge" in node
+            # `gz topic -e` has one end, which is also that of the ROS node on the other side of a bridge.
+            if named or count == len(ends) >= 2:
+                candidates.append((not named, -count, process, node))
     found: dict[str, str] = {}
-    for process in sorted(ends_of):
-        votes = Counter(node for end in ends_of[process] for node in of_topic[end.topic, not end.publishes])
-        ranked = sorted(votes, key=lambda node: ("bridge" not in node, -votes[node], node))
-        # All topics can be renamed; then only the name tells, if there is no choice.
-        alone = named if len(named) == 1 and len(ends_of) == 1 else []
-        for node in [*ranked, *alone][:1]:
+    for _, _, process, node in sorted(candidates):
+        if process not in found and node not in found.values():
             found[process] = node
+    bridges = sorted({end.owner for end in ros if "bridge" in end.owner})
+    if not found and len(bridges) == len(ends_of) == 1:  # all topics are renamed
+        found = dict(zip(ends_of, bridges, strict=True))
     return found
 
 
@@ -109,7 +116,7 @@ def _add_gz(made: Picture, gz: Sequence[End], bridges: dict[str, str], everythin
 
 
 def _name_faults(made: Picture) -> None:
-    """Say what is wrong with topics: of Gazebo's only those that a bridge uses, because most sensors have no reader."""
+    """Mark what is wrong with topics; of Gazebo only those of a bridge, because most sensors have no reader."""
     published = {end for _, end in made.arrows}
     heard = {start for start, _ in made.arrows}
     bridged = {each for arrow in made.arrows for each in arrow if any(made.boxes[end].kind == BRIDGE for end in arrow)}

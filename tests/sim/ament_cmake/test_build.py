@@ -244,7 +244,7 @@ ament_environment_hooks(env/models.dsv.in)
 """
 
 
-def test_a_bringup_package_is_built_and_tells_its_remarks_once(workspace):
+def test_a_bringup_package_is_built_and_its_remarks_are_reported_once(workspace):
     workspace.more = BRINGUP
     workspace.texts |= {
         "launch/a/b.launch.py": "",
@@ -253,7 +253,7 @@ def test_a_bringup_package_is_built_and_tells_its_remarks_once(workspace):
     }
     built = workspace.build()
     (remark,) = built.remarks
-    assert "CMakeLists.txt:8: not installed here: urdf, xacro, no_such_package; whoever starts" in remark
+    assert "CMakeLists.txt:8: these packages are not installed: urdf, xacro, no_such_package; a program" in remark
     share = "share/tutorial_interfaces"
     assert {f"{share}/launch/a/b.launch.py", f"{share}/config/a/b.yaml"} <= workspace.installed()
     assert (workspace.prefix / built.hooks[0]).read_text() == f"set;X;{workspace.prefix}/share\n"

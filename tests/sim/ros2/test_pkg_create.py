@@ -1,7 +1,9 @@
 """`ros2 pkg create` makes packages that can be built."""
 
 import argparse
+import os
 import re
+import subprocess
 import sys
 from pathlib import Path
 
@@ -97,3 +99,30 @@ def test_what_cannot_be_made_is_one_sentence(tmp_path, words, sentence):
         run(*words, "--destination-directory", tmp_path)
     assert sentence in str(error.value)
     assert [path.name for path in tmp_path.iterdir()] == ["taken"]
+
+
+@pytest.mark.proof
+def test_what_is_made_is_built_tested_and_run(tmp_path):
+    pytest.importorskip("colcon_core", reason="colcon is not installed")
+    source = tmp_path / "src"
+    run("robot", "--destination-directory", source, "--build-type", "ament_python", "--node-name", "talker")
+    run("msgs", "--destination-directory", source, "--dependencies", "rosidl_default_generators", "std_msgs")
+    script = (
+        "colcon build && colcon test && colcon test-result --verbose && source install/setup.bash && "
+        "ros2 run robot talker && ros2 launch robot talker.launch.py && ros2 pkg prefix msgs"
+    )
+    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+    ended = subprocess.run(
+        ["bash", "-c", script],
+        cwd=tmp_path,
+        env=environment | {"PATH": path, "ROS_LOG_DIR": str(tmp_path / "log")},
+        capture_output=True,
+        text=True,
+    )
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    assert "Summary: 2 tests, 0 errors, 0 failures" in ended.stdout
+    assert "\nHi from robot.\n" in ended.stdout
+    assert "[talker-1] Hi from robot." in ended.stdout
+    built = ended.stderr.partition("no test of msgs was run")[0]
+    assert "warning" not in built.lower()

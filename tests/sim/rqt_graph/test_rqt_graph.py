@@ -60,6 +60,17 @@ def test_everything_shows_more_and_two_types_are_a_fault():
     assert made.boxes["ros topic:/scan"].fault == "several types: sensor_msgs/msg/LaserScan, std_msgs/msg/String"
 
 
+def test_a_listener_of_gazebo_is_no_bridge():
+    echo = [End("/cmd_vel", "gz topic -e", "", False), End("/scan", "gz topic -e 2", "", False)]
+    bridge = [End("/cmd_vel", "other", "gz.msgs.Twist", True), *GZ[:3]]
+    made = picture([], ROS, [*echo, *bridge])
+    assert {box.label for box in made.boxes.values() if box.kind == "bridge"} == {"/ros_gz_bridge"}
+    assert {"Gazebo program 1", "Gazebo program 2"} < {box.label for box in made.boxes.values()}
+    renamed = [End(end.topic, end.owner.replace("bridge", "gate"), end.type_name, end.publishes) for end in ROS]
+    made = picture([], renamed, [*echo, *bridge])
+    assert {box.label for box in made.boxes.values() if box.kind == "bridge"} == {"/ros_gz_gate"}
+
+
 def test_a_bridge_whose_topics_are_all_renamed_is_known_by_its_name():
     ros = [End("/a", "/my_bridge", "", True), End("/b", "/driver", "", True)]
     made = picture([], ros, [End("/c", "other", "", False), End("/c", "server", "", True)])
