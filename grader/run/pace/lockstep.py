@@ -54,6 +54,7 @@ class LockStep(RealTime):
         self._layout: tuple[int, ...] = ()
         self._participants: list[Participant] = []
         self._pending: tuple[str, Any, Any] | None = None
+        self._clock: tuple[Any, Any] | None = None  # publisher and message of the last /clock
         self._now_ns = -1
         self._sent_before = 0  # what the processes had sent when simulated time reached this value
         self._released = 0  # messages since then that were held
@@ -120,6 +121,8 @@ class LockStep(RealTime):
             self._now_ns, self._sent_before = now_ns, self._total("published").total()
             self._released = 0
         self._pending = None
+        if topic == CLOCK:
+            self._clock = publisher, message
         if not self.processes.running:
             return
         if self._look_around():
@@ -230,8 +233,8 @@ class LockStep(RealTime):
                 strays = now + STRAYS
             if self._is_flooded():
                 return False
-            if self._pending and self._pending[0] == CLOCK and now > resend:
-                _, publisher, message = self._pending
+            if self._clock and now > resend and any(self._is_behind(each) for each in self._participants):
+                publisher, message = self._clock  # also for a node that has come since it was sent
                 publisher.publish(message)
                 resend = now + CLOCK_AGAIN
             if now > lost and self._is_lost():
@@ -294,9 +297,7 @@ class LockStep(RealTime):
             return False  # somebody may be there whom nobody can follow
         for each in self._participants:
             progress = each.progress
-            if progress is None or not progress.idle or each.waiting_for_release:
-                return False
-            if progress.clock is not None and progress.clock < self._now_ns:
+            if progress is None or not progress.idle or each.waiting_for_release or self._is_behind(each):
                 return False
         taken = self._total("taken")
         due = self._due_to_be_taken()
@@ -305,6 +306,11 @@ class LockStep(RealTime):
         if self._holding:  # a late subscription may have got more than was sent to it
             self._untaken.update({topic: count - taken[topic] - self._untaken[topic] for topic, count in due.items()})
         return True
+
+    def _is_behind(self, participant: Participant) -> bool:
+        """Return whether a node of it has not got the /clock of this simulated time."""
+        clock = participant.progress.clock if participant.progress else None
+        return clock is not None and clock < self._now_ns
 
     def _due_to_be_taken(self) -> Counter[str]:
         """Count by topic the messages that the processes must have taken: the simulator's and each other's."""

@@ -229,3 +229,18 @@ timer = node.create_timer(0.1, work)
 rclpy.spin(node)
 """
     assert heard(code, ticks=4) == ["has ended 0.100 0.1"]
+
+
+@pytest.mark.proof
+def test_a_node_that_comes_between_two_ticks_gets_the_time_at_once(play):
+    code = """
+    import time
+    time.sleep(0.15)
+    node.destroy_node()
+    node = Node("second")
+    said = node.create_publisher(String, "/said", 10)
+    node.create_timer(0.1, lambda: said.publish(String(data=str(node.get_clock().now().nanoseconds // 10**8))))
+    rclpy.spin(node)
+    """
+    played = play(ticks=5, simulated=True, holding=False, node=code)
+    assert (played.heard[-3:], played.pace.paced_ticks) == (["3", "4", "5"], 0), played.lines
