@@ -2,8 +2,11 @@
 
 import gc
 import signal
+import sys
+from pathlib import Path
 
 import pytest
+from _pytest.assertion import rewrite
 from hypothesis import settings
 from hypothesis.internal.conjecture import providers
 
@@ -25,8 +28,10 @@ gc.disable()  # until everything is imported: it would find nothing to collect
 
 
 @pytest.hookimpl(trylast=True)  # when the profile is that of the command line
-def pytest_configure():
+def pytest_configure(config):
     watch_over_this_process()
+    if hasattr(config, "workerinput") and not sys.dont_write_bytecode:
+        compile_share(config)
     if settings.get_current_profile_name() == "repeatable":
         fewer = property(lambda each: min(each._max_examples, MOST_EXAMPLES))
         type.__setattr__(settings, "max_examples", fewer)
@@ -34,6 +39,16 @@ def pytest_configure():
         # Hypothesis also draws numbers and texts that stand in the modules which are loaded. Those are others in each
         # worker and change with any file: a test would be asked for other examples than the last time.
         providers._get_local_constants = providers.Constants
+
+
+def compile_share(config):
+    """Compile what is not compiled yet of every n-th test module, so that each worker does not compile them all."""
+    number, count = int(config.workerinput["workerid"].removeprefix("gw")), config.workerinput["workercount"]
+    for path in sorted(Path(__file__).parent.rglob("test_*.py"))[number::count]:
+        compiled = rewrite.get_cache_dir(path) / f"{path.stem}{rewrite.PYC_TAIL}"
+        if rewrite._read_pyc(path, compiled) is None and rewrite.try_makedirs(compiled.parent):
+            checksum, code = rewrite._rewrite_test(path, config)
+            rewrite._write_pyc(config.stash[rewrite.assertstate_key], code, checksum, compiled)
 
 
 def pytest_collection_finish():
