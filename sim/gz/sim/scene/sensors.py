@@ -60,7 +60,8 @@ def _fill_noise(message: Any, element: Element | None) -> None:
 
 
 @describes("camera", "depth", "depth_camera", "rgbd", "rgbd_camera", "segmentation", "segmentation_camera")
-@describes("boundingbox", "boundingbox_camera", "thermal", "thermal_camera", "wideanglecamera", "wide_angle_camera")
+@describes("boundingbox", "boundingbox_camera", "thermal", "thermal_camera")
+@describes("wideanglecamera", "wide_angle_camera", "wideangle_camera")
 def _camera(message: Any, element: Element) -> None:
     camera = element.find("camera") or _NO_ELEMENT
     to = message.camera

@@ -56,7 +56,7 @@ def test_every_sensor_of_the_sensors_world_is_heard(node: Node) -> None:
         node.subscribe_raw(topic, lambda data, info: heard.update({topic: heard.get(topic, 0) + 1}))
 
     mine = [topic for topic in node.topic_list() if not topic.startswith("/world/")]
-    assert len(mine) == 24
+    assert len(mine) == 31
     for topic in mine:
         listen(topic)
     world.step(1001)

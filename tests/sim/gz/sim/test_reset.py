@@ -37,6 +37,7 @@ TRUCK = """<left_joint>rl</left_joint><right_joint>rr</right_joint><left_steerin
 <right_steering_joint>sr</right_steering_joint><wheel_base>0.6</wheel_base><wheel_separation>0.4</wheel_separation>
 <kingpin_width>0.3</kingpin_width><wheel_radius>0.1</wheel_radius><steering_limit>0.5</steering_limit>"""
 IN_WORLD = {
+    "Buoyancy": "<uniform_fluid_density>1.2</uniform_fluid_density>",
     "TriggeredPublisher": "<input type='gz.msgs.Boolean' topic='/flyer/touched'/>"
     "<output type='gz.msgs.Empty' topic='/triggered'/>",
 }

@@ -37,6 +37,16 @@ def test_the_force_acts_at_the_centre_of_the_volume() -> None:
     assert made.truth.velocity("a").angular == pytest.approx((0, -0.3 * volume * 1000 * 9.8 / 10 * 0.001, 0), rel=1e-9)
 
 
+def test_the_forces_of_all_systems_add_up() -> None:
+    wrench = "<entity_name>a</entity_name><entity_type>model</entity_type><force>0 0 100</force>"
+    order = [plugin("Buoyancy"), plugin("ApplyLinkWrench", f"<persistent>{wrench}</persistent>")]
+    for plugins in (order, order[::-1]):
+        made = world("".join(plugins) + body(mass=1000))
+        made.step(10)
+        expected = ((BALL * 1000 - 1000) * 9.8 + 100) / 1000 * 0.01
+        assert made.truth.velocity("a").linear[2] == pytest.approx(expected)
+
+
 def test_only_what_is_enabled_floats() -> None:
     models = body(name="a") + body(name="b", pose="3 0 0 0 0 0")
     made = world(plugin("Buoyancy", "<enable>b::l</enable><enable>c</enable>") + models)
