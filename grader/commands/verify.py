@@ -48,7 +48,7 @@ def command(
         raise ManifestError(f"no public half in exercises/: {named}")
     names = [find_exercise(exercise).name] if exercise else known
     sweep()
-    proven = True
+    graded, wrong = 0, list[str]()
     with TemporaryFolder("course-verify-") as folder, pool(jobs) as workers:
         for name in names:
             result = None
@@ -57,9 +57,10 @@ def command(
             if result is not None:
                 print_matrix(result, console)
                 print_mutants(result, console)
-                print_faults(result, console)
-                proven = proven and result.proven
-    raise typer.Exit(0 if proven else 1)
+                print_faults(result.fault_lines, console)
+                graded, wrong = graded + len(result.proofs), wrong + result.fault_lines
+    print_summary(graded, len(names), wrong, console)
+    raise typer.Exit(1 if wrong else 0)
 
 
 def print_last(result: Verification, console: Console) -> None:
@@ -120,9 +121,17 @@ def print_mutants(result: Verification, console: Console) -> None:
         )
 
 
-def print_faults(result: Verification, console: Console) -> None:
-    for fault in result.faults:
-        console.print(f"[red]WRONG[/red]  {result.exercise.name}: {escape(fault)}", highlight=False)
-    for proof in result.proofs:
-        for fault in proof.faults:
-            console.print(f"[red]WRONG[/red]  {proof.variant.name}: {escape(fault)}", highlight=False)
+def print_faults(found: list[str], console: Console) -> None:
+    for fault in found:
+        console.print(f"[red]WRONG[/red]  {escape(fault)}", highlight=False, soft_wrap=True)
+
+
+def print_summary(graded: int, exercises: int, wrong: list[str], console: Console) -> None:
+    """Print the result of several exercises; their faults stand far above and are repeated."""
+    if exercises == 1:
+        return
+    if wrong:
+        console.print()
+        print_faults(wrong, console)
+    said = f"[red]{len(wrong)} wrong[/red]" if wrong else "all as declared"
+    console.print(f"{graded} variants of {exercises} exercises: {said}", highlight=False)

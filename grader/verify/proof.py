@@ -51,9 +51,12 @@ class Verification:
     mutants: list[MutantProof] = field(default_factory=list)
 
     @property
-    def proven(self) -> bool:
-        """Whether there is no fault at all. Mutants that survive are not faults."""
-        return not self.faults and not any(proof.faults for proof in self.proofs)
+    def fault_lines(self) -> list[str]:
+        """One line for each fault, beginning with exercise and variant. Mutants that survive are not faults."""
+        name = self.exercise.name
+        return [f"{name}: {fault}" for fault in self.faults] + [
+            f"{name} {proof.variant.name}: {fault}" for proof in self.proofs for fault in proof.faults
+        ]
 
     @property
     def survivors(self) -> list[Mutant]:

@@ -104,5 +104,7 @@ def test_kills_are_counted_by_check(exercise):
     result.mutants = [MutantProof(mutant, frozenset("a")), MutantProof(mutant, frozenset())]
     assert [result.killed_by(check) for check in CHECKS] == [(2, 1), (1, 0)]
     assert result.survivors == [mutant]
-    result.proofs.pop()
-    assert result.proven is not any(proof.faults for proof in result.proofs)
+    assert result.fault_lines == []
+    result.faults.append("no solution")
+    result.proofs[1].faults.append("passes a")
+    assert result.fault_lines == [f"{exercise.name}: no solution", f"{exercise.name} rejected/x: passes a"]
