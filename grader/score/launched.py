@@ -20,7 +20,7 @@ DIED = re.compile(r"^\[ERROR\] \[([^\]]+-\d+)\]: process has died .*exit code (-
 ERROR = re.compile(r"^\[ERROR\] (?:\[[\d.]+\] )?\[[^\]]+\]: (.*)")  # of a ROS log
 # A file that was given by a relative path and not found, as the bridge and Python say it (Python adds its folder).
 NO_FILE = re.compile(r"(?:^|: |open file ')((?:/(?!submission)\w+/)?[\w.-]+\.\w+)'?: .*No such file or directory")
-PLACE = re.compile(r"^\S*?([^/\s]+):(\d+): ")  # prefix of an error in a launch file
+PLACE = re.compile(r"^\S*?([^/\s:]+):(\d+)(?::(\d+))?: ")  # prefix of an error in a launch file; XML has columns
 
 
 @dataclass(frozen=True)
@@ -103,11 +103,16 @@ def looked_elsewhere(said: str) -> str:
     )
 
 
+def _place_in_words(match: re.Match[str]) -> str:
+    column = f", column {match[3]}" if match[3] else ""
+    return f"{match[1]}, line {match[2]}{column}: "
+
+
 def launch_fault(recording: Recording) -> str:
     """Return one sentence on why the launch as a whole failed; empty if it did not."""
     facts = launch_facts(recording)
     if error := facts.get("error", ""):
-        return "The launch failed: " + shown(PLACE.sub(r"\1, line \2: ", error), 400)
+        return "The launch failed: " + shown(PLACE.sub(_place_in_words, error), 400)
     if facts and not facts["running"] and facts["exit_code"]:
         return f"The launch itself ended with exit code {facts['exit_code']}."
     return ""

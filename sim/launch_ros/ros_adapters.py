@@ -63,7 +63,7 @@ def get_ros_adapter(context: LaunchContext) -> ROSAdapter:
     adapter: ROSAdapter | None = context.get_locals_as_dict().get(_ADAPTER)
     if adapter is None:
         parameters = context.launch_configurations.get(PARAMETERS, ())
-        of_scope = dict(each for each in parameters if isinstance(each, tuple))
+        of_scope: dict[str, Any] = dict(each for each in parameters if isinstance(each, tuple))
         adapter = made = ROSAdapter(use_sim_time=of_scope.get("use_sim_time") is True)
         context.extend_globals({_ADAPTER: adapter})
 

@@ -1,4 +1,4 @@
-"""What `ros2 launch` costs: one trivial process, against starting Python at all, and the end of a simulation."""
+"""What `ros2 launch` costs: one trivial process, in Python and XML, against Python's start; the end of a simulation."""
 
 import os
 import signal
@@ -24,6 +24,7 @@ from launch_ros.actions import Node
 def generate_launch_description():
     return LaunchDescription([ExecuteProcess(cmd=["true"])])
 """
+SAME_IN_XML = '<launch><executable cmd="true"/></launch>\n'
 MANY = """\
 from launch import LaunchDescription
 from launch.actions import ExecuteProcess, RegisterEventHandler, Shutdown
@@ -90,6 +91,20 @@ def from_ctrl_c_to_the_end(command: list) -> float:
         return time.monotonic() - start
 
 
+def xml_against_python(python: list, file: Path) -> Row:
+    """Compare the same launch file in both, run by turns."""
+    file.write_text(SAME_IN_XML)
+    pairs = [(whole_run([ROS2, "launch", str(file)]), whole_run(python)) for _ in range(RUNS)]
+    xml, reference = (statistics.median(times) for times in zip(*pairs, strict=True))
+    return Row(
+        "ros2 launch of an XML file",
+        f"{xml * 1e3:.0f} ms",
+        f"the same in Python: {reference * 1e3:.0f} ms",
+        f"{xml / reference:.2f}",
+        "at most 1.1",
+    )
+
+
 def rows() -> Iterator[Row]:
     os.environ |= {"GZ_PARTITION": f"bench-{uuid.uuid4()}", "GZ_IP": "127.0.0.1"}
     with tempfile.TemporaryDirectory() as folder:
@@ -100,6 +115,7 @@ def rows() -> Iterator[Row]:
             path = Path(folder) / f"{name}.launch.py"
             path.write_text(text)
             commands[name] = [ROS2, "launch", str(path)]
+        yield xml_against_python(commands["trivial"], Path(folder) / "trivial.launch.xml")
         python = statistics.median(whole_run([sys.executable, "-c", "pass"]) for _ in range(RUNS))
         reference = f"python -c pass: {python * 1e3:.0f} ms"
         for name, measure, key, runs, wanted in (

@@ -1,4 +1,4 @@
-"""`kind = "launch"`: the submission is a launch file that starts simulator, bridge and nodes itself.
+"""`kind = "launch"`: the submission is a launch file, in Python, XML or YAML, that starts simulator, bridge and nodes.
 
 It is started with `ros2 launch`, in the folder that also holds what comes with the exercise (every file beside the
 manifest). The `parameters` of a trial are its arguments: `parameters = { paused = "true" }` is `paused:=true`.
@@ -22,6 +22,12 @@ if TYPE_CHECKING:
 
 
 MANIFEST = "exercise.toml"
+_MARKUP = (".xml", ".yaml", ".yml")
+
+
+def fault_of(name: str, content: bytes) -> str | None:
+    """Return why a file in Python can never run, or None. XML and YAML are read in the box only."""
+    return None if name.endswith(_MARKUP) else fault(name, content)
 
 
 def plan(exercise: Exercise, submission: Submission) -> RunPlan:
@@ -63,4 +69,5 @@ def diagnosis() -> Diagnosis:
     )
 
 
-KIND = Kind((".py",), fault, plan, command, run_loop, diagnosis, environment, brings_bridge=True)
+SUFFIXES = (".py", ".launch.xml", ".launch.yaml")
+KIND = Kind(SUFFIXES, fault_of, plan, command, run_loop, diagnosis, environment, brings_bridge=True)

@@ -173,6 +173,10 @@ def test_the_fault_of_a_launch_comes_with_file_and_line(record):
     sentence = "The launch failed: bringup.launch.py, line 26: NameError: name 'x' is not defined"
     assert launch_fault(recording) == diagnose(recording, LOOKS) == sentence
     assert outcome_of(recording) == "student_error"
+    of_xml = {"error": "/submission/bringup.launch.xml:2:3: there is no action <nod>", "exit_code": 1, "running": False}
+    facts = {"launch": GOOD | of_xml, "exit_code": 1, "exit_at": 0.0}
+    said = launch_fault(record(facts=facts))
+    assert said == "The launch failed: bringup.launch.xml, line 2, column 3: there is no action <nod>"
 
 
 def test_a_launch_without_fault_has_none(record):
