@@ -57,9 +57,10 @@ def test_a_submission_comes_out_as_its_case_says(case, tmp_path, grade, root):
 
 @pytest.mark.proof
 @pytest.mark.skipif(not TEXTBOOK.is_dir(), reason="the textbook's files are not beside the repository")
-def test_the_textbook_teleop_earns_full_marks(grade):
+def test_the_textbook_teleop_counts_ticks_and_is_told(grade):
     outcome = grade("03_teleop", TEXTBOOK / "teleop_node.py")
-    assert (outcome.code, outcome.report["score"], outcome.report["diagnosis"]) == (0, 100, "")
+    assert (outcome.code, outcome.report["score"], outcome.failed()) == (1, 65, {"stops", "five_seconds"})
+    assert "self.elapsed += 0.1: your node counts ticks" in outcome.report["diagnosis"]
 
 
 @pytest.mark.proof

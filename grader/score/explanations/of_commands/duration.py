@@ -32,7 +32,7 @@ def _wrong(drive: Drive, duration: float) -> bool:
 
 @explains
 def counts_commands(drive: Drive) -> str:
-    """Find a count of ticks of a usual period that makes up the time, although the ticks came otherwise."""
+    """Find a count of ticks of a usual period that makes up the time, although the ticks came less often."""
     _, duration, number = _only_push(drive)
     if not number or number < 4 or not _wrong(drive, duration):
         return ""
@@ -44,7 +44,7 @@ def counts_commands(drive: Drive) -> str:
                 "counted as seconds"
             )
         for tick in (0.01, 0.02, 0.05, 0.1, 0.2, 0.25, 0.5):
-            if abs((number + off) * tick - drive.seconds) < 1e-6 and abs(period - tick) > 0.05 * tick:
+            if abs((number + off) * tick - drive.seconds) < 1e-6 and period > 1.05 * tick:
                 return (
                     f"{number} commands were sent before the stop, as many as a timer of {tick:g} s has ticks in "
                     f"{drive.seconds:g} s, but they came {period:.2f} s apart: your node counts ticks, "
