@@ -26,12 +26,16 @@ def case_param(name):
 
 
 def shorter_course(root, folder, exercise, duration):
-    """A course with one exercise that lasts `duration` seconds."""
+    """A course with one exercise that lasts `duration` seconds, with the usual ticks."""
     copy = folder / "exercises" / exercise
     shutil.copytree(root / "exercises" / exercise, copy)
     manifest = copy / "exercise.toml"
     lines = manifest.read_text().splitlines()
-    lines = [f"duration = {duration}" if line.startswith("duration = ") else line for line in lines]
+    lines = [
+        f"duration = {duration}" if line.startswith("duration = ") else line
+        for line in lines
+        if not line.startswith("tick = ")
+    ]
     manifest.write_text("\n".join(lines))
     return folder
 
