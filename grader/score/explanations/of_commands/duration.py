@@ -37,7 +37,7 @@ def counts_commands(drive: Drive) -> str:
     if not number or number < 4 or not _wrong(drive, duration):
         return ""
     period = duration / number
-    for off in (0, 1, -1):
+    for off in (0, -1):
         if abs(number + off - drive.seconds) < 0.01 and abs(period - 1) > 0.05:
             return (
                 f"after {number} commands, {period:.2f} s apart, the robot was stopped: ticks of the timer were "
@@ -57,6 +57,8 @@ def counts_commands(drive: Drive) -> str:
 def whole_seconds(drive: Drive) -> str:
     begin, duration, number = _only_push(drive)
     if not number or not _wrong(drive, duration) or not 0.95 * drive.seconds <= duration <= drive.seconds + 1.3:
+        return ""
+    if np.ptp(drive.linear[drive.moving, 0]) > 0.01:
         return ""
     end = begin + duration
     tick = 0.3 if np.isnan(drive.period) else 1.1 * drive.period + 0.02

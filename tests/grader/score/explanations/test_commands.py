@@ -50,6 +50,8 @@ WRONG = {
     "the robot drives straight": drive(scaled(1, 0)),
     "are swapped": drive(lambda now, calls: right(now, calls)[::-1]),
     "all 32 commands were zero": drive(lambda now, calls: STOP),
+    "0.40 m/s where": drive(scaled(0.8, 1)),
+    "so weak a turn": drive(scaled(1, 0.1)),
     "your node counts ticks": drive(lambda now, calls: GO if calls < 25 else STOP, period=0.2),
     "ticks of the timer were counted as seconds": drive(lambda now, calls: GO if calls < 5 else STOP, period=0.5),
     "and not one stops it": drive(lambda now, calls: GO),
@@ -78,6 +80,11 @@ def test_the_wrong_field_is_named():
     sideways = drive(right)
     sideways.angular[:, 0], sideways.angular[:, 2] = sideways.angular[:, 2], 0.0
     assert "angular.x was set to 0.10, but the robot takes its command from angular.z" in explain(sideways)
+
+
+def test_a_drive_that_is_too_long_is_not_taken_for_counted_ticks():
+    six = explain(drive(lambda now, calls: GO if now - TICK < 6.0 else STOP))
+    assert ("counts ticks" not in six and "driven for" in six) or "whole seconds" in six
 
 
 @pytest.mark.parametrize(("period", "tick"), [(0.1, 0.25), (0.1, 0.01), (0.05, 0.01), (0.5, 0.25)])
