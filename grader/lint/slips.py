@@ -106,7 +106,7 @@ def decimal_commas(tree: ast.AST) -> Iterator[Place]:
         elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith("create_timer") and len(node.args) >= 3:
             values = node.args[:2]
         if _two_whole(values):
-            yield node.lineno, _comma(values)
+            yield values[0].lineno, _comma(values)
 
 
 def _two_whole(values: list[ast.expr]) -> bool:

@@ -60,11 +60,12 @@ def score(recording: Recording, exercise: Exercise) -> Score:
         outcome = "graded"  # all that was asked for was seen, whatever could not be followed beside it
     diagnosis = diagnose(recording, explained.looks)
     if failed and not diagnosis:
-        worst = max(
-            failed, key=lambda check: (not check.finding.gated, bool(check.finding.explanation), check.spec.points)
-        )
+        worst = max(failed, key=lambda check: (not check.finding.gated, check.spec.points))
         remarks = [remark(recording, [check.finding for check in failed]) for remark in explained.remarks]
         seen, why = worst.finding.measured, worst.finding.explanation
+        other = next((check for check in failed if check.finding.explanation and not check.finding.gated), None)
+        if other is not None and not why:
+            remarks.append(f"{other.spec.title}: {other.finding.explanation}.")
         said = f"{worst.spec.title}: {f'{why} ({seen})' if why else seen}. {worst.spec.hint}"
         diagnosis = " ".join(filter(None, (*remarks, said)))
     return Score(checks, outcome, diagnosis if failed else "", truth_sha256(recording, exercise.robot))

@@ -26,12 +26,16 @@ def case_param(name):
 
 
 def shorter_course(root, folder, exercise, duration):
-    """A course with one exercise that lasts `duration` seconds."""
+    """A course with one exercise that lasts `duration` seconds, with the usual ticks."""
     copy = folder / "exercises" / exercise
     shutil.copytree(root / "exercises" / exercise, copy)
     manifest = copy / "exercise.toml"
     lines = manifest.read_text().splitlines()
-    lines = [f"duration = {duration}" if line.startswith("duration = ") else line for line in lines]
+    lines = [
+        f"duration = {duration}" if line.startswith("duration = ") else line
+        for line in lines
+        if not line.startswith("tick = ")
+    ]
     manifest.write_text("\n".join(lines))
     return folder
 
@@ -57,9 +61,10 @@ def test_a_submission_comes_out_as_its_case_says(case, tmp_path, grade, root):
 
 @pytest.mark.proof
 @pytest.mark.skipif(not TEXTBOOK.is_dir(), reason="the textbook's files are not beside the repository")
-def test_the_textbook_teleop_earns_full_marks(grade):
+def test_the_textbook_teleop_counts_ticks_and_is_told(grade):
     outcome = grade("03_teleop", TEXTBOOK / "teleop_node.py")
-    assert (outcome.code, outcome.report["score"], outcome.report["diagnosis"]) == (0, 100, "")
+    assert (outcome.code, outcome.report["score"], outcome.failed()) == (1, 65, {"stops", "five_seconds"})
+    assert "self.elapsed += 0.1: your node counts ticks" in outcome.report["diagnosis"]
 
 
 @pytest.mark.proof

@@ -22,6 +22,11 @@ def test_without_a_near_one_all_are_listed_in_order():
     assert did_you_mean("xyz", many, listing="there are").endswith("10, 11, ...")
 
 
+def test_the_name_itself_is_not_proposed():
+    assert nearest_name("scan", ["scan"]) == "" and nearest_name("scan", ["scan", "scans"]) == "scans"
+    assert did_you_mean("scan", ["scan"], listing="there are") == ""
+
+
 def test_without_any_name_nothing_is_said():
     assert did_you_mean("xyz", [], listing="there are") == ""
     assert nearest_name("xyz", [], 0.0) == ""

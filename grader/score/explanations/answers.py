@@ -22,6 +22,7 @@ from gz_course.grader.registry import modules
 
 FEWEST = 4  # answers; fewer may fit by chance
 NEARLY_ALL = 0.9
+LAST = 3
 MOST = 2  # explanations that are named
 
 
@@ -77,8 +78,8 @@ _notices: list[Notice] = []
 def predicts(words: str, only: Sequence[str] = (), rank: int = 1) -> Callable[[Prediction], Prediction]:
     """Register a prediction, for these statistics only; `words` end the sentence "your answers are ...".
 
-    Of several that fit those of the lowest rank are named: 0 is for one that hardly fits by chance, 2 for one that
-    chooses among several numbers.
+    Of several that fit those of the lowest rank are named first: 0 is for one that hardly fits by chance, 2 for one
+    that chooses among several numbers, 3 (`LAST`) for one that is named only if no other fits.
     """
 
     def register(function: Prediction) -> Prediction:
@@ -111,9 +112,11 @@ def explain(asked: Asked) -> str:
     found: list[str] = []
     with warnings.catch_warnings(), np.errstate(all="ignore"):
         warnings.simplefilter("ignore", RuntimeWarning)  # such as the mean of no ranges, which is NaN
-        for _, words, only, prediction in sorted(_predictions, key=lambda each: each[0]):
+        for rank, words, only, prediction in sorted(_predictions, key=lambda each: each[0]):
             if only and asked.statistic not in only:
                 continue
+            if rank == LAST and found:
+                break
             if _fits(asked, wrong, np.asarray(prediction(asked), dtype=float)):
                 found.append(words)
     told = f"your answers are {', or '.join(found[:MOST])}" if found else ""

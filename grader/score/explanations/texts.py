@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Callable
+from itertools import combinations
 
 import numpy as np
 
@@ -28,18 +29,13 @@ def difference(said: str, wanted: str) -> str:
     if said.startswith(("std_msgs", "b'", "{'data", "data:")) or "String(data=" in said:
         return "the text is that of a whole message or of bytes: only its words belong into data"
     plain = unicodedata.normalize("NFKC", said)
-    found: list[str] = []
-    for name, without in IGNORED.items():
-        if without(plain) == without(wanted):
-            return f"the text differs in {name} only"
-    both = plain
-    target = wanted
-    for name, without in IGNORED.items():
-        if without(both) != both or without(target) != target:
-            both, target = without(both), without(target)
-            found.append(name)
-        if both == target:
-            return f"the text differs in {', '.join(found[:-1])} and {found[-1]}"
+    for number in range(1, len(IGNORED) + 1):
+        for names in combinations(IGNORED, number):
+            one, other = plain, wanted
+            for name in names:
+                one, other = IGNORED[name](one), IGNORED[name](other)
+            if one == other:
+                return f"the text differs in {' and '.join(names)} only"
     if nearest_name(said, [wanted], 0.8):
         return "the text is nearly right: compare it letter by letter"
     if wanted in said:

@@ -2,9 +2,11 @@
 
 import pytest
 import rclpy
+from geometry_msgs.msg import Twist
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.time import Time
+from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Float32, String
 
 from gz_course.grader.score.python_errors import meaning
@@ -20,6 +22,11 @@ class Forgetful(Node):
         pass
 
     def no_message(self):
+        pass
+
+
+class Handed:
+    def no_message(self, message):
         pass
 
 
@@ -54,6 +61,32 @@ MISTAKES = {
     "time.nanoseconds / 1e9": lambda node: Time(seconds=1).to_sec(),
     "compare a Duration with a Duration": lambda node: Duration(seconds=1) < 5.0,
     "numbers and Times do not mix": lambda node: 5.0 - Time(seconds=1),
+    "the start has not been set": lambda node: Time(seconds=1) - None,
+    "the depth of the queue, is missing": lambda node: node.create_subscription(String, "/a", print),
+    "the last one is the depth, a number": lambda node: node.create_subscription(String, "/a", 10, print),
+    "what follows the depth is given by its name": lambda node: node.create_subscription(String, "/a", print, 10, None),
+    "create_timer(PERIOD in seconds, callback)": lambda node: node.create_timer(print, 1.0),
+    "def no_message(self, message) one for a subscription": lambda node: Handed().no_message(),
+    "rclpy.spin(node)": lambda node: rclpy.spin(),
+    "spin_once(node, timeout_sec=0.1)": lambda node: rclpy.spin_once(node, 0.1),
+    "from rclpy.node import Node": lambda node: rclpy.Node,
+    "belongs to a node: self.create_publisher": lambda node: rclpy.create_publisher,
+    "the field of a LaserScan is called ranges": lambda node: LaserScan().range,
+    "a Twist has the fields linear, angular": lambda node: Twist().x,
+    "the field of a Float32 is called data": lambda node: Float32().value,
+    "the package is called std_msgs": lambda node: __import__("std_msg.msg"),
+    "capitals count": lambda node: exec("from sensor_msgs.msg import Laserscan"),
+    "handed over without brackets": lambda node: eval("nothing()", {"nothing": None}),
+    "as in self.get_logger().info": lambda node: node.get_logger.info("x"),
+    "stamp.sec + stamp.nanosec / 1e9": lambda node: LaserScan().header.stamp.nanoseconds,
+    "the condition has kept no value": lambda node: min([]),
+    "a number becomes a part of a text": lambda node: "speed " + 1.0,
+    "reached with self.publisher": lambda node: eval("publisher"),
+    "the import of Twist is missing": lambda node: eval("Twist", {}),
+    "self.start is not set when it is used": lambda node: Handed().start,
+    "spelt": lambda node: Handed().publishr,
+    "names consist of letters": lambda node: node.create_publisher(String, "/a b", 10),
+    "must come first": lambda node: Forgetful(),
 }
 
 

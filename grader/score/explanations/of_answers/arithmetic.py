@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from gz_course.grader.score.explanations.answers import Asked, predicts
+from gz_course.grader.score.explanations.answers import LAST, Asked, predicts
 
 MEAN, COUNT, MINIMUM = "mean", "valid_count", "minimum"
 LENGTHS = (MINIMUM, MEAN)
@@ -129,6 +129,26 @@ def share(asked: Asked) -> np.ndarray:
 @predicts("the percentage of all rays that is valid, not their number", only=(COUNT,))
 def percentage(asked: Asked) -> np.ndarray:
     return 100 * share(asked)
+
+
+@predicts("rounded up to whole numbers", only=LENGTHS)
+def rounded_up(asked: Asked) -> np.ndarray:
+    return np.ceil(asked.truth)
+
+
+@predicts("the right value with the same number added each time", rank=LAST)
+def shifted(asked: Asked) -> np.ndarray:
+    if np.ptp(asked.truth) <= 3 * asked.tolerance:
+        return np.full(len(asked.truth), np.nan)
+    return asked.truth + np.nanmedian(asked.given - asked.truth)
+
+
+@predicts("the right value times the same factor each time", rank=LAST)
+def in_proportion(asked: Asked) -> np.ndarray:
+    if np.ptp(asked.truth) <= 3 * asked.tolerance:
+        return np.full(len(asked.truth), np.nan)
+    factor = np.nanmedian(asked.given / asked.truth)
+    return asked.truth * factor if abs(factor) > 1e-3 else np.full(len(asked.truth), np.nan)
 
 
 def _scaled(asked: Asked, factor: float) -> np.ndarray:

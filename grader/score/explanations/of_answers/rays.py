@@ -122,6 +122,38 @@ def ahead(asked: Asked) -> np.ndarray:
     return best
 
 
+@predicts("those of a part of the rays only, not of those all around", rank=2)
+def part_of_the_circle(asked: Asked) -> np.ndarray:
+    eighths = [(begin, end) for begin in range(8) for end in range(begin + 1, 9) if end - begin < 8]
+    return _best(
+        asked,
+        [_over(asked, _slice(begin, end)) for begin, end in eighths],
+    )
+
+
+@predicts("those of the rays within another bound than range_min and range_max, such as a number in the file", rank=2)
+def other_bounds(asked: Asked) -> np.ndarray:
+    above = [_over(asked, _between(limit, np.inf)) for limit in (0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 1.0, 2.0)]
+    below = [_over(asked, _between(-np.inf, limit)) for limit in (1.0, 2.0, 3.0, 3.5, 4.0, 5.0, 8.0)]
+    return _best(asked, above + below)
+
+
+def _slice(begin: int, end: int) -> Choice:
+    """Return the choice of the valid rays between two eighths of a scan."""
+    return lambda row, low, high: _valid(row[len(row) * begin // 8 : len(row) * end // 8], low, high)
+
+
+def _between(least: float, most: float) -> Choice:
+    """Return the choice of the valid ranges between two more bounds [m]."""
+    return lambda row, low, high: _valid(row[(row > least) & (row < most)], low, high)
+
+
+def _best(asked: Asked, candidates: list[np.ndarray]) -> np.ndarray:
+    """Return the candidate that meets most answers."""
+    met = [int(np.sum(np.abs(each - asked.given) <= asked.tolerance)) for each in candidates]
+    return candidates[int(np.argmax(met))]
+
+
 @predicts("the sum of the valid ranges divided by the number of all rays, not of the valid ones", only=(MEAN,))
 def divided_by_all_rays(asked: Asked) -> np.ndarray:
     if asked.scans is None:

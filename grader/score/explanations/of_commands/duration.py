@@ -32,19 +32,19 @@ def _wrong(drive: Drive, duration: float) -> bool:
 
 @explains
 def counts_commands(drive: Drive) -> str:
-    """Find a count of ticks of a usual period that makes up the time, although the ticks came otherwise."""
+    """Find a count of ticks of a usual period that makes up the time, although the ticks came less often."""
     _, duration, number = _only_push(drive)
     if not number or number < 4 or not _wrong(drive, duration):
         return ""
     period = duration / number
-    for off in (0, 1, -1):
+    for off in (0, -1):
         if abs(number + off - drive.seconds) < 0.01 and abs(period - 1) > 0.05:
             return (
                 f"after {number} commands, {period:.2f} s apart, the robot was stopped: ticks of the timer were "
                 "counted as seconds"
             )
         for tick in (0.01, 0.02, 0.05, 0.1, 0.2, 0.25, 0.5):
-            if abs((number + off) * tick - drive.seconds) < 1e-6 and abs(period - tick) > 0.05 * tick:
+            if abs((number + off) * tick - drive.seconds) < 1e-6 and period > 1.05 * tick:
                 return (
                     f"{number} commands were sent before the stop, as many as a timer of {tick:g} s has ticks in "
                     f"{drive.seconds:g} s, but they came {period:.2f} s apart: your node counts ticks, "
@@ -57,6 +57,8 @@ def counts_commands(drive: Drive) -> str:
 def whole_seconds(drive: Drive) -> str:
     begin, duration, number = _only_push(drive)
     if not number or not _wrong(drive, duration) or not 0.95 * drive.seconds <= duration <= drive.seconds + 1.3:
+        return ""
+    if np.ptp(drive.linear[drive.moving, 0]) > 0.01:
         return ""
     end = begin + duration
     tick = 0.3 if np.isnan(drive.period) else 1.1 * drive.period + 0.02

@@ -89,7 +89,17 @@ def other_speed(drive: Drive) -> str:
     for factor, reason in SPEEDS.items():
         if _near(float(values[0]), factor * drive.speed):
             return f"linear.x was {values[0]:.2f} m/s where {drive.speed:g} m/s is asked for: {reason}"
+    if abs(values[0] - drive.speed) > 0.1 * drive.speed:
+        return f"linear.x was {values[0]:.2f} m/s where {drive.speed:g} m/s is asked for"
     return ""
+
+
+@explains
+def weak_turn(drive: Drive) -> str:
+    turning = np.abs(drive.angular[drive.moving, 2])
+    if not len(turning) or not 0 < float(np.max(turning)) < 0.02:
+        return ""
+    return f"angular.z was at most {np.max(turning):.3g} rad/s: so weak a turn is hardly one"
 
 
 @explains

@@ -97,3 +97,10 @@ def test_nothing_at_all(said):
 def test_an_author_s_mistake_is_told(said, wrong):
     with pytest.raises(ManifestError, match="check 'it'"):
         found(said((1.0, "hi")), **wrong)
+
+
+def test_a_message_that_was_lost_has_been_sent(record, found):
+    recording = record({"topics/hello/count": [(1.0, 1.0)]}, facts={"too_early": {"/hello": 1}})
+    finding = found("messages", recording, topic="hello", count=[1, 1])
+    assert not finding.passed and "1 more was sent before anybody had found the publisher" in finding.measured
+    assert found("messages", recording, topic="hello", count=[1]).passed

@@ -131,6 +131,7 @@ def test_a_row_too_many_or_too_few(found, rows, words):
         ("gz_topic", "/imu", ["not the one that /scan is joined with"]),
         ("gz_topic", "/lidarr", ["Gazebo has no topic /lidarr", "look at its spelling"]),
         ("gz_type", "sensor_msgs/msg/LaserScan", ["is a ROS type"]),
+        ("gz_type", "gz/msgs/LaserScan", ["is not how Gazebo writes a type", "gz.msgs.Name"]),
         ("gz_type", "gz.msgs.Laserscan", ["does not carry", "look at its spelling"]),
         ("direction", "ROS_TO_GZ", ["travel the other way"]),
         ("direction", "BIDIRECTIONAL", ["one way only"]),

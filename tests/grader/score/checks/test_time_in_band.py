@@ -87,3 +87,11 @@ def test_right_values_that_lasted_no_time_are_a_matter_of_time(record):
     blink = time_in_band(record({SPEED: [(0, 0.5), (0, 0.0)]}), PARAMETERS)
     assert (blink.passed, blink.timing, blink.measured[:20]) == (False, True, "in band for 0.00 s; ")
     assert not time_in_band(record({SPEED: [(0, 5.0), (1, 0.0)]}), PARAMETERS).timing
+
+
+def test_the_usual_value_is_measured_over_what_was_sent(record, found):
+    sent = [(0.1, 0.5), *((0.1 * n, 0.0) for n in range(2, 82))]
+    finding = found(
+        "time_in_band", record({"v": sent}), conditions=[{"signal": "v", "low": 0.45, "name": "it"}], seconds=[4.7]
+    )
+    assert finding.measured.endswith("it was 0.50 in 1 of 81 values and 0 in the others")

@@ -1,0 +1,97 @@
+"""Wrong drives, one misconception each, by a timer whose clock comes seldom; the first sentence names the fault."""
+
+import math
+
+import numpy as np
+import pytest
+
+from gz_course.grader.score.explanations.commands import Drive, explain
+
+END, TICK = 8.0, 0.25
+
+
+def drive(program, period=0.1, tick=TICK):
+    """Return what arrives of a program, called with the time [s] and the number of the call, that may return None."""
+    due, calls, rows = period, 0, []
+    for step in range(1, round(END / tick) + 1):
+        now = step * tick
+        if now + 1e-9 < due:
+            continue
+        due += period * math.ceil((now - due) / period + 1e-6)  # a timer misses ticks
+        sent = program(now, calls)
+        calls += 1
+        for each in sent if isinstance(sent, list) else [sent] if sent else []:
+            rows.append((now, *each))
+    table = np.array(rows, dtype=float).reshape(-1, 3)
+    linear, angular = np.zeros((len(table), 3)), np.zeros((len(table), 3))
+    linear[:, 0], angular[:, 2] = table[:, 1], table[:, 2]
+    return Drive(table[:, 0], linear, angular, END, 0.5, 5.0)
+
+
+GO, STOP = (0.5, 0.1), (0.0, 0.0)
+
+
+def right(now, calls):
+    return GO if now - TICK < 5.0 else STOP
+
+
+def scaled(linear, angular):
+    return lambda now, calls: (linear * right(now, calls)[0], angular * right(now, calls)[1])
+
+
+WRONG = {
+    "the speed in km/h": drive(scaled(3.6, 1)),
+    "the speed in cm/s": drive(scaled(100, 1)),
+    "half the speed": drive(scaled(0.5, 1)),
+    "twice the speed": drive(scaled(2, 1)),
+    "drives backwards": drive(scaled(-1, 1)),
+    "turns to the right": drive(scaled(1, -1)),
+    "degrees per second": drive(scaled(1, 57.3)),
+    "the robot drives straight": drive(scaled(1, 0)),
+    "are swapped": drive(lambda now, calls: right(now, calls)[::-1]),
+    "all 32 commands were zero": drive(lambda now, calls: STOP),
+    "0.40 m/s where": drive(scaled(0.8, 1)),
+    "so weak a turn": drive(scaled(1, 0.1)),
+    "your node counts ticks": drive(lambda now, calls: GO if calls < 25 else STOP, period=0.2),
+    "ticks of the timer were counted as seconds": drive(lambda now, calls: GO if calls < 5 else STOP, period=0.5),
+    "and not one stops it": drive(lambda now, calls: GO),
+    "your node falls silent": drive(lambda now, calls: GO if now < 5.2 else None),
+    "one command only arrived": drive(lambda now, calls: GO if calls == 0 else None),
+    "whole seconds": drive(lambda now, calls: GO if int(now) - int(TICK) <= 5 else STOP),
+    "microseconds": drive(lambda now, calls: GO if (now - TICK) * 1000 < 5.0 else STOP),
+    "half of what is asked for": drive(lambda now, calls: GO if now - TICK < 2.5 else STOP),
+    "where 5 s are asked for": drive(lambda now, calls: GO if now - TICK < 3.5 else STOP),
+    "the wrong way round": drive(lambda now, calls: STOP if now - TICK < 5.0 else GO),
+    "first driven at 2.25 s": drive(lambda now, calls: right(now - 2.0, calls) if now > 2.1 else None),
+    "alternates between 0.00 and 0.50": drive(lambda now, calls: GO if calls % 2 else STOP),
+    "two publish() calls": drive(lambda now, calls: [GO, STOP] if now < 5.2 else STOP),
+    "driven again at": drive(lambda now, calls: GO if now % 4 < 2.6 else STOP),
+    "a ramp": drive(lambda now, calls: (min(0.5, 0.02 * calls), 0.1) if now < 5.2 else STOP),
+    "angular.z stays at 0.10": drive(lambda now, calls: GO if now < 5.2 else (0.0, 0.1)),
+}
+
+
+def test_every_misconception_is_named():
+    said = {words: explain(each) for words, each in WRONG.items()}
+    assert {words: sentence for words, sentence in said.items() if words not in sentence} == {}
+
+
+def test_the_wrong_field_is_named():
+    sideways = drive(right)
+    sideways.angular[:, 0], sideways.angular[:, 2] = sideways.angular[:, 2], 0.0
+    assert "angular.x was set to 0.10, but the robot takes its command from angular.z" in explain(sideways)
+
+
+def test_a_drive_that_is_too_long_is_not_taken_for_counted_ticks():
+    six = explain(drive(lambda now, calls: GO if now - TICK < 6.0 else STOP))
+    assert ("counts ticks" not in six and "driven for" in six) or "whole seconds" in six
+
+
+@pytest.mark.parametrize(("period", "tick"), [(0.1, 0.25), (0.1, 0.01), (0.05, 0.01), (0.5, 0.25)])
+def test_a_right_drive_has_no_explanation(period, tick):
+    assert explain(drive(lambda now, calls: GO if now - period < 5.0 else STOP, period, tick)) == ""
+
+
+def test_two_that_fit_are_both_named():
+    both = explain(drive(lambda now, calls: (-0.5, -0.1) if now < 5.2 else STOP))
+    assert "drives backwards" in both and "turns to the right" in both

@@ -1,0 +1,46 @@
+"""Texts that are nearly right, messages at a wrong moment, and files looked for in the wrong folder."""
+
+import numpy as np
+import pytest
+
+from gz_course.grader.score.explanations.texts import difference, wrong_moment
+from gz_course.grader.score.launched import looked_elsewhere
+
+WANTED = "hello, robot"
+
+
+@pytest.mark.parametrize(
+    ("said", "words"),
+    [
+        (WANTED, ""),
+        ("", ""),
+        ("something else", ""),
+        ("Hello, robot", "capitals and small letters only"),
+        ("hello robot", "punctuation marks only"),
+        ("hello,robot", "spaces only"),
+        ("'hello, robot'", "quotation marks only"),
+        ("hello, robot\n", "white space before or after"),
+        ("Hello robot!", "capitals and small letters and punctuation marks"),
+        ("hello, robto", "letter by letter"),
+        ("std_msgs.msg.String(data='hello, robot')", "that of a whole message"),
+        ("I say hello, robot and then some more", "more than is asked for"),
+    ],
+)
+def test_the_difference_is_named(said, words):
+    assert words in difference(said, WANTED) and bool(words) == bool(difference(said, WANTED))
+
+
+@pytest.mark.parametrize(
+    ("first", "words"), [(1.0, ""), (2.0, "twice"), (0.1, "a tenth"), (0.2, "too soon"), (2.6, "too late")]
+)
+def test_the_moment_is_named(first, words):
+    said = wrong_moment(np.array([first]), (0.9, 1.6))
+    assert words in said and bool(words) == bool(said)
+
+
+def test_a_relative_path_is_named():
+    bridge = "bridge.yaml: cannot read the bridge configuration: No such file or directory"
+    python = "/usr/bin/python3: can't open file '/tmp/stopwatch.py': [Errno 2] No such file or directory"
+    assert "bridge.yaml was looked for in the folder in which ros2 launch was called" in looked_elsewhere(bridge)
+    assert "Path(__file__).parent / 'stopwatch.py'" in looked_elsewhere(python)
+    assert looked_elsewhere("bridge.yaml:3: not valid YAML") == looked_elsewhere("") == ""
