@@ -29,7 +29,7 @@ gc.disable()  # until everything is imported: it would find nothing to collect
 
 @pytest.hookimpl(trylast=True)  # when the profile is that of the command line
 def pytest_configure(config):
-    watch_over_this_process()
+    watch_over_this_process(config._tmp_path_factory.getbasetemp())
     if hasattr(config, "workerinput") and not sys.dont_write_bytecode:
         compile_share(config)
     if settings.get_current_profile_name() == "repeatable":

@@ -9,6 +9,7 @@ import time
 import uuid
 from pathlib import Path
 
+import psutil
 import pytest
 
 from gz_course.tests.process_guard import MARK, marked
@@ -16,6 +17,7 @@ from gz_course.tests.process_guard import MARK, marked
 ROOT = Path(__file__).parents[1]
 DEADLINE = 150.0
 # A test that has started: a program with a child, each in a session of its own, deaf to everything but SIGKILL.
+# The child has an environment of its own, as a graded submission has.
 HANGING = """
 import subprocess, sys, threading
 
@@ -24,12 +26,14 @@ import os, signal, subprocess, sys, threading
 for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
     signal.signal(number, signal.SIG_IGN)
 if len(sys.argv) < 3:
-    subprocess.Popen([sys.executable, "-c", sys.argv[1], sys.argv[1], "below"], start_new_session=True).wait()
+    home = {"HOME": os.path.join(os.environ["HOME"], "below")}
+    subprocess.Popen([sys.executable, "-c", sys.argv[1], sys.argv[1], "below"], start_new_session=True, env=home)
 open(f"hangs_{os.getpid()}", "x").close()
 threading.Event().wait()
 '''
 
-def test_that_hangs():
+def test_that_hangs(tmp_path, monkeypatch):
+    monkeypatch.setenv("HOME", str(tmp_path))
     subprocess.Popen([sys.executable, "-c", PROGRAM, PROGRAM], start_new_session=True).wait()
 """
 
@@ -57,10 +61,12 @@ def test_a_run_that_is_ended_leaves_nothing(tmp_path, number, workers):
         cwd=tmp_path,
     )
     try:
-        wait_until(lambda: len(list(tmp_path.glob("hangs_*"))) == max(1, workers), "nothing hangs")
+        wait_until(lambda: len(list(tmp_path.glob("hangs_*"))) == 2 * max(1, workers), "nothing hangs")
+        hanging = [int(path.name.removeprefix("hangs_")) for path in tmp_path.glob("hangs_*")]
         run.send_signal(number)
         assert run.wait(DEADLINE) == -number
         wait_until(lambda: not marked(mark), "something is left")
+        wait_until(lambda: not any(psutil.pid_exists(each) for each in hanging), "the child is left")
     finally:
         run.kill()  # its guard ends the rest
         run.wait(DEADLINE)
