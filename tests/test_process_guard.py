@@ -17,7 +17,7 @@ from gz_course.tests.process_guard import MARK, marked
 ROOT = Path(__file__).parents[1]
 DEADLINE = 150.0
 # A test that has started: a program with a child, each in a session of its own, deaf to everything but SIGKILL.
-# The child has an environment of its own, as a graded submission has.
+# The child has lost its parent and has an environment of its own, as a graded submission has.
 HANGING = """
 import subprocess, sys, threading
 
@@ -27,7 +27,9 @@ for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
     signal.signal(number, signal.SIG_IGN)
 if len(sys.argv) < 3:
     home = {"HOME": os.path.join(os.environ["HOME"], "below")}
-    subprocess.Popen([sys.executable, "-c", sys.argv[1], sys.argv[1], "below"], start_new_session=True, env=home)
+    if os.fork() == 0:
+        subprocess.Popen([sys.executable, "-c", sys.argv[1], sys.argv[1], "below"], start_new_session=True, env=home)
+        os._exit(0)
 open(f"hangs_{os.getpid()}", "x").close()
 threading.Event().wait()
 '''
