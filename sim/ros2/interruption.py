@@ -34,8 +34,11 @@ def check() -> None:
 
 
 def _unraisable(dropped: sys.UnraisableHookArgs) -> None:
-    """Suppress the report about an interruption that Python drops, because `check` raises it again."""
-    if not (_received and isinstance(dropped.exc_value, KeyboardInterrupt)):
+    """Suppress the report about an interruption that Python drops, because `check` raises it again.
+
+    Suppress that about an object whose `__init__` was interrupted, too: its `__del__` misses attributes.
+    """
+    if not (_received and isinstance(dropped.exc_value, KeyboardInterrupt | AttributeError)):
         sys.__unraisablehook__(dropped)
 
 

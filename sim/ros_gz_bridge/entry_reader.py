@@ -166,7 +166,7 @@ class EntryReader:
             return Direction.BIDIRECTIONAL
         words = [direction.value for direction in Direction]
         if text not in words:
-            guess = did_you_mean(text.upper(), words)
+            guess = did_you_mean(text, words)
             self._wrong("direction", f"the direction '{text}' is none of {', '.join(words)}{guess}")
             return Direction.BIDIRECTIONAL
         return Direction(text)
@@ -176,7 +176,7 @@ class EntryReader:
         if text is None:
             return None
         if text not in QOS_PROFILES:
-            guess = did_you_mean(text.upper(), QOS_PROFILES)
+            guess = did_you_mean(text, QOS_PROFILES)
             sentence = f"the QoS profile '{text}' is none of {', '.join(QOS_PROFILES)}{guess}"
             self._wrong("qos_profile", sentence, tolerated=True)
             return None

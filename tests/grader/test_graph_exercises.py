@@ -50,7 +50,7 @@ def test_a_table_is_told_its_first_wrong_row(grade, root, tmp_path):
         "--html", tmp_path / "report.html", "--gradescope", tmp_path / "results.json",
     )  # fmt: skip
     assert (outcome.code, outcome.failed()) == (1, {"rows"})
-    assert "line 27: /lidar is what Gazebo calls it; in ROS it is /scan" in outcome.report["diagnosis"]
+    assert "line 27: /lidar is what Gazebo calls it; in ROS it has another name" in outcome.report["diagnosis"]
     own = Recording(outcome.recording)
     assert "on patrol" in "".join(line.text for line in own.lines("log/given_node"))
     assert own.lines("log/student") == [], "a table says nothing"

@@ -1,5 +1,6 @@
 """A signal that arrives where Python drops exceptions takes effect at the next check."""
 
+import gc
 import os
 import signal
 import sys
@@ -16,6 +17,19 @@ class Deaf:
         os.kill(os.getpid(), signal.SIGINT)
         for _ in range(1000):
             pass
+
+
+class HalfMade:
+    """An object that is interrupted while it is made, such as a Future of rclpy."""
+
+    def __init__(self):
+        os.kill(os.getpid(), signal.SIGINT)
+        for _ in range(1000):
+            pass
+        self.made = True
+
+    def __del__(self):
+        assert self.made
 
 
 class Broken:
@@ -42,6 +56,13 @@ def test_an_interrupt_that_python_drops_is_heard_later_and_not_printed(listening
     assert deaf == []
     with pytest.raises(KeyboardInterrupt):
         interruption.check()
+    assert capsys.readouterr().err == ""
+
+
+def test_an_object_that_an_interrupt_left_half_made_says_nothing(listening, capsys):
+    with pytest.raises(KeyboardInterrupt):
+        HalfMade()
+    gc.collect()
     assert capsys.readouterr().err == ""
 
 
