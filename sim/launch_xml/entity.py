@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.did_you_mean import did_you_mean, nearest_name
 from gz_course.sim.launch.errors import Place
 from gz_course.sim.launch.frontend.entity import Entity as FrontendEntity
 from gz_course.sim.launch.frontend.entity import EntityError, LaunchText
@@ -122,7 +122,9 @@ class Entity(FrontendEntity):
 
     def _nearest_attribute(self, name: str) -> str:
         other = [each for each in self._attributes if _OTHER_NAMES.get(each) == name]
-        return f"; '{other[0]}' is not its name" if other else did_you_mean(name, self._attributes)
+        found = other[0] if other else nearest_name(name, self._attributes)
+        return f"; it has '{found}'" if found else ""
 
     def _nearest_child(self, name: str) -> str:
-        return did_you_mean(name, [each.type_name for each in self._children])
+        found = nearest_name(name, [each.type_name for each in self._children])
+        return f"; it has <{found}>" if found else ""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.did_you_mean import did_you_mean, nearest_name
 from gz_course.sim.launch.errors import Place
 from gz_course.sim.launch.frontend.entity import Entity as FrontendEntity
 from gz_course.sim.launch.frontend.entity import EntityError, LaunchText
@@ -92,7 +92,8 @@ class Entity(FrontendEntity):
         if name not in attributes or attributes[name] is None:
             if optional:
                 return None
-            hint = did_you_mean(name, [each for each in attributes if isinstance(each, str)])
+            found = nearest_name(name, [each for each in attributes if isinstance(each, str)])
+            hint = f"; it has '{found}'" if found else ""
             raise EntityError(self, f"{self.described()} lacks the key '{name}'{hint}")
         value = attributes[name]
         self.source.read = self, name

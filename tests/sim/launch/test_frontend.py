@@ -113,7 +113,7 @@ def test_files_of_all_kinds_include_each_other(run, write):
 MISTAKES = [
     ("<launch>\n  <nod pkg='a'/>\n</launch>", "2:3: there is no action <nod>; did you mean 'node'?"),
     ("<launch>\n  <param name='a'/>\n</launch>", "2:3: there is no action <param>; write set_parameter"),
-    ("<launch>\n  <log mesage='a'/>\n</launch>", "2:3: <log> lacks the attribute 'message'; did you mean 'mesage'?"),
+    ("<launch>\n  <log mesage='a'/>\n</launch>", "2:3: <log> lacks the attribute 'message'; it has 'mesage'"),
     ("<launch>\n  <log message='a' iff='1'/></launch>", "2:20: <log> has no attribute 'iff'; did you mean 'if'?"),
     ("<launch>\n  <node exec='a' type='b'/></launch>", "2:18: <node> has no attribute 'type'; write exec"),
     ("<launch>\n  <log\n   message='$(vra x)'/></launch>", "3:4: 'message' of <log>: there is no substitution $(vra "),
@@ -140,7 +140,7 @@ MISTAKES = [
     ("<launch>\n<log message='a'></launch>", "2:20: this is no XML: mismatched tag; <log> of line 2 is open"),
     ("", "this is no XML: no element found"),
     ("launch:\n  - nod: {pkg: a}\n", "2:5: there is no action 'nod'; did you mean 'node'?"),
-    ("launch:\n  - log: {mesage: a}\n", "2:5: 'log' lacks the key 'message'; did you mean 'mesage'?"),
+    ("launch:\n  - log: {mesage: a}\n", "2:5: 'log' lacks the key 'message'; it has 'mesage'"),
     ("launch:\n  - log: {message: a, iff: 1}\n", "2:23: 'log' has no key 'iff'; did you mean 'if'?"),
     ("launch:\n  - log: {message: 1}\n", "2:11: 'message' of 'log' is 1, not text; write '1' with its quotes"),
     ("launch:\n  - log: a\n", "2:5: below 'log' stands 'a', not keys with values"),
