@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
-from typing import Any
+
+from gz_course.grader.lint.syntax import Places, places_in
 
 MOST = 3  # places reported at most
 LONGEST_PERIOD = 60.0  # [s] a longer period of a timer was hardly meant
@@ -19,12 +20,12 @@ MESSAGE_FIELDS = frozenset({"data", "x", "y", "z", "w"})
 Place = tuple[int, str]
 
 
-def slips(content: bytes) -> list[dict[str, Any]]:
+def slips(content: bytes) -> Places:
     """Return `line` and `said`, the words of a sentence, of each such place; nothing if the file is not Python."""
-    try:
-        tree = ast.parse(content)
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return []
+    return places_in(content, _places)
+
+
+def _places(tree: ast.Module) -> Places:
     found = [place for look in LOOKS for place in look(tree)]
     return [{"line": line, "said": said} for line, said in found[:MOST]]
 

@@ -9,6 +9,8 @@ from __future__ import annotations
 import ast
 from typing import Any
 
+from gz_course.grader.lint.syntax import Places, places_in
+
 ASKED = frozenset(
     f"time.{name}{unit}" for name in ("time", "monotonic", "perf_counter", "process_time") for unit in ("", "_ns")
 )
@@ -18,12 +20,12 @@ WAITED = frozenset({"time.sleep", "asyncio.sleep", "threading.Timer"})
 MOST = 5  # places reported at most
 
 
-def wall_clock(content: bytes) -> list[dict[str, Any]]:
+def wall_clock(content: bytes) -> Places:
     """Return `line`, `call` and whether it `waits`, for each such place in a file; nothing if it is not Python."""
-    try:
-        tree = ast.parse(content)
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return []
+    return places_in(content, _places)
+
+
+def _places(tree: ast.Module) -> Places:
     names = _imported(tree)
     found: list[dict[str, Any]] = []
     for node in ast.walk(tree):

@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from gz_course.grader.errors import ManifestError
+from gz_course.grader.lint.syntax import Places, places_in
 
 MOST = 5  # places reported at most
 FLOATS = frozenset({"float", "double"})
@@ -48,16 +49,12 @@ def _walk(message: Any, found: dict[str, set[str]]) -> set[str]:
     return paths
 
 
-def whole_numbers(content: bytes, fields: dict[str, set[str]]) -> list[dict[str, Any]]:
+def whole_numbers(content: bytes, fields: dict[str, set[str]]) -> Places:
     """Return `line`, `field` and the `value` as written, for each such place; nothing if the file is not Python.
 
     `fields` is what `float_fields` returns. A zero is sent correctly and is not reported.
     """
-    try:
-        tree = ast.parse(content)
-        return sorted(_places(tree, fields), key=lambda place: place["line"])[:MOST]
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return []
+    return places_in(content, lambda tree: sorted(_places(tree, fields), key=lambda place: place["line"])[:MOST])
 
 
 def _places(tree: ast.Module, fields: dict[str, set[str]]) -> Iterator[dict[str, Any]]:
