@@ -28,6 +28,18 @@ _TYPES |= {f"{name}[]": GenericAlias(list, (kind,)) for name, kind in _TYPES.ite
 Pairs = list[tuple[list[Any], list[Any]]]
 
 
+def parse_node_options(entity: Entity, parser: Parser) -> dict[str, Any]:
+    """Read `<param>` and `<remap>` of a node as its options `parameters` and `remappings`, if there are any."""
+    options: dict[str, Any] = {}
+    remappings = entity.get_attr("remap", data_type=list[Entity], optional=True)
+    if remappings is not None:
+        options["remappings"] = parse_remappings(remappings, parser)
+    parameters = entity.get_attr("param", data_type=list[Entity], optional=True)
+    if parameters is not None:
+        options["parameters"] = parse_nested_parameters(parameters, parser)
+    return options
+
+
 def parse_nested_parameters(parameters: Iterable[Entity], parser: Parser) -> list[Any]:
     """Return the elements as the `parameters` of Node."""
     result: list[Any] = []

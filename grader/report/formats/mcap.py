@@ -82,7 +82,7 @@ def _rows(recording: Recording, left_out: list[str]) -> Iterator[Row]:
 
 def _leaves(kind: str) -> dict[str, str] | None:
     """Return the type of each field of a message that is no message itself, by its path; None if it cannot be kept."""
-    from gz_course.sim.rosbag2.definitions import UNKNOWN, definition, parts_of
+    from gz_course.sim.rosbag2.definitions import UNKNOWN, definition, nested_types, parts_of
 
     encoding, text = definition(kind)
     if encoding == UNKNOWN[0]:
@@ -91,8 +91,6 @@ def _leaves(kind: str) -> dict[str, str] | None:
     found: dict[str, str] = {}
 
     def walk(name: str, path: str) -> bool:
-        from gz_course.sim.rosbag2.definitions import nested_types
-
         for line in parts[name].splitlines():
             words = line.partition("#")[0].split()
             if len(words) < 2 or "=" in line.partition("#")[0].replace("<=", ""):

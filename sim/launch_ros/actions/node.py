@@ -28,7 +28,7 @@ from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, p
 from gz_course.sim.launch_ros.actions.push_ros_namespace import NAMESPACE
 from gz_course.sim.launch_ros.actions.set_parameter import PARAMETERS
 from gz_course.sim.launch_ros.actions.set_remap import REMAPS
-from gz_course.sim.launch_ros.nested_parameters import parse_nested_parameters, parse_remappings
+from gz_course.sim.launch_ros.nested_parameters import parse_node_options
 from gz_course.sim.launch_ros.node_name import check_namespace, check_node_name, joined
 from gz_course.sim.launch_ros.parameter_descriptions import Parameter, ParameterFile, write_parameter_file
 from gz_course.sim.launch_ros.parameter_values import ParameterTypeError, as_argument, as_file, check_value, flattened
@@ -103,13 +103,7 @@ class Node(ExecuteProcess):
             words = entity.get_attr(name, optional=True)
             if words is not None:
                 options[option] = command_words(words, parser)
-        remappings = entity.get_attr("remap", data_type=list[Entity], optional=True)
-        if remappings is not None:
-            options["remappings"] = parse_remappings(remappings, parser)
-        parameters = entity.get_attr("param", data_type=list[Entity], optional=True)
-        if parameters is not None:
-            options["parameters"] = parse_nested_parameters(parameters, parser)
-        return cls, options
+        return cls, options | parse_node_options(entity, parser)
 
     @property
     def node_name(self) -> str | None:

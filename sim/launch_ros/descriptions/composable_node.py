@@ -10,7 +10,7 @@ from gz_course.sim.launch.frontend.entity import Entity
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from gz_course.sim.launch_ros.component_programs import program_of
-from gz_course.sim.launch_ros.nested_parameters import parse_nested_parameters, parse_remappings
+from gz_course.sim.launch_ros.nested_parameters import parse_nested_parameters, parse_node_options
 
 if TYPE_CHECKING:
     from gz_course.sim.launch.frontend import Parser
@@ -48,12 +48,7 @@ class ComposableNode:
             value = entity.get_attr(name, optional=name not in ("pkg", "plugin"))
             if value is not None:
                 options[option] = parser.parse_substitution(value)
-        parameters = entity.get_attr("param", data_type=list[Entity], optional=True)
-        if parameters is not None:
-            options["parameters"] = parse_nested_parameters(parameters, parser)
-        remappings = entity.get_attr("remap", data_type=list[Entity], optional=True)
-        if remappings is not None:
-            options["remappings"] = parse_remappings(remappings, parser)
+        options |= parse_node_options(entity, parser)
         extra = entity.get_attr("extra_arg", data_type=list[Entity], optional=True)
         if extra is not None:
             options["extra_arguments"] = parse_nested_parameters(extra, parser)

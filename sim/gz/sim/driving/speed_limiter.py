@@ -13,6 +13,14 @@ from dataclasses import dataclass
 
 from gz_course.sim.gz.sim.sdf.element import Element
 
+_BOUNDS, _QUANTITIES = ("min", "max"), ("velocity", "acceleration", "jerk")
+
+
+def limit_parameters(*axes: str) -> list[str]:
+    """Return the parameters that set limits: `min_velocity` ... `max_jerk`, and those of each axis."""
+    prefixes = ("", *(f"{axis}_" for axis in axes))
+    return [f"{bound}_{prefix}{quantity}" for bound in _BOUNDS for prefix in prefixes for quantity in _QUANTITIES]
+
 
 @dataclass
 class SpeedLimiter:
@@ -31,12 +39,12 @@ class SpeedLimiter:
     def from_sdf(cls, element: Element, axis: str) -> SpeedLimiter:
         """Read `min_velocity` ... `max_jerk`; names with `axis`, as `min_linear_velocity`, take precedence."""
         limiter = cls()
-        for bound in ("min", "max"):
-            for quantity in ("velocity", "acceleration", "jerk"):
+        for bound in _BOUNDS:
+            for quantity in _QUANTITIES:
                 value = element.number(f"{bound}_{quantity}", getattr(limiter, f"{bound}_{quantity}"))
                 value = element.number(f"{bound}_{axis}_{quantity}", value)
                 setattr(limiter, f"{bound}_{quantity}", value)
-        for quantity in ("velocity", "acceleration", "jerk"):
+        for quantity in _QUANTITIES:
             lower, upper = getattr(limiter, f"min_{quantity}"), getattr(limiter, f"max_{quantity}")
             if lower > upper:
                 raise element.error(f"min {axis} {quantity} ({lower}) is above max {axis} {quantity} ({upper})")

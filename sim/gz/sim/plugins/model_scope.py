@@ -85,6 +85,15 @@ class ModelScope:
                 found.append(link)
         return found
 
+    def named_link(self, element: Element) -> Link | None:
+        """Return the link named by `<link_name>`; None, with a warning, if no link has the name.
+
+        Raises SdfError if there is no `<link_name>`.
+        """
+        if element.find("link_name") is None:
+            raise element.error(f"{self.system} needs a <link_name>, none was found")
+        return next(iter(self.find_links(element)), None)
+
     def _warn_missing(self, child: Element, kind: str, parts: Sequence[Joint | Link]) -> None:
         known = [self.own_name(part.name) for part in parts if part.name.startswith(self._prefix)]
         hint = did_you_mean(child.text, known, listing=f"its {kind}s are")

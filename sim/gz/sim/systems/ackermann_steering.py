@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.driving.odometry_reports import OdometryReports
-from gz_course.sim.gz.sim.driving.speed_limiter import SpeedLimiter
+from gz_course.sim.gz.sim.driving.speed_limiter import SpeedLimiter, limit_parameters
 from gz_course.sim.gz.sim.physics.servos import MAX_WHEEL_SPEED, VELOCITY, WHEEL, Drive, JointServo, find_drive
 from gz_course.sim.gz.sim.plugins.model_scope import ModelScope
 from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, system
@@ -31,7 +31,6 @@ STRAIGHT = 0.001
 """Turning rates [rad/s] below this value mean straight driving."""
 _WHEELS = ("left_joint", "right_joint")
 _STEERING = ("left_steering_joint", "right_steering_joint")
-_LIMITS = [f"{bound}_{what}" for bound in ("min", "max") for what in ("velocity", "acceleration", "jerk")]
 _SIZES = {
     "wheel_separation": 1.0,
     "kingpin_width": 0.8,
@@ -50,7 +49,7 @@ class AckermannSteering(System):
             *_WHEELS,
             *_STEERING,
             *_SIZES,
-            *_LIMITS,
+            *limit_parameters(),
             *OdometryReports.parameters,
             "topic",
             "sub_topic",

@@ -16,7 +16,7 @@ import numpy as np
 
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.driving.odometry_reports import OdometryReports
-from gz_course.sim.gz.sim.driving.speed_limiter import SpeedLimiter
+from gz_course.sim.gz.sim.driving.speed_limiter import SpeedLimiter, limit_parameters
 from gz_course.sim.gz.sim.driving.wheel_odometry import WheelOdometry
 from gz_course.sim.gz.sim.physics.servos import MAX_WHEEL_SPEED, WHEEL, JointServo
 from gz_course.sim.gz.sim.plugins.model_scope import ModelScope
@@ -30,12 +30,6 @@ if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
 
-_LIMITS = [
-    f"{bound}_{axis}{quantity}"
-    for bound in ("min", "max")
-    for axis in ("", "linear_", "angular_")
-    for quantity in ("velocity", "acceleration", "jerk")
-]
 
 
 @system("DiffDrive", "gz-sim-diff-drive-system")
@@ -44,7 +38,7 @@ class DiffDrive(System):
 
     parameters = frozenset(
         [
-            *_LIMITS,
+            *limit_parameters("linear", "angular"),
             "left_joint",
             "right_joint",
             "wheel_separation",

@@ -64,9 +64,7 @@ class Hydrodynamics(System):
         element = plugin.element
         self.world = world
         self.scope = ModelScope(world, model, plugin, self.name)
-        if element.find("link_name") is None:
-            raise element.error("Hydrodynamics needs a <link_name>, none was found")
-        self._link = next(iter(self.scope.find_links(element)), None)
+        self._link = self.scope.named_link(element)
         self._linear = _table(element, _names(""))
         self._quadratic = np.stack([_table(element, _names("", each)) for each in _VELOCITIES], axis=2)
         self._absolute = np.stack([_table(element, _names("", f"abs{each}")) for each in _VELOCITIES], axis=2)

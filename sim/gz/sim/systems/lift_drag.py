@@ -51,9 +51,7 @@ class LiftDrag(System):
         element = plugin.element
         self.world = world
         self.scope = ModelScope(world, model, plugin, self.name)
-        if element.find("link_name") is None:
-            raise element.error("LiftDrag needs a <link_name>, none was found")
-        self._link = next(iter(self.scope.find_links(element)), None)
+        self._link = self.scope.named_link(element)
         self._joint = next(iter(self.scope.find_joints(element, "control_joint_name")), None)
         if element.find("control_joint_name") is not None and self._joint is None:
             self._link = None  # As in Gazebo there is no force at all.

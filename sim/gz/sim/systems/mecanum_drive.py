@@ -19,7 +19,7 @@ import numpy as np
 
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.driving.odometry_reports import OdometryReports
-from gz_course.sim.gz.sim.driving.speed_limiter import SpeedLimiter
+from gz_course.sim.gz.sim.driving.speed_limiter import SpeedLimiter, limit_parameters
 from gz_course.sim.gz.sim.physics import surface_motion
 from gz_course.sim.gz.sim.physics.contacts import CollisionGeoms
 from gz_course.sim.gz.sim.physics.pushes import cross
@@ -39,12 +39,6 @@ _CORNERS = ("front_left_joint", "front_right_joint", "back_left_joint", "back_ri
 _FORWARD = np.array((1.0, 1.0, 1.0, 1.0))
 _LEFTWARD = np.array((-1.0, 1.0, 1.0, -1.0))
 _ROUND = np.array((-1.0, 1.0, -1.0, 1.0))
-_LIMITS = [
-    f"{bound}_{axis}{quantity}"
-    for bound in ("min", "max")
-    for axis in ("", "linear_", "angular_")
-    for quantity in ("velocity", "acceleration", "jerk")
-]
 
 
 @system("MecanumDrive", "gz-sim-mecanum-drive-system")
@@ -52,7 +46,12 @@ class MecanumDrive(System):
     """Drives one model. Parameters and defaults are Gazebo's."""
 
     parameters = frozenset(
-        (*_LIMITS, *_CORNERS, "wheel_separation", "wheelbase", "wheel_radius", "topic", *OdometryReports.parameters)
+        (
+            *limit_parameters("linear", "angular"),
+            *_CORNERS,
+            *("wheel_separation", "wheelbase", "wheel_radius", "topic"),
+            *OdometryReports.parameters,
+        )
     )
 
     @classmethod

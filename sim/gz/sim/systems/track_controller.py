@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gz_course.sim.gz.sim.driving.speed_limiter import SpeedLimiter
+from gz_course.sim.gz.sim.driving.speed_limiter import SpeedLimiter, limit_parameters
 from gz_course.sim.gz.sim.physics import surface_motion
 from gz_course.sim.gz.sim.physics.contacts import CollisionGeoms
 from gz_course.sim.gz.sim.physics.pushes import cross
@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
 
-_LIMITS = [f"{bound}_{quantity}" for bound in ("min", "max") for quantity in ("velocity", "acceleration", "jerk")]
 _ACROSS = np.array((0.0, 1.0, 0.0))
 
 
@@ -40,7 +39,7 @@ class TrackController(System):
 
     parameters = frozenset(
         (
-            *_LIMITS,
+            *limit_parameters(),
             "link",
             "velocity_topic",
             "center_of_rotation_topic",
