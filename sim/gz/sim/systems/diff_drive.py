@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from gz_course.sim.gz.transport import Node
 
 
-
 @system("DiffDrive", "gz-sim-diff-drive-system")
 class DiffDrive(System):
     """Drives one model with wheels on its left and right side. Parameters and defaults are Gazebo's."""
