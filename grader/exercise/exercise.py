@@ -9,7 +9,7 @@ from __future__ import annotations
 import hashlib
 import os
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 from gz_course.grader.errors import ManifestError, UsageError
@@ -42,7 +42,7 @@ class Exercise:
     title: str
     summary: str
     kind: str  # of submission: a folder in `kinds/`
-    file: str  # the file a submission consists of
+    file: str  # the file that is started
     world: str
     robot: str
     duration: float  # [s] simulated
@@ -52,6 +52,7 @@ class Exercise:
     observe: dict[str, str]  # ROS topics the student is to publish on -> type
     script: tuple[ScriptedCommand, ...]
     checks: tuple[CheckSpec, ...]
+    files: tuple[str, ...] = ()  # further files that students edit, by their path beside `file`
     trials: tuple[Trial, ...] = (PUBLIC,)  # the public ones; a single one without parameters if the manifest lists none
 
     @property
@@ -71,8 +72,13 @@ class Exercise:
         return sum(check.points for check in self.checks)
 
     @property
+    def parts(self) -> tuple[str, ...]:
+        """The files a submission consists of, that which is started first."""
+        return (self.file, *self.files)
+
+    @property
     def starter(self) -> Path:
-        """The file students begin with and edit."""
+        """The file students begin with and edit; the others of `parts` lie beside it."""
         return self.folder / self.file
 
 
@@ -127,6 +133,7 @@ def load_exercise(folder: Path) -> Exercise:
         summary=manifest.text("summary").strip(),
         kind=kind,
         file=manifest.text("file"),
+        files=tuple(manifest.texts("files")) if manifest.has("files") else (),
         world=run.text("world"),
         robot=run.text("robot"),
         duration=run.number("duration", above=0),
@@ -140,12 +147,19 @@ def load_exercise(folder: Path) -> Exercise:
     )
     if Path(exercise.file).name != exercise.file:
         manifest.refuse("file", "the name of a file, without folders")
+    if any(not _is_below(name) for name in exercise.files) or len(set(exercise.parts)) < len(exercise.parts):
+        manifest.refuse("files", "paths of further files below the exercise's folder, each once")
     for table in (run, manifest):
         table.end()
     ids = [check.id for check in exercise.checks]
     if twice := {i for i in ids if ids.count(i) > 1}:
         raise ManifestError(f"{path}: check id {sorted(twice)[0]!r} is used twice")
     return exercise
+
+
+def _is_below(name: str) -> bool:
+    path = PurePosixPath(name)
+    return bool(path.parts) and not path.is_absolute() and ".." not in path.parts and str(path) == name
 
 
 def _observed(table: Table) -> dict[str, str]:

@@ -100,9 +100,10 @@ def _fill(copy: Path, root: Path, code: Path, exercises: list[Exercise]) -> None
     for name in FILES:
         shutil.copy(code / name, copy / name)
     for exercise in exercises:
-        kept = copy / STARTERS / exercise.name / exercise.file
-        kept.parent.mkdir(parents=True)
-        shutil.copy(copy / exercise.starter.relative_to(root), kept)
+        for name in exercise.parts:
+            kept = copy / STARTERS / exercise.name / name
+            kept.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(copy / exercise.folder.relative_to(root) / name, kept)
     (copy / "README.md").write_text(readme(copy, exercises), encoding="utf-8")
 
 
@@ -122,7 +123,8 @@ def _files(folder: Path) -> Iterator[Path]:
 def _private_files(exercise: Exercise) -> list[tuple[Path, frozenset[str]]]:
     """Return the solution and the accepted variants of an exercise, each with its lines."""
     folder = exercise.twin
-    found = [folder / exercise.file, *sorted(folder.glob(f"accepted/*/{exercise.file}"))]
+    found = [folder / name for name in exercise.parts]
+    found += [path for name in exercise.parts for path in sorted(folder.glob(f"accepted/*/{name}"))]
     return [(path, lines) for path in found if path.is_file() and (lines := _lines(path))]
 
 
