@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from typing import Any
 
+from gz_course.grader.course_folder.material import material
 from gz_course.grader.errors import ManifestError, UsageError
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.exercise.trial import PUBLIC, ScriptedCommand, Trial, read_trials
@@ -83,14 +84,14 @@ class Exercise:
 
 
 def course_root() -> Path:
-    """Return the folder that holds `exercises/`: COURSE_ROOT, the nearest one from here upwards, or the repository."""
+    """Return the folder that holds `exercises/`: COURSE_ROOT, the nearest from here upwards, or that of this code."""
     if given := os.environ.get("COURSE_ROOT"):
         return Path(given)
     here = Path.cwd()
     for folder in (here, *here.parents):
         if any((folder / "exercises").glob(f"*/{MANIFEST}")):
             return folder
-    return Path(__file__).parents[2]
+    return material()
 
 
 def exercise_names(root: Path) -> list[str]:
