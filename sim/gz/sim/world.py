@@ -198,6 +198,7 @@ class World:
             overlaps.add_pairs(spec, model, data, found)
             model, data = self._compile(spec, before)
         self.model, self.data = model, data
+        self._warned = data.warning.number  # a view
         self._overlaps = overlaps.Overlaps(model, found)
         self.truth.bind(model, data)
 
@@ -259,6 +260,8 @@ class World:
     def step(self, n: int = 1, ended: Callable[[], bool] | None = None) -> int:
         """Run `n` physics steps with all systems; queued requests of other threads run before each step.
 
+        Steps in which no system has anything to do are physics alone.
+
         Stop before the next step if `ended()` is true after such requests. Return how many steps have run. Raises
         `SimError` with the name of the body if the physics becomes unstable.
         """
@@ -273,6 +276,7 @@ class World:
                     break
             model, data, colliding = self.model, self.data, self._overlaps
             pre_updates, in_steps, post_updates = systems.pre_updates, systems.in_steps, systems.post_updates
+            samples = systems.samples
             origin_ns, step_ns = self._origin_ns, self.description.step_size_ns
             requests.enter_step()
             try:
@@ -294,13 +298,26 @@ class World:
                     if colliding.active:
                         colliding.relax(data)
                     truth.stale = True  # a system may have refreshed the poses before the step
+                    for sample in samples:
+                        sample()
                     for post_update in post_updates:
                         post_update(info)
                     if waiting or done >= n:
                         break
+                    for _ in range(0 if colliding.active else systems.steps_at_rest(info, n - done)):
+                        advance(model, data)
+                        for sample in samples:
+                            sample()
+                        truth.stale = True
+                        done += 1
+                        self.iterations += 1
+                        if waiting:
+                            break
+                    if waiting or done >= n:
+                        break
             finally:
                 requests.leave_step()
-            if data.warning.number[UNSTABLE].any():
+            if any(map(self._warned.item, UNSTABLE)):
                 raise SimError(why_unstable(self.description, model, data, self.sim_time_ns))
         return done
 

@@ -68,6 +68,11 @@ class OdometryReports:
         self._last_ns = now_ns
         return True
 
+    @property
+    def next_ns(self) -> int:
+        """The simulated time [ns] from which the next message is due."""
+        return self._last_ns + self._period_ns
+
     def publish(
         self, now_ns: int, pose: tuple[float, float, float], linear: float, angular: float, left: float = 0.0
     ) -> None:

@@ -11,14 +11,12 @@ from typing import TYPE_CHECKING
 
 from gz_course.sim.gz.sim.errors import SdfError
 from gz_course.sim.gz.sim.plugins.sensor import SensorBase, sensor_types
-from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, system
+from gz_course.sim.gz.sim.plugins.system import FOREVER_NS, System, UpdateInfo, system
 from gz_course.sim.gz.sim.sdf.description import Model, Plugin, Sensor
 
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
-
-_NEVER = 1 << 62
 
 
 class SensorSystem(System):
@@ -112,7 +110,10 @@ class SensorSystem(System):
         for sensor in self.sensors:
             if now >= sensor.next_update_ns:
                 sensor.run(now)
-        self._next_ns = min((sensor.next_update_ns for sensor in self.sensors), default=_NEVER)
+        self._next_ns = min((sensor.next_update_ns for sensor in self.sensors), default=FOREVER_NS)
+
+    def rests_until(self, info: UpdateInfo) -> int:
+        return self._next_ns
 
 
 def sensor_system(name: str, filename: str) -> str:

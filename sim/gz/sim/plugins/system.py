@@ -3,8 +3,8 @@
 A system is a file in `gz/sim/systems` with a class under the `@system` decorator; nothing else has to be edited.
 `RunningSystems` calls `find_system` for every plugin and then the hooks of the class: `servos` before the physics model
 is built, `configure` once, `bind` after each build, `start` at time zero and after a reset, `connect` when a transport
-node is attached, `pre_update` and `post_update` around every physics step and `in_step` within, and `paused_update`
-while a server is paused.
+node is attached, `pre_update` and `post_update` around every physics step and `in_step` within, `sample` after it, and
+`paused_update` while a server is paused. While all systems rest (`rests_until`), only `sample` is called.
 
 Source: https://gazebosim.org/api/sim/8/createsystemplugins.html
 """
@@ -27,6 +27,10 @@ from gz_course.sim.gz.sim.sdf.description import Model, Plugin
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
+
+
+FOREVER_NS = 1 << 62
+"""A simulated time [ns] that no run reaches."""
 
 
 class UpdateInfo:
@@ -86,6 +90,16 @@ class System:
 
     def post_update(self, info: UpdateInfo) -> None:
         """Read the result of the physics step, for example publish it."""
+
+    def sample(self) -> None:
+        """Record the state after a physics step, before `post_update`; called in every step, also at rest."""
+
+    def rests_until(self, info: UpdateInfo) -> int:
+        """Return the simulated time [ns] of the next step in which `pre_update` or `post_update` has something to do.
+
+        Asked after a step; the hooks are not called in the steps before that time. 0 means the next step.
+        """
+        return 0
 
     def paused_update(self, info: UpdateInfo) -> None:
         """Publish what is due while a running server is paused; called ten times per second of wall time and after

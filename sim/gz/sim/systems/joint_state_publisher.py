@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from gz_course.sim.gz.sim.physics.joint_axis import JointAxis, find_axes
 from gz_course.sim.gz.sim.plugins.model_scope import ModelScope
 from gz_course.sim.gz.sim.plugins.period import period_ns
-from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, system
+from gz_course.sim.gz.sim.plugins.system import FOREVER_NS, System, UpdateInfo, system
 from gz_course.sim.gz.sim.plugins.topics import valid_topic
 from gz_course.sim.gz.sim.pose import Pose, rotate
 from gz_course.sim.gz.sim.sdf.description import UNLIMITED, Axis, Joint, Model, Plugin
@@ -22,6 +22,10 @@ from gz_course.sim.gz.sim.sdf.description import UNLIMITED, Axis, Joint, Model, 
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
+
+
+_REST_NS = 5_000_000
+"""Simulated time [ns] after which it looks again whether there is a subscriber."""
 
 
 @system("JointStatePublisher", "gz-sim-joint-state-publisher-system")
@@ -66,6 +70,13 @@ class JointStatePublisher(System):
         self._last_ns = info.sim_time_ns
         if self._publisher is not None and self._publisher.has_connections():
             self._publish(info.sim_time_ns)
+
+    def rests_until(self, info: UpdateInfo) -> int:
+        if self._publisher is None:
+            return FOREVER_NS
+        if self._period_ns or self._publisher.has_connections():
+            return self._last_ns + self._period_ns
+        return info.sim_time_ns + _REST_NS
 
     def paused_update(self, info: UpdateInfo) -> None:
         """Publish the last state again, as Gazebo does."""
