@@ -156,7 +156,7 @@ class RunningSystems:
         self.in_steps = self._hooks("in_step")
         self.post_updates = self._hooks("post_update")
         self.paused_updates = self._hooks("paused_update")
-        self.samples = self._hooks("sample")
+        self.samples = [each.sampler() for each in self if _overrides(each, "sampler")]
         stepped = [each for each in self if _overrides(each, "pre_update") or _overrides(each, "post_update")]
         able = not self.in_steps and all(_overrides(each, "rests_until") and not each.pushes for each in stepped)
         self._rests = [each.rests_until for each in stepped] if able else None

@@ -49,6 +49,7 @@ class Server:
         """True after a client has requested the end of the server."""
         world.attach(node)
         stem = world.topic
+        self._clock: Any = Clock()
         self._clocks = [node.advertise(topic, Clock) for topic in ("/clock", f"{stem}/clock")]
         self._stats = [node.advertise(topic, WorldStatistics) for topic in ("/stats", f"{stem}/stats")]
         self._factor = 0.0
@@ -212,7 +213,7 @@ class Server:
         listened = [publisher for publisher in self._clocks if publisher.has_connections()]
         if not listened:
             return
-        message = Clock()
+        message = self._clock
         _fill_time(message.sim, self.world.sim_time_ns)
         _fill_time(message.real, self._real_time_ns())
         _fill_time(message.system, time.time_ns())

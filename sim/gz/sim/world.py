@@ -260,10 +260,9 @@ class World:
     def step(self, n: int = 1, ended: Callable[[], bool] | None = None) -> int:
         """Run `n` physics steps with all systems; queued requests of other threads run before each step.
 
-        Steps in which no system has anything to do are physics alone.
-
-        Stop before the next step if `ended()` is true after such requests. Return how many steps have run. Raises
-        `SimError` with the name of the body if the physics becomes unstable.
+        Steps in which no system has anything to do are physics alone. Stop before the next step if `ended()` is true
+        after such requests. Return how many steps have run. Raises `SimError` with the name of the body if the physics
+        becomes unstable.
         """
         requests, info, systems, truth = self.requests, self._info, self.systems, self.truth
         advance = mujoco.mj_step
@@ -281,11 +280,22 @@ class World:
             requests.enter_step()
             try:
                 while True:  # at least one step between two calls of serve()
+                    info.sim_time_ns = origin_ns + self.iterations * step_ns
+                    alone, rested = (0 if colliding.active else systems.steps_at_rest(info, n - done)), 0
+                    while rested < alone and not (rested and waiting):
+                        advance(model, data)
+                        for sample in samples:
+                            sample()
+                        rested += 1
+                    done += rested
+                    self.iterations = iterations = self.iterations + rested
+                    truth.stale = True
+                    if done >= n or (rested and waiting):
+                        break
                     done += 1
-                    self.iterations = iterations = self.iterations + 1
+                    self.iterations = iterations = iterations + 1
                     info.iterations = iterations
                     info.sim_time_ns = origin_ns + iterations * step_ns
-                    truth.stale = True
                     for pre_update in pre_updates:
                         pre_update(info)
                     if in_steps:
@@ -302,17 +312,6 @@ class World:
                         sample()
                     for post_update in post_updates:
                         post_update(info)
-                    if waiting or done >= n:
-                        break
-                    for _ in range(0 if colliding.active else systems.steps_at_rest(info, n - done)):
-                        advance(model, data)
-                        for sample in samples:
-                            sample()
-                        truth.stale = True
-                        done += 1
-                        self.iterations += 1
-                        if waiting:
-                            break
                     if waiting or done >= n:
                         break
             finally:

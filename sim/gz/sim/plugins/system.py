@@ -3,8 +3,8 @@
 A system is a file in `gz/sim/systems` with a class under the `@system` decorator; nothing else has to be edited.
 `RunningSystems` calls `find_system` for every plugin and then the hooks of the class: `servos` before the physics model
 is built, `configure` once, `bind` after each build, `start` at time zero and after a reset, `connect` when a transport
-node is attached, `pre_update` and `post_update` around every physics step and `in_step` within, `sample` after it, and
-`paused_update` while a server is paused. While all systems rest (`rests_until`), only `sample` is called.
+node is attached, `pre_update` and `post_update` around every physics step and `in_step` within, and `paused_update`
+while a server is paused. While all systems rest (`rests_until`), only the functions of `sampler` are called.
 
 Source: https://gazebosim.org/api/sim/8/createsystemplugins.html
 """
@@ -91,8 +91,11 @@ class System:
     def post_update(self, info: UpdateInfo) -> None:
         """Read the result of the physics step, for example publish it."""
 
-    def sample(self) -> None:
-        """Record the state after a physics step, before `post_update`; called in every step, also at rest."""
+    def sampler(self) -> Callable[[], None]:
+        """Return a function that records the state after every physics step, also at rest, before `post_update`; called
+        after each `bind`.
+        """
+        raise NotImplementedError
 
     def rests_until(self, info: UpdateInfo) -> int:
         """Return the simulated time [ns] of the next step in which `pre_update` or `post_update` has something to do.

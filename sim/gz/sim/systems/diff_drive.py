@@ -10,6 +10,7 @@ Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/diff_drive/
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -88,9 +89,6 @@ class DiffDrive(System):
         self._left, self._right = (
             [self._world.truth.joint_address(self._model, joint) for joint in side] for side in self._sides
         )
-        self._positions = self._world.data.qpos
-        self._angles = self._left[0].position, self._right[0].position
-        self._dt = self._world.step_size_ns * 1e-9
 
     def start(self) -> None:
         self._started = False
@@ -144,14 +142,17 @@ class DiffDrive(System):
                 control[address.control] = self._right_speed
             self._written = speeds
 
-    def sample(self) -> None:
-        """Store the wheel angles for the odometry."""
-        item, (left, right) = self._positions.item, self._angles
-        self._odometry.update(item(left), item(right), self._dt)
+    def sampler(self) -> Callable[[], None]:
+        """Return a function that stores the wheel angles for the odometry."""
+        item, store = self._world.data.qpos.item, self._odometry.waiting.append
+        left, right = self._left[0].position, self._right[0].position
+        dt = self._world.step_size_ns * 1e-9
+        return lambda: store((item(left), item(right), dt))
 
     def rests_until(self, info: UpdateInfo) -> int:
-        written = (self._left_speed, self._right_speed) == self._written
-        return self._reports.next_ns if written and self._settled and self._target is self._heeded else 0
+        if self._target is not self._heeded or not self._settled or self._odometry.is_full:
+            return 0
+        return self._reports.next_ns if (self._left_speed, self._right_speed) == self._written else 0
 
     def post_update(self, info: UpdateInfo) -> None:
         """Compute the next wheel speeds; publish the odometry when due."""
@@ -166,9 +167,12 @@ class DiffDrive(System):
             self._started = True
             return
         if self._reports.due(info.sim_time_ns):
-            odometry = self._odometry
-            pose = (odometry.x, odometry.y, odometry.heading)
-            self._reports.publish(info.sim_time_ns, pose, odometry.linear, odometry.angular)
+            if self._reports.has_connections():
+                odometry = self._odometry
+                pose = (odometry.x, odometry.y, odometry.heading)
+                self._reports.publish(info.sim_time_ns, pose, odometry.linear, odometry.angular)
+        elif self._odometry.is_full:
+            self._odometry.catch_up()
 
     def _find_speeds(self, dt: float) -> None:
         """Limit the target and convert it to wheel speeds."""
