@@ -213,10 +213,11 @@ class Server:
         listened = [publisher for publisher in self._clocks if publisher.has_connections()]
         if not listened:
             return
-        message = self._clock
-        _fill_time(message.sim, self.world.sim_time_ns)
-        _fill_time(message.real, self._real_time_ns())
-        _fill_time(message.system, time.time_ns())
+        message = self._clock  # Publishing serializes it at once, so that one message object can be reused.
+        sim, real, system = message.sim, message.real, message.system
+        sim.sec, sim.nsec = divmod(self.world.sim_time_ns, 1_000_000_000)
+        real.sec, real.nsec = divmod(self._real_time_ns(), 1_000_000_000)
+        system.sec, system.nsec = divmod(time.time_ns(), 1_000_000_000)
         for publisher in listened:
             publisher.publish(message)
 

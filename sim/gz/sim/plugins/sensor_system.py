@@ -107,10 +107,12 @@ class SensorSystem(System):
         now = info.sim_time_ns
         if now < self._next_ns:
             return
+        following = FOREVER_NS
         for sensor in self.sensors:
             if now >= sensor.next_update_ns:
                 sensor.run(now)
-        self._next_ns = min((sensor.next_update_ns for sensor in self.sensors), default=FOREVER_NS)
+            following = min(following, sensor.next_update_ns)
+        self._next_ns = following
 
     def rests_until(self, info: UpdateInfo) -> int:
         return self._next_ns
