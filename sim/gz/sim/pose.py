@@ -129,16 +129,19 @@ def product(a: Sequence[float], b: Sequence[float]) -> Quaternion:
 
 def rotate(quaternion: Vector, vector: Vector) -> Vector:
     """Return `vector` rotated by `quaternion` (wxyz)."""
-    w, x, y, z = quaternion.tolist()
-    vx, vy, vz = vector.tolist()
-    # v + 2 w (q x v) + 2 q x (q x v) in plain floats, much faster than arrays of three.
+    return np.array(rotated(quaternion.tolist(), vector.tolist()))
+
+
+def rotated(quaternion: Sequence[float], vector: Sequence[float]) -> tuple[float, float, float]:
+    """Return `vector` rotated by `quaternion` (wxyz) in plain floats, which are faster than arrays."""
+    w, x, y, z = quaternion
+    vx, vy, vz = vector
+    # v + 2 w (q x v) + 2 q x (q x v)
     tx, ty, tz = 2.0 * (y * vz - z * vy), 2.0 * (z * vx - x * vz), 2.0 * (x * vy - y * vx)
-    return np.array(
-        (
-            vx + w * tx + y * tz - z * ty,
-            vy + w * ty + z * tx - x * tz,
-            vz + w * tz + x * ty - y * tx,
-        )
+    return (
+        vx + w * tx + y * tz - z * ty,
+        vy + w * ty + z * tx - x * tz,
+        vz + w * tz + x * ty - y * tx,
     )
 
 
