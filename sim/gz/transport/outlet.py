@@ -106,7 +106,8 @@ class Outlet:
         if not self._waiting:
             return False
         waiting, self._waiting = self._waiting, []
-        self._hold_until = time.monotonic_ns() + _HOLD_NS
+        if self._holding:
+            self._hold_until = time.monotonic_ns() + _HOLD_NS
         if self._socket.closed:
             return False
         for name, data, type_name in waiting:
