@@ -159,16 +159,20 @@ GAZEBO_SYSTEMS = frozenset(
         "ColladaWorldExporter",
         "CommsEndpoint",
         "Contact",
+        "CpuLidar",
         "DetachableJoint",
         "DiffDrive",
         "DopplerVelocityLogSystem",
         "DriveToPoseController",
+        "DynamicDetachableJoint",
         "Elevator",
+        "EntitySemantics",
         "EnvironmentPreload",
         "EnvironmentalSensorSystem",
         "EnvironmentalSystem",
         "FollowActor",
         "ForceTorque",
+        "FreeSpaceExplorer",
         "Hydrodynamics",
         "Imu",
         "JointController",
@@ -179,12 +183,14 @@ GAZEBO_SYSTEMS = frozenset(
         "Label",
         "LensFlare",
         "LiftDrag",
+        "LighterThanAirDynamics",
         "LinearBatteryPlugin",
         "LogPlayback",
         "LogRecord",
         "LogVideoRecorder",
         "LogicalAudioSensorPlugin",
         "LogicalCamera",
+        "LookupWheelSlip",
         "Magnetometer",
         "MecanumDrive",
         "ModelPhotoShoot",
@@ -199,12 +205,10 @@ GAZEBO_SYSTEMS = frozenset(
         "PosePublisher",
         "PythonSystemLoader",
         "RFComms",
-        "ReplayVideo",
         "SceneBroadcaster",
         "Sensors",
         "ShaderParam",
         "SpacecraftThrusterModel",
-        "TempStore",
         "Thermal",
         "ThermalSensor",
         "Thruster",
@@ -219,9 +223,11 @@ GAZEBO_SYSTEMS = frozenset(
         "WindEffects",
     ]
 )
-"""Names of the systems of Gazebo 8, whether they run here or not.
+"""Names of the systems of Gazebo 8 and later, whether they run here or not; EnvironmentalSystem is another name of
+EnvironmentalSensorSystem.
 
-Source: https://github.com/gazebosim/gz-sim/tree/gz-sim8/src/systems
+Source: https://github.com/gazebosim/gz-sim/tree/gz-sim8/src/systems and its branch `main`; the alias is in
+`environmental_sensor_system/EnvironmentalSensorSystem.cc`
 """
 
 
