@@ -175,7 +175,7 @@ class RunningSystems:
     def _clear_forces(self, info: UpdateInfo) -> None:
         self._world.data.xfrc_applied[:] = 0.0
 
-    def _hooks(self, hook: str) -> list[Callable[..., None]]:
+    def _hooks(self, hook: str) -> list[Hook]:
         return [getattr(each, hook) for each in self if _overrides(each, hook)]
 
     def start(self, only: Iterable[Running] | None = None) -> None:

@@ -119,7 +119,10 @@ class Outlet:
         send = self._send  # frame by frame, because send_multipart() takes three times as long
         send(name, _MORE, True)
         send(self._address_on_wire, _MORE, True)
-        send(data, _MORE, len(data) < _NO_COPY_FROM_BYTES)
+        if len(data) < _NO_COPY_FROM_BYTES:
+            send(data, _MORE, True)
+        else:
+            send(data, _MORE, copy=False)
         if self._numbers is None:
             send(type_name, 0, True)
             return

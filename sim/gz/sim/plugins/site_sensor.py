@@ -8,8 +8,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from google.protobuf.message import Message
-
 from gz_course.sim.gz.sim.physics.motion import SiteMotion
 from gz_course.sim.gz.sim.plugins.noise import Channels, Noise
 from gz_course.sim.gz.sim.plugins.sensor import SensorBase
@@ -61,9 +59,9 @@ class SiteSensor(SensorBase):
     def connect(self, node: Node) -> None:
         from gz_course.sim.gz.msgs import message_class
 
-        kind: type[Message] = message_class(self.message_type)
+        kind: Any = message_class(self.message_type)
         self._publisher = node.advertise(self.topic, kind)
-        self._filled: Any = kind()  # used again and again, because publishing serializes it at once
+        self._filled = kind()  # used again and again, because publishing serializes it at once
         self.fill_header(self._filled.header, 0)
         self.fill_constant(self._filled)
 
