@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Vector = NDArray[np.float64]
+Quaternion = tuple[float, float, float, float]
 
 
 def _frozen(values: Sequence[float] | Vector, length: int) -> Vector:
@@ -111,30 +112,36 @@ def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Vector:
 
 def multiply(a: Vector, b: Vector) -> Vector:
     """Return the Hamilton product of two quaternions (wxyz)."""
-    aw, ax, ay, az = a.tolist()
-    bw, bx, by, bz = b.tolist()
-    return np.array(
-        (
-            aw * bw - ax * bx - ay * by - az * bz,
-            aw * bx + ax * bw + ay * bz - az * by,
-            aw * by - ax * bz + ay * bw + az * bx,
-            aw * bz + ax * by - ay * bx + az * bw,
-        )
+    return np.array(product(a.tolist(), b.tolist()))
+
+
+def product(a: Sequence[float], b: Sequence[float]) -> Quaternion:
+    """Return the Hamilton product of two quaternions (wxyz) in plain floats, which are faster than arrays."""
+    aw, ax, ay, az = a
+    bw, bx, by, bz = b
+    return (
+        aw * bw - ax * bx - ay * by - az * bz,
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw,
     )
 
 
 def rotate(quaternion: Vector, vector: Vector) -> Vector:
     """Return `vector` rotated by `quaternion` (wxyz)."""
-    w, x, y, z = quaternion.tolist()
-    vx, vy, vz = vector.tolist()
-    # v + 2 w (q x v) + 2 q x (q x v) in plain floats, much faster than arrays of three.
+    return np.array(rotated(quaternion.tolist(), vector.tolist()))
+
+
+def rotated(quaternion: Sequence[float], vector: Sequence[float]) -> tuple[float, float, float]:
+    """Return `vector` rotated by `quaternion` (wxyz) in plain floats, which are faster than arrays."""
+    w, x, y, z = quaternion
+    vx, vy, vz = vector
+    # v + 2 w (q x v) + 2 q x (q x v)
     tx, ty, tz = 2.0 * (y * vz - z * vy), 2.0 * (z * vx - x * vz), 2.0 * (x * vy - y * vx)
-    return np.array(
-        (
-            vx + w * tx + y * tz - z * ty,
-            vy + w * ty + z * tx - x * tz,
-            vz + w * tz + x * ty - y * tx,
-        )
+    return (
+        vx + w * tx + y * tz - z * ty,
+        vy + w * ty + z * tx - x * tz,
+        vz + w * tz + x * ty - y * tx,
     )
 
 

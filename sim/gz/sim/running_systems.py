@@ -28,6 +28,8 @@ if TYPE_CHECKING:
     from gz_course.sim.gz.transport import Node
 
 Hook = Callable[[UpdateInfo], None]
+MOST_AT_REST = 100
+"""The largest number of steps without hooks, so that a command of another thread is not left waiting."""
 
 
 @dataclass(eq=False)
@@ -55,6 +57,8 @@ class RunningSystems:
         self.pre_updates: list[Hook] = []
         self.in_steps: list[Hook] = []
         self.post_updates: list[Hook] = []
+        self.samples: list[Callable[[], None]] = []
+        self._rests: list[Callable[[UpdateInfo], int]] | None = None
         self.paused_updates: list[Hook] = []
 
     def __iter__(self) -> Iterator[System]:
@@ -152,12 +156,27 @@ class RunningSystems:
         self.in_steps = self._hooks("in_step")
         self.post_updates = self._hooks("post_update")
         self.paused_updates = self._hooks("paused_update")
+        self.samples = [each.sampler() for each in self if _overrides(each, "sampler")]
+        stepped = [each for each in self if _overrides(each, "pre_update") or _overrides(each, "post_update")]
+        able = not self.in_steps and all(_overrides(each, "rests_until") and not each.pushes for each in stepped)
+        self._rests = [each.rests_until for each in stepped] if able else None
+
+    def steps_at_rest(self, info: UpdateInfo, most: int) -> int:
+        """Return in how many of the next steps, at most `most`, no system has anything to do."""
+        if self._rests is None:
+            return 0
+        now, step_ns = info.sim_time_ns, self._world.step_size_ns
+        most = min(most, MOST_AT_REST)
+        until = now + (most + 1) * step_ns
+        for rests_until in self._rests:
+            until = min(until, rests_until(info))
+        return max(0, (until - now - 1) // step_ns)
 
     def _clear_forces(self, info: UpdateInfo) -> None:
         self._world.data.xfrc_applied[:] = 0.0
 
     def _hooks(self, hook: str) -> list[Hook]:
-        return [getattr(each, hook) for each in self if getattr(type(each), hook) is not getattr(System, hook)]
+        return [getattr(each, hook) for each in self if _overrides(each, hook)]
 
     def start(self, only: Iterable[Running] | None = None) -> None:
         """Initialize all systems, or those in `only`, from the present state."""
@@ -238,6 +257,10 @@ class RunningSystems:
             text = _why_silent(sensor, running)
             if text:
                 self._world.diagnostics.warn(sensor.element.where, text)
+
+
+def _overrides(system: System, hook: str) -> bool:
+    return getattr(type(system), hook) is not getattr(System, hook)
 
 
 def parameter_at_fault(plugin: Element, error: SdfError) -> Element | None:

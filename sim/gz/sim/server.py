@@ -23,10 +23,13 @@ from gz_course.sim.gz.sim.errors import LOG, SimError
 from gz_course.sim.gz.sim.world import World
 from gz_course.sim.gz.sim.world_services import WorldServices
 from gz_course.sim.gz.transport import Node
+from gz_course.sim.gz.transport.reach import sending_together
 
 STATS_PERIOD_NS = 100_000_000
 PACE_NS = 5_000_000
 """Simulated time [ns] between two clock messages in `run`; at least one step."""
+BURST_NS = 1_000_000
+"""Wall time [ns] for which messages to other processes are collected in `run` as fast as possible."""
 _NOTICE_S = 0.05
 """Period [s] at which a paused server checks whether it has been stopped."""
 
@@ -46,6 +49,7 @@ class Server:
         """True after a client has requested the end of the server."""
         world.attach(node)
         stem = world.topic
+        self._clock: Any = Clock()
         self._clocks = [node.advertise(topic, Clock) for topic in ("/clock", f"{stem}/clock")]
         self._stats = [node.advertise(topic, WorldStatistics) for topic in ("/stats", f"{stem}/stats")]
         self._factor = 0.0
@@ -107,9 +111,9 @@ class Server:
                 advanced = 0
                 continue
             step_ns = world.step_size_ns
-            count = self.control.steps_allowed(max(1, PACE_NS // step_ns))
-            count = count if left < 0 else min(count, left)
-            count = self._advance(count, iterations > 0)
+            factor = self._wanted_factor(real_time_factor, update_rate)
+            with sending_together():
+                count = self._burst(left, due + BURST_NS if factor == 0.0 else 0, iterations > 0)
             left -= count if left > 0 else 0
             advanced += count * step_ns
             now = time.monotonic_ns()
@@ -119,8 +123,9 @@ class Server:
             if now - beat >= STATS_PERIOD_NS or self.paused:
                 beat = now
                 self._publish_stats()
-            factor = self._wanted_factor(real_time_factor, update_rate)
-            if factor > 0.0:
+            if factor == 0.0:
+                due = now
+            else:
                 due += int(count * step_ns / factor)
                 if due > now:
                     stop.wait((due - now) * 1e-9)
@@ -133,6 +138,18 @@ class Server:
         if update_rate is not None:
             return update_rate * self.world.step_size_ns * 1e-9
         return self.world.description.real_time_factor if real_time_factor is None else real_time_factor
+
+    def _burst(self, left: int, until: int, strict: bool) -> int:
+        """Step and publish the clock, again and again up to the monotonic time `until` [ns], if nothing is asked for;
+        return how many steps have run, at most `left` if it is not negative.
+        """
+        pace = max(1, PACE_NS // self.world.step_size_ns)
+        done = 0
+        while True:
+            count = self.control.steps_allowed(pace)
+            done += self._advance(count if left < 0 else min(count, left - done), strict)
+            if done == left or self.control.changed or self.control.paused or time.monotonic_ns() >= until:
+                return done
 
     def _advance(self, count: int, strict: bool) -> int:
         """Step until a request pauses, steps or resets the world; publish the clock, return how many steps have run.
@@ -196,10 +213,11 @@ class Server:
         listened = [publisher for publisher in self._clocks if publisher.has_connections()]
         if not listened:
             return
-        message = Clock()
-        _fill_time(message.sim, self.world.sim_time_ns)
-        _fill_time(message.real, self._real_time_ns())
-        _fill_time(message.system, time.time_ns())
+        message = self._clock  # Publishing serializes it at once, so that one message object can be reused.
+        sim, real, system = message.sim, message.real, message.system
+        sim.sec, sim.nsec = divmod(self.world.sim_time_ns, 1_000_000_000)
+        real.sec, real.nsec = divmod(self._real_time_ns(), 1_000_000_000)
+        system.sec, system.nsec = divmod(time.time_ns(), 1_000_000_000)
         for publisher in listened:
             publisher.publish(message)
 

@@ -5,6 +5,7 @@ MuJoCo computes world poses at the beginning of a step, so they are one step old
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import mujoco
@@ -13,7 +14,7 @@ import numpy as np
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.errors import SimError
 from gz_course.sim.gz.sim.physics.builder import scoped
-from gz_course.sim.gz.sim.pose import Pose, Velocity, rotate
+from gz_course.sim.gz.sim.pose import Pose, Velocity, product, rotate, rotated
 from gz_course.sim.gz.sim.sdf.description import Link, Model, WorldDescription
 from gz_course.sim.gz.sim.visuals import VisualShape, visual_shapes
 
@@ -81,6 +82,18 @@ class Truth:
         body, link_model = self._canonical[model]
         self.refresh()
         return Pose(self.data.xpos[body], self.data.xquat[body]) * link_model
+
+    def pose_in_floats(self, model: str) -> tuple[Sequence[float], Sequence[float]]:
+        """Return the position [m] and quaternion (wxyz) of `pose`, without arrays, for what is sent in every step."""
+        if model not in self._canonical:
+            pose = self.pose(model)
+            return pose.position.tolist(), pose.quaternion.tolist()
+        body, link_model = self._canonical[model]
+        self.refresh()
+        turn = self.data.xquat[body].tolist()
+        x, y, z = self.data.xpos[body].tolist()
+        dx, dy, dz = rotated(turn, link_model.position.tolist())
+        return (x + dx, y + dy, z + dz), product(turn, link_model.quaternion.tolist())
 
     def link_pose(self, model: str, link: str) -> Pose:
         """Return the pose of a link in the world frame."""

@@ -198,6 +198,7 @@ class World:
             overlaps.add_pairs(spec, model, data, found)
             model, data = self._compile(spec, before)
         self.model, self.data = model, data
+        self._warned = data.warning.number  # a view
         self._overlaps = overlaps.Overlaps(model, found)
         self.truth.bind(model, data)
 
@@ -259,8 +260,9 @@ class World:
     def step(self, n: int = 1, ended: Callable[[], bool] | None = None) -> int:
         """Run `n` physics steps with all systems; queued requests of other threads run before each step.
 
-        Stop before the next step if `ended()` is true after such requests. Return how many steps have run. Raises
-        `SimError` with the name of the body if the physics becomes unstable.
+        Steps in which no system has anything to do are physics alone. Stop before the next step if `ended()` is true
+        after such requests. Return how many steps have run. Raises `SimError` with the name of the body if the physics
+        becomes unstable.
         """
         requests, info, systems, truth = self.requests, self._info, self.systems, self.truth
         advance = mujoco.mj_step
@@ -273,15 +275,27 @@ class World:
                     break
             model, data, colliding = self.model, self.data, self._overlaps
             pre_updates, in_steps, post_updates = systems.pre_updates, systems.in_steps, systems.post_updates
+            samples = systems.samples
             origin_ns, step_ns = self._origin_ns, self.description.step_size_ns
             requests.enter_step()
             try:
                 while True:  # at least one step between two calls of serve()
+                    info.sim_time_ns = origin_ns + self.iterations * step_ns
+                    alone, rested = (0 if colliding.active else systems.steps_at_rest(info, n - done)), 0
+                    while rested < alone and not (rested and waiting):
+                        advance(model, data)
+                        for sample in samples:
+                            sample()
+                        rested += 1
+                    done += rested
+                    self.iterations = iterations = self.iterations + rested
+                    truth.stale = True
+                    if done >= n or (rested and waiting):
+                        break
                     done += 1
-                    self.iterations = iterations = self.iterations + 1
+                    self.iterations = iterations = iterations + 1
                     info.iterations = iterations
                     info.sim_time_ns = origin_ns + iterations * step_ns
-                    truth.stale = True
                     for pre_update in pre_updates:
                         pre_update(info)
                     if in_steps:
@@ -294,13 +308,15 @@ class World:
                     if colliding.active:
                         colliding.relax(data)
                     truth.stale = True  # a system may have refreshed the poses before the step
+                    for sample in samples:
+                        sample()
                     for post_update in post_updates:
                         post_update(info)
                     if waiting or done >= n:
                         break
             finally:
                 requests.leave_step()
-            if data.warning.number[UNSTABLE].any():
+            if any(map(self._warned.item, UNSTABLE)):
                 raise SimError(why_unstable(self.description, model, data, self.sim_time_ns))
         return done
 

@@ -18,7 +18,7 @@ import threading
 import time
 import uuid
 from collections import deque
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING
 
 import zmq
@@ -126,6 +126,19 @@ class Network:
         """Return how many other processes would receive a message of this topic and type now."""
         announced = self._discovery.subscriber_processes(name, type_name)
         return min(announced, self._outlet.listeners(name.encode())) if announced else 0
+
+    def is_certain(self, name: str) -> bool:
+        """Return whether `listening_processes` gives the same until the switchboard is notified."""
+        return not self._outlet.is_leaving(name.encode())
+
+    @contextlib.contextmanager
+    def sending_together(self) -> Iterator[None]:
+        """Keep what is sent until the end of the context; then send all in order, which costs much less."""
+        self._outlet.hold()
+        try:
+            yield
+        finally:
+            self._outlet.let_go()
 
     def services(self) -> ServiceNetwork:
         """Return the network of services, opened by the first call. Raises OSError if that fails."""

@@ -369,6 +369,7 @@ def _forget(subscriptions: list[Subscription], services: NodeServices, statistic
     """End a node to which nobody refers any more; runs at any moment, so the tables are changed elsewhere."""
     for subscription in subscriptions:
         subscription.active = False
+    SWITCHBOARD.version = object()
     LOCAL_DELIVERY.end_later(lambda: _withdraw(subscriptions, services, statistics))
 
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import os
 import threading
+import time
 from collections.abc import Callable
 
 import zmq
@@ -19,6 +20,8 @@ import zmq
 from gz_course.sim.gz.transport.topic_statistics import STAMP, now_ms
 
 _NO_COPY_FROM_BYTES = 65536
+_HOLD_NS = 1_000_000
+"""Time [ns] after which `hold` keeps no message back."""
 _MORE, _EVENTS, _READABLE = int(zmq.SNDMORE), int(zmq.EVENTS), int(zmq.POLLIN)  # plain ints are faster
 
 Connection = tuple[int, int, int]
@@ -40,6 +43,8 @@ class Outlet:
 
         With `statistics` each message has a fifth frame with its time and number.
         """
+        self._waiting: list[tuple[bytes, bytes, bytes]] = []
+        self._holding, self._hold_until = False, 0
         self._numbers: dict[bytes, int] | None = {} if statistics else None
         self._on_change = on_change
         self._lock = threading.Lock()
@@ -49,7 +54,8 @@ class Outlet:
         self._socket.setsockopt(zmq.LINGER, 200)
         self._socket.setsockopt(zmq.SNDHWM, high_water_mark)
         self._socket.setsockopt(zmq.XPUB_VERBOSER, 1)
-        self._send, self._events = self._socket.send, self._socket.getsockopt
+        # These methods of the compiled class are much faster than those of the Python class around it.
+        self._send, self._events = super(zmq.Socket, self._socket).send, super(zmq.Socket, self._socket).get
         self._socket.bind(f"tcp://{ip}:*")
         self.address: str = self._socket.getsockopt_string(zmq.LAST_ENDPOINT)
         self._address_on_wire = self.address.encode()
@@ -66,28 +72,64 @@ class Outlet:
                 self._forget_closed(name)
         return len(self._listeners.get(name, ()))
 
+    def is_leaving(self, name: bytes) -> bool:
+        """Return whether `listeners` may change without a notice."""
+        return name in self._left
+
     def send(self, name: bytes, data: bytes, type_name: bytes) -> None:
         """Send to the subscribed processes; does not block, so a slow process misses messages."""
         if name not in self._listeners:
             return
         with self._lock:
-            if self._socket.closed:
+            self._waiting.append((name, data, type_name))
+            if self._holding and time.monotonic_ns() < self._hold_until:
                 return
-            send = self._send  # frame by frame, because send_multipart() takes three times as long
-            send(name, _MORE)
-            send(self._address_on_wire, _MORE)
-            send(data, _MORE, len(data) < _NO_COPY_FROM_BYTES)
-            if self._numbers is None:
-                send(type_name)
-            else:
-                number = self._numbers.get(name, 0)
-                self._numbers[name] = number + 1
-                send(type_name, _MORE)
-                send(STAMP.pack(now_ms(), number))
-            # sending may consume the signal of the edge-triggered descriptor, so its cause is checked here
-            changed = self._drain()
+            changed = self._send_waiting()
         if changed:
             self._on_change()
+
+    def hold(self) -> None:
+        """Keep the messages of all threads for a moment, at most until `let_go`, so that many leave together."""
+        with self._lock:
+            self._holding, self._hold_until = True, time.monotonic_ns() + _HOLD_NS
+
+    def let_go(self) -> None:
+        """Send the messages that were kept."""
+        with self._lock:
+            self._holding = False
+            changed = self._send_waiting()
+        if changed:
+            self._on_change()
+
+    def _send_waiting(self) -> bool:
+        """Send the waiting messages in their order; return whether the subscriptions have changed."""
+        if not self._waiting:
+            return False
+        waiting, self._waiting = self._waiting, []
+        if self._holding:
+            self._hold_until = time.monotonic_ns() + _HOLD_NS
+        if self._socket.closed:
+            return False
+        for name, data, type_name in waiting:
+            self._send_frames(name, data, type_name)
+        # sending may consume the signal of the edge-triggered descriptor, so its cause is checked here
+        return self._drain()
+
+    def _send_frames(self, name: bytes, data: bytes, type_name: bytes) -> None:
+        send = self._send  # frame by frame, because send_multipart() takes three times as long
+        send(name, _MORE, True)
+        send(self._address_on_wire, _MORE, True)
+        if len(data) < _NO_COPY_FROM_BYTES:
+            send(data, _MORE, True)
+        else:
+            send(data, _MORE, copy=False)
+        if self._numbers is None:
+            send(type_name, 0, True)
+            return
+        number = self._numbers.get(name, 0)
+        self._numbers[name] = number + 1
+        send(type_name, _MORE, True)
+        send(STAMP.pack(now_ms(), number), 0, True)
 
     def take_notices(self) -> None:
         """Update the counts of subscriptions."""

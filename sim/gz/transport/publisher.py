@@ -37,6 +37,7 @@ class Publisher:
         self._open = advertisement is not None
         self._joined: Callable[[], Network] | None = None  # None: other processes are not reached
         self._message_class: type[Message] | None = None  # class of the first message, to check further ones faster
+        self._count, self._count_version = 0, object()  # the last count of subscribers, and when it was made
         if advertisement is None:
             self.name, self.type_name, self.node_uuid, self.topic = "", "", "", ""
             self._throttle = Throttle(UNTHROTTLED)
@@ -138,10 +139,18 @@ class Publisher:
     def _connections(self) -> int:
         if not self._open:
             return 0
+        version = SWITCHBOARD.version  # taken first, because it may change during the count
+        if self._count_version is version:
+            return self._count
         here = sum(each.active and each.accepts(self.type_name) for each in SWITCHBOARD.subscriptions(self.name))
-        if self._joined is None:
-            return here
-        return here + self._joined().listening_processes(self.name, self.type_name)
+        certain = True
+        if self._joined is not None:
+            network = self._joined()
+            here += network.listening_processes(self.name, self.type_name)
+            certain = network.is_certain(self.name)
+        if certain:
+            self._count, self._count_version = here, version
+        return here
 
     def __repr__(self) -> str:
         state = "" if self._open else ", closed"

@@ -29,6 +29,8 @@ class Switchboard:
         self._networked: dict[str, tuple[Subscription, ...]] = {}
         self._publishers: dict[str, tuple[Advertisement, ...]] = {}
         self._services: dict[str, tuple[Service, ...]] = {}
+        self.version = object()
+        """Another object after every change of the subscriptions, here or in other processes."""
 
     def subscriptions(self, name: str) -> tuple[Subscription, ...]:
         """Return the subscriptions of a topic, oldest first."""
@@ -57,6 +59,7 @@ class Switchboard:
     def add_subscription(self, subscription: Subscription) -> None:
         with self._changed:
             self._set_subscriptions(subscription.name, (*self.subscriptions(subscription.name), subscription))
+            self.version = object()
             self._changed.notify_all()
 
     def remove_subscription(self, subscription: Subscription) -> None:
@@ -65,6 +68,7 @@ class Switchboard:
         with self._changed:
             group = self.subscriptions(subscription.name)
             self._set_subscriptions(subscription.name, tuple(each for each in group if each is not subscription))
+            self.version = object()
             self._changed.notify_all()
 
     def _set_subscriptions(self, name: str, group: tuple[Subscription, ...]) -> None:
@@ -125,6 +129,7 @@ class Switchboard:
 
     def notify(self) -> None:
         """Wake all callers of wait_for(), because state outside this table has changed."""
+        self.version = object()
         with self._changed:
             self._changed.notify_all()
 
@@ -143,6 +148,7 @@ class Switchboard:
     def renew_after_fork(self) -> None:
         """Give the forked child, which keeps the table, a new lock."""
         self._changed = threading.Condition(threading.Lock())
+        self.version = object()
 
 
 SWITCHBOARD = Switchboard()

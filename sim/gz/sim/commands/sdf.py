@@ -1,8 +1,9 @@
-"""Check or print a description: `gz sdf -k world.sdf`, `gz sdf -p robot.urdf`.
+"""Check or print a description: `gz sdf -k world.sdf`, `gz sdf -p robot.urdf`, `gz sdf -g pose world.sdf`.
 
 `-k` reads a world or model as `gz sim` would and prints `Valid.`, or the first fault (exit code 255, as in Gazebo);
 warnings go to stderr. `-p` prints it as SDF: a URDF or xacro file is converted, and includes are replaced by what they
-name, unless `-i` keeps them. `--inertial-stats` prints mass, centre of mass and inertia of a model.
+name, unless `-i` keeps them. `--inertial-stats` prints mass, centre of mass and inertia of a model. `-g` prints the
+graph of its frames: which poses are relative to which (`pose`), or which frames are attached to which (`frame`).
 
 Source: https://github.com/gazebosim/sdformat/blob/sdf14/src/cmd/cmdsdformat.rb.in
 """
@@ -13,10 +14,12 @@ import argparse
 import sys
 from pathlib import Path
 
+from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.command_line import Parser, positive_number, whole_number
 from gz_course.sim.gz.sim.errors import Diagnostics, SimError
 from gz_course.sim.gz.sim.sdf.description import Model
 from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sdf.frame_graph import KINDS, FrameGraph
 from gz_course.sim.gz.sim.sdf.includes import Includes, Opened, read_root, sdf_version
 from gz_course.sim.gz.sim.sdf.printing import Numbers, inertia_lines, state_inertia
 from gz_course.sim.gz.sim.sdf.reader import read_model, read_world
@@ -45,7 +48,10 @@ def add_arguments(parser: Parser) -> None:
     )
     parser.add_argument("--expand-auto-inertials", action="store_true", help="write automatic inertias as numbers")
     parser.add_argument("--inertial-stats", metavar="FILE", help="mass, centre of mass and inertia of a model file")
-    parser.commands("--check", "--print", "--inertial-stats")
+    parser.add_argument(
+        "-g", "--graph", nargs=2, metavar=("{pose,frame}", "FILE"), help="print the graph of frames in the DOT language"
+    )
+    parser.commands("--check", "--print", "--inertial-stats", "--graph")
     for option in (*_OF_PRINT, "--expand-auto-inertials"):
         parser.needs(option, "--print")
     parser.needs("--snap-tolerance", "--snap-to-degrees")
@@ -55,7 +61,11 @@ def run(values: argparse.Namespace) -> int:
     """Run `gz sdf`; return the exit code. Raises ValueError for angles that cannot be snapped to."""
     if values.snap_to_degrees and not values.snap_tolerance < values.snap_to_degrees <= 360:
         raise ValueError("--snap-to-degrees must be above its tolerance and at most 360")
-    path, diagnostics = Path(values.check or values.print or values.inertial_stats), Diagnostics(quiet=True)
+    kind, graphed = values.graph or ("", "")
+    if kind and kind not in KINDS:
+        raise ValueError(f"--graph takes {' or '.join(KINDS)} and a file, got '{kind}'{did_you_mean(kind, KINDS)}")
+    path = Path(values.check or values.print or values.inertial_stats or graphed)
+    diagnostics = Diagnostics(quiet=True)
     try:
         if not path.is_file():
             raise SimError(f"there is no file '{path}'")
@@ -64,6 +74,8 @@ def run(values: argparse.Namespace) -> int:
             read = read_model if root.find("world") is None else read_world
             read(read_text(path), str(path), diagnostics)
             printed = "Valid."
+        elif kind:
+            printed = str(FrameGraph(_replaced(root, diagnostics), kind))
         elif values.inertial_stats:
             printed = "\n".join(inertia_lines(_only_model(path, root, diagnostics)))
         else:
@@ -89,7 +101,7 @@ def _only_model(path: Path, root: Element, diagnostics: Diagnostics) -> Model:
 
 def _printed(root: Element, path: Path, values: argparse.Namespace, diagnostics: Diagnostics) -> str:
     if not values.preserve_includes:
-        root = _expanded(Opened(root, sdf_version(root), root), Includes(diagnostics, FILES), diagnostics)
+        root = _replaced(root, diagnostics)
     root = absolute_copy(root)
     if values.expand_auto_inertials:
         root = _with_inertia(root, path)
@@ -109,6 +121,11 @@ def _with_inertia(root: Element, path: Path) -> Element:
     if isinstance(model_or_light, Model):
         state_inertia(model_or_light)
     return Element(root.tag, root.attributes, children=[model_or_light.element])
+
+
+def _replaced(root: Element, diagnostics: Diagnostics) -> Element:
+    """Return the root with what its includes name."""
+    return _expanded(Opened(root, sdf_version(root), root), Includes(diagnostics, FILES), diagnostics)
 
 
 def _expanded(opened: Opened, includes: Includes, diagnostics: Diagnostics) -> Element:

@@ -57,9 +57,19 @@ class OdometryReports:
         from gz_course.sim.gz.msgs.odometry_pb2 import Odometry
         from gz_course.sim.gz.msgs.pose_v_pb2 import Pose_V
 
-        self._odometry_type, self._pose_v_type = Odometry, Pose_V
+        # Publishing serializes a message at once, so that the same two can be filled again and again.
+        self._odometry, self._frames = Odometry(), Pose_V()
+        self._frame = self._frames.pose.add()
+        for message in (self._odometry, self._frame):
+            fill_odometry_header(message.header, 0, self.frame_id, self.child_frame_id)
         self._publisher = node.advertise(self.odometry_topic, Odometry)
         self._tf_publisher = node.advertise(self.tf_topic, Pose_V)
+
+    def has_connections(self) -> bool:
+        """Tell whether there is a subscriber of one of the two topics."""
+        return self._publisher is not None and (
+            self._publisher.has_connections() or self._tf_publisher.has_connections()
+        )
 
     def due(self, now_ns: int) -> bool:
         """Tell whether a message is due; if so, schedule the next one."""
@@ -68,6 +78,11 @@ class OdometryReports:
         self._last_ns = now_ns
         return True
 
+    @property
+    def next_ns(self) -> int:
+        """The simulated time [ns] from which the next message is due."""
+        return self._last_ns + self._period_ns
+
     def publish(
         self, now_ns: int, pose: tuple[float, float, float], linear: float, angular: float, left: float = 0.0
     ) -> None:
@@ -75,22 +90,19 @@ class OdometryReports:
         `angular` is in [rad/s].
         """
         if self._publisher is not None and self._publisher.has_connections():
-            message = self._odometry_type()
-            fill_odometry_header(message.header, now_ns, self.frame_id, self.child_frame_id)
-            _fill_pose(message.pose, pose)
+            message = self._odometry
+            _fill_pose(message, now_ns, message.pose, pose)
             message.twist.linear.x = linear
             message.twist.linear.y = left
             message.twist.angular.z = angular
             self._publisher.publish(message)
         if self._tf_publisher is not None and self._tf_publisher.has_connections():
-            frames = self._pose_v_type()
-            frame = frames.pose.add()
-            fill_odometry_header(frame.header, now_ns, self.frame_id, self.child_frame_id)
-            _fill_pose(frame, pose)
-            self._tf_publisher.publish(frames)
+            _fill_pose(self._frame, now_ns, self._frame, pose)
+            self._tf_publisher.publish(self._frames)
 
 
-def _fill_pose(message: Any, pose: tuple[float, float, float]) -> None:
-    message.position.x, message.position.y = pose[:2]
-    message.orientation.z = math.sin(pose[2] / 2.0)
-    message.orientation.w = math.cos(pose[2] / 2.0)
+def _fill_pose(stamped: Any, now_ns: int, into: Any, pose: tuple[float, float, float]) -> None:
+    stamp, position, turn = stamped.header.stamp, into.position, into.orientation
+    stamp.sec, stamp.nsec = divmod(now_ns, 1_000_000_000)
+    position.x, position.y, heading = pose
+    turn.z, turn.w = math.sin(heading / 2.0), math.cos(heading / 2.0)

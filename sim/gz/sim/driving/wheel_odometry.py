@@ -18,11 +18,13 @@ _MOST_WAITING = 1000
 class WheelOdometry:
     """A planar pose and speeds; steps are stored and integrated when a value is read."""
 
-    __slots__ = ("_angular", "_heading", "_left", "_linear", "_radius", "_right", "_separation", "_waiting", "_x", "_y")
+    __slots__ = ("_heading", "_last", "_left", "_radius", "_right", "_separation", "_x", "_y", "waiting")
 
     def __init__(self, wheel_separation: float, wheel_radius: float) -> None:
         self._separation = wheel_separation
         self._radius = wheel_radius
+        self.waiting: list[tuple[float, float, float]] = []
+        """The stored steps, as in `update`; always the same list."""
         self.reset(0.0, 0.0)
 
     def reset(self, left_angle: float, right_angle: float) -> None:
@@ -30,69 +32,78 @@ class WheelOdometry:
         self._x = self._y = self._heading = 0.0
         self._left = left_angle
         self._right = right_angle
-        self._linear: deque[float] = deque(maxlen=WINDOW)
-        self._angular: deque[float] = deque(maxlen=WINDOW)
-        self._waiting: list[tuple[float, float, float]] = []
+        self._last: deque[tuple[float, float, float]] = deque(maxlen=WINDOW)
+        self.waiting.clear()
 
     def update(self, left_angle: float, right_angle: float, dt: float) -> None:
         """Take the wheel angles [rad] after a step of `dt` [s]."""
-        self._waiting.append((left_angle, right_angle, dt))
-        if len(self._waiting) >= _MOST_WAITING:
-            self._catch_up()
+        self.waiting.append((left_angle, right_angle, dt))
+        if self.is_full:
+            self.catch_up()
 
-    def _catch_up(self) -> None:
+    @property
+    def is_full(self) -> bool:
+        """True if so many steps are stored that they should be integrated."""
+        return len(self.waiting) >= _MOST_WAITING
+
+    def catch_up(self) -> None:
         """Integrate the stored steps."""
+        if not self.waiting:
+            return
         wheel, separation = self._radius, self._separation
         before_left, before_right = self._left, self._right
         x, y, heading = self._x, self._y, self._heading
-        linear, angular, cos, sin = self._linear, self._angular, math.cos, math.sin
-        for left_angle, right_angle, dt in self._waiting:
+        last, cos, sin = self._last, math.cos, math.sin
+        sine, cosine = sin(heading), cos(heading)
+        for left_angle, right_angle, dt in self.waiting:
             left = (left_angle - before_left) * wheel
             right = (right_angle - before_right) * wheel
             before_left, before_right = left_angle, right_angle
             distance = (left + right) * 0.5
             turn = (right - left) / separation
+            after = heading + turn
+            old_sine, old_cosine = sine, cosine
+            sine, cosine = sin(after), cos(after)
             if -1e-6 < turn < 1e-6:
                 middle = heading + turn * 0.5
                 x += distance * cos(middle)
                 y += distance * sin(middle)
             else:
                 radius = distance / turn
-                x += radius * (sin(heading + turn) - sin(heading))
-                y -= radius * (cos(heading + turn) - cos(heading))
-            heading += turn
-            linear.append(distance / dt)
-            angular.append(turn / dt)
-        self._waiting.clear()
+                x += radius * (sine - old_sine)
+                y -= radius * (cosine - old_cosine)
+            heading = after
+            last.append((distance, turn, dt))
+        self.waiting.clear()
         self._left, self._right = before_left, before_right
         self._x, self._y, self._heading = x, y, heading
 
     @property
     def x(self) -> float:
         """The way along the x axis of the start [m]."""
-        self._catch_up()
+        self.catch_up()
         return self._x
 
     @property
     def y(self) -> float:
         """The way along the y axis of the start [m]."""
-        self._catch_up()
+        self.catch_up()
         return self._y
 
     @property
     def heading(self) -> float:
         """The turn since the start [rad], not wrapped."""
-        self._catch_up()
+        self.catch_up()
         return self._heading
 
     @property
     def linear(self) -> float:
         """Mean forward speed [m/s] over the last ten steps."""
-        self._catch_up()
-        return sum(self._linear) / len(self._linear) if self._linear else 0.0
+        self.catch_up()
+        return sum([distance / dt for distance, _, dt in self._last]) / len(self._last) if self._last else 0.0
 
     @property
     def angular(self) -> float:
         """Mean turning speed [rad/s] over the last ten steps."""
-        self._catch_up()
-        return sum(self._angular) / len(self._angular) if self._angular else 0.0
+        self.catch_up()
+        return sum([turn / dt for _, turn, dt in self._last]) / len(self._last) if self._last else 0.0

@@ -19,7 +19,7 @@ _WHAT = {
     mujoco.mjtWarning.mjWARN_BADQACC: "acceleration",
     mujoco.mjtWarning.mjWARN_BADCTRL: "command",
 }
-UNSTABLE = np.array([int(kind) for kind in _WHAT])
+UNSTABLE = tuple(int(kind) for kind in _WHAT)
 """The numbers of MuJoCo's warnings about unstable physics."""
 
 

@@ -49,12 +49,12 @@ class JointAxis:
 
     def read_velocity(self, data: mujoco.MjData) -> float:
         """Return the velocity of the axis [rad/s or m/s]."""
-        return data.qvel.item(self.velocity + max(self.part, 0))
+        return data.qvel.item(self.dof)
 
-    def read_force(self, data: mujoco.MjData) -> float:
-        """Return the force of actuators and applied forces along the axis in the last step [N m or N]."""
-        dof = self.velocity + max(self.part, 0)
-        return data.qfrc_actuator.item(dof) + data.qfrc_applied.item(dof)
+    @property
+    def dof(self) -> int:
+        """The index of the axis among the degrees of freedom, as in qvel."""
+        return self.velocity + max(self.part, 0)
 
 
 def find_axes(model: mujoco.MjModel, name: str) -> list[JointAxis]:

@@ -16,7 +16,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from gz_course.sim.gz.sim.pose import Vector, multiply
+from gz_course.sim.gz.sim.pose import Quaternion, Vector, product
 
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
@@ -57,7 +57,7 @@ class SiteMotion:
         site = world.model.site(name)
         self._site = int(site.id)
         self._body = int(world.model.site_bodyid[self._site])
-        self._turn: Vector = np.array(site.quat)
+        self._turn = site.quat.tolist()
         self._six = np.zeros(6)
 
     def position(self) -> Vector:
@@ -74,8 +74,12 @@ class SiteMotion:
 
     def quaternion(self) -> Vector:
         """Return the orientation (wxyz) in the world; its sign is continuous as the body turns."""
+        return np.array(self.orientation())
+
+    def orientation(self) -> Quaternion:
+        """Return `quaternion` as plain floats."""
         self._world.truth.refresh()
-        return multiply(self._world.data.xquat[self._body], self._turn)
+        return product(self._world.data.xquat[self._body].tolist(), self._turn)
 
     def velocity(self, *, local: bool) -> tuple[Vector, Vector]:
         """Return linear [m/s] and angular [rad/s] velocity, along the axes of the site or of the world."""
@@ -97,3 +101,8 @@ class SiteMotion:
         mujoco.mj_rnePostConstraint(model, data)
         mujoco.mj_objectAcceleration(model, data, _SITE, self._site, self._six, True)
         return self._six[3:].copy()
+
+    def inertial(self) -> list[float]:
+        """Return the angular velocity (3,) [rad/s] and the specific force (3,) [m/s^2] along the axes of the site."""
+        _, angular = self.velocity(local=True)
+        return angular.tolist() + self.specific_force().tolist()

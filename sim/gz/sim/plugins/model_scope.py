@@ -131,6 +131,13 @@ class ModelScope:
                 outer = outer * around.pose
         return outer.inverse() * self.world_pose()
 
+    def pose_in_floats(self) -> tuple[Sequence[float], Sequence[float]]:
+        """Return the position [m] and quaternion (wxyz) of `pose`."""
+        if not self._prefix:
+            return self.world.truth.pose_in_floats(self.model.name)
+        pose = self.pose()
+        return pose.position.tolist(), pose.quaternion.tolist()
+
     def entity(self, kind: str, name: str) -> int:
         """Return the entity id of a part of this model (scoped name), 0 if there is none."""
         return self.world.entities.number(kind, self.model.name, name)

@@ -124,10 +124,10 @@ class Channels:
         self.silent = all(noise.silent for noise in self._each)
         self._white = any(noise.stddev > 0.0 for noise in self._each)
         self._wanders = any(noise.wanders for noise in self._each)
-        self._mean = np.array([noise.mean for noise in self._each])
-        self._stddev = np.array([noise.stddev for noise in self._each])
+        self._mean = [noise.mean for noise in self._each]
+        self._stddev = [noise.stddev for noise in self._each]
         self._coarse = [(index, noise) for index, noise in enumerate(self._each) if noise.precision > 0.0]
-        self.bias = np.zeros(len(self._each))
+        self.bias = [0.0] * len(self._each)
         """The present bias of each channel."""
 
     def start(self) -> None:
@@ -139,18 +139,19 @@ class Channels:
         if not self._wanders or dt <= 0.0:
             return
         draws = self._sensor.random("dynamic bias").standard_normal(len(self._each)).tolist()
-        biases = self.bias.tolist()
-        self.bias[:] = [
-            noise.wandered(bias, dt, draw) for noise, bias, draw in zip(self._each, biases, draws, strict=True)
+        self.bias = [
+            noise.wandered(bias, dt, draw) for noise, bias, draw in zip(self._each, self.bias, draws, strict=True)
         ]
 
-    def apply(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+    def apply(self, values: list[float]) -> list[float]:
         """Return `values` with the noise of the current update."""
         if self.silent:
             return values
-        noisy = values + self.bias + self._mean
+        # Plain floats are faster than arrays of six.
+        noisy = [value + bias + mean for value, bias, mean in zip(values, self.bias, self._mean, strict=True)]
         if self._white:
-            noisy += self._stddev * self._sensor.random().standard_normal(len(self._each))
+            draws = self._sensor.random().standard_normal(len(noisy)).tolist()
+            noisy = [value + stddev * draw for value, stddev, draw in zip(noisy, self._stddev, draws, strict=True)]
         for index, noise in self._coarse:
-            noisy[index : index + 1] = noise.quantized(noisy[index : index + 1])
+            noisy[index] = noise.quantized(np.array((noisy[index],))).item()
         return noisy

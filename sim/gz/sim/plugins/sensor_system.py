@@ -11,14 +11,12 @@ from typing import TYPE_CHECKING
 
 from gz_course.sim.gz.sim.errors import SdfError
 from gz_course.sim.gz.sim.plugins.sensor import SensorBase, sensor_types
-from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, system
+from gz_course.sim.gz.sim.plugins.system import FOREVER_NS, System, UpdateInfo, system
 from gz_course.sim.gz.sim.sdf.description import Model, Plugin, Sensor
 
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
-
-_NEVER = 1 << 62
 
 
 class SensorSystem(System):
@@ -109,10 +107,15 @@ class SensorSystem(System):
         now = info.sim_time_ns
         if now < self._next_ns:
             return
+        following = FOREVER_NS
         for sensor in self.sensors:
             if now >= sensor.next_update_ns:
                 sensor.run(now)
-        self._next_ns = min((sensor.next_update_ns for sensor in self.sensors), default=_NEVER)
+            following = min(following, sensor.next_update_ns)
+        self._next_ns = following
+
+    def rests_until(self, info: UpdateInfo) -> int:
+        return self._next_ns
 
 
 def sensor_system(name: str, filename: str) -> str:

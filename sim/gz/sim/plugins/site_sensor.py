@@ -8,8 +8,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from google.protobuf.message import Message
-
 from gz_course.sim.gz.sim.physics.motion import SiteMotion
 from gz_course.sim.gz.sim.plugins.noise import Channels, Noise
 from gz_course.sim.gz.sim.plugins.sensor import SensorBase
@@ -42,7 +40,7 @@ class SiteSensor(SensorBase):
         """Write what is the same in every message; `fill` finds it there."""
 
     def fill(self, message: Any) -> None:
-        """Measure, and write everything but the header into `message`."""
+        """Measure, and write everything but the header into `message`, which holds what the last update wrote."""
         raise NotImplementedError
 
     def bind(self) -> None:
@@ -61,19 +59,17 @@ class SiteSensor(SensorBase):
     def connect(self, node: Node) -> None:
         from gz_course.sim.gz.msgs import message_class
 
-        self._message: type[Message] = message_class(self.message_type)
-        self._publisher = node.advertise(self.topic, self._message)
-        constant: Any = self._message()
-        self.fill_header(constant.header, 0)
-        self.fill_constant(constant)
-        self._constant = constant
+        kind: Any = message_class(self.message_type)
+        self._publisher = node.advertise(self.topic, kind)
+        self._filled = kind()  # used again and again, because publishing serializes it at once
+        self.fill_header(self._filled.header, 0)
+        self.fill_constant(self._filled)
 
     def has_connections(self) -> bool:
         return self._publisher is not None and self._publisher.has_connections()
 
     def update(self, now_ns: int) -> None:
-        message: Any = self._message()
-        message.CopyFrom(self._constant)
+        message = self._filled
         header = message.header
         header.stamp.sec, header.stamp.nsec = divmod(now_ns, 1_000_000_000)
         header.data[-1].value[0] = str(self.updates)

@@ -4,7 +4,7 @@ A system is a file in `gz/sim/systems` with a class under the `@system` decorato
 `RunningSystems` calls `find_system` for every plugin and then the hooks of the class: `servos` before the physics model
 is built, `configure` once, `bind` after each build, `start` at time zero and after a reset, `connect` when a transport
 node is attached, `pre_update` and `post_update` around every physics step and `in_step` within, and `paused_update`
-while a server is paused.
+while a server is paused. While all systems rest (`rests_until`), only the functions of `sampler` are called.
 
 Source: https://gazebosim.org/api/sim/8/createsystemplugins.html
 """
@@ -27,6 +27,10 @@ from gz_course.sim.gz.sim.sdf.description import Model, Plugin
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
+
+
+FOREVER_NS = 1 << 62
+"""A simulated time [ns] that no run reaches."""
 
 
 class UpdateInfo:
@@ -87,6 +91,19 @@ class System:
     def post_update(self, info: UpdateInfo) -> None:
         """Read the result of the physics step, for example publish it."""
 
+    def sampler(self) -> Callable[[], None]:
+        """Return a function that records the state after every physics step, also at rest, before `post_update`; called
+        after each `bind`.
+        """
+        raise NotImplementedError
+
+    def rests_until(self, info: UpdateInfo) -> int:
+        """Return the simulated time [ns] of the next step in which `pre_update` or `post_update` has something to do.
+
+        Asked after a step; the hooks are not called in the steps before that time. 0 means the next step.
+        """
+        return 0
+
     def paused_update(self, info: UpdateInfo) -> None:
         """Publish what is due while a running server is paused; called ten times per second of wall time and after
         every change.
@@ -142,16 +159,20 @@ GAZEBO_SYSTEMS = frozenset(
         "ColladaWorldExporter",
         "CommsEndpoint",
         "Contact",
+        "CpuLidar",
         "DetachableJoint",
         "DiffDrive",
         "DopplerVelocityLogSystem",
         "DriveToPoseController",
+        "DynamicDetachableJoint",
         "Elevator",
+        "EntitySemantics",
         "EnvironmentPreload",
         "EnvironmentalSensorSystem",
         "EnvironmentalSystem",
         "FollowActor",
         "ForceTorque",
+        "FreeSpaceExplorer",
         "Hydrodynamics",
         "Imu",
         "JointController",
@@ -162,12 +183,14 @@ GAZEBO_SYSTEMS = frozenset(
         "Label",
         "LensFlare",
         "LiftDrag",
+        "LighterThanAirDynamics",
         "LinearBatteryPlugin",
         "LogPlayback",
         "LogRecord",
         "LogVideoRecorder",
         "LogicalAudioSensorPlugin",
         "LogicalCamera",
+        "LookupWheelSlip",
         "Magnetometer",
         "MecanumDrive",
         "ModelPhotoShoot",
@@ -182,12 +205,10 @@ GAZEBO_SYSTEMS = frozenset(
         "PosePublisher",
         "PythonSystemLoader",
         "RFComms",
-        "ReplayVideo",
         "SceneBroadcaster",
         "Sensors",
         "ShaderParam",
         "SpacecraftThrusterModel",
-        "TempStore",
         "Thermal",
         "ThermalSensor",
         "Thruster",
@@ -202,9 +223,11 @@ GAZEBO_SYSTEMS = frozenset(
         "WindEffects",
     ]
 )
-"""Names of the systems of Gazebo 8, whether they run here or not.
+"""Names of the systems of Gazebo 8 and later, whether they run here or not; EnvironmentalSystem is another name of
+EnvironmentalSensorSystem.
 
-Source: https://github.com/gazebosim/gz-sim/tree/gz-sim8/src/systems
+Source: https://github.com/gazebosim/gz-sim/tree/gz-sim8/src/systems and its branch `main`; the alias is in
+`environmental_sensor_system/EnvironmentalSensorSystem.cc`
 """
 
 

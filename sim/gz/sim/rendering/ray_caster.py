@@ -82,8 +82,8 @@ class RayCaster(Viewpoint):
         finally:
             if groups is not None:
                 model.geom_group[hidden] = groups
-        distance[(distance > self._far) | (geom < 0)] = -1.0
-        geom[distance < 0.0] = -1
+        missed = (distance > self._far) | (geom < 0) | (distance < 0.0)
+        distance[missed], geom[missed] = -1.0, -1
         return Hits(distance, geom, origin, rays)
 
     def _recast(self, ray: int, origin: Floats, direction: Floats) -> None:

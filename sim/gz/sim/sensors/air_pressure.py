@@ -13,8 +13,6 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from gz_course.sim.gz.sim.plugins.noise import Noise
 from gz_course.sim.gz.sim.plugins.sensor import sensor_type
 from gz_course.sim.gz.sim.plugins.sensor_system import sensor_system
@@ -74,5 +72,5 @@ class AirPressure(SiteSensor):
 
     def fill(self, message: Any) -> None:
         pressure = standard_pressure(float(self.motion.position()[2]))
-        message.pressure = float(self.noise.apply(np.array((pressure,)))[0])
+        message.pressure = self.noise.apply([pressure])[0]
         message.variance = self._variance

@@ -11,8 +11,6 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
-
 from gz_course.sim.gz.sim.plugins.noise import Noise
 from gz_course.sim.gz.sim.plugins.sensor import sensor_type
 from gz_course.sim.gz.sim.plugins.sensor_system import sensor_system
@@ -45,5 +43,5 @@ class AirSpeed(SiteSensor):
         density = SEA_LEVEL_DENSITY * math.pow(temperature / SEA_LEVEL_TEMPERATURE, DENSITY_EXPONENT)
         ahead = float(self.motion.velocity(local=True)[0][0])
         hectopascals = 0.005 * density * ahead * abs(ahead)
-        message.diff_pressure = 100.0 * float(self.noise.apply(np.array((hectopascals,)))[0])
+        message.diff_pressure = 100.0 * self.noise.apply([hectopascals])[0]
         message.temperature = temperature

@@ -10,8 +10,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
-
 from gz_course.sim.gz.sim.plugins.noise import Noise
 from gz_course.sim.gz.sim.plugins.sensor import sensor_type
 from gz_course.sim.gz.sim.plugins.sensor_system import sensor_system
@@ -40,6 +38,6 @@ class Altimeter(SiteSensor):
 
     def fill(self, message: Any) -> None:
         linear, _ = self.motion.velocity(local=False)
-        measured = np.array((self.motion.position()[2] - self.reference, linear[2]))
-        message.vertical_position, message.vertical_velocity = self.noise.apply(measured).tolist()
+        measured = [self.motion.position()[2].item() - self.reference, linear[2].item()]
+        message.vertical_position, message.vertical_velocity = self.noise.apply(measured)
         message.vertical_reference = self.reference

@@ -121,7 +121,7 @@ class ForceTorque(SiteSensor):
 
     def fill(self, message: Any) -> None:
         sign = 1.0 if self.direction == "parent_to_child" else -1.0
-        measured = self.noise.apply(np.concatenate(self.wrench()) * sign).tolist()
+        measured = self.noise.apply((np.concatenate(self.wrench()) * sign).tolist())
         into, about = message.force, message.torque
         into.x, into.y, into.z, about.x, about.y, about.z = measured
 

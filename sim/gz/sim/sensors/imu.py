@@ -21,7 +21,7 @@ from gz_course.sim.gz.sim.plugins.noise import Noise
 from gz_course.sim.gz.sim.plugins.sensor import sensor_type
 from gz_course.sim.gz.sim.plugins.sensor_system import sensor_system
 from gz_course.sim.gz.sim.plugins.site_sensor import SiteSensor, noise_at
-from gz_course.sim.gz.sim.pose import Vector, multiply, quaternion_from_rpy, rotate
+from gz_course.sim.gz.sim.pose import Quaternion, Vector, multiply, product, quaternion_from_rpy, rotate
 from gz_course.sim.gz.sim.sdf.description import Sensor
 from gz_course.sim.gz.sim.sdf.element import Element
 
@@ -69,7 +69,8 @@ class Imu(SiteSensor):
         super().start()
         found = self._reference_frame()
         self.reference = self.motion.quaternion() if found is None else found
-        self._from_reference = self.reference * (1.0, -1.0, -1.0, -1.0)
+        w, x, y, z = self.reference.tolist()
+        self._from_reference = w, -x, -y, -z
 
     def fill_constant(self, message: Any) -> None:
         message.entity_name = self.scoped_name
@@ -79,18 +80,16 @@ class Imu(SiteSensor):
         message.linear_acceleration_covariance.data.extend(self._covariances[1])
 
     def fill(self, message: Any) -> None:
-        _, angular = self.motion.velocity(local=True)
-        measured = self.noise.apply(np.concatenate((angular, self.motion.specific_force()))).tolist()
+        measured = self.noise.apply(self.motion.inertial())
         if self.enable_orientation:
-            message.orientation.w, message.orientation.x, message.orientation.y, message.orientation.z = (
-                self.orientation().tolist()
-            )
+            turn = message.orientation
+            turn.w, turn.x, turn.y, turn.z = self.orientation()
         turning, pushing = message.angular_velocity, message.linear_acceleration
         turning.x, turning.y, turning.z, pushing.x, pushing.y, pushing.z = measured
 
-    def orientation(self) -> Vector:
+    def orientation(self) -> Quaternion:
         """Return the sensor's orientation (wxyz) in the reference frame."""
-        return multiply(self._from_reference, self.motion.quaternion())
+        return product(self._from_reference, self.motion.orientation())
 
     def _reference_frame(self) -> Vector | None:
         """Return the quaternion (wxyz) of the reference frame, None for the initial orientation."""

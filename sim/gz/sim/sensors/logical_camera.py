@@ -83,6 +83,7 @@ class LogicalCamera(SiteSensor):
     def fill(self, message: Any) -> None:
         here = Pose(self.motion.position(), self.motion.quaternion())
         _set(message.pose, here)
+        del message.model[:]
         seen = {name: here.inverse() * pose for name, pose in self._models()}
         for name in sorted(seen):
             if self.contains(seen[name].position):

@@ -59,7 +59,7 @@ class Magnetometer(SiteSensor):
 
     def fill(self, message: Any) -> None:
         into = message.field_tesla
-        into.x, into.y, into.z = self.noise.apply(self.motion.rotation().T @ self.world_field()).tolist()
+        into.x, into.y, into.z = self.noise.apply((self.motion.rotation().T @ self.world_field()).tolist())
 
 
 @system("Magnetometer", "gz-sim-magnetometer-system")

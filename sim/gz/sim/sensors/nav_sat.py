@@ -71,7 +71,7 @@ class NavSat(SiteSensor):
         if coordinates is not None:
             measured[:3] = coordinates.spherical(self.motion.position())
             measured[3:], _ = self.motion.velocity(local=False)
-        latitude, longitude, altitude, east, north, up = self.noise.apply(measured).tolist()
+        latitude, longitude, altitude, east, north, up = self.noise.apply(measured.tolist())
         message.latitude_deg = _wrapped(latitude)
         message.longitude_deg = _wrapped(longitude)
         message.altitude = altitude

@@ -10,6 +10,7 @@ Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/diff_drive/
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -93,9 +94,10 @@ class DiffDrive(System):
         self._started = False
         self._reports.start()
         self._target = (0.0, 0.0)
-        self._heeded: tuple[float, float] | None = None
+        self._heeded = (0.0, 0.0)
         self._last = (0.0, 0.0)
         self._before_last = (0.0, 0.0)
+        self._settled = False
         self._left_speed = self._right_speed = 0.0
         self._written: tuple[float, float] | None = None
         self._enabled = True
@@ -140,36 +142,49 @@ class DiffDrive(System):
                 control[address.control] = self._right_speed
             self._written = speeds
 
+    def sampler(self) -> Callable[[], None]:
+        """Return a function that stores the wheel angles for the odometry."""
+        item, store = self._world.data.qpos.item, self._odometry.waiting.append
+        left, right = self._left[0].position, self._right[0].position
+        dt = self._world.step_size_ns * 1e-9
+        return lambda: store((item(left), item(right), dt))
+
+    def rests_until(self, info: UpdateInfo) -> int:
+        if self._target is not self._heeded or not self._settled or self._odometry.is_full:
+            return 0
+        return self._reports.next_ns if (self._left_speed, self._right_speed) == self._written else 0
+
     def post_update(self, info: UpdateInfo) -> None:
-        """Compute the next wheel speeds; update the odometry and publish it when due."""
+        """Compute the next wheel speeds; publish the odometry when due."""
         target = self._target
-        if self._limited or target is not self._heeded:  # most steps have no new command
+        if not self._settled or target is not self._heeded:  # most steps have no new command
             self._heeded = target
             self._find_speeds(info.dt)
-        positions = self._world.data.qpos
-        left = positions.item(self._left[0].position)
-        right = positions.item(self._right[0].position)
         if not self._started:
             # Gazebo's odometry takes its start from the first step without publishing; its wheels count from
             # zero.
             self._odometry.reset(0.0, 0.0)
             self._started = True
             return
-        odometry = self._odometry
-        odometry.update(left, right, info.dt)
         if self._reports.due(info.sim_time_ns):
-            pose = (odometry.x, odometry.y, odometry.heading)
-            self._reports.publish(info.sim_time_ns, pose, odometry.linear, odometry.angular)
+            if self._reports.has_connections():
+                odometry = self._odometry
+                pose = (odometry.x, odometry.y, odometry.heading)
+                self._reports.publish(info.sim_time_ns, pose, odometry.linear, odometry.angular)
+        elif self._odometry.is_full:
+            self._odometry.catch_up()
 
     def _find_speeds(self, dt: float) -> None:
         """Limit the target and convert it to wheel speeds."""
-        linear, angular = self._target
+        linear, angular = self._heeded
+        self._settled = True
         if self._limited:
             last, before = self._last, self._before_last
             linear = self._limit_linear.limit(linear, last[0], before[0], dt)
             angular = self._limit_angular.limit(angular, last[1], before[1], dt)
             self._before_last = last
             self._last = (linear, angular)
+            self._settled = self._last == last == before  # then the next step finds the same
         turn = angular * self._half_separation
         left_speed = (linear - turn) / self._radius
         right_speed = (linear + turn) / self._radius

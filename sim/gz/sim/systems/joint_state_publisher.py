@@ -9,19 +9,27 @@ Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/joint_state
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
+
+import mujoco
+import numpy as np
 
 from gz_course.sim.gz.sim.physics.joint_axis import JointAxis, find_axes
 from gz_course.sim.gz.sim.plugins.model_scope import ModelScope
 from gz_course.sim.gz.sim.plugins.period import period_ns
-from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, system
+from gz_course.sim.gz.sim.plugins.system import FOREVER_NS, System, UpdateInfo, system
 from gz_course.sim.gz.sim.plugins.topics import valid_topic
-from gz_course.sim.gz.sim.pose import Pose, rotate
+from gz_course.sim.gz.sim.pose import Pose, Vector, rotate
 from gz_course.sim.gz.sim.sdf.description import UNLIMITED, Axis, Joint, Model, Plugin
 
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
+
+
+_REST_NS = 5_000_000
+"""Simulated time [ns] after which it looks again whether there is a subscriber."""
 
 
 @system("JointStatePublisher", "gz-sim-joint-state-publisher-system")
@@ -41,12 +49,17 @@ class JointStatePublisher(System):
         self._publisher: Any = None
 
     def bind(self) -> None:
-        prefix = f"{self.scope.model.name}::"
+        prefix, data = f"{self.scope.model.name}::", self.world.data
         self._axes: list[tuple[int, str, JointAxis]] = []
+        self._arrays = data.qpos, data.qvel, data.qfrc_actuator, data.qfrc_applied
+        self._balls: dict[int, tuple[Vector, Vector]] = {}
+        """The quaternion in `data` and the rotation vector of each ball joint, by its position in qpos."""
         for index, joint in enumerate(self.joints):
             # A ball joint has three axes, the message has fields for two.
             for place, axis in zip(("axis1", "axis2"), find_axes(self.world.model, prefix + joint.name), strict=False):
                 self._axes.append((index, place, axis))
+                if axis.part >= 0:
+                    self._balls[axis.position] = data.qpos[axis.position : axis.position + 4], np.zeros(3)
         if self._publisher is not None:
             self._prepare()
 
@@ -67,6 +80,13 @@ class JointStatePublisher(System):
         if self._publisher is not None and self._publisher.has_connections():
             self._publish(info.sim_time_ns)
 
+    def rests_until(self, info: UpdateInfo) -> int:
+        if self._publisher is None:
+            return FOREVER_NS
+        if self._period_ns or self._publisher.has_connections():
+            return self._last_ns + self._period_ns
+        return info.sim_time_ns + _REST_NS
+
     def paused_update(self, info: UpdateInfo) -> None:
         """Publish the last state again, as Gazebo does."""
         if self._publisher is not None and self._publisher.has_connections():
@@ -75,14 +95,15 @@ class JointStatePublisher(System):
     def _publish(self, now_ns: int) -> None:
         message = self._message  # Publishing serializes it at once, so that one message object can be reused.
         message.header.stamp.sec, message.header.stamp.nsec = divmod(now_ns, 1_000_000_000)
-        _fill_pose(message.pose, self.scope.pose())
-        data = self.world.data
-        joints = message.joint
-        for index, place, axis in self._axes:
-            filled = getattr(joints[index], place)
-            filled.position = axis.read_position(data)
-            filled.velocity = axis.read_velocity(data)
-            filled.force = axis.read_force(data)
+        _fill_pose(message.pose, *self.scope.pose_in_floats())
+        # Lists are faster than arrays for reading single numbers.
+        positions, velocities, driven, applied = (array.tolist() for array in self._arrays)
+        for quaternion, turn in self._balls.values():
+            mujoco.mju_quat2Vel(turn, quaternion, 1.0)
+        for filled, position, part, dof in self._filled:
+            filled.position = positions[position] if part < 0 else self._balls[position][1].item(part)
+            filled.velocity = velocities[dof]
+            filled.force = driven[dof] + applied[dof]
         self._publisher.publish(message)
 
     def _prepare(self) -> None:
@@ -93,12 +114,16 @@ class JointStatePublisher(System):
         for index, joint in enumerate(self.joints):
             made = message.joint.add(name=scope.own_name(joint.name), id=scope.entity("joint", joint.name))
             made.parent, made.child = scope.own_name(joint.parent), scope.own_name(joint.child)
-            _fill_pose(made.pose, joint.pose)
+            _fill_pose(made.pose, joint.pose.position.tolist(), joint.pose.quaternion.tolist())
             if (index, "axis1") in moving:
                 made.axis1.SetInParent()
                 if joint.axis is not None:
                     _fill_axis(made.axis1, joint, joint.axis)
         self._message = message
+        self._filled = [
+            (getattr(message.joint[index], place), axis.position, axis.part, axis.dof)
+            for index, place, axis in self._axes
+        ]
 
 
 def _fill_axis(message: Any, joint: Joint, axis: Axis) -> None:
@@ -109,7 +134,7 @@ def _fill_axis(message: Any, joint: Joint, axis: Axis) -> None:
     message.damping = axis.damping
 
 
-def _fill_pose(message: Any, pose: Pose) -> None:
-    message.position.x, message.position.y, message.position.z = pose.position.tolist()
-    turn = message.orientation
-    turn.w, turn.x, turn.y, turn.z = pose.quaternion.tolist()
+def _fill_pose(message: Any, position: Sequence[float], quaternion: Sequence[float]) -> None:
+    place, turn = message.position, message.orientation
+    place.x, place.y, place.z = position
+    turn.w, turn.x, turn.y, turn.z = quaternion

@@ -14,7 +14,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from gz_course.sim.gz.sim.plugins.period import period_ns
-from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, system
+from gz_course.sim.gz.sim.plugins.system import FOREVER_NS, System, UpdateInfo, system
 from gz_course.sim.gz.sim.plugins.topics import valid_topic
 from gz_course.sim.gz.sim.scene.fields import fill_pose, set_pose, set_stamp
 from gz_course.sim.gz.sim.scene.graph import SceneGraph, Vertex
@@ -61,6 +61,11 @@ class Stream:
             return False
         self._last_ns = now_ns
         return bool(self.publisher.has_connections())
+
+    @property
+    def next_ns(self) -> int:
+        """The simulated time [ns] from which the next message is due."""
+        return self._last_ns + self._period_ns
 
     def publish(self, now_ns: int, positions: list[list[float]], quaternions: list[list[float]]) -> None:
         """Publish the poses; the arguments are those of the movers."""
@@ -145,6 +150,9 @@ class PosePublisher(System):
         positions, quaternions = (array.tolist() for array in self._graph.poses())
         for stream in due:
             stream.publish(now_ns, positions, quaternions)
+
+    def rests_until(self, info: UpdateInfo) -> int:
+        return min(stream.next_ns for stream in self._streams) if self._connected else FOREVER_NS
 
     def _made_graph(self) -> SceneGraph:
         """Return the model's scene graph after assigning its vertices to the streams."""

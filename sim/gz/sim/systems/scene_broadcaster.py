@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from gz_course.sim.gz.sim.errors import LOG, SimError
 from gz_course.sim.gz.sim.plugins.period import LONGEST_NS
-from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, system
+from gz_course.sim.gz.sim.plugins.system import FOREVER_NS, System, UpdateInfo, system
 from gz_course.sim.gz.sim.scene.fields import fill_pose, set_pose, set_stamp
 from gz_course.sim.gz.sim.scene.graph import KINDS, SceneGraph, Vertex
 from gz_course.sim.gz.sim.sdf.description import Model, Plugin
@@ -140,6 +140,11 @@ class SceneBroadcaster(System):
         due = self._all.due(now_ns), self._dynamic.due(now_ns), self._state.due(now_ns)
         self._next_ns = min(self._all.next_ns, self._dynamic.next_ns, self._state.next_ns)
         self._publish(now_ns, *due)
+
+    def rests_until(self, info: UpdateInfo) -> int:
+        if self._node is None:
+            return FOREVER_NS
+        return 0 if self._stale else self._next_ns
 
     def paused_update(self, info: UpdateInfo) -> None:
         if self._node is None:

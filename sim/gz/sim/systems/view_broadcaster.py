@@ -32,6 +32,8 @@ _PICTURE_NS = 16_000_000
 """Shortest wall time [ns] between two states."""
 _DRAG_NS = 300_000_000
 """Wall time [ns] for which a drag lasts if it is not renewed: a view that ends lets go."""
+_REST_NS = 5_000_000
+"""Simulated time [ns] between two looks at the wall clock."""
 _STAMP = struct.Struct("<Q")
 
 
@@ -102,6 +104,9 @@ class ViewBroadcaster(System):
             self._world.data.xfrc_applied[body] = before
             self._pushed = None
         self._publish(info.sim_time_ns)
+
+    def rests_until(self, info: UpdateInfo) -> int:
+        return 0 if self._drag is not None else info.sim_time_ns + _REST_NS
 
     def paused_update(self, info: UpdateInfo) -> None:
         self._next_ns = 0

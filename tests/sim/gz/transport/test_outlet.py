@@ -150,3 +150,24 @@ def zmtp_peer(address):
         _command, length = answers.read(2)
         assert answers.read(length).startswith(b"\x05READY")
     return raw
+
+
+def test_messages_that_were_held_leave_in_their_order(outlet, subscribe):
+    with subscribe() as socket:
+        until(lambda: outlet.listeners(TOPIC), outlet)
+        outlet.hold()
+        for number in range(50):
+            outlet.send(TOPIC, b"%d" % number, b"type")
+        outlet.let_go()
+        outlet.send(TOPIC, b"50", b"type")
+        assert [int(socket.recv_multipart()[2]) for _ in range(51)] == list(range(51))
+
+
+def test_a_message_is_not_held_for_longer_than_a_moment_while_others_follow(outlet, subscribe):
+    with subscribe() as socket:
+        until(lambda: outlet.listeners(TOPIC), outlet)
+        outlet.hold()
+        deadline = time.monotonic() + 120
+        while not socket.poll(0):
+            assert time.monotonic() < deadline
+            outlet.send(TOPIC, b"data", b"type")

@@ -103,3 +103,49 @@ def test_statistics_of_the_inertia(world: Path, tmp_path: Path, capsys: pytest.C
     )
     assert main(["sdf", "--inertial-stats", str(world)]) == 255
     assert "is a world file" in capsys.readouterr().err
+
+
+FRAMES = """<sdf version="1.10"><world name="w">
+<model name="a"><joint name="j" type="fixed"><parent>p</parent><child>c</child></joint><link name="c"/><link name="p"/>
+<frame name="f" attached_to="n::l"><pose relative_to="j"/></frame>
+<model name="n"><pose relative_to="p"/><link name="l"/></model></model>
+<frame name="g"><pose relative_to="a::n::l"/></frame></world></sdf>"""
+NAMES = ["a", "a::__model__", "a::c", "a::p", "a::j", "a::f", "a::n", "a::n::__model__", "a::n::l", "g"]
+
+
+@pytest.mark.parametrize(
+    ("kind", "before", "edges"),
+    [
+        ("pose", ["__root__", "world"], "0-1 2-3! 8-9! 9-10 3-4 3-5 4-6 6-7 5-8 1-2 10-11"),
+        ("frame", ["world"], "1-2! 7-8! 8-9 5-3 6-9 2-3 10-0"),
+    ],
+)
+def test_graph(kind: str, before: list[str], edges: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "w.sdf"
+    path.write_text(FRAMES)
+    assert main(["sdf", "-g", kind, str(path)]) == 0
+    first, *lines, last = capsys.readouterr().out.splitlines()
+    assert (first, last) == ("digraph {", "}")
+    names = [*before, *NAMES]
+    assert lines[: len(names)] == [f'  {number} [label="{name} ({number})"];' for number, name in enumerate(names)]
+    shown = [line.strip().removesuffix(";") for line in lines[len(names) :]]
+    assert shown == [
+        f"{each.strip('!').replace('-', ' -> ')} [label={0 if each.endswith('!') else 1}]" for each in edges.split()
+    ]
+
+
+def test_graph_of_a_model_with_includes_and_its_faults(
+    world: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["sdf", "--graph", "frame", str(tmp_path / "part" / "model.sdf")]) == 0
+    assert "  2 -> 3 [label=1];" in capsys.readouterr().out
+    assert main(["sdf", "-g", "pose", str(world)]) == 0
+    assert '[label="first::base (4)"]' in capsys.readouterr().out
+    world.write_text(FRAMES.replace("a::n::l", "a::n::ll"))
+    assert main(["sdf", "-g", "pose", str(world)]) == 255
+    assert (
+        f"{world}:5: <pose> names frame 'a::n::ll', which does not exist; did you mean 'a::n::l'?"
+        in capsys.readouterr().err
+    )
+    assert main(["sdf", "-g", "poses", str(world)]) != 0
+    assert "did you mean 'pose'?" in capsys.readouterr().err

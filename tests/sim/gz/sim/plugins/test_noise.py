@@ -113,7 +113,7 @@ def run(channels: Channels, source: Source, count: int) -> np.ndarray:
     for update in range(count):
         source.updates = update
         channels.advance(0.01 if update else 0.0)
-        values.append(channels.apply(np.zeros(3)))
+        values.append(channels.apply([0.0, 0.0, 0.0]))
     return np.array(values)
 
 
@@ -144,7 +144,7 @@ def test_channels_round_each_with_their_own_precision() -> None:
     source = Source()
     channels = Channels(source, [("a", Noise(precision=0.5)), ("b", Noise()), ("c", Noise(precision=2.0))])  # type: ignore[arg-type]
     channels.start()
-    assert channels.apply(np.array((0.7, 0.7, 1.7))).tolist() == [0.5, 0.7, 2.0]
+    assert channels.apply([0.7, 0.7, 1.7]) == [0.5, 0.7, 2.0]
 
 
 @pytest.mark.parametrize(

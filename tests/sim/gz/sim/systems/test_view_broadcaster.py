@@ -30,6 +30,7 @@ LoadText = Callable[..., World]
 @pytest.fixture(autouse=True)
 def at_every_step(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(view_broadcaster, "_PICTURE_NS", 0)
+    monkeypatch.setattr(view_broadcaster, "_REST_NS", 0)
 
 
 def model_of(node: Node) -> tuple[int, mujoco.MjModel]:
