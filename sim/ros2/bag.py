@@ -10,9 +10,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from gz_course.sim.ros2.errors import CommandError
-from gz_course.sim.rosbag2.bag import Bag
-from gz_course.sim.rosbag2.bag_writer import STORAGES
 from gz_course.sim.rosbag2.errors import BagError
+from gz_course.sim.rosbag2.storage.bag import Bag
+from gz_course.sim.rosbag2.storage.bag_writer import STORAGES
 
 
 def add_bag_path(parser: argparse.ArgumentParser) -> None:

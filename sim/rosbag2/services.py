@@ -9,8 +9,8 @@ import importlib
 from collections.abc import Callable
 from typing import Any
 
-from gz_course.sim.rosbag2.player import Player
-from gz_course.sim.rosbag2.recorder import Recorder
+from gz_course.sim.rosbag2.playing.player import Player
+from gz_course.sim.rosbag2.recording.recorder import Recorder
 
 Answer = Callable[[Any], dict[str, Any] | None]
 

@@ -5,7 +5,7 @@ import signal
 import pytest
 import yaml
 
-from gz_course.sim.rosbag2.bag import Bag
+from gz_course.sim.rosbag2.storage.bag import Bag
 from gz_course.tests.sim.rosbag2.bags import TWIST, string, write_bag, write_database
 
 ROS2 = "gz_course.sim.ros2.command_line"

@@ -11,13 +11,13 @@ import yaml
 from mcap.data_stream import RecordBuilder
 from mcap.records import Chunk, Schema
 
-from gz_course.sim.rosbag2 import mcap_writing
-from gz_course.sim.rosbag2.bag import Bag, reindex
-from gz_course.sim.rosbag2.bag_writer import BagWriter
 from gz_course.sim.rosbag2.errors import BagError
-from gz_course.sim.rosbag2.mcap_reading import MAGIC
-from gz_course.sim.rosbag2.metadata import from_yaml
-from gz_course.sim.rosbag2.writing_thread import WritingThread
+from gz_course.sim.rosbag2.recording.writing_thread import WritingThread
+from gz_course.sim.rosbag2.storage import mcap_writing
+from gz_course.sim.rosbag2.storage.bag import Bag, reindex
+from gz_course.sim.rosbag2.storage.bag_writer import BagWriter
+from gz_course.sim.rosbag2.storage.mcap_reading import MAGIC
+from gz_course.sim.rosbag2.storage.metadata import from_yaml
 from gz_course.tests.sim.rosbag2.bags import CHATTER, START, STEP, TWIST, string, twist, write_bag, write_database
 
 FUZZED = 50_000

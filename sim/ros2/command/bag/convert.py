@@ -10,11 +10,11 @@ from typing import Any
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.ros2.bag import bag_errors, opened
 from gz_course.sim.ros2.errors import UsageError
-from gz_course.sim.rosbag2.bag import Bag
-from gz_course.sim.rosbag2.bag_writer import STORAGES, BagWriter
 from gz_course.sim.rosbag2.errors import BagError
 from gz_course.sim.rosbag2.selection import Selection, absolute
-from gz_course.sim.rosbag2.yaml_text import load_yaml
+from gz_course.sim.rosbag2.storage.bag import Bag
+from gz_course.sim.rosbag2.storage.bag_writer import STORAGES, BagWriter
+from gz_course.sim.rosbag2.storage.yaml_text import load_yaml
 
 _KEYS: dict[str, Any] = {
     **{"uri": str, "storage_id": str, "storage_preset_profile": str, "custom_data": dict},

@@ -18,11 +18,11 @@ from gz_course.sim.ros2.graph import Graph
 from gz_course.sim.ros2.option_values import positive_number, rate, seconds, whole_number
 from gz_course.sim.ros_program.shared_memory import segment_for_images
 from gz_course.sim.rosbag2 import keys
-from gz_course.sim.rosbag2.bag import Bag
-from gz_course.sim.rosbag2.player import Player, PlayOptions
+from gz_course.sim.rosbag2.playing.player import Player, PlayOptions
 from gz_course.sim.rosbag2.qos import overrides
 from gz_course.sim.rosbag2.selection import Selection, absolute
 from gz_course.sim.rosbag2.services import offer_player
+from gz_course.sim.rosbag2.storage.bag import Bag
 from gz_course.sim.rosbag2.stored_types import StoredTypes
 
 _DISCOVERY = 1.0  # [s] for subscribers to be found before the first message

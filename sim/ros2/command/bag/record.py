@@ -14,13 +14,13 @@ from gz_course.sim.ros2.graph import Graph
 from gz_course.sim.ros2.option_values import positive_number, whole_number
 from gz_course.sim.ros_program.abandoned_segments import remove_abandoned_segments
 from gz_course.sim.rosbag2 import keys
-from gz_course.sim.rosbag2.bag_writer import STORAGES, BagWriter
 from gz_course.sim.rosbag2.qos import overrides
-from gz_course.sim.rosbag2.recorder import Recorder, RecordOptions
+from gz_course.sim.rosbag2.recording.recorder import Recorder, RecordOptions
+from gz_course.sim.rosbag2.recording.writing_thread import WritingThread
 from gz_course.sim.rosbag2.selection import SERVICE_EVENTS, Selection, absolute
 from gz_course.sim.rosbag2.services import offer_recorder
+from gz_course.sim.rosbag2.storage.bag_writer import STORAGES, BagWriter
 from gz_course.sim.rosbag2.stored_types import installed_class
-from gz_course.sim.rosbag2.writing_thread import WritingThread
 
 _PRESETS = sorted({preset for _, _, presets in STORAGES.values() for preset in presets})
 _SMALLEST_SPLIT = 1024  # bytes

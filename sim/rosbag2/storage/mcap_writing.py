@@ -15,8 +15,8 @@ from typing import Any, cast
 from mcap.writer import CompressionType, Writer
 
 from gz_course.sim.rosbag2.errors import BagError
-from gz_course.sim.rosbag2.metadata import Metadata, Topic
-from gz_course.sim.rosbag2.yaml_text import to_yaml
+from gz_course.sim.rosbag2.storage.metadata import Metadata, Topic
+from gz_course.sim.rosbag2.storage.yaml_text import to_yaml
 
 CHUNK_BYTES = 786432
 PRESETS: dict[str, dict[str, Any]] = {

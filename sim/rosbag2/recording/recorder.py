@@ -14,10 +14,10 @@ from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 
 from gz_course.sim.rosbag2.definitions import definition
 from gz_course.sim.rosbag2.errors import BagError
-from gz_course.sim.rosbag2.metadata import Topic
 from gz_course.sim.rosbag2.qos import request_for, stored
+from gz_course.sim.rosbag2.recording.writing_thread import WritingThread
 from gz_course.sim.rosbag2.selection import SERVICE_EVENTS, Selection, is_hidden
-from gz_course.sim.rosbag2.writing_thread import WritingThread
+from gz_course.sim.rosbag2.storage.metadata import Topic
 
 _AT_ONCE = 200  # messages of one topic that are taken before others have their turn
 

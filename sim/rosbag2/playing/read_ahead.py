@@ -7,7 +7,7 @@ from collections import deque
 from collections.abc import Iterator
 
 from gz_course.sim.rosbag2.errors import BagError
-from gz_course.sim.rosbag2.mcap_reading import Message
+from gz_course.sim.rosbag2.storage.mcap_reading import Message
 
 MOST_BYTES = 64 * 1024 * 1024
 

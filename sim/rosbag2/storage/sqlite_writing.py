@@ -11,9 +11,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from gz_course.sim.rosbag2.mcap_writing import DiskFullError
-from gz_course.sim.rosbag2.metadata import DISTRO, Metadata, Topic
-from gz_course.sim.rosbag2.yaml_text import to_yaml
+from gz_course.sim.rosbag2.storage.mcap_writing import DiskFullError
+from gz_course.sim.rosbag2.storage.metadata import DISTRO, Metadata, Topic
+from gz_course.sim.rosbag2.storage.yaml_text import to_yaml
 
 _SCHEMA_VERSION = 4
 _TABLES = """

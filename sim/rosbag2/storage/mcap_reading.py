@@ -25,8 +25,8 @@ from mcap.opcode import Opcode
 from mcap.records import Channel, Metadata, Schema, Statistics
 
 from gz_course.sim.rosbag2.errors import BagError
-from gz_course.sim.rosbag2.metadata import Topic
-from gz_course.sim.rosbag2.offered_qos import profiles_from_yaml
+from gz_course.sim.rosbag2.storage.metadata import Topic
+from gz_course.sim.rosbag2.storage.offered_qos import profiles_from_yaml
 
 MAGIC = b"\x89MCAP0\r\n"
 LARGEST_CHUNK = 1 << 30  # bytes, unpacked

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gz_course.sim.rosbag2.bag import write_metadata
 from gz_course.sim.rosbag2.errors import BagError
-from gz_course.sim.rosbag2.mcap_writing import PRESETS, DiskFullError, McapFile
-from gz_course.sim.rosbag2.metadata import FileInformation, Metadata, Topic
-from gz_course.sim.rosbag2.sqlite_writing import SqliteFile
+from gz_course.sim.rosbag2.storage.bag import write_metadata
+from gz_course.sim.rosbag2.storage.mcap_writing import PRESETS, DiskFullError, McapFile
+from gz_course.sim.rosbag2.storage.metadata import FileInformation, Metadata, Topic
+from gz_course.sim.rosbag2.storage.sqlite_writing import SqliteFile
 
 STORAGES: dict[str, tuple[str, type[McapFile] | type[SqliteFile], tuple[str, ...]]] = {
     "mcap": (".mcap", McapFile, tuple(PRESETS)),

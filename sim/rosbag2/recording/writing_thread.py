@@ -6,10 +6,10 @@ import threading
 import time
 from collections import Counter, deque
 
-from gz_course.sim.rosbag2.bag_writer import BagWriter
 from gz_course.sim.rosbag2.errors import BagError
-from gz_course.sim.rosbag2.mcap_writing import DiskFullError
-from gz_course.sim.rosbag2.metadata import Topic
+from gz_course.sim.rosbag2.storage.bag_writer import BagWriter
+from gz_course.sim.rosbag2.storage.mcap_writing import DiskFullError
+from gz_course.sim.rosbag2.storage.metadata import Topic
 
 FLUSH_EVERY = 1.0  # [s] after which the last messages are on the disk
 _Message = tuple[str, int, int, bytes]
@@ -104,7 +104,7 @@ class WritingThread:
 
     def _save_metadata(self) -> None:
         """Write the metadata of what is whole, if the disk takes that much."""
-        from gz_course.sim.rosbag2.bag import reindex
+        from gz_course.sim.rosbag2.storage.bag import reindex
 
         try:
             reindex(self._writer.folder)

@@ -12,12 +12,12 @@ from collections import Counter
 from collections.abc import Collection, Iterator
 from pathlib import Path
 
-from gz_course.sim.rosbag2 import mcap_reading, sqlite_reading
 from gz_course.sim.rosbag2.errors import BagError
-from gz_course.sim.rosbag2.mcap_reading import McapReading, Message
-from gz_course.sim.rosbag2.metadata import FILE, FileInformation, Metadata, Topic, from_dictionary, from_yaml
-from gz_course.sim.rosbag2.sqlite_reading import SqliteReading
-from gz_course.sim.rosbag2.yaml_text import load_yaml
+from gz_course.sim.rosbag2.storage import mcap_reading, sqlite_reading
+from gz_course.sim.rosbag2.storage.mcap_reading import McapReading, Message
+from gz_course.sim.rosbag2.storage.metadata import FILE, FileInformation, Metadata, Topic, from_dictionary, from_yaml
+from gz_course.sim.rosbag2.storage.sqlite_reading import SqliteReading
+from gz_course.sim.rosbag2.storage.yaml_text import load_yaml
 
 _SUFFIXES = {"mcap": ".mcap", "sqlite3": ".db3"}
 _COMPRESSED = (".zstd", ".zst")

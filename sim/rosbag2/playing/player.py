@@ -15,14 +15,14 @@ from rclpy.duration import Duration
 from rclpy.qos import ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 
-from gz_course.sim.rosbag2.bag import Bag
 from gz_course.sim.rosbag2.errors import BagError
-from gz_course.sim.rosbag2.mcap_reading import Message
-from gz_course.sim.rosbag2.offered_qos import offer_like
-from gz_course.sim.rosbag2.playback_clock import PlaybackClock
+from gz_course.sim.rosbag2.playing.playback_clock import PlaybackClock
+from gz_course.sim.rosbag2.playing.read_ahead import ReadAhead
 from gz_course.sim.rosbag2.qos import to_offer
-from gz_course.sim.rosbag2.read_ahead import ReadAhead
 from gz_course.sim.rosbag2.selection import SERVICE_EVENTS, Selection
+from gz_course.sim.rosbag2.storage.bag import Bag
+from gz_course.sim.rosbag2.storage.mcap_reading import Message
+from gz_course.sim.rosbag2.storage.offered_qos import offer_like
 from gz_course.sim.rosbag2.stored_types import installed_hash
 
 _LONGEST_WAIT = 0.5  # [s] at a time, so that an interruption is not missed

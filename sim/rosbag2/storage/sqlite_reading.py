@@ -14,9 +14,9 @@ from pathlib import Path
 from typing import Any
 
 from gz_course.sim.rosbag2.errors import BagError
-from gz_course.sim.rosbag2.mcap_reading import Message
-from gz_course.sim.rosbag2.metadata import Topic
-from gz_course.sim.rosbag2.offered_qos import profiles_from_yaml
+from gz_course.sim.rosbag2.storage.mcap_reading import Message
+from gz_course.sim.rosbag2.storage.metadata import Topic
+from gz_course.sim.rosbag2.storage.offered_qos import profiles_from_yaml
 
 MAGIC = b"SQLite format 3\0"
 _SUPPORTED = ("name", "type", "serialization_format", "offered_qos_profiles", "type_description_hash")

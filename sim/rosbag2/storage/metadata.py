@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from gz_course.sim.rosbag2.errors import BagError
-from gz_course.sim.rosbag2.offered_qos import QosProfile, profiles_from_yaml
-from gz_course.sim.rosbag2.yaml_text import load_yaml, to_yaml
+from gz_course.sim.rosbag2.storage.offered_qos import QosProfile, profiles_from_yaml
+from gz_course.sim.rosbag2.storage.yaml_text import load_yaml, to_yaml
 
 VERSION = 9
 FILE = "metadata.yaml"

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from gz_course.sim.rosbag2.errors import BagError
-from gz_course.sim.rosbag2.yaml_text import load_yaml
+from gz_course.sim.rosbag2.storage.yaml_text import load_yaml
 
 INFINITE = (9223372036, 854775807)
 """Seconds and nanoseconds of a duration without an end."""
