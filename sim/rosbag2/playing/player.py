@@ -126,18 +126,25 @@ class Player:
         self._node.get_logger().info(f"Set rate to {rate:g}")
         return True
 
+    def play_again(self) -> bool:
+        """Return False: the node lives as long as its bag is played, and so is always playing when it is asked."""
+        self._node.get_logger().warning("Trying to play rosbag while in playback, dismissing request.")
+        return False
+
     def play_next(self, count: int = 1) -> int:
         """Play the next messages at once if playing is paused; return how many were played. 0: all that is left."""
         with self._changed:
             if not self._clock.paused:
                 self._node.get_logger().warning("Called play next, but not in paused state.")
                 return 0
-            before = self._published
+            before = seen = self._published
             self._steps = count or 2**62
             self._changed.notify_all()
-            done = self._changed.wait_for(lambda: self._steps <= 0 or self._stopped, _STEP_PATIENCE)
-            if not done and count:
-                self._steps = 0
+            while not self._changed.wait_for(lambda: self._steps <= 0 or self._stopped, _STEP_PATIENCE):
+                if self._published == seen:  # nothing is left, or subscribers hold it up
+                    self._steps = 0
+                    break
+                seen = self._published
             return self._published - before
 
     def seek(self, bag: int) -> bool:

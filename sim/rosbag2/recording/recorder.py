@@ -15,6 +15,7 @@ from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 from gz_course.sim.rosbag2.definitions import definition
 from gz_course.sim.rosbag2.errors import BagError
 from gz_course.sim.rosbag2.qos import request_for, stored
+from gz_course.sim.rosbag2.recording.snapshot import SnapshotThread
 from gz_course.sim.rosbag2.recording.writing_thread import WritingThread
 from gz_course.sim.rosbag2.selection import SERVICE_EVENTS, Selection, is_hidden
 from gz_course.sim.rosbag2.storage.metadata import Topic
@@ -81,6 +82,19 @@ class Recorder:
 
     def split(self) -> None:
         self._writing.split()
+
+    def on_split(self, tell: Callable[[str, str], object]) -> None:
+        """Have a function called with the paths of the file that has ended and of the new one, in another thread."""
+        self._writing.writer.on_split = tell
+
+    @property
+    def can_snapshot(self) -> bool:
+        """Return whether messages are kept in memory until somebody asks for them."""
+        return isinstance(self._writing, SnapshotThread)
+
+    def snapshot(self) -> bool:
+        """Have what is kept in memory written; return whether that is possible."""
+        return isinstance(self._writing, SnapshotThread) and self._writing.snapshot()
 
     def take_the_rest(self) -> None:
         """Take what has arrived and is not taken yet, and stop hearing."""

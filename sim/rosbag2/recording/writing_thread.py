@@ -25,7 +25,7 @@ class WritingThread:
     def __init__(self, writer: BagWriter, cache_bytes: int) -> None:
         self.failure = ""
         self.lost: Counter[str] = Counter()
-        self._writer = writer
+        self.writer = writer
         self._most = cache_bytes or float("inf")
         self._queue: deque[_Message | _NewTopic] = deque()
         self._waiting_bytes = 0
@@ -65,9 +65,9 @@ class WritingThread:
     def _run(self) -> None:
         try:
             self._write_all()
-            self._writer.close()
+            self.writer.close()
         except DiskFullError as error:
-            self._writer.abandon()
+            self.writer.abandon()
             self._fail(f"{error}. Recording has stopped; what was written before can be read.")
             self._save_metadata()
         except BagError as error:
@@ -83,17 +83,17 @@ class WritingThread:
                 closing = self._closing
             for item in batch:
                 if len(item) == 2:
-                    self._writer.add_topic(*item)
+                    self.writer.add_topic(*item)
                 else:
-                    self._writer.write(*item)
+                    self.writer.write(*item)
                     with self._changed:
                         self._waiting_bytes -= len(item[3])
             if splitting:
-                self._writer.split()
+                self.writer.split()
             if closing and not batch:
                 return
             if time.monotonic() - flushed >= FLUSH_EVERY:
-                self._writer.flush()
+                self.writer.flush()
                 flushed = time.monotonic()
 
     def _fail(self, sentence: str) -> None:
@@ -107,6 +107,6 @@ class WritingThread:
         from gz_course.sim.rosbag2.storage.bag import reindex
 
         try:
-            reindex(self._writer.folder)
+            reindex(self.writer.folder)
         except (BagError, OSError):
-            self.failure += f" `ros2 bag reindex {self._writer.folder}` completes it when there is space again."
+            self.failure += f" `ros2 bag reindex {self.writer.folder}` completes it when there is space again."

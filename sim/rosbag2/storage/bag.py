@@ -6,21 +6,27 @@ with it.
 
 from __future__ import annotations
 
+import contextlib
 import heapq
 import os
+import shutil
+import tempfile
+import weakref
 from collections import Counter
 from collections.abc import Collection, Iterator
 from pathlib import Path
 
 from gz_course.sim.rosbag2.errors import BagError
-from gz_course.sim.rosbag2.storage import mcap_reading, sqlite_reading
+from gz_course.sim.rosbag2.storage import compression, mcap_reading, sqlite_reading
+from gz_course.sim.rosbag2.storage.compression import unpack_message
 from gz_course.sim.rosbag2.storage.mcap_reading import McapReading, Message
 from gz_course.sim.rosbag2.storage.metadata import FILE, FileInformation, Metadata, Topic, from_dictionary, from_yaml
 from gz_course.sim.rosbag2.storage.sqlite_reading import SqliteReading
 from gz_course.sim.rosbag2.storage.yaml_text import load_yaml
 
 _SUFFIXES = {"mcap": ".mcap", "sqlite3": ".db3"}
-_COMPRESSED = (".zstd", ".zst")
+_WHOLE = tuple(_SUFFIXES.values())
+_ENDS = (*_WHOLE, *(suffix + end for suffix in _WHOLE for end in compression.SUFFIXES))
 
 
 class Bag:
@@ -29,6 +35,7 @@ class Bag:
     def __init__(self, path: Path) -> None:
         self.path = path
         self.complaints: list[str] = []
+        self._unpacked: Path | None = None
         stored = self._stored_metadata() if path.is_dir() else None
         self._readings = {name: self._reading(name) for name in self._files(stored)}
         self.topics: dict[str, Topic] = {}
@@ -76,6 +83,8 @@ class Bag:
                     heapq.heappush(current, (first.received, number, first, messages))
             if current:
                 _, number, message, messages = current[0]
+                if message.data.startswith(compression.MAGIC):
+                    message = message._replace(data=unpack_message(message.data, message.topic))
                 yield message
                 following = next(messages, None)
                 if following is None:
@@ -103,14 +112,18 @@ class Bag:
                 raise BagError(f"Bag path '{self.path}' does not exist!")
             return [self.path.name]
         if stored is None:
-            found = [entry.name for entry in os.scandir(self.path) if entry.name.endswith(tuple(_SUFFIXES.values()))]
+            there = {entry.name for entry in os.scandir(self.path) if entry.name.endswith(_ENDS)}
+            # Compressing may have been interrupted before the whole file was removed.
+            found = [
+                name for name in there if not {name.removesuffix(end) for end in compression.SUFFIXES} & there - {name}
+            ]
             if not found:
                 raise BagError(f"{self.path} is not a bag: it has neither {FILE} nor .mcap or .db3 files")
             return sorted(found, key=lambda name: (len(name), name))
         if stored.storage not in _SUFFIXES:
             raise BagError(f"{self.path} has the storage '{stored.storage}'; here bags are read in {_known_storages()}")
-        if stored.compression_mode == "message":
-            raise BagError(f"{self.path} has messages compressed one by one, which are not read here")
+        if stored.compression_format not in ("", compression.FORMAT):
+            raise BagError(f"{self.path} is compressed with '{stored.compression_format}'; zstd is read here")
         names = []
         for file in stored.files:
             name = file.path if (self.path / file.path).exists() else Path(file.path).name
@@ -129,18 +142,17 @@ class Bag:
 
     def _reading(self, name: str) -> McapReading | SqliteReading:
         path = self._place(name)
-        try:
-            with path.open("rb") as file:
-                head = file.read(16)
-        except OSError as error:
-            raise BagError(f"{path} cannot be read: {error.strerror}") from None
+        if _head(path).startswith(compression.MAGIC):
+            if self._unpacked is None:
+                self._unpacked = Path(tempfile.mkdtemp(prefix="rosbag2_"))
+                weakref.finalize(self, shutil.rmtree, self._unpacked, True)
+            path = compression.unpack_file(path, self._unpacked)
+        head = _head(path)
         if head.startswith(mcap_reading.MAGIC):
             return McapReading(path)
         if head.startswith(sqlite_reading.MAGIC):
             return SqliteReading(path)
-        if path.suffix in _COMPRESSED:
-            raise BagError(f"{path} is compressed as a whole; unpack it with `zstd -d` and run `ros2 bag reindex`")
-        raise BagError(f"{path} is no file of a bag: it begins neither as MCAP nor as SQLite")
+        raise BagError(f"{self._place(name)} is no file of a bag: it begins neither as MCAP nor as SQLite")
 
     def _collected(self) -> Metadata:
         """Return metadata made from the files."""
@@ -153,24 +165,34 @@ class Bag:
         metadata = Metadata(self._storage(), list(self.topics.values()), dict(counts), files)
         metadata.start = self.start
         metadata.duration = max(0, self.end - self.start)
-        metadata.distro, metadata.custom_data = self._told()
+        told = self._told()
+        metadata.distro, metadata.custom_data = told.distro, told.custom_data
+        if self._unpacked is not None:
+            metadata.compression_mode, metadata.compression_format = "FILE", compression.FORMAT
+        elif told.compression_mode == "message":
+            metadata.compression_mode, metadata.compression_format = "MESSAGE", compression.FORMAT
         return metadata
 
     def _storage(self) -> str:
         mcap = any(isinstance(reading, McapReading) for reading in self._readings.values())
         return "mcap" if mcap or not self._readings else "sqlite3"
 
-    def _told(self) -> tuple[str, dict[str, str]]:
-        """Return distribution and custom data as a file tells them."""
+    def _told(self) -> Metadata:
+        """Return the metadata that a file tells."""
         for reading in self._readings.values():
             if text := reading.metadata.get("serialized_metadata"):
-                try:
+                with contextlib.suppress(BagError):
                     values = load_yaml(text, str(self.path))
-                    told = from_dictionary(values if isinstance(values, dict) else {}, str(self.path))
-                    return told.distro, told.custom_data
-                except BagError:
-                    continue
-        return "unknown", {}
+                    return from_dictionary(values if isinstance(values, dict) else {}, str(self.path))
+        return Metadata("", distro="unknown")
+
+
+def _head(path: Path) -> bytes:
+    try:
+        with path.open("rb") as file:
+            return file.read(16)
+    except OSError as error:
+        raise BagError(f"{path} cannot be read: {error.strerror}") from None
 
 
 def _known_storages() -> str:

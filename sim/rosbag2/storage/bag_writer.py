@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
+import threading
+from collections.abc import Callable
 from pathlib import Path
 
 from gz_course.sim.rosbag2.errors import BagError
 from gz_course.sim.rosbag2.storage.bag import write_metadata
+from gz_course.sim.rosbag2.storage.compression import FORMAT, compress_file, compress_message
 from gz_course.sim.rosbag2.storage.mcap_writing import PRESETS, DiskFullError, McapFile
 from gz_course.sim.rosbag2.storage.metadata import FileInformation, Metadata, Topic
 from gz_course.sim.rosbag2.storage.sqlite_writing import SqliteFile
@@ -21,7 +25,8 @@ class BagWriter:
     """A new bag in a folder that does not exist yet.
 
     A new file begins before one exceeds `split_bytes`, and when its messages span `split_ns` [ns]; 0 is never.
-    Of the files only the last `keep` remain; 0 is all. Not for several threads.
+    Of the files only the last `keep` remain; 0 is all. `compression` is `none`, `file` (each after its end) or
+    `message`. `on_split` gets the paths of the file that has ended and of the new one. Not for several threads.
     """
 
     def __init__(
@@ -33,9 +38,15 @@ class BagWriter:
         split_ns: int = 0,
         keep: int = 0,
         custom_data: dict[str, str] | None = None,
+        compression: str = "none",
     ) -> None:
         self.folder = folder
+        self.on_split: Callable[[str, str], object] = lambda ended, new: None
         self.metadata = Metadata(storage, custom_data=custom_data or {})
+        if compression != "none":
+            self.metadata.compression_mode, self.metadata.compression_format = compression.upper(), FORMAT
+        self._compression = compression
+        self._compressing: list[threading.Thread] = []
         self._suffix, self._kind, presets = STORAGES[storage]
         if preset not in presets:
             raise BagError(f"the storage '{storage}' has no preset profile '{preset}'; it has {', '.join(presets)}")
@@ -63,6 +74,8 @@ class BagWriter:
 
     def write(self, topic: str, received: int, sent: int, data: bytes) -> None:
         """Add a serialised message with its times [ns]. Raises DiskFullError."""
+        if self._compression == "message":
+            data = compress_message(data)
         here = self.metadata.files[-1]
         if here.count and (
             (self._split_bytes and self._file.size + len(data) > self._split_bytes)
@@ -76,11 +89,15 @@ class BagWriter:
     def split(self) -> None:
         """Continue in a new file."""
         self._file.close(self.metadata)
+        self._compress()
+        ended = self.metadata.files[-1]
         self._number += 1
         while self._keep and len(self.metadata.files) >= self._keep:
+            self._wait_for_compression()
             oldest = self.metadata.files.pop(0)
             (self.folder / oldest.path).unlink(missing_ok=True)
         self._open()
+        self.on_split(str(self.folder / ended.path), str(self.folder / self.metadata.files[-1].path))
 
     def flush(self) -> None:
         """Put all messages on the disk. Raises DiskFullError."""
@@ -92,12 +109,33 @@ class BagWriter:
             self._file.close(self.metadata)
         except DiskFullError:
             self._file.abandon()
+            self._wait_for_compression()
             raise
+        self._compress()
+        self._wait_for_compression()
         write_metadata(self.folder, self.metadata)
 
     def abandon(self) -> None:
         """Leave the last file without its end, after DiskFullError."""
         self._file.abandon()
+        self._wait_for_compression()
+
+    def _compress(self) -> None:
+        """Have the file that has ended compressed beside the writing; if that fails it stays as it is."""
+        if self._compression != "file":
+            return
+        file = self.metadata.files[-1]
+
+        def work() -> None:
+            with contextlib.suppress(OSError):
+                file.path = compress_file(self.folder / file.path).name
+
+        self._compressing.append(threading.Thread(target=work, name="bag compression"))
+        self._compressing[-1].start()
+
+    def _wait_for_compression(self) -> None:
+        while self._compressing:
+            self._compressing.pop().join()
 
     def _open(self) -> None:
         name = f"{self.folder.resolve().name}_{self._number}{self._suffix}"

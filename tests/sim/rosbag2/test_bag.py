@@ -289,6 +289,9 @@ def read_damaged(tmp_path, cases):
     for number, preset in enumerate(mcap_writing.PRESETS):
         folder = write_bag(tmp_path / f"seed{number}", count=12, preset=preset)
         seeds.append((folder / f"seed{number}_0.mcap").read_bytes())
+    for mode in ("file", "message"):
+        folder = write_bag(tmp_path / mode, count=12, compression=mode)
+        seeds.append(next(folder.glob(f"{mode}_0.mcap*")).read_bytes())
     seeds.append(write_database(tmp_path / "seed.db3").read_bytes())
     text = (tmp_path / "seed0" / "metadata.yaml").read_bytes()
     path = tmp_path / "fuzzed"
