@@ -10,9 +10,9 @@ from typing import Any
 def unittestResultsToXml(*, name: str = "launch_test", test_results: Mapping[Any, Any]) -> ET.ElementTree:
     """Return a document with one `<testsuite>` for each launch."""
     results = list(test_results.values())
-    root = ET.Element("testsuites", name=name, **_counts(results))
+    root = ET.Element("testsuites", {"name": name, **_counts(results)})
     for run, result in test_results.items():
-        suite = ET.SubElement(root, "testsuite", name=str(run), **_counts([result]))
+        suite = ET.SubElement(root, "testsuite", {"name": str(run), **_counts([result])})
         suite.set("skipped", str(len(result.skipped)))
         suite.set("time", f"{sum(result.testTimes.values()):.3f}")
         for case in result.testCases:

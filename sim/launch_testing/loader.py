@@ -111,7 +111,7 @@ class _Loader(unittest.TestLoader):
 
     def loadTestsFromTestCase(self, testCaseClass: type[unittest.TestCase]) -> unittest.TestSuite:
         if getattr(testCaseClass, "__post_shutdown_test__", False) != self._after:
-            return self.suiteClass()
+            return unittest.TestSuite()
         own = type(testCaseClass.__name__, (testCaseClass,), {"__module__": testCaseClass.__module__})
         return super().loadTestsFromTestCase(own)
 

@@ -30,6 +30,6 @@ def assertExitCodes(
         proc_info, process=process, cmd_args=cmd_args, strict_proc_matching=strict_proc_matching
     ):
         event = proc_info[action]
-        name, code = event.process_name, getattr(event, "returncode", None)
-        assert code is not None, f"Proc {name} has not exited"
-        assert code in allowed, f"Proc {name} exited with code {code}"
+        name, ended = event.process_name, getattr(event, "returncode", None)
+        assert ended is not None, f"Proc {name} has not exited"
+        assert ended in allowed, f"Proc {name} exited with code {ended}"

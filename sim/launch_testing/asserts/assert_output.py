@@ -29,7 +29,7 @@ def assertInStream(
     `process` is an action, a part of the process's name, or None for all; `output_filter(text)` changes the output
     before the comparison. Raises NoMatchingProcessException for a process that is not known.
     """
-    actions = resolveProcesses(
+    actions: list[Any] = resolveProcesses(
         proc_output, process=process, cmd_args=cmd_args, strict_proc_matching=strict_proc_matching
     )
     if output_filter is not None and not callable(output_filter):
