@@ -24,8 +24,9 @@ from gz_course.sim.rosbag2.storage.metadata import FILE, FileInformation, Metada
 from gz_course.sim.rosbag2.storage.sqlite_reading import SqliteReading
 from gz_course.sim.rosbag2.storage.yaml_text import load_yaml
 
-_SUFFIXES = {"mcap": ".mcap", "sqlite3": ".db3"}
-_WHOLE = tuple(_SUFFIXES.values())
+SUFFIXES = {"mcap": ".mcap", "sqlite3": ".db3"}
+"""The storages that are read, and how their files end."""
+_WHOLE = tuple(SUFFIXES.values())
 _ENDS = (*_WHOLE, *(suffix + end for suffix in _WHOLE for end in compression.SUFFIXES))
 
 
@@ -120,7 +121,7 @@ class Bag:
             if not found:
                 raise BagError(f"{self.path} is not a bag: it has neither {FILE} nor .mcap or .db3 files")
             return sorted(found, key=lambda name: (len(name), name))
-        if stored.storage not in _SUFFIXES:
+        if stored.storage not in SUFFIXES:
             raise BagError(f"{self.path} has the storage '{stored.storage}'; here bags are read in {_known_storages()}")
         if stored.compression_format not in ("", compression.FORMAT):
             raise BagError(f"{self.path} is compressed with '{stored.compression_format}'; zstd is read here")
@@ -196,7 +197,7 @@ def _head(path: Path) -> bytes:
 
 
 def _known_storages() -> str:
-    return " and ".join(f"'{name}'" for name in _SUFFIXES)
+    return " and ".join(f"'{name}'" for name in SUFFIXES)
 
 
 def reindex(folder: Path) -> Metadata:

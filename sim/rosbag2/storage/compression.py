@@ -8,8 +8,6 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
-import zstandard
-
 from gz_course.sim.rosbag2.errors import BagError
 
 FORMAT = "zstd"
@@ -22,6 +20,8 @@ _LARGEST_MESSAGE = 1 << 30  # bytes
 
 def compress_file(path: Path) -> Path:
     """Replace a file by a compressed one, and return its path. Raises OSError; then the file is as before."""
+    import zstandard
+
     target = path.with_name(path.name + SUFFIXES[0])
     draft = target.with_name(target.name + ".part")
     try:
@@ -37,6 +37,8 @@ def compress_file(path: Path) -> Path:
 
 def unpack_file(path: Path, folder: Path) -> Path:
     """Write the content of a compressed file into a folder; return its path. Raises BagError."""
+    import zstandard
+
     target = folder / path.name.removesuffix(path.suffix)
     most = shutil.disk_usage(folder).free // 2
     written = 0
@@ -55,11 +57,15 @@ def unpack_file(path: Path, folder: Path) -> Path:
 
 
 def compress_message(data: bytes) -> bytes:
+    import zstandard
+
     return zstandard.ZstdCompressor(level=_LEVEL).compress(data)
 
 
 def unpack_message(data: bytes, topic: str) -> bytes:
     """Return a message as it was sent; one that is not compressed is returned as it is. Raises BagError."""
+    import zstandard
+
     if not data.startswith(MAGIC):
         return data
     try:
