@@ -1,12 +1,14 @@
 """The rows of a recording that a ROS message of any type becomes.
 
 Every numeric field becomes a signal named after it: `topics/cmd_vel/linear/x`. A list of numbers becomes one row, a
-text a line whenever it changes, and a picture now and then a JPEG. Messages are read by their own introspection, so no
-ROS import is needed.
+text or a list of texts (as JSON) a line whenever it changes, and a picture now and then a JPEG. A list of messages, as
+that of the transforms of `/tf`, becomes a row of all its numbers and a line of all its texts, one of each per message.
+Messages are read by their own introspection, so no ROS import is needed.
 """
 
 from __future__ import annotations
 
+import json
 import math
 from typing import Any
 
@@ -18,6 +20,9 @@ from gz_course.sim.rviz2.drawing.image import jpeg
 
 LONGEST_LIST = 20_000  # numbers; longer lists, such as images and clouds, are not stored as numbers
 LONGEST_TEXT = 2_000  # characters kept of a text
+LONGEST_TEXTS = 4_000  # characters of a list of texts; longer ones are not kept
+EACH = "each"  # the entity below a list of messages
+NOT_KEPT = "null"  # the line of a list that is not kept
 # Of the pictures that can be drawn, those of which JPEG keeps what they show.
 RECORDED = frozenset({"rgb8", "bgr8", "mono8"})
 
@@ -38,6 +43,8 @@ def record_message(recorder: Recorder, topic: str, message: Any) -> None:
         if isinstance(value, bool | int | float):
             recorder.name(entity, entity.removeprefix("topics"))
             recorder.scalar(entity, float(value))
+        elif isinstance(value, list):
+            _list(recorder, entity, value)
         elif hasattr(value, "__len__") and not isinstance(value, str | bytes) and 0 < len(value) <= LONGEST_LIST:
             numbers = np.asarray(value)
             if numbers.dtype.kind in "fiu":
@@ -46,3 +53,25 @@ def record_message(recorder: Recorder, topic: str, message: Any) -> None:
             recorder.said(entity, value[:LONGEST_TEXT].encode(errors="replace").decode())
     if getattr(message, "encoding", None) in RECORDED and recorder.wants_picture(base) and (picture := jpeg(message)):
         recorder.picture(base, picture)
+
+
+def _list(recorder: Recorder, entity: str, values: list[Any]) -> None:
+    """Log a list of texts; log a list of messages below `EACH`, if they hold nothing but numbers and texts.
+
+    An empty list could be either, so it is logged as both.
+    """
+    if all(isinstance(value, str) for value in values):
+        text = json.dumps(values)
+        recorder.said(entity, text if len(text) <= LONGEST_TEXTS else NOT_KEPT)
+    if not all(hasattr(value, "get_fields_and_field_types") for value in values):
+        return
+    parts = [[leaf for _, leaf in fields(value, "")] for value in values]
+    text = json.dumps([[leaf for leaf in part if isinstance(leaf, str)] for part in parts])
+    numbers = [float(leaf) for part in parts for leaf in part if isinstance(leaf, bool | int | float)]
+    whole = all(isinstance(leaf, bool | int | float | str) for part in parts for leaf in part)
+    if not whole or len(text) > LONGEST_TEXTS or len(numbers) > LONGEST_LIST:
+        recorder.text(f"{entity}/{EACH}", NOT_KEPT)
+        return
+    recorder.text(f"{entity}/{EACH}", text)
+    if numbers:
+        recorder.array(f"{entity}/{EACH}", numbers)

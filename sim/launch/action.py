@@ -84,21 +84,20 @@ class Action(LaunchDescriptionEntity):
         raise NotImplementedError(f"{type(self).__name__} does not say how it is executed")
 
     def _announce_completion(self, context: LaunchContext) -> None:
-        """Emit ExecutionComplete if it has a handler, now or when the future of this action is done."""
+        """Emit ExecutionComplete if it has a handler now; emit it at once, or when the action's future is done.
+
+        Source: ros2/launch, launch/launch/action.py
+        """
         from gz_course.sim.launch.events import ExecutionComplete
 
         event = ExecutionComplete(action=self)
+        if not context.would_handle_event(event):
+            return
         future = self.get_asyncio_future()
         if future is None or future.done():
-            if context.would_handle_event(event):
-                context.emit_event_sync(event)
-            return
-
-        def announce(_: object) -> None:
-            if context.would_handle_event(event):
-                context.emit_event_sync(event)
-
-        future.add_done_callback(announce)
+            context.emit_event_sync(event)
+        else:
+            future.add_done_callback(lambda _: context.emit_event_sync(event))
 
 
 def _arguments(kind: type) -> list[str]:

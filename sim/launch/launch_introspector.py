@@ -38,3 +38,20 @@ def _below(entity: LaunchDescriptionEntity, chain: tuple[IncludeLaunchDescriptio
         if below:
             lines += [f"└── {text}", *[f"    {line}" for line in below]]
     return lines
+
+
+def arguments_text(description: LaunchDescription) -> str:
+    """Return the arguments of a launch description with their descriptions and defaults, as `--show-args` prints."""
+    lines = ["Arguments (pass arguments as '<name>:=<value>'):"]
+    arguments = description.get_launch_arguments()
+    for argument in arguments:
+        mark = "*" if argument._conditionally_included else ""
+        lines.append(f"\n    '{argument.name}':{mark}\n        {argument.description}")
+        if argument.default_value is not None:
+            default = " + ".join(part.describe() for part in argument.default_value)
+            lines.append(f"        (default: {default})")
+    if not arguments:
+        lines.append("\n  No arguments.")
+    if any(argument._conditionally_included for argument in arguments):
+        lines.append("\n* argument(s) which are only used if specific conditions occur")
+    return "\n".join(lines)

@@ -10,16 +10,15 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from gz_course.sim.ros2.errors import CommandError
-from gz_course.sim.rosbag2.bag import Bag
-from gz_course.sim.rosbag2.bag_writer import STORAGES
 from gz_course.sim.rosbag2.errors import BagError
+from gz_course.sim.rosbag2.storage.bag import SUFFIXES, Bag
 
 
 def add_bag_path(parser: argparse.ArgumentParser) -> None:
     """Add the arguments for one input bag."""
     parser.add_argument("bag_path", type=Path, help="Bag to open: a folder, or one of its files")
     parser.add_argument(
-        "-s", "--storage", choices=["", *STORAGES], default="", help="Accepted and ignored: the files tell it"
+        "-s", "--storage", choices=["", *SUFFIXES], default="", help="Accepted and ignored: the files tell it"
     )
 
 

@@ -156,7 +156,7 @@ def _values(given: Given) -> Iterable[str]:
 def _bags(given: Given) -> Iterable[str]:
     """Return the bags in the working directory: folders, and single files."""
     folders = (path.parent.name for path in Path().glob("*/metadata.yaml"))
-    return (*folders, *(path.name for pattern in ("*.mcap", "*.db3") for path in Path().glob(pattern)))
+    return (*folders, *(path.name for pattern in ("*.mcap", "*.db3", "*.zstd") for path in Path().glob(pattern)))
 
 
 _COMPLETERS: Mapping[str, Callable[[Given], Iterable[str]]] = MappingProxyType(

@@ -13,7 +13,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from gz_course.sim.ros_program.errors import Failure, UsageError, first_line
-from gz_course.sim.ros_program.spinner import STOP_SIGNALS
+from gz_course.sim.ros_program.spinner import STOP_SIGNALS, block_stop_signals
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -42,10 +42,8 @@ def run(
         print(help_text, end="")
         return 0
     if lasting:
-        # Blocked in every thread and fetched by one sigwait, a signal is neither lost in the wait set of a library nor
-        # handled in the middle of the setup. Linux keeps a blocked signal even if the parent ignores it (a shell's
-        # '&').
-        signal.pthread_sigmask(signal.SIG_BLOCK, STOP_SIGNALS)
+        # Fetched in one place, a signal is neither lost in the wait set of a library nor handled amid the setup.
+        block_stop_signals()
     else:
         for number in STOP_SIGNALS:
             signal.signal(number, _interrupt)

@@ -13,7 +13,20 @@ if TYPE_CHECKING:
     from rclpy.node import Node
 
 STOP_SIGNALS = {signal.SIGINT, signal.SIGTERM}
+_LOOK_S = 0.5  # [s] until a signal is noticed that another thread got in the moment before the wait
 _END_S = 2.0  # [s] for the end of a running callback when the executor is shut down
+
+
+def block_stop_signals() -> None:
+    """Keep SIGINT and SIGTERM for `wait_for_signal`. Linux keeps a blocked signal even if the parent ignores it (a
+    shell's `&`).
+
+    A thread that is there already, such as one of NumPy's, may still get a signal; it is passed on to the main one.
+    """
+    main = threading.get_ident()
+    signal.pthread_sigmask(signal.SIG_BLOCK, STOP_SIGNALS)
+    for number in STOP_SIGNALS:
+        signal.signal(number, lambda number, _: signal.pthread_kill(main, number))
 
 
 class Spinner:
@@ -60,7 +73,8 @@ def wait_for_signal(node: Node) -> int:
     Raises Failure if a callback raised.
     """
     with Spinner(node) as spinner:
-        signal.sigwait(STOP_SIGNALS)
+        while signal.sigtimedwait(STOP_SIGNALS, _LOOK_S) is None:
+            pass  # handlers run between two waits
     if spinner.error:
         raise Failure(f"a callback failed: {spinner.error}")
     return 0

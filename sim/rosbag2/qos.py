@@ -13,8 +13,8 @@ from rclpy.qos import DurabilityPolicy, HistoryPolicy, LivelinessPolicy, QoSProf
 
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.rosbag2.errors import BagError
-from gz_course.sim.rosbag2.offered_qos import INFINITE, QosProfile
-from gz_course.sim.rosbag2.yaml_text import load_yaml
+from gz_course.sim.rosbag2.storage.offered_qos import INFINITE, QosProfile
+from gz_course.sim.rosbag2.storage.yaml_text import load_yaml
 
 RECORDING_DEPTH = 1000
 """Messages of a topic that wait while the recorder is busy."""

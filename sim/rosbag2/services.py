@@ -9,8 +9,8 @@ import importlib
 from collections.abc import Callable
 from typing import Any
 
-from gz_course.sim.rosbag2.player import Player
-from gz_course.sim.rosbag2.recorder import Recorder
+from gz_course.sim.rosbag2.playing.player import Player
+from gz_course.sim.rosbag2.recording.recorder import Recorder
 
 Answer = Callable[[Any], dict[str, Any] | None]
 
@@ -30,6 +30,7 @@ def offer_player(node: Any, player: Player) -> None:
             ("is_paused", "IsPaused"): lambda request: {"paused": player.paused},
             ("get_rate", "GetRate"): lambda request: {"rate": player.rate},
             ("set_rate", "SetRate"): lambda request: {"success": player.set_rate(request.rate)},
+            ("play", "Play"): lambda request: {"success": player.play_again()},
             ("play_next", "PlayNext"): lambda request: {"success": player.play_next() == 1},
             ("burst", "Burst"): lambda request: {"actually_burst": player.play_next(request.num_messages)},
             ("seek", "Seek"): seek,
@@ -39,17 +40,20 @@ def offer_player(node: Any, player: Player) -> None:
 
 
 def offer_recorder(node: Any, recorder: Recorder) -> None:
-    """Offer the services of a recorder."""
-    _offer(
-        node,
-        {
-            ("pause", "Pause"): lambda request: recorder.pause(),
-            ("resume", "Resume"): lambda request: recorder.resume(),
-            ("toggle_paused", "TogglePaused"): lambda request: recorder.toggle(),
-            ("is_paused", "IsPaused"): lambda request: {"paused": recorder.paused},
-            ("split_bagfile", "SplitBagfile"): lambda request: recorder.split(),
-        },
-    )
+    """Offer the services of a recorder, and tell in `events/write_split` when a new file begins."""
+    services: dict[tuple[str, str], Answer] = {
+        ("pause", "Pause"): lambda request: recorder.pause(),
+        ("resume", "Resume"): lambda request: recorder.resume(),
+        ("toggle_paused", "TogglePaused"): lambda request: recorder.toggle(),
+        ("is_paused", "IsPaused"): lambda request: {"paused": recorder.paused},
+        ("split_bagfile", "SplitBagfile"): lambda request: recorder.split(),
+    }
+    if recorder.can_snapshot:
+        services["snapshot", "Snapshot"] = lambda request: {"success": recorder.snapshot()}
+    _offer(node, services)
+    event = importlib.import_module("rosbag2_interfaces.msg").WriteSplitEvent
+    publisher = node.create_publisher(event, "events/write_split", 1)
+    recorder.on_split(lambda ended, new: publisher.publish(event(closed_file=ended, opened_file=new)))
 
 
 def _offer(node: Any, services: dict[tuple[str, str], Answer]) -> None:

@@ -8,8 +8,8 @@ from __future__ import annotations
 import time
 from collections.abc import Iterable
 
-from gz_course.sim.rosbag2.metadata import Metadata, Topic
 from gz_course.sim.rosbag2.selection import SERVICE_EVENTS
+from gz_course.sim.rosbag2.storage.metadata import Metadata, Topic
 
 _INDENT = " " * 19
 _UNITS = ("B", "KiB", "MiB", "GiB", "TiB")

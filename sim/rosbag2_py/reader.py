@@ -7,10 +7,10 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from gz_course.sim.rosbag2.bag import Bag, reindex
-from gz_course.sim.rosbag2.bag_writer import STORAGES
 from gz_course.sim.rosbag2.errors import BagError
-from gz_course.sim.rosbag2.mcap_reading import Message
+from gz_course.sim.rosbag2.storage.bag import Bag, reindex
+from gz_course.sim.rosbag2.storage.bag_writer import STORAGES
+from gz_course.sim.rosbag2.storage.mcap_reading import Message
 from gz_course.sim.rosbag2_py.storage import (
     BagMetadata,
     ConverterOptions,

@@ -9,8 +9,8 @@ from typing import Any
 from rclpy.duration import Duration
 from rclpy.time import Time
 
-from gz_course.sim.rosbag2.metadata import Metadata, Topic
-from gz_course.sim.rosbag2.offered_qos import QosProfile
+from gz_course.sim.rosbag2.storage.metadata import Metadata, Topic
+from gz_course.sim.rosbag2.storage.offered_qos import QosProfile
 
 
 @dataclass

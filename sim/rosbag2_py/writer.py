@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gz_course.sim.rosbag2.bag_writer import STORAGES, BagWriter
 from gz_course.sim.rosbag2.definitions import definition
 from gz_course.sim.rosbag2.errors import BagError
+from gz_course.sim.rosbag2.storage.bag_writer import STORAGES, BagWriter
 from gz_course.sim.rosbag2_py.storage import ConverterOptions, StorageOptions, TopicMetadata, get_default_storage_id
 
 

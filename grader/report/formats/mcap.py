@@ -1,9 +1,10 @@
 """The ROS topics of a run as MCAP in simulated time, for Foxglove, Rerun, PlotJuggler and `ros2 bag play`.
 
-The messages are made from the recording, which keeps their numbers, texts and lists of numbers; a stamp is the time at
-which the message was seen. Pictures are those of the recording, `TOPIC/compressed`. Topics whose messages the recording
-does not hold whole (clouds, raw images, lists of messages or of texts) are left out, and named in the metadata of the
-file. With several trials it is the first.
+The messages are made from the recording, which keeps their numbers, texts, lists of both, and lists of messages that
+hold nothing but numbers and texts (`/tf`); a stamp is the time at which the message was seen. Pictures are those of the
+recording, `TOPIC/compressed`. Topics whose messages the recording does not hold whole (raw images, clouds of more than
+20,000 bytes, lists within lists) are left out, and named in the metadata of the file. With several trials it is the
+first.
 
 Source: https://mcap.dev/spec/registry (profile `ros2`)
 """
@@ -12,7 +13,8 @@ from __future__ import annotations
 
 import bisect
 import io
-from collections.abc import Iterator, Mapping
+import json
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from gz_course.grader.report.format import Format
@@ -27,6 +29,9 @@ _LEVELS = {"DEBUG": 10, "INFO": 20, "WARN": 30, "WARNING": 30, "ERROR": 40, "FAT
 _TIMES = frozenset({"builtin_interfaces/msg/Time"})
 _COMPRESSED = "sensor_msgs/msg/CompressedImage"
 _WHOLE_NUMBERS = ("int", "uint", "byte", "char")
+_TEXTS = ("string", "wstring")
+Leaves = dict[str, Any]
+"""The type of each field by its path; a field that is a list of messages has the Leaves of one of them."""
 Row = tuple[int, str, str, dict[str, Any]]  # time [ns], topic, type, fields
 
 
@@ -80,53 +85,67 @@ def _rows(recording: Recording, left_out: list[str]) -> Iterator[Row]:
             yield line.time_ns, "/rosout", "rcl_interfaces/msg/Log", log
 
 
-def _leaves(kind: str) -> dict[str, str] | None:
-    """Return the type of each field of a message that is no message itself, by its path; None if it cannot be kept."""
+def _leaves(kind: str) -> Leaves | None:
+    """Return the fields of a message that are no messages themselves; None if the recording cannot keep them."""
     from gz_course.sim.rosbag2.definitions import UNKNOWN, definition, nested_types, parts_of
 
     encoding, text = definition(kind)
     if encoding == UNKNOWN[0]:
         return None
     parts = parts_of(kind, text)
-    found: dict[str, str] = {}
 
-    def walk(name: str, path: str) -> bool:
+    def walk(name: str, path: str, found: Leaves, within_list: bool) -> bool:
         for line in parts[name].splitlines():
             words = line.partition("#")[0].split()
             if len(words) < 2 or "=" in line.partition("#")[0].replace("<=", ""):
                 continue  # a comment or a constant
             here = f"{path}/{words[1]}"
             inner = next(nested_types(line, name.partition("/")[0]), "")
-            if inner and "[" in words[0]:
-                return False
             if inner in _TIMES and words[1] == "stamp":
                 found[here] = "stamp"
-            elif inner:
-                if not walk(inner, here):
-                    return False
-            elif "[" in words[0] and words[0].startswith(("string", "wstring", "bool")):
+            elif "[" in words[0] and (within_list or words[0].startswith("bool")):
                 return False
+            elif inner and "[" in words[0]:
+                found[here] = {}
+                if not walk(inner, "", found[here], True):
+                    return False
+            elif inner:
+                if not walk(inner, here, found, within_list):
+                    return False
             else:
                 found[here] = words[0]
         return True
 
-    return found if walk(kind, "") else None
+    found: Leaves = {}
+    return found if walk(kind, "", found, False) else None
 
 
-def _is_whole(recording: Recording, entity: str, leaves: Mapping[str, str]) -> bool:
+def _is_whole(recording: Recording, entity: str, leaves: Leaves) -> bool:
     """Return whether the recording has the content of messages: long lists are not kept."""
-    lists = [path for path, kind in leaves.items() if "[" in kind and path.endswith("/data")]
-    return all(recording.has(f"{entity}{path}") for path in lists)
+    from gz_course.grader.record.messages import EACH, NOT_KEPT
+
+    for path, kind in leaves.items():
+        if isinstance(kind, dict):
+            lines = recording.lines(f"{entity}{path}/{EACH}")
+            if not lines or any(line.text == NOT_KEPT for line in lines):
+                return False
+        elif "[" in kind and kind.startswith(_TEXTS):
+            if any(line.text == NOT_KEPT for line in recording.lines(f"{entity}{path}")):
+                return False
+        elif "[" in kind and path.endswith("/data") and not recording.has(f"{entity}{path}"):
+            return False
+    return True
 
 
-def _messages(recording: Recording, entity: str, kind: str, leaves: Mapping[str, str]) -> Iterator[Row]:
-    numbers = [path for path, each in leaves.items() if "[" not in each and each not in ("stamp", "string", "wstring")]
-    lists = [path for path, each in leaves.items() if "[" in each]
-    texts = [path for path, each in leaves.items() if each.startswith(("string", "wstring")) and "[" not in each]
+def _messages(recording: Recording, entity: str, kind: str, leaves: Leaves) -> Iterator[Row]:
+    plain = {path: each for path, each in leaves.items() if isinstance(each, str) and each != "stamp"}
+    numbers = [path for path, each in plain.items() if "[" not in each and not each.startswith(_TEXTS)]
+    lists = [path for path, each in plain.items() if "[" in each and not each.startswith(_TEXTS)]
     columns: dict[str, Any] = {path: recording.signal(f"{entity}{path}") for path in numbers}
     main = next(iter(columns.values())) if columns else recording.signal(f"{entity}/count")
     rows = {path: recording.arrays(f"{entity}{path}") for path in lists}
-    said = {path: _Text(recording, f"{entity}{path}") for path in texts}
+    said = {path: _Text(recording, f"{entity}{path}") for path, each in plain.items() if each.startswith(_TEXTS)}
+    each_of = {path: _Each(recording, f"{entity}{path}", of) for path, of in leaves.items() if isinstance(of, dict)}
     places = dict.fromkeys(lists, 0)
     for number, time in enumerate(main.times.tolist()):
         fields: dict[str, Any] = {}
@@ -142,11 +161,43 @@ def _messages(recording: Recording, entity: str, kind: str, leaves: Mapping[str,
                 place += 1
             places[path] = place
         for path, text in said.items():
-            _set(fields, path, text.at(time))
-        for path, each in leaves.items():
-            if each == "stamp":
+            _set(fields, path, json.loads(text.at(time) or "[]") if "[" in leaves[path] else text.at(time))
+        for path, inner in each_of.items():
+            _set(fields, path, inner.at(number, time))
+        for path, what in leaves.items():
+            if what == "stamp":
                 _set(fields, path, _stamp(time))
         yield time, entity.removeprefix("topics"), kind, fields
+
+
+class _Each:
+    """A list of messages over time: a line of texts for each message on the topic, numbers for those with any."""
+
+    def __init__(self, recording: Recording, entity: str, leaves: Leaves) -> None:
+        from gz_course.grader.record.messages import EACH
+
+        self._leaves = leaves
+        self._lines = [line.text for line in recording.lines(f"{entity}/{EACH}")]
+        self._rows = iter(recording.arrays(f"{entity}/{EACH}")[1])
+        self._has_numbers = any(not each.startswith((*_TEXTS, "stamp")) for each in leaves.values())
+
+    def at(self, number: int, time: int) -> list[dict[str, Any]]:
+        """Return the messages in the list of the next message on the topic, which is this one."""
+        texts = json.loads(self._lines[number]) if number < len(self._lines) else []
+        row = next(self._rows, None) if texts and self._has_numbers else None
+        numbers = iter(() if row is None else row.tolist())
+        return [self._one(iter(words), numbers, time) for words in texts]
+
+    def _one(self, words: Iterator[str], numbers: Iterator[float], time: int) -> dict[str, Any]:
+        fields: dict[str, Any] = {}
+        for path, kind in self._leaves.items():
+            if kind == "stamp":
+                _set(fields, path, _stamp(time))
+            elif kind.startswith(_TEXTS):
+                _set(fields, path, next(words, ""))
+            else:
+                _set(fields, path, _number(next(numbers, 0.0), kind))
+        return fields
 
 
 def _set(fields: dict[str, Any], path: str, value: Any) -> None:

@@ -98,9 +98,6 @@ class TimerAction(Action):
         assert context.asyncio_loop is not None
         return context.asyncio_loop.call_later(period, call).cancel
 
-    def _announce_completion(self, context: LaunchContext) -> None:
-        """Emit nothing: OnExecutionComplete is not for timers, whose actions follow later."""
-
     def _settle(self) -> None:
         if self.__cancel_timer is not None:
             self.__cancel_timer()

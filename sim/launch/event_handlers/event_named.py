@@ -1,4 +1,7 @@
-"""The matcher of events by their names, for EventHandler."""
+"""The matcher of events by their names, for EventHandler.
+
+Source: ros2/launch, launch/launch/launch_service.py, which looked for `event_named('launch.events.Shutdown')`
+"""
 
 from __future__ import annotations
 

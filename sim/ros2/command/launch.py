@@ -156,21 +156,9 @@ def _sentence(error: Exception) -> str:
 
 
 def _show_arguments(path: str) -> int:
-    description = load(path)
-    print("Arguments (pass arguments as '<name>:=<value>'):")
-    some_are_conditional = False
-    arguments = description.get_launch_arguments()
-    for argument in arguments:
-        mark = "*" if argument._conditionally_included else ""
-        some_are_conditional |= bool(mark)
-        print(f"\n    '{argument.name}':{mark}\n        {argument.description}")
-        if argument.default_value is not None:
-            default = " + ".join(part.describe() for part in argument.default_value)
-            print(f"        (default: {default})")
-    if not arguments:
-        print("\n  No arguments.")
-    if some_are_conditional:
-        print("\n* argument(s) which are only used if specific conditions occur")
+    from gz_course.sim.launch.launch_introspector import arguments_text
+
+    print(arguments_text(load(path)))
     return 0
 
 

@@ -28,7 +28,6 @@ from gz_course.sim.launch.actions import (
     SetLaunchConfiguration,
     Shutdown,
     TimerAction,
-    UnregisterEventHandler,
     UnsetEnvironmentVariable,
     UnsetLaunchConfiguration,
 )
@@ -38,7 +37,11 @@ from gz_course.sim.launch.conditions import (
     LaunchConfigurationNotEquals,
     UnlessCondition,
 )
-from gz_course.sim.launch.event_handlers import OnExecutionComplete, OnProcessExit, OnProcessIO, OnShutdown
+from gz_course.sim.launch.event_handlers import (
+    OnProcessExit,
+    OnProcessIO,
+    OnShutdown,
+)
 from gz_course.sim.launch.substitutions import EnvironmentVariable, LaunchConfiguration, PythonExpression
 
 
@@ -219,29 +222,6 @@ def test_shutdown_handlers_are_asked_once_the_newest_first(run):
         EmitEvent(event=launch_events.Shutdown(reason="again")),
     )
     assert said(result) == ["newer: enough", "older"]
-
-
-def test_handlers_come_and_go(run):
-    action = note("a")
-    handler = OnExecutionComplete(target_action=action, on_completion=[note("done")])
-    assert said(run(RegisterEventHandler(handler), action)) == ["a", "done"]
-    once = OnExecutionComplete(
-        target_action=lambda each: isinstance(each, OpaqueFunction), on_completion=[note("once")], handle_once=True
-    )
-    calls = [OpaqueFunction(function=lambda context: None) for _ in range(2)]
-    assert said(run(RegisterEventHandler(once), *calls)) == ["once"]
-    timer = TimerAction(period=0.0, actions=[note("due")])
-    never = OnExecutionComplete(target_action=timer, on_completion=[note("never")])
-    assert said(run(RegisterEventHandler(never), timer)) == ["due"]
-    result = run(RegisterEventHandler(handler), UnregisterEventHandler(handler), UnregisterEventHandler(handler))
-    assert result.code == 1 and "is not registered" in result.text
-
-
-def test_the_end_of_a_process_completes_its_action(run):
-    action = ExecuteProcess(cmd=["true"])
-    handler = OnExecutionComplete(target_action=action, on_completion=[note("completed")])
-    result = run(RegisterEventHandler(handler), action)
-    assert result.lines[-1] == "[INFO] [launch.user]: completed"
 
 
 def test_conditions(run):

@@ -5,7 +5,7 @@ import signal
 import pytest
 import yaml
 
-from gz_course.sim.rosbag2.bag import Bag
+from gz_course.sim.rosbag2.storage.bag import Bag
 from gz_course.tests.sim.rosbag2.bags import TWIST, string, write_bag, write_database
 
 ROS2 = "gz_course.sim.ros2.command_line"
@@ -30,9 +30,7 @@ def test_info_reindex_and_convert(bag, tmp_path, monkeypatch):
     assert bag("reindex", folder) == (0, "Reindexing complete: 3 messages in 1 file(s).\n")
     write_database(tmp_path / "old.db3", with_definitions=False)
     options = tmp_path / "out.yaml"
-    options.write_text(
-        f"output_bags:\n- uri: {tmp_path}/both\n  exclude_regex: cmd\n  storage_preset_profile: zstd_small\n"
-    )
+    options.write_text(f"output_bags:\n- uri: {tmp_path}/both\n  exclude_regex: cmd\n  compression_mode: message\n")
     code, said = bag("convert", "-i", folder, "-i", tmp_path / "old.db3", "sqlite3", "-o", options)
     assert (code, said) == (0, f"{tmp_path}/both: 12 messages of 1 topics\n")
     both = Bag(tmp_path / "both")
@@ -48,7 +46,7 @@ def test_bags_of_the_folder_are_offered(offered, tmp_path, monkeypatch):
     (tmp_path / "one.mcap").touch()
     monkeypatch.chdir(tmp_path)
     assert offered("bag", "play", "") == ["driving", "one.mcap"]
-    assert offered("bag", "") == ["convert", "info", "list", "play", "record", "reindex"]
+    assert offered("bag", "") == ["burst", "convert", "info", "list", "play", "record", "reindex"]
     assert offered("bag", "record", "--storage-preset-profile", "zstd_") == ["zstd_fast", "zstd_small"]
 
 
@@ -58,11 +56,11 @@ def test_what_cannot_be_done_is_said_in_a_sentence(bag, tmp_path):
         (("info", tmp_path), 1, "is not a bag"),
         (("record",), 2, "Need to specify at least one option"),
         (("record", "-a", "-s", "sqlite3", "--storage-preset-profile", "zstd_fast"), 1, "it has none, resilient"),
-        (("record", "-a", "--compression-mode", "file", "--compression-format", "zstd"), 2, "storage-preset-profile"),
+        (("record", "-a", "--compression-format", "zstd"), 2, "compression format without a compression mode"),
         (("record", "-e", "["), 1, "'[' is not a regular expression"),
         (("record", "-a", "-o", tmp_path), 1, "already exists."),
         (("record", "-a", "-b", "5"), 2, "at least 1024 bytes"),
-        (("record", "-a", "--snapshot-mode"), 2, "--max-bag-files"),
+        (("record", "-a", "--snapshot-mode", "--max-cache-size", "0"), 2, "shall not be set to zero"),
         (("record", "-a", "--qos-profile-overrides-path", tmp_path / "none"), 1, "cannot be read"),
         (("play", tmp_path, "-m", "a=b"), 2, "OLD:=NEW"),
         (("play", tmp_path, "-r", "0"), 2, "invalid rate value"),
@@ -100,7 +98,7 @@ def test_an_ended_recorder_leaves_a_bag_that_is_played(programs, ros_node, spin_
     if number == signal.SIGKILL:
         heard = []
         ros_node.create_subscription(Twist, "/cmd_vel", heard.append, 10)
-        player = programs.ros2("bag", "play", ended.path)
+        player = programs.ros2("bag", "burst", ended.path)
         spin_until(lambda: len(heard) >= ended.metadata.count and player.process.poll() is not None, "all messages")
         assert player.wait() == 0
 

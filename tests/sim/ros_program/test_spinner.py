@@ -2,6 +2,9 @@
 
 import os
 import signal
+import subprocess
+import sys
+import textwrap
 import threading
 from types import SimpleNamespace
 
@@ -52,3 +55,25 @@ def test_a_callback_that_raises_ends_the_program(spinning):
         made._executor.go.set()
         made._thread.join()
     assert (made.error, sent) == ("cannot use Destroyable", [(os.getpid(), signal.SIGTERM)])
+
+
+def test_a_signal_that_another_thread_gets_ends_the_program_as_any_other():
+    """A thread from before the signals were blocked (NumPy's are) gets the signal while the main one sets up."""
+    program = """
+        import signal, sys, threading
+        from gz_course.sim.ros_program import spinner
+
+        class Nothing:
+            error = ""
+            def __init__(self, node): signal.pthread_kill(older.ident, signal.SIGINT)
+            def __enter__(self): return self
+            def __exit__(self, *_): pass
+
+        older = threading.Thread(target=threading.Event().wait, daemon=True)
+        older.start()
+        spinner.block_stop_signals()
+        spinner.Spinner = Nothing
+        sys.exit(spinner.wait_for_signal(None))
+    """
+    done = subprocess.run([sys.executable, "-c", textwrap.dedent(program)], capture_output=True, text=True, timeout=600)
+    assert (done.returncode, done.stderr) == (0, "")

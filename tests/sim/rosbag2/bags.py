@@ -3,10 +3,10 @@
 import sqlite3
 import struct
 
-from gz_course.sim.rosbag2.bag_writer import BagWriter
 from gz_course.sim.rosbag2.definitions import definition
-from gz_course.sim.rosbag2.metadata import Topic
-from gz_course.sim.rosbag2.offered_qos import QosProfile
+from gz_course.sim.rosbag2.storage.bag_writer import BagWriter
+from gz_course.sim.rosbag2.storage.metadata import Topic
+from gz_course.sim.rosbag2.storage.offered_qos import QosProfile
 
 START = 1_700_000_000_000_000_000  # [ns]
 STEP = 10_000_000  # [ns]

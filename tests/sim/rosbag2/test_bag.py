@@ -11,13 +11,13 @@ import yaml
 from mcap.data_stream import RecordBuilder
 from mcap.records import Chunk, Schema
 
-from gz_course.sim.rosbag2 import mcap_writing
-from gz_course.sim.rosbag2.bag import Bag, reindex
-from gz_course.sim.rosbag2.bag_writer import BagWriter
 from gz_course.sim.rosbag2.errors import BagError
-from gz_course.sim.rosbag2.mcap_reading import MAGIC
-from gz_course.sim.rosbag2.metadata import from_yaml
-from gz_course.sim.rosbag2.writing_thread import WritingThread
+from gz_course.sim.rosbag2.recording.writing_thread import WritingThread
+from gz_course.sim.rosbag2.storage import mcap_writing
+from gz_course.sim.rosbag2.storage.bag import Bag, reindex
+from gz_course.sim.rosbag2.storage.bag_writer import BagWriter
+from gz_course.sim.rosbag2.storage.mcap_reading import MAGIC
+from gz_course.sim.rosbag2.storage.metadata import from_yaml
 from gz_course.tests.sim.rosbag2.bags import CHATTER, START, STEP, TWIST, string, twist, write_bag, write_database
 
 FUZZED = 50_000
@@ -289,6 +289,9 @@ def read_damaged(tmp_path, cases):
     for number, preset in enumerate(mcap_writing.PRESETS):
         folder = write_bag(tmp_path / f"seed{number}", count=12, preset=preset)
         seeds.append((folder / f"seed{number}_0.mcap").read_bytes())
+    for mode in ("file", "message"):
+        folder = write_bag(tmp_path / mode, count=12, compression=mode)
+        seeds.append(next(folder.glob(f"{mode}_0.mcap*")).read_bytes())
     seeds.append(write_database(tmp_path / "seed.db3").read_bytes())
     text = (tmp_path / "seed0" / "metadata.yaml").read_bytes()
     path = tmp_path / "fuzzed"

@@ -6,17 +6,17 @@ import time
 
 import pytest
 
-from gz_course.sim.rosbag2.bag import Bag
-from gz_course.sim.rosbag2.bag_writer import BagWriter
 from gz_course.sim.rosbag2.errors import BagError
-from gz_course.sim.rosbag2.metadata import Topic
-from gz_course.sim.rosbag2.player import Player, PlayOptions
+from gz_course.sim.rosbag2.playing.player import Player, PlayOptions
 from gz_course.sim.rosbag2.qos import overrides, to_offer
-from gz_course.sim.rosbag2.recorder import Recorder, RecordOptions
+from gz_course.sim.rosbag2.recording.recorder import Recorder, RecordOptions
+from gz_course.sim.rosbag2.recording.writing_thread import WritingThread
 from gz_course.sim.rosbag2.selection import Selection
 from gz_course.sim.rosbag2.services import offer_player
+from gz_course.sim.rosbag2.storage.bag import Bag
+from gz_course.sim.rosbag2.storage.bag_writer import BagWriter
+from gz_course.sim.rosbag2.storage.metadata import Topic
 from gz_course.sim.rosbag2.stored_types import StoredTypes, installed_class, installed_hash
-from gz_course.sim.rosbag2.writing_thread import WritingThread
 from gz_course.tests.sim.rosbag2.bags import CHATTER, SAID, START, STEP, TWIST, string, write_bag
 
 

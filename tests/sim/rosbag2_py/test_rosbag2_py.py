@@ -2,7 +2,7 @@
 
 import pytest
 
-from gz_course.sim.rosbag2.bag import Bag
+from gz_course.sim.rosbag2.storage.bag import Bag
 from gz_course.tests.sim.rosbag2.bags import START, STEP, write_bag
 
 

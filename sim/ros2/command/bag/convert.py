@@ -10,11 +10,12 @@ from typing import Any
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.ros2.bag import bag_errors, opened
 from gz_course.sim.ros2.errors import UsageError
-from gz_course.sim.rosbag2.bag import Bag
-from gz_course.sim.rosbag2.bag_writer import STORAGES, BagWriter
 from gz_course.sim.rosbag2.errors import BagError
 from gz_course.sim.rosbag2.selection import Selection, absolute
-from gz_course.sim.rosbag2.yaml_text import load_yaml
+from gz_course.sim.rosbag2.storage.bag import Bag
+from gz_course.sim.rosbag2.storage.bag_writer import STORAGES, BagWriter
+from gz_course.sim.rosbag2.storage.compression import FORMAT, MODES
+from gz_course.sim.rosbag2.storage.yaml_text import load_yaml
 
 _KEYS: dict[str, Any] = {
     **{"uri": str, "storage_id": str, "storage_preset_profile": str, "custom_data": dict},
@@ -61,11 +62,11 @@ class _Output:
         self._storage = values.get("storage_id") or "mcap"
         if self._storage not in STORAGES:
             raise BagError(f"{file}: unknown 'storage_id' {self._storage!r}{did_you_mean(self._storage, STORAGES)}")
-        if values.get("compression_mode", "none").lower() not in ("", "none"):
-            raise BagError(
-                f"{file}: 'compression_mode' of files and messages is not offered here; "
-                "mcap compresses its chunks with 'storage_preset_profile: zstd_small'"
-            )
+        self._compression = (values.get("compression_mode") or "none").lower()
+        if self._compression not in MODES:
+            raise BagError(f"{file}: 'compression_mode' can be {', '.join(MODES)}, not {self._compression!r}")
+        if values.get("compression_format", "") not in ("", FORMAT):
+            raise BagError(f"{file}: 'compression_format' can be {FORMAT}, not {values['compression_format']!r}")
         self._preset = values.get("storage_preset_profile") or "none"
         self._folder = Path(values["uri"])
         self._values = values
@@ -90,6 +91,7 @@ class _Output:
             split_bytes=max(0, self._values.get("max_bagfile_size", 0)),
             split_ns=max(0, self._values.get("max_bagfile_duration", 0)) * 10**9,
             custom_data={str(key): str(value) for key, value in self._values.get("custom_data", {}).items()},
+            compression=self._compression,
         )
         chosen: set[str] = set()
         for bag in bags:

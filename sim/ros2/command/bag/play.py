@@ -8,7 +8,7 @@ import gc
 import os
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from gz_course.sim.ros2 import interruption
@@ -18,11 +18,11 @@ from gz_course.sim.ros2.graph import Graph
 from gz_course.sim.ros2.option_values import positive_number, rate, seconds, whole_number
 from gz_course.sim.ros_program.shared_memory import segment_for_images
 from gz_course.sim.rosbag2 import keys
-from gz_course.sim.rosbag2.bag import Bag
-from gz_course.sim.rosbag2.player import Player, PlayOptions
+from gz_course.sim.rosbag2.playing.player import Player, PlayOptions
 from gz_course.sim.rosbag2.qos import overrides
 from gz_course.sim.rosbag2.selection import Selection, absolute
 from gz_course.sim.rosbag2.services import offer_player
+from gz_course.sim.rosbag2.storage.bag import Bag
 from gz_course.sim.rosbag2.stored_types import StoredTypes
 
 _DISCOVERY = 1.0  # [s] for subscribers to be found before the first message
@@ -65,15 +65,26 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(arguments: argparse.Namespace) -> int:
     """Play to the end of the bag, or until interrupted; return 0."""
+    return run(arguments, Player.play)
+
+
+def run(arguments: argparse.Namespace, play: Callable[[Player], object]) -> int:
+    """Open the bag, offer the services, listen to the keys, and call `play(player)`; return 0."""
     options = _options(arguments)
     with bag_errors(), contextlib.suppress(KeyboardInterrupt):
         bag = opened(arguments.bag_path)
         with StoredTypes(bag.definitions()) as types, _images_fit():
-            _play(arguments, bag, options, types)
+            _play(arguments, bag, options, types, play)
     return 0
 
 
-def _play(arguments: argparse.Namespace, bag: Bag, options: PlayOptions, types: StoredTypes) -> None:
+def _play(
+    arguments: argparse.Namespace,
+    bag: Bag,
+    options: PlayOptions,
+    types: StoredTypes,
+    play: Callable[[Player], object],
+) -> None:
     place = argparse.Namespace(spin_time=None, use_sim_time=False)
     with Graph(place, node_name="rosbag2_player") as graph:
         player = Player(graph.node, bag, options, types.message_class)
@@ -96,7 +107,7 @@ def _play(arguments: argparse.Namespace, bag: Bag, options: PlayOptions, types: 
             gc.freeze()  # looking through all that was imported takes longer than a message may be late
             sys.setswitchinterval(_SWITCH_INTERVAL)
             with _answering(graph):
-                player.play()
+                play(player)
 
 
 def void(_: object) -> None:

@@ -14,21 +14,19 @@ from gz_course.sim.ros2.graph import Graph
 from gz_course.sim.ros2.option_values import positive_number, whole_number
 from gz_course.sim.ros_program.abandoned_segments import remove_abandoned_segments
 from gz_course.sim.rosbag2 import keys
-from gz_course.sim.rosbag2.bag_writer import STORAGES, BagWriter
 from gz_course.sim.rosbag2.qos import overrides
-from gz_course.sim.rosbag2.recorder import Recorder, RecordOptions
+from gz_course.sim.rosbag2.recording.recorder import Recorder, RecordOptions
+from gz_course.sim.rosbag2.recording.snapshot import SnapshotThread
+from gz_course.sim.rosbag2.recording.writing_thread import WritingThread
 from gz_course.sim.rosbag2.selection import SERVICE_EVENTS, Selection, absolute
 from gz_course.sim.rosbag2.services import offer_recorder
+from gz_course.sim.rosbag2.storage.bag_writer import STORAGES, BagWriter
+from gz_course.sim.rosbag2.storage.compression import FORMAT, MODES
 from gz_course.sim.rosbag2.stored_types import installed_class
-from gz_course.sim.rosbag2.writing_thread import WritingThread
 
 _PRESETS = sorted({preset for _, _, presets in STORAGES.values() for preset in presets})
 _SMALLEST_SPLIT = 1024  # bytes
-_NOT_HERE = {
-    "snapshot_mode": "--snapshot-mode is not offered here: record with `--max-bag-duration` and `--max-bag-files`, "
-    "which keeps only the last files",
-    "all_actions": "--all-actions is not offered here: name the topics, such as `/NAME/_action/feedback`",
-}
+_ACTIONS = "--all-actions is not offered here: name the topics, such as `/NAME/_action/feedback`"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -67,13 +65,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--node-name", default="rosbag2_recorder", help="Name of the recorder's node")
     add("--custom-data", nargs="*", default=[], metavar="KEY=VALUE", help="Stored in the metadata of the bag")
     add("--storage-preset-profile", choices=_PRESETS, default="none", help="How the file is written")
-    add("--compression-mode", choices=["none", "file", "message"], default="none", help="Only none; see the profiles")
-    add("--compression-format", choices=["", "zstd"], default="", help="See --storage-preset-profile zstd_fast")
+    add("--compression-mode", choices=MODES, default="none", help="Compress each file after its end, or each message")
+    add("--compression-format", choices=["", FORMAT], default="", help="Only zstd; needs --compression-mode")
     add("--disable-keyboard-controls", action="store_true", help="Do not listen to the keys")
-    add("--snapshot-mode", action="store_true", help="Not offered here")
+    add(
+        "--snapshot-mode",
+        action="store_true",
+        help="Write nothing until the service ~/snapshot is called; then the last messages, --max-cache-size bytes",
+    )
     add("--all-actions", action="store_true", help="Not offered here")
     for name in ("--compression-queue-size", "--compression-threads", "--compression-threads-priority"):
         add(name, type=int, help="Accepted and ignored")
+    add("--storage-config-file", type=Path, help="Accepted and ignored; see --storage-preset-profile")
     add("--log-level", help="Accepted and ignored")
 
 
@@ -91,6 +94,7 @@ def main(arguments: argparse.Namespace) -> int:
             split_ns=arguments.max_bag_duration * 10**9,
             keep=arguments.max_bag_files,
             custom_data=custom,
+            compression=arguments.compression_mode,
         )
     options = RecordOptions(
         selection,
@@ -100,7 +104,8 @@ def main(arguments: argparse.Namespace) -> int:
         sim_time=arguments.use_sim_time,
         overrides=profiles,
     )
-    writing = WritingThread(writer, arguments.max_cache_size)
+    kind = SnapshotThread if arguments.snapshot_mode else WritingThread
+    writing = kind(writer, arguments.max_cache_size)
     try:
         _record(arguments, options, writing)
     except KeyboardInterrupt:
@@ -156,14 +161,12 @@ def _listen(graph: Graph, recorder: Recorder, writing: WritingThread, look_every
 
 def _selection(arguments: argparse.Namespace) -> Selection:
     """Return what is recorded. Raises UsageError for options that make no bag."""
-    for name, sentence in _NOT_HERE.items():
-        if getattr(arguments, name):
-            raise UsageError(sentence)
-    if arguments.compression_mode != "none":
-        raise UsageError(
-            f"--compression-mode {arguments.compression_mode} is not offered here; mcap compresses its chunks with "
-            "--storage-preset-profile zstd_fast"
-        )
+    if arguments.all_actions:
+        raise UsageError(_ACTIONS)
+    if arguments.compression_format and arguments.compression_mode == "none":
+        raise UsageError("Invalid choice: Cannot specify compression format without a compression mode.")
+    if arguments.snapshot_mode and not arguments.max_cache_size:
+        raise UsageError("In snapshot mode, the max_cache_size shall not be set to zero.")
     if 0 < arguments.max_bag_size < _SMALLEST_SPLIT:
         raise UsageError(f"--max-bag-size must be 0 or at least {_SMALLEST_SPLIT} bytes")
     if arguments.max_bag_files and not (arguments.max_bag_size or arguments.max_bag_duration):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from gz_course.sim.ros2.bag import add_bag_path, bag_errors
-from gz_course.sim.rosbag2.bag import reindex
+from gz_course.sim.rosbag2.storage.bag import reindex
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

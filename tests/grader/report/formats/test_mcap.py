@@ -10,7 +10,7 @@ from mcap_ros2.decoder import DecoderFactory
 from gz_course.grader.record.messages import record_message
 from gz_course.grader.record.recorder import Recorder
 from gz_course.grader.report.formats.mcap import as_mcap
-from gz_course.sim.rosbag2.bag import Bag
+from gz_course.sim.rosbag2.storage.bag import Bag
 
 pytestmark = pytest.mark.usefixtures("without_blueprint")
 
@@ -69,12 +69,56 @@ def test_messages_are_those_of_the_recording(written, tmp_path):
     assert (by_topic["/flag"].data, by_topic["/count"].data) == (True, -7)
     assert bytes(by_topic["/camera/image/compressed"].data)[:2] == b"\xff\xd8"
     assert (by_topic["/rosout"].msg, by_topic["/rosout"].level) == ("boom", 40)
-    assert left_out == ["/joints"]
+    assert (list(by_topic["/joints"].name), list(by_topic["/joints"].position)) == (["left"], [1.0])
+    assert left_out == []
     path = tmp_path / "run.mcap"
     path.write_bytes(data)
     bag = Bag(path)
     assert bag.complaints == []
     assert bag.metadata.count == len(found)
+
+
+def test_lists_of_messages_are_whole_or_left_out(written, tmp_path):
+    from geometry_msgs.msg import Point32, PolygonStamped, TransformStamped
+    from sensor_msgs.msg import PointCloud2, PointField
+    from tf2_msgs.msg import TFMessage
+    from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+
+    def transforms(*names):
+        message = TFMessage()
+        for number, name in enumerate(names):
+            message.transforms.append(TransformStamped(child_frame_id=name))
+            message.transforms[-1].header.frame_id = "base"
+            message.transforms[-1].transform.translation.x = float(number)
+        return message
+
+    cloud = PointCloud2(height=1, width=2, point_step=4, row_step=8, data=bytes(range(8)))
+    cloud.fields = [PointField(name="x", datatype=PointField.FLOAT32, count=1)]
+    outline = PolygonStamped()
+    outline.polygon.points = [Point32(x=1.0), Point32(x=2.0)]
+    path = JointTrajectory(joint_names=["a"], points=[JointTrajectoryPoint(positions=[1.0])])
+    found, left_out = read(
+        written(
+            *(("/tf", transforms("left", "right")), ("/tf", transforms()), ("/tf", transforms("arm"))),
+            *(("/cloud", cloud), ("/outline", outline), ("/path", path)),
+        )
+    )
+    heard = _of(found, "/tf")
+    seen = [[(t.child_frame_id, t.header.frame_id, t.transform.translation.x) for t in m.transforms] for m in heard]
+    assert seen == [[("left", "base", 0.0), ("right", "base", 1.0)], [], [("arm", "base", 0.0)]]
+    assert heard[2].transforms[0].header.stamp.nanosec == 200_000_000
+    seen = _of(found, "/cloud")[0]
+    assert (seen.fields[0].name, seen.fields[0].datatype, bytes(seen.data)) == (
+        "x",
+        PointField.FLOAT32,
+        bytes(range(8)),
+    )
+    assert [point.x for point in _of(found, "/outline")[0].polygon.points] == [1.0, 2.0]
+    assert left_out == ["/path"]
+
+
+def _of(found, topic):
+    return [message for name, _, _, message in found if name == topic]
 
 
 def test_rerun_reads_it(written, tmp_path):

@@ -1,0 +1,1 @@
+"""Launch tests within a run of pytest."""

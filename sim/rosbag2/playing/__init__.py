@@ -1,0 +1,1 @@
+"""The player: a node that publishes what a bag holds, when its clock says so."""

@@ -1,0 +1,1 @@
+"""The files of a bag: read, written, and described by `metadata.yaml`."""
