@@ -52,6 +52,9 @@ class Exercise:
     observe: dict[str, str]  # ROS topics the student is to publish on -> type
     script: tuple[ScriptedCommand, ...]
     checks: tuple[CheckSpec, ...]
+    bridge_parameters: dict[str, str] = field(
+        default_factory=dict
+    )  # of ROS, such as `qos_overrides./TOPIC.publisher...`
     trials: tuple[Trial, ...] = (PUBLIC,)  # the public ones; a single one without parameters if the manifest lists none
 
     @property
@@ -127,15 +130,16 @@ def load_exercise(folder: Path) -> Exercise:
         summary=manifest.text("summary").strip(),
         kind=kind,
         file=manifest.text("file"),
-        world=run.text("world"),
+        world=_world(folder, run.text("world")),
         robot=run.text("robot"),
         duration=run.number("duration", above=0),
         tick=run.number("tick", 0.01, above=0),
         real_time_factor=run.number("real_time_factor", 1.0, above=0),
         bridge=None if find_kind(kind).brings_bridge else folder / run.text("bridge"),
-        observe=_observed(run.table("observe", {})),
+        observe=_texts(run.table("observe", {})),
         script=tuple(map(ScriptedCommand.read, manifest.tables("script", []))),
         checks=tuple(_check(path, check) for check in manifest.tables("check")),
+        bridge_parameters=_texts(run.table("bridge_parameters", {})),
         trials=read_trials(manifest.tables("trial", []), path) or (PUBLIC,),
     )
     if Path(exercise.file).name != exercise.file:
@@ -148,8 +152,13 @@ def load_exercise(folder: Path) -> Exercise:
     return exercise
 
 
-def _observed(table: Table) -> dict[str, str]:
-    return {topic: table.text(topic) for topic in table.names()}
+def _world(folder: Path, name: str) -> str:
+    """Return the file beside the manifest, if there is one of that name, else the name."""
+    return str(folder / name) if (folder / name).is_file() else name
+
+
+def _texts(table: Table) -> dict[str, str]:
+    return {key: table.text(key) for key in table.names()}
 
 
 def _check(path: Path, table: Table) -> CheckSpec:

@@ -1,8 +1,8 @@
 """The rows of a recording that a ROS message of any type becomes.
 
 Every numeric field becomes a signal named after it: `topics/cmd_vel/linear/x`. A list of numbers becomes one row, a
-text a line whenever it changes, and a picture now and then a JPEG. Messages are read by their own introspection, so no
-ROS import is needed.
+text a line whenever it changes, and a picture now and then a JPEG. The stamp of a header is one number,
+`topics/scan/header/stamp` [s]. Messages are read by their own introspection, so no ROS import is needed.
 """
 
 from __future__ import annotations
@@ -44,5 +44,8 @@ def record_message(recorder: Recorder, topic: str, message: Any) -> None:
                 recorder.array(entity, numbers)
         elif isinstance(value, str):
             recorder.said(entity, value[:LONGEST_TEXT].encode(errors="replace").decode())
+    stamp = getattr(getattr(message, "header", None), "stamp", None)
+    if stamp is not None and not bad:
+        recorder.scalar(f"{base}/header/stamp", stamp.sec + stamp.nanosec / 1e9)
     if getattr(message, "encoding", None) in RECORDED and recorder.wants_picture(base) and (picture := jpeg(message)):
         recorder.picture(base, picture)
