@@ -196,10 +196,10 @@ def places(recording, parameters):
     truth = right(recording, found)
     met = near(found.points, truth, TOLERANCE)[which]
     missing = np.isnan(found.points[which, 0])
-    measured = f"{met.sum()} of {len(which)} points right"
+    measured = f"{met.sum()} of {len(which)} scans right"
     bad = np.flatnonzero(~met & ~missing)
     if missing.any():
-        measured += f", {missing.sum()} scans without a point"
+        measured += f", {missing.sum()} without a point"
     if infinite := sum(len(recording.signal(f"{TOPIC}/point/{axis}/not_finite")) for axis in "xyz"):
         measured += f", {infinite} coordinates were inf, -inf or nan"
     if len(bad):
@@ -259,7 +259,7 @@ def predictions(recording, found, truth):
         return at(np.where(index >= 0, heard[np.maximum(index, 0)], np.nan))
 
     still = Frame(np.repeat(np.eye(3)[None], count, 0), np.zeros((count, 3)))
-    tilted, written = mount.flat(), mounted(*PUBLIC_MOUNT, count)
+    written = mounted(*PUBLIC_MOUNT, count)
     flat = truth * (1, 1, 0)
     before = np.concatenate([np.full((1, 3), np.nan), truth[:-1]])
     yield "in the scanner's own frame: nothing was transformed", hits
@@ -273,11 +273,9 @@ def predictions(recording, found, truth):
     yield "turned by the whole transform, but not shifted: its translation is missing", both.turned(hits)
     yield "turned by the robot's heading, but not shifted by its place", robot.turned(on_robot)
     yield "first shifted and then turned: a transform rotates first, then it shifts", both.turned(hits + both.place)
-    yield (
-        "turned the wrong way: the rotation is that of the opposite transform",
-        both.inverse().turned(hits) + both.place,
-    )
-    yield "those of the opposite transform: lookup_transform takes the target, odom, first", both.inverse().of(hits)
+    back = both.inverse()
+    yield "turned the wrong way: the rotation is that of the opposite transform", back.turned(hits) + both.place
+    yield "those of the opposite transform: lookup_transform takes the target, odom, first", back.of(hits)
     yield "those of the scanner's mount applied in the opposite direction", robot.of(mount.inverse().of(hits))
     yield "those of the transform from odom to the robot: the opposite direction", robot.inverse().of(on_robot)
     yield "those of the latest transform when the scan came, not of that at the scan's stamp", latest(found.arrived)
@@ -290,14 +288,9 @@ def predictions(recording, found, truth):
     yield "those of a transform that was looked up once, at the beginning", at(np.full(count, found.stamps[0]))
     yield "those of the scan before", before
     yield "right on the floor plan, but z is 0: a point in odom is as high as the scanner", flat
-    yield (
-        "right on the floor plan, but z is 0, and the scanner is taken as upright",
-        robot.of(tilted.of(hits)) * (1, 1, 0),
-    )
-    yield (
-        "those of an upright scanner: its rotation is more than a heading, use the quaternion",
-        robot.of(tilted.of(hits)),
-    )
+    upright = robot.of(mount.flat().of(hits))
+    yield "those of an upright scanner: its rotation is more than a heading, use the quaternion", upright
+    yield "those of an upright scanner: its rotation is more than a heading; and z is 0", upright * (1, 1, 0)
     yield "those of the mount in the public world: ask /tf_static, other robots differ", robot.of(written.of(hits))
     yield "the place of the robot, not of the hit", robot.place
     yield "the place of the scanner, not of the hit", both.place

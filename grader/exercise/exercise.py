@@ -52,9 +52,7 @@ class Exercise:
     observe: dict[str, str]  # ROS topics the student is to publish on -> type
     script: tuple[ScriptedCommand, ...]
     checks: tuple[CheckSpec, ...]
-    bridge_parameters: dict[str, str] = field(
-        default_factory=dict
-    )  # of ROS, such as `qos_overrides./TOPIC.publisher...`
+    bridge_parameters: dict[str, str] = field(default_factory=dict)  # ROS parameters of the bridge
     trials: tuple[Trial, ...] = (PUBLIC,)  # the public ones; a single one without parameters if the manifest lists none
 
     @property

@@ -85,9 +85,8 @@ class LockStep(RealTime):
             return False
         self._layout = self.processes.layout
         self._participants = self.processes.followed
-        kept = {
-            f"{t} {kind}": min(self._kept[t], n) for t, kind in self.ros.offered.items() if (n := self.ros.keeps(t))
-        }
+        keeping = [(f"{t} {kind}", t, self.ros.keeps(t)) for t, kind in self.ros.offered.items()]
+        kept = {key: min(self._kept[topic], most) for key, topic, most in keeping if most}
         self._late.look(self._participants, kept)
         self._holding |= len(self._participants) > 1
         for each in self._participants if self._holding and not self._free else []:
