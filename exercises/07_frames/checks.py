@@ -224,12 +224,15 @@ def explanation(recording, found, truth, which, bad):
     if len(bad) < FEWEST:
         return ""
     wrong = which[bad]
-    fitting = []
+    fitting, same = [], []
     with np.errstate(all="ignore"):
         for words, predicted in predictions(recording, found, truth):
             known = ~np.isnan(predicted[wrong, 0])
-            if known.sum() >= FEWEST and near(found.points, predicted, CLOSE)[wrong][known].mean() >= SHARE:
+            if known.sum() < FEWEST or near(found.points, predicted, CLOSE)[wrong][known].mean() < SHARE:
+                continue
+            if not any(near(predicted, other, CLOSE / 3)[wrong].all() for other in same):
                 fitting.append(words)
+                same.append(predicted)
     return f"your points are {', or '.join(fitting[:2])}" if fitting else ""
 
 

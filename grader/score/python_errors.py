@@ -85,16 +85,16 @@ MEANINGS = (
         "rclpy.spin() takes a node, not its class: with brackets, MyNode(), it is one",
     ),
     (
-        re.compile(r"tf2\.\w*(?:Lookup|Extrapolation)Exception"),
+        re.compile(r"\b(?:Lookup|Extrapolation)Exception"),
         "that transform is not there (yet): nodes hear transforms later than the first data. Catch TransformException "
         "of tf2_ros, and skip the message or keep it and try again",
     ),
     (
-        re.compile(r"tf2\.\w*ConnectivityException"),
+        re.compile(r"\bConnectivityException"),
         "no transform connects the two frames (yet): ros2 run tf2_tools view_frames draws which are connected",
     ),
     (
-        re.compile(r"tf2\.\w*InvalidArgumentException"),
+        re.compile(r"\bInvalidArgumentException: Invalid argument .* passed to"),
         "names of frames are not empty and do not begin with a slash",
     ),
     (
