@@ -23,7 +23,7 @@ class NearestHit(Node):
         self.subscription = self.create_subscription(LaserScan, "/scan", self.on_scan, 10)
         self.waiting = deque(maxlen=5)
         self.broadcaster = StaticTransformBroadcaster(self)
-        mount = TransformStamped(child_frame_id="robot::scanner")
+        mount = TransformStamped(child_frame_id="robot/scanner")
         mount.header.frame_id = "robot"
         self.broadcaster.sendTransform(mount)
 
