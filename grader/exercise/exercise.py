@@ -54,6 +54,7 @@ class Exercise:
     script: tuple[ScriptedCommand, ...]
     checks: tuple[CheckSpec, ...]
     files: tuple[str, ...] = ()  # further files that students edit, by their path beside `file`
+    bridge_parameters: dict[str, str] = field(default_factory=dict)  # ROS parameters of the bridge
     trials: tuple[Trial, ...] = (PUBLIC,)  # the public ones; a single one without parameters if the manifest lists none
 
     @property
@@ -135,15 +136,16 @@ def load_exercise(folder: Path) -> Exercise:
         kind=kind,
         file=manifest.text("file"),
         files=tuple(manifest.texts("files")) if manifest.has("files") else (),
-        world=run.text("world"),
+        world=_world(folder, run.text("world")),
         robot=run.text("robot"),
         duration=run.number("duration", above=0),
         tick=run.number("tick", 0.01, above=0),
         real_time_factor=run.number("real_time_factor", 1.0, above=0),
         bridge=None if find_kind(kind).brings_bridge else folder / run.text("bridge"),
-        observe=_observed(run.table("observe", {})),
+        observe=_texts(run.table("observe", {})),
         script=tuple(map(ScriptedCommand.read, manifest.tables("script", []))),
         checks=tuple(_check(path, check) for check in manifest.tables("check")),
+        bridge_parameters=_texts(run.table("bridge_parameters", {})),
         trials=read_trials(manifest.tables("trial", []), path) or (PUBLIC,),
     )
     if Path(exercise.file).name != exercise.file:
@@ -163,8 +165,13 @@ def _is_below(name: str) -> bool:
     return bool(path.parts) and not path.is_absolute() and ".." not in path.parts and str(path) == name
 
 
-def _observed(table: Table) -> dict[str, str]:
-    return {topic: table.text(topic) for topic in table.names()}
+def _world(folder: Path, name: str) -> str:
+    """Return the file beside the manifest, if there is one of that name, else the name."""
+    return str(folder / name) if (folder / name).is_file() else name
+
+
+def _texts(table: Table) -> dict[str, str]:
+    return {key: table.text(key) for key in table.names()}
 
 
 def _check(path: Path, table: Table) -> CheckSpec:

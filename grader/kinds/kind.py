@@ -29,13 +29,25 @@ class RunPlan:
     """What runs beside the simulator.
 
     `program` names the file among `files` that is started in the sandbox. `entries` are the bridges between simulator
-    and ROS that exist from the beginning. `facts` are recorded unchanged.
+    and ROS that exist from the beginning, `parameters` the ROS parameters of their bridge. `facts` are recorded
+    unchanged.
     """
 
     program: str
     files: dict[str, bytes]
     entries: list[BridgeEntry] = field(default_factory=list)
     facts: dict[str, Any] = field(default_factory=dict)
+    parameters: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def kept(self) -> dict[str, str]:
+        """Types of the ROS topics on which the bridge keeps messages for subscriptions that join late, by topic."""
+        durability = "qos_overrides.{}.publisher.durability"
+        return {
+            entry.ros_topic: entry.ros_type
+            for entry in self.entries
+            if self.parameters.get(durability.format(entry.ros_topic)) == "transient_local"
+        }
 
 
 def no_variables(pace: str) -> dict[str, str]:

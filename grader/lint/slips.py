@@ -15,6 +15,7 @@ MOST = 3  # places reported at most
 LONGEST_PERIOD = 60.0  # [s] a longer period of a timer was hardly meant
 ACTIONS = frozenset({"cancel", "publish", "spin", "init", "shutdown", "destroy_node", "reset"})
 CREATE = {"create_timer": 1, "create_subscription": 2}  # method -> position of its callback
+TRANSFORM = {"lookup_transform": 3, "can_transform": 3, "transform": 2}  # method of a Buffer -> position of its timeout
 MESSAGE_FIELDS = frozenset({"data", "x", "y", "z", "w"})
 
 Place = tuple[int, str]
@@ -183,7 +184,25 @@ def blocking(tree: ast.AST) -> Iterator[Place]:
                 )
 
 
+def waits_for_transforms(tree: ast.AST) -> Iterator[Place]:
+    """Find a lookup with a timeout in a node with a single thread: no transform is heard while it waits."""
+    threads = any(
+        name in ("MultiThreadedExecutor", "Thread") or "spin_thread" in [each.arg for each in call.keywords]
+        for call, name in _calls(tree)
+    )
+    if threads:
+        return
+    for call, name in _calls(tree):
+        given = [*call.args[TRANSFORM.get(name, 0) :], *(each for each in call.keywords if each.arg == "timeout")]
+        if name in TRANSFORM and given:
+            yield (
+                call.lineno,
+                f"{name}() with a timeout keeps the only thread of the node: no transform is heard while it waits. "
+                "Leave the timeout out, and try again later",
+            )
+
+
 LOOKS = (
     constructors, main_not_called, called_callbacks, periods, not_called, decimal_commas, sets_for_numbers,
-    strings_with_braces, stray_methods, blocking,
+    strings_with_braces, stray_methods, blocking, waits_for_transforms,
 )  # fmt: skip

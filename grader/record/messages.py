@@ -3,7 +3,8 @@
 Every numeric field becomes a signal named after it: `topics/cmd_vel/linear/x`. A list of numbers becomes one row, a
 text or a list of texts (as JSON) a line whenever it changes, and a picture now and then a JPEG. A list of messages, as
 that of the transforms of `/tf`, becomes a row of all its numbers and a line of all its texts, one of each per message.
-Messages are read by their own introspection, so no ROS import is needed.
+The stamp of a header is one number, `topics/scan/header/stamp` [s]. Messages are read by their own introspection, so no
+ROS import is needed.
 """
 
 from __future__ import annotations
@@ -51,6 +52,9 @@ def record_message(recorder: Recorder, topic: str, message: Any) -> None:
                 recorder.array(entity, numbers)
         elif isinstance(value, str):
             recorder.said(entity, value[:LONGEST_TEXT].encode(errors="replace").decode())
+    stamp = getattr(getattr(message, "header", None), "stamp", None)
+    if stamp is not None and not bad:
+        recorder.scalar(f"{base}/header/stamp", stamp.sec + stamp.nanosec / 1e9)
     if getattr(message, "encoding", None) in RECORDED and recorder.wants_picture(base) and (picture := jpeg(message)):
         recorder.picture(base, picture)
 

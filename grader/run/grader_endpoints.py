@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import contextlib
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any
 
@@ -19,6 +19,7 @@ from rclpy.exceptions import InvalidHandle
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.impl.implementation_singleton import rclpy_implementation as rcl
 from rclpy.logging import LoggingSeverity, set_logger_level
+from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.serialization import serialize_message
 from rclpy.signals import SignalHandlerOptions
@@ -27,6 +28,7 @@ from rclpy.type_support import check_is_valid_msg_type
 
 from gz_course.grader.errors import ManifestError
 from gz_course.grader.run.agent.course_agent.executor_monitor import HOUSEKEEPING
+from gz_course.grader.run.agent.course_agent.history import kept_depth
 from gz_course.grader.run.agent.course_agent.rosout_counter import ROSOUT
 from gz_course.grader.run.discovery import UNKNOWN, Discovery
 from gz_course.grader.run.fair_clock import FairClock, Patience
@@ -57,6 +59,7 @@ class GraderEndpoints:
 
     `heard(topic, message)` is called for every message that arrives from the student, `logged(message)` for every one
     on /rosout. `discovery` shows the endpoints of others; with `watch` it notes who publishes on the bridge's topics.
+    `parameters` are ROS parameters of the bridge, such as `qos_overrides./tf_static.publisher.durability`.
     """
 
     def __init__(
@@ -68,6 +71,7 @@ class GraderEndpoints:
         heard: Callable[[str, Any], None],
         logged: Callable[[Any], None] = lambda message: None,
         watch: bool = False,
+        parameters: Mapping[str, str] | None = None,
     ) -> None:
         kinds = {topic: message_class(kind) for topic, kind in observe.items()}
         self.held: list[tuple[str, Any, Any]] = []
@@ -86,7 +90,11 @@ class GraderEndpoints:
             stack.callback(rclpy.shutdown, context=self._context)
             set_logger_level(NODE, LoggingSeverity.ERROR)  # the report contains what it would log
             self._node = rclpy.create_node(
-                NODE, context=self._context, start_parameter_services=False, enable_rosout=False
+                NODE,
+                context=self._context,
+                start_parameter_services=False,
+                enable_rosout=False,
+                parameter_overrides=[Parameter(name, value=value) for name, value in (parameters or {}).items()],
             )
             stack.callback(self._node.destroy_node)
             self._executor = _Executor(self, context=self._context)
@@ -123,6 +131,7 @@ class GraderEndpoints:
     def _look_at_own(self) -> None:
         # One publisher and one subscription per topic, so that one match on either side is a complete match.
         self._publishers = {p.topic_name: p for p in self._node.publishers if p.topic_name in self.offered}
+        self._keeps = {topic: kept_depth(p.qos_profile) for topic, p in self._publishers.items()}
         self._subscriptions = {s.topic_name: s for s in self._node.subscriptions if s.topic_name in self.listened}
         # A bidirectional entry receives its own messages; that is not a match with the student.
         self._own_publishers = Counter(p.topic_name for p in self._node.publishers)
@@ -190,6 +199,10 @@ class GraderEndpoints:
         """Return whether the bridge publishes reliably on a topic, so that reliable subscriptions match."""
         publisher = self._publishers.get(topic)
         return publisher is None or publisher.qos_profile.reliability != ReliabilityPolicy.BEST_EFFORT
+
+    def keeps(self, topic: str) -> int:
+        """Return how many messages the bridge keeps on a topic for subscriptions that join late."""
+        return self._keeps.get(topic, 0)
 
     def is_large(self, message: Any) -> bool:
         """Return whether a message needs several packets and has a stamp that distinguishes it from the next."""

@@ -75,8 +75,16 @@ class RunLoop:
         self._begin(plan, domain)
         self._console = ConsoleLog(processes.folder, LONGEST_LINE, SHOWN_FOLDER.decode())
         self._ros = GraderEndpoints(
-            domain, self._gz_nodes[1], plan.entries, exercise.observe, self._record, self._console.message, self.watches
+            domain,
+            self._gz_nodes[1],
+            plan.entries,
+            exercise.observe,
+            self._record,
+            self._console.message,
+            self.watches,
+            plan.parameters,
         )
+        self._kept = plan.kept
         stack.callback(self._ros.close)
         self._pace = self._paced(pace)
         self._scans = {e.ros_topic: e.gz_topic for e in plan.entries if e.ros_type == "sensor_msgs/msg/LaserScan"}
@@ -289,6 +297,7 @@ class RunLoop:
             **self._graph_facts,
             "offered": self._ros.offered,
             "listened": self._ros.listened,
+            **({"kept": sorted(self._kept)} if self._kept else {}),
             "dropped": dropped,
             "too_early": self._pace.too_early(),
             "lines_dropped": self._processes.dropped_lines,

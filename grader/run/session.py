@@ -18,6 +18,7 @@ from gz_course.grader.exercise.trial import Trial
 from gz_course.grader.kinds.kind import find_kind
 from gz_course.grader.printable import shown
 from gz_course.grader.process.temporary_folder import sweep
+from gz_course.grader.run.agent.course_agent.endpoint_description import KEPT
 from gz_course.grader.run.agent.course_agent.executor_monitor import RELIABLE, SIMULATED_CLOCKS
 from gz_course.grader.run.domain import Domain
 from gz_course.grader.run.processes.submission_processes import SubmissionProcesses
@@ -75,6 +76,7 @@ def run(
         "publisher": {e.ros_topic: e.ros_type for e in plan.entries if e.direction.to_gz} | exercise.observe,
         "subscription": {e.ros_topic: e.ros_type for e in plan.entries if e.direction.to_ros},
         RELIABLE: {e.ros_topic: e.ros_type for e in plan.entries if e.direction.to_ros and reliable(e.qos_profile)},
+        KEPT: plan.kept,
     }
     with contextlib.ExitStack() as stack:
         domain = stack.enter_context(Domain())

@@ -229,7 +229,7 @@ def subscriptions(recording: Recording, facts: dict[str, Any]) -> str:
             return f"Your node subscribes to {e['topic']}, where nobody publishes{hint}{why}"
         if kind != e["type"]:
             return f"Your node subscribes to {e['topic']} as {e['type']}, but it carries {kind}."
-        if e["durability"] == "TRANSIENT_LOCAL":
+        if e["durability"] == "TRANSIENT_LOCAL" and e["topic"] not in facts.get("kept", []):
             return (
                 f"Your subscription to {e['topic']} asks for the durability TRANSIENT_LOCAL, which the bridge does not "
                 "offer: it gets nothing. Use the default, VOLATILE."

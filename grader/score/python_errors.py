@@ -85,6 +85,19 @@ MEANINGS = (
         "rclpy.spin() takes a node, not its class: with brackets, MyNode(), it is one",
     ),
     (
+        re.compile(r"\b(?:Lookup|Extrapolation)Exception"),
+        "that transform is not there (yet): nodes hear transforms later than the first data. Catch TransformException "
+        "of tf2_ros, and skip the message or keep it and try again",
+    ),
+    (
+        re.compile(r"\bConnectivityException"),
+        "no transform connects the two frames (yet): ros2 run tf2_tools view_frames draws which are connected",
+    ),
+    (
+        re.compile(r"\bInvalidArgumentException: Invalid argument .* passed to"),
+        "names of frames are not empty and do not begin with a slash",
+    ),
+    (
         re.compile(r"NotInitializedException"),
         "rclpy.init() must be called before the first node is made",
     ),

@@ -76,7 +76,7 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     facts = {
         name: [{"file": shown(submission.main)} | place for place in found] for name, found in places.items() if found
     }
-    return RunPlan(submission.main, submission.files, entries, facts)
+    return RunPlan(submission.main, submission.files, entries, facts, exercise.bridge_parameters)
 
 
 def run_loop() -> type[RunLoop]:

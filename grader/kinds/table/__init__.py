@@ -109,7 +109,8 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     from gz_course.grader.run.exercise_bridge import exercise_bridge
 
     rows = read(submission.main, submission.files[submission.main])
-    return RunPlan(EXERCISE_NODE, exercise_node(exercise), exercise_bridge(exercise), {"table": rows})
+    entries = exercise_bridge(exercise)
+    return RunPlan(EXERCISE_NODE, exercise_node(exercise), entries, {"table": rows}, exercise.bridge_parameters)
 
 
 KIND = Kind((".yaml", ".yml"), fault, plan, node_command, run_loop, diagnosis)

@@ -51,6 +51,7 @@ class LockStep(RealTime):
         self._sent: Counter[str] = Counter()  # messages that the student's processes must have taken
         self._untaken: Counter[str] = Counter()  # of those and of their own: never taken (or taken and never counted)
         self._late = LateJoiners()
+        self._kept: Counter[str] = Counter()  # messages sent on topics that keep some for subscriptions that join late
         self._layout: tuple[int, ...] = ()
         self._participants: list[Participant] = []
         self._pending: tuple[str, Any, Any] | None = None
@@ -84,7 +85,9 @@ class LockStep(RealTime):
             return False
         self._layout = self.processes.layout
         self._participants = self.processes.followed
-        self._late.look(self._participants)
+        keeping = [(f"{t} {kind}", t, self.ros.keeps(t)) for t, kind in self.ros.offered.items()]
+        kept = {key: min(self._kept[topic], most) for key, topic, most in keeping if most}
+        self._late.look(self._participants, kept)
         self._holding |= len(self._participants) > 1
         for each in self._participants if self._holding and not self._free else []:
             if each.progress and not each.progress.holding:
@@ -128,8 +131,12 @@ class LockStep(RealTime):
         if self._look_around():
             self.await_matches()
         readers = self.ros.matched(topic, "subscription") or self._await_leaving(topic)
+        kept = self.ros.keeps(topic) > 0
+        self._kept[topic] += kept
         if not readers:
             # No reader to wait for, but a node may come, go, or wait for an answer.
+            if kept:
+                publisher.publish(message)
             self.processes.wait(0)
             self.everything_arrived()
             return

@@ -20,7 +20,7 @@ def can_match(endpoint: Endpoint, ros: GraderEndpoints) -> bool:
     if endpoint.kind == "subscription" and endpoint.reliability == "RELIABLE" and not ros.reliable(endpoint.topic):
         return False
     return ours(endpoint.topic) == endpoint.type and qos_can_match(
-        endpoint.kind, endpoint.reliability, endpoint.durability
+        endpoint.kind, endpoint.reliability, endpoint.durability, ros.keeps(endpoint.topic) > 0
     )
 
 

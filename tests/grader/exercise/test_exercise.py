@@ -72,6 +72,15 @@ def test_a_manifest_is_read(folder):
     assert exercise.checks[0].parameters == {"signal": "truth/robot/x", "band": [0.5, 1.0]}
 
 
+def test_a_world_beside_the_manifest_and_parameters_of_the_bridge(folder):
+    given = 'bridge_parameters = { "qos_overrides./tf_static.publisher.durability" = "transient_local" }'
+    path = folder(GOOD.replace("tick = 0.02", given))
+    (path / "empty.sdf").write_text("<sdf/>")
+    exercise = load_exercise(path)
+    assert exercise.world == str(path / "empty.sdf")
+    assert exercise.bridge_parameters == {"qos_overrides./tf_static.publisher.durability": "transient_local"}
+
+
 def test_optional_keys_have_defaults(folder):
     lines = [line for line in GOOD.splitlines() if not line.startswith(("tick", "observe"))]
     exercise = load_exercise(folder("\n".join(lines)))

@@ -91,6 +91,20 @@ def test_time_that_is_reckoned_wrongly(line, fault):
     assert found[0]["line"] == 14
 
 
+WAITS = "self.buffer.lookup_transform('odom', 'lidar', now, Duration(seconds=1))"
+
+
+@pytest.mark.parametrize(
+    "call", [WAITS, "self.buffer.can_transform('a', 'b', now, timeout=wait)", "self.buffer.transform(p, 'a', wait)"]
+)
+def test_a_lookup_that_keeps_the_only_thread(call):
+    text = RIGHT.replace("message = ", f"{call}\n        message = ")
+    assert ["keeps the only thread" in place["said"] for place in slips(text.encode())] == [True]
+    for thread in ("MultiThreadedExecutor(2)", "Thread(target=f)", "TransformListener(b, n, spin_thread=True)"):
+        assert slips(text.replace("rclpy.init()", thread).encode()) == []
+    assert slips(text.replace(call, "self.buffer.lookup_transform('a', 'b', now)").encode()) == []
+
+
 def test_counters_beside_a_clock_and_in_loops_are_no_fault():
     assert time_reckoning(RIGHT.replace("now = ", "self.n += 1\n        now = ").encode()) == []
     loop = "        for each in (1, 2):\n            self.n += 1\n"

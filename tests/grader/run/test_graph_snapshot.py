@@ -8,6 +8,7 @@ import rclpy
 from rclpy.context import Context
 from std_msgs.msg import Float64, String
 
+from gz_course.grader.kinds.kind import RunPlan
 from gz_course.grader.run.domain import Domain
 from gz_course.grader.run.fair_clock import FairClock
 from gz_course.grader.run.grader_endpoints import GraderEndpoints
@@ -52,8 +53,8 @@ def gz(domain):
 def ros(domain, gz):
     made = []
 
-    def make(*entries):
-        made.append(GraderEndpoints(domain, gz[1], list(entries), {}, lambda topic, message: None))
+    def make(*entries, **parameters):
+        made.append(GraderEndpoints(domain, gz[1], list(entries), {}, lambda topic, message: None, **parameters))
         return made[-1]
 
     yield make
@@ -99,6 +100,19 @@ def test_who_asks_for_reliable_delivery_is_not_waited_for_where_none_is_offered(
     assert can_match(listener("/number", "RELIABLE"), made)
     assert can_match(listener("/quick", "BEST_EFFORT"), made)
     assert not can_match(listener("/quick", "RELIABLE"), made)
+
+
+def test_what_the_bridge_keeps_for_late_subscriptions_is_known(ros):
+    name = f"qos_overrides.{IN.ros_topic}.publisher.durability"
+    made = ros(IN, QUICK, parameters={name: "transient_local"})
+
+    def listener(topic):
+        return Endpoint("/n", "subscription", topic, "std_msgs/msg/Float64", "RELIABLE", "TRANSIENT_LOCAL", 0)
+
+    assert (made.keeps(IN.ros_topic), made.keeps("/quick"), made.keeps("/elsewhere")) == (IN.publisher_queue, 0, 0)
+    assert can_match(listener(IN.ros_topic), made) and not can_match(listener("/quick"), made)
+    assert RunPlan("n.py", {}, [IN, QUICK], {}, {name: "transient_local"}).kept == {IN.ros_topic: IN.ros_type}
+    assert RunPlan("n.py", {}, [IN, QUICK]).kept == {}
 
 
 def test_both_graphs(ros, gz, other):

@@ -222,6 +222,8 @@ def test_a_subscription_of_another_type(told):
 def test_a_subscription_that_asks_for_old_messages(told):
     _, sentence = told(endpoint("/lidar/scan", SCAN, "subscription", durability="TRANSIENT_LOCAL"))
     assert "TRANSIENT_LOCAL" in sentence and "/lidar/scan" in sentence and "VOLATILE" in sentence
+    latched = endpoint("/lidar/scan", SCAN, "subscription", durability="TRANSIENT_LOCAL")
+    assert told(latched, kept=["/lidar/scan"]) == ("graded", "")
 
 
 def test_a_publisher_that_never_published(told):

@@ -10,6 +10,7 @@ from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Float32, String
 
 from gz_course.grader.score.python_errors import meaning
+from gz_course.sim.tf2_py import BufferCore
 
 
 class Forgetful(Node):
@@ -55,6 +56,8 @@ MISTAKES = {
     ),
     "make a Float32(), fill in its fields": lambda node: node.create_publisher(Float32, "/b", 1).publish({"data": 1.0}),
     "takes its fields by their names": lambda node: Float32(1.0),
+    "Catch TransformException": lambda node: BufferCore().lookup_transform_core("odom", "lidar", Time()),
+    "do not begin with a slash": lambda node: BufferCore().lookup_transform_core("/odom", "lidar", Time()),
     "in ROS 2 a node imports rclpy": lambda node: __import__("rospy"),
     "from std_msgs.msg import String": lambda node: exec("from std_msgs import String"),
     "duration.nanoseconds / 1e9": lambda node: Duration(seconds=1).seconds,

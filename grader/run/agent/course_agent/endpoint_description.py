@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+KEPT = "transient_local"  # kind of topics: those of the grader's that keep messages for subscriptions that join late
+
 
 def described(node: str, kind: str, topic: str, endpoint: Any, matched: int) -> dict[str, Any]:
     """Return the description of a publisher or subscription (`kind`) of the node with this full name."""
@@ -24,12 +26,12 @@ def type_name(kind: Any) -> str:
     return f"{kind.__module__.split('.')[0]}/msg/{kind.__name__}"
 
 
-def qos_can_match(kind: str, reliability: str, durability: str, **_: Any) -> bool:
-    """Return whether an endpoint's QoS is compatible with the grader's: reliable and volatile, as in ros_gz_bridge.
+def qos_can_match(kind: str, reliability: str, durability: str, kept: bool = False, **_: Any) -> bool:
+    """Return whether an endpoint's QoS is compatible with the grader's: reliable and, unless `kept`, volatile.
 
     A best-effort publisher does not match a reliable subscription, nor a transient-local subscription a volatile
     publisher.
 
     Source: ROS 2 documentation, "Quality of Service settings", section "QoS compatibilities".
     """
-    return reliability != "BEST_EFFORT" if kind == "publisher" else durability != "TRANSIENT_LOCAL"
+    return reliability != "BEST_EFFORT" if kind == "publisher" else kept or durability != "TRANSIENT_LOCAL"

@@ -36,7 +36,7 @@ from typing import Any
 
 from . import grader_requests
 from .channel import Channel
-from .endpoint_description import described, qos_can_match
+from .endpoint_description import KEPT, described, qos_can_match
 from .history import History
 from .inbox import blocked, fill, is_copy
 from .patience import await_found, await_signal
@@ -292,8 +292,8 @@ class ExecutorMonitor:
 
     def _is_met(self, endpoint: dict[str, Any]) -> bool:
         """Return whether the grader has the opposite endpoint, of the same type and with compatible QoS."""
-        met = self._topics.get(endpoint["kind"], {})
-        return met.get(endpoint["topic"]) == endpoint["type"] and qos_can_match(**endpoint)
+        met, kept = self._topics.get(endpoint["kind"], {}), endpoint["topic"] in self._topics.get(KEPT, {})
+        return met.get(endpoint["topic"]) == endpoint["type"] and qos_can_match(**endpoint, kept=kept)
 
     def sent_reliably(self, topic: str, kind: str) -> bool:
         """Return whether the grader publishes messages of a type on a topic, and reliably."""

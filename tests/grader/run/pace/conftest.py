@@ -11,8 +11,11 @@ from gz_course.grader.run.domain import Domain
 from gz_course.grader.run.processes.submission_processes import SubmissionProcesses
 from gz_course.grader.run.sandbox import Sandbox
 from gz_course.sim.gz.msgs.clock_pb2 import Clock
+from gz_course.sim.gz.msgs.int32_pb2 import Int32 as gz_Int32
 
 CLOCK = "/clock"
+KEPT = "/kept"  # with `kept`, the bridge publishes the number of each tick, and keeps it for late subscriptions
+GZ_TYPES = {"rosgraph_msgs/msg/Clock": "gz.msgs.Clock", "std_msgs/msg/Int32": "gz.msgs.Int32"}
 TICK_NS = 100_000_000
 START = """
 import subprocess, sys
@@ -50,7 +53,7 @@ def play(tmp_path, monkeypatch):
 
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
 
-    def call(ticks=10, observe=None, holding=True, simulated=False, **files):
+    def call(ticks=10, observe=None, holding=True, simulated=False, kept=False, **files):
         observe = observe or {"/said": "std_msgs/msg/String"}
         played = Played()
         names = []
@@ -59,12 +62,13 @@ def play(tmp_path, monkeypatch):
             path.write_text(NODE.format(name=name) + textwrap.dedent(code).replace("{name}", name))
             names.append(str(path))
         (tmp_path / "start.py").write_text(START)
+        offered = {CLOCK: "rosgraph_msgs/msg/Clock"} | ({KEPT: "std_msgs/msg/Int32"} if kept else {})
         with Domain() as domain:
             sandbox = Sandbox(domain.id, "D")
             student = SubmissionProcesses(
                 [sys.executable, str(tmp_path / "start.py"), *names],
                 sandbox,
-                {"publisher": observe, "subscription": {CLOCK: "rosgraph_msgs/msg/Clock"}},
+                {"publisher": observe, "subscription": offered, "transient_local": offered if kept else {}},
                 ({HOLD: "1"} if holding else {}) | ({SIMULATED_CLOCKS: "1.0"} if simulated else {}),
             )
             for key, value in sandbox.grader_environment().items():
@@ -72,9 +76,17 @@ def play(tmp_path, monkeypatch):
             options = NodeOptions(scope=Scope.PROCESS, partition=f"test-{os.getpid()}-{domain.id}")
             ours, bridges = Node(options), Node(options)
             clock = ours.advertise(CLOCK, Clock)
-            entry = BridgeEntry(CLOCK, CLOCK, "rosgraph_msgs/msg/Clock", "gz.msgs.Clock", Direction.GZ_TO_ROS)
+            numbers = ours.advertise(KEPT, gz_Int32)
             ros = GraderEndpoints(
-                domain.id, bridges, [entry], observe, lambda topic, message: played.heard.append(message.data)
+                domain.id,
+                bridges,
+                [
+                    BridgeEntry(topic, topic, kind, GZ_TYPES[kind], Direction.GZ_TO_ROS)
+                    for topic, kind in offered.items()
+                ],
+                observe,
+                lambda topic, message: played.heard.append(message.data),
+                parameters={f"qos_overrides.{KEPT}.publisher.durability": "transient_local"},
             )
             try:
                 played.pace = pace = LockStep(student, ros, holding)
@@ -84,6 +96,7 @@ def play(tmp_path, monkeypatch):
                     now = Clock()
                     now.sim.sec, now.sim.nsec = divmod(tick * TICK_NS, 10**9)
                     clock.publish(now)
+                    numbers.publish(gz_Int32(data=tick))
                     pace.wake_sleepers(tick * TICK_NS)
                     for topic, publisher, message in ros.take_held():
                         pace.send(topic, publisher, message, tick * TICK_NS)

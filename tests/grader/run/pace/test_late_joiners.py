@@ -40,6 +40,15 @@ def test_what_came_before_the_publisher_was_seen_is_due_to_all():
     assert late.due == {"/kept": 2}
 
 
+def test_what_the_bridge_keeps_is_due_to_those_who_come_later():
+    late = LateJoiners()
+    late.look([process(0, None, 1)], {"/kept x/msg/Y": 0})
+    late.look([process(0, None, 1)], {"/kept x/msg/Y": 5})
+    assert late.due["/kept"] == 0  # it heard each when it was sent
+    late.look([process(0, None, 1), process(1, None, 1)], {"/kept x/msg/Y": 7, "/other x/msg/Y": 9})
+    assert late.due == {"/kept": 7}
+
+
 def test_subscriptions_of_another_type_get_nothing():
     late = LateJoiners()
     late.look([process(0, 3), process(1, None, 1, kind="x/msg/Z")])

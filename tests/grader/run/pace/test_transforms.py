@@ -1,4 +1,6 @@
-"""A node that looks up transforms gets the same answer each time, also if it has to wait for them."""
+"""A node that looks up transforms gets the same answer each time, also if it has to wait for them, or comes late."""
+
+import pytest
 
 ROBOT = """
 from geometry_msgs.msg import TransformStamped
@@ -83,3 +85,32 @@ def test_every_lookup_finds_the_same_each_time(play):
         ago = 0.3 if who == "timer" else 0.0
         assert float(x) == round(float(then[:-1]) - ago + 100.0, 3), runs[0].heard
         assert took == "0.000" if who == "timer" else float(took) <= 0.5
+
+
+LATE = """
+from rclpy.qos import DurabilityPolicy, QoSProfile
+
+said = node.create_publisher(String, "/said", 100)
+asked = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+def hear(number):
+    said.publish(String(data=f"{node.get_clock().now().nanoseconds / 1e9:.1f} {number.data}"))
+
+def come():
+    once.cancel()
+    node.late = node.create_subscription(Int32, "/kept", hear, asked)
+
+once = node.create_timer(0.5, come)
+rclpy.spin(node)
+"""
+
+
+@pytest.mark.proof
+def test_what_a_bridge_keeps_is_heard_at_once_by_those_who_come_late(play):
+    for holding in (True, False):
+        played = play(ticks=14, kept=True, holding=holding, late=LATE)
+        assert played.pace.paced_ticks == 0, played.lines
+        heard = [(float(time), int(number)) for time, number in map(str.split, played.heard)]
+        assert [number for _, number in heard] == list(range(1, 15))
+        came = heard[0][0]
+        assert heard == [(max(came, number / 10), number) for number in range(1, 15)]

@@ -1,0 +1,393 @@
+"""Are the points on /nearest_hit where the nearest hit of their scan was, in the frame odom?
+
+The truth is computed from the scan as it was sent, from the simulator's pose of the robot at that time, and from the
+mount of the scanner in the simulated robot. Wrong points are compared with those of common misconceptions.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gz_course.grader.score.check import Finding
+
+TOLERANCE = 0.05  # [m]
+CLOSE = 0.03  # [m] of the points of a misconception
+SHARE = 0.9  # of the scans that must be right
+FEWEST = 4  # points; fewer may fit a misconception by chance
+TURNS = 0.5  # [rad/s] faster is turning
+STEADY = 0.2  # [rad/s] change of the turning rate within `AROUND`; more is a change of speed, which is not judged
+AROUND = 0.1  # [s]
+SAME = 5e-4  # [s] between equal stamps
+TOPIC, SCAN, TF = "topics/nearest_hit", "topics/scan", "topics/tf"
+PUBLIC_MOUNT = (0.2, -0.14, 0.3), (0.0, 0.0, np.sin(1.0), np.cos(1.0))  # of turned_lidar.sdf: place [m], quaternion
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Poses of one frame in another, one a row: matrices (n, 3, 3) and places (n, 3) [m]."""
+
+    turn: np.ndarray
+    place: np.ndarray
+
+    def of(self, points):
+        """Return points (n, 3) [m] in the outer frame."""
+        return self.turned(points) + self.place
+
+    def turned(self, points):
+        return np.einsum("nij,nj->ni", self.turn, points)
+
+    def inverse(self):
+        turn = np.transpose(self.turn, (0, 2, 1))
+        return Frame(turn, -Frame(turn, self.place).turned(self.place))
+
+    def flat(self):
+        """Return the poses with their heading only, as if nothing were tilted or upside down."""
+        return replace(self, turn=about_z(np.arctan2(self.turn[:, 1, 0], self.turn[:, 0, 0])))
+
+
+@dataclass(frozen=True)
+class Scans:
+    """All scans with a hit, and the points that were published for them, one a row.
+
+    `arrived` are their times of arrival [s], `stamps` those of their measurement [s]; `rows` the ranges [m], `angles`
+    those of the first ray and between two [rad]; `hits` the nearest hits in the scanner's frame (n, 3) [m], `rays`
+    their numbers. `points` (n, 3) [m] is NaN where there is none, `answered` when it came [s]; `by_stamp`:
+    the points belong to the scans whose stamps they have.
+    """
+
+    arrived: np.ndarray
+    stamps: np.ndarray
+    rows: list
+    limits: np.ndarray
+    angles: np.ndarray
+    hits: np.ndarray
+    rays: np.ndarray
+    mount: Frame
+    points: np.ndarray
+    answered: np.ndarray
+    by_stamp: bool = True
+
+
+def about_z(angle):
+    c, s, zero = np.cos(angle), np.sin(angle), np.zeros_like(angle)
+    return np.stack([np.stack([c, -s, zero], -1), np.stack([s, c, zero], -1), np.stack([zero, zero, zero + 1], -1)], -2)
+
+
+def matrices(x, y, z, w):
+    """Return the rotation matrices (n, 3, 3) of quaternions."""
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    return np.stack([np.stack(row, -1) for row in rows], -2)
+
+
+def polar(distance, angle):
+    """Return points (n, 3) [m] in the plane of the scanner."""
+    return np.stack([distance * np.cos(angle), distance * np.sin(angle), np.zeros_like(angle)], -1)
+
+
+def values(recording, name):
+    return recording.signal(name).values
+
+
+def odom(recording, times):
+    """Return the robot's true poses at times [s]; the frame odom is that of the world."""
+    at = recording.signal("truth/robot/x").times / 1e9
+    place = [np.interp(times, at, values(recording, f"truth/robot/{axis}")) for axis in "xyz"]
+    yaw = np.interp(times, at, values(recording, "truth/robot/yaw"))
+    return Frame(about_z(yaw), np.stack(place, -1))
+
+
+def mounted(place, quaternion, count):
+    turn = matrices(*(np.array([float(v)]) for v in quaternion))
+    return Frame(np.repeat(turn, count, 0), np.repeat(np.array([place], dtype=float), count, 0))
+
+
+def scans(recording):
+    """Return all scans of a recording; None if there are none."""
+    arrived, rows = recording.arrays(f"{SCAN}/ranges")
+    low, high, first, step, stamps = (
+        values(recording, f"{SCAN}/{name}")
+        for name in ("range_min", "range_max", "angle_min", "angle_increment", "header/stamp")
+    )
+    known = recording.signal("truth/robot/x").times / 1e9
+    kept, hits, rays = [], [], []
+    for i, row in enumerate(rows):
+        valid = np.where((row > low[i]) & (row < high[i]), row, np.inf)
+        ray = int(np.argmin(valid))
+        # The transforms begin after the first scan.
+        if np.isfinite(valid[ray]) and len(known) and stamps[i] > 0.05:
+            kept.append(i)
+            rays.append(ray)
+            hits.append((valid[ray], first[i] + ray * step[i]))
+    if not kept:
+        return None
+    hits = np.array(hits)
+    poses = recording.poses("world/robot/scanner")
+    count = len(kept)
+    found = Scans(
+        arrived=arrived[kept] / 1e9,
+        stamps=stamps[kept],
+        rows=[rows[i] for i in kept],
+        limits=np.stack([low[kept], high[kept]], -1),
+        angles=np.stack([first[kept], step[kept]], -1),
+        hits=polar(hits[:, 0], hits[:, 1]),
+        rays=np.array(rays),
+        mount=mounted(poses.positions[-1], poses.quaternions[-1], count),
+        points=np.full((count, 3), np.nan),
+        answered=np.full(count, np.nan),
+    )
+    return with_points(recording, found)
+
+
+def with_points(recording, found):
+    """Give each scan its point: the one with its stamp, or, if more points are right then, the one that came after it.
+
+    Who keeps a scan until its transform is there answers when the next one comes. Of several points for one scan, that
+    which is farthest from the truth counts.
+    """
+    times = recording.signal(f"{TOPIC}/point/x").times / 1e9
+    stamps = values(recording, f"{TOPIC}/header/stamp")
+    points = np.stack([values(recording, f"{TOPIC}/point/{axis}") for axis in "xyz"], -1)
+    truth = right(recording, found)
+    last = np.searchsorted(found.arrived, times + SAME) - 1
+    with_stamp = np.array([int(np.argmin(np.abs(found.stamps - stamp))) for stamp in stamps], dtype=int)
+    strange = np.abs(found.stamps[with_stamp] - stamps) > SAME
+    best = None
+    for by_stamp, which in ((True, np.where(strange, last, with_stamp)), (False, last), (False, last - 1)):
+        given, answered = found.points.copy(), found.answered.copy()
+        for time, scan, point in zip(times, which, points, strict=True):
+            if scan < 0:
+                continue
+            worse = np.linalg.norm(point - truth[scan]) > np.linalg.norm(given[scan] - truth[scan])
+            if np.isnan(given[scan, 0]) or worse:
+                given[scan], answered[scan] = point, time
+        met = int(np.sum(near(given, truth, TOLERANCE)))
+        if best is None or met > best[0]:
+            best = met, replace(found, points=given, answered=answered, by_stamp=by_stamp)
+    return best[1]
+
+
+def near(points, others, within):
+    with np.errstate(invalid="ignore"):
+        return np.linalg.norm(points - others, axis=-1) <= within
+
+
+def right(recording, found):
+    """Return the true points (n, 3) [m] in odom."""
+    return odom(recording, found.stamps).of(found.mount.of(found.hits))
+
+
+def chosen(recording, found, turning):
+    """Return the numbers of the scans at which the robot turns, or does not, at a steady rate."""
+    rate = recording.signal("truth/robot/angular_z")
+    at = rate.times / 1e9
+    around = [np.interp(found.stamps + shift, at, rate.values) for shift in (-AROUND, 0.0, AROUND)]
+    steady = np.ptp(around, axis=0) < STEADY
+    return np.flatnonzero(steady & ((np.abs(around[1]) > TURNS) == turning))
+
+
+def places(recording, parameters):
+    """Pass if nearly all points are where their hit was, at the scans in which the robot turns or does not."""
+    expected = f"the nearest hit of each scan in odom, within {TOLERANCE * 100:.0f} cm"
+    found = scans(recording)
+    which = [] if found is None else chosen(recording, found, parameters["turning"])
+    if not len(which):
+        return Finding(False, expected, "no scan was sent")
+    truth = right(recording, found)
+    met = near(found.points, truth, TOLERANCE)[which]
+    missing = np.isnan(found.points[which, 0])
+    measured = f"{met.sum()} of {len(which)} scans right"
+    bad = np.flatnonzero(~met & ~missing)
+    if missing.any():
+        measured += f", {missing.sum()} without a point"
+    if infinite := sum(len(recording.signal(f"{TOPIC}/point/{axis}/not_finite")) for axis in "xyz"):
+        measured += f", {infinite} coordinates were inf, -inf or nan"
+    if len(bad):
+        n = which[bad[0]]
+        measured += (
+            f"; at {found.stamps[n]:.2f} s it said {shown(found.points[n])}, the truth was {shown(truth[n])}: "
+            f"{np.linalg.norm(found.points[n] - truth[n]):.2f} m away"
+        )
+    if met.mean() >= SHARE:
+        return Finding(True, expected, measured)
+    first = which[np.flatnonzero(~met)[0]]
+    why = explanation(recording, found, truth, which, bad) or silence(found, truth)
+    return Finding(False, expected, measured, round(float(found.arrived[first]), 3), explanation=why)
+
+
+def shown(point):
+    return "(" + ", ".join(f"{v:.2f}" for v in point) + ")"
+
+
+def explanation(recording, found, truth, which, bad):
+    """Return which misconceptions fit nearly all points that are wrong; empty if none does."""
+    if len(bad) < FEWEST:
+        return ""
+    wrong = which[bad]
+    fitting, same = [], []
+    with np.errstate(all="ignore"):
+        for words, predicted in predictions(recording, found, truth):
+            known = ~np.isnan(predicted[wrong, 0])
+            if known.sum() < FEWEST or near(found.points, predicted, CLOSE)[wrong][known].mean() < SHARE:
+                continue
+            if not any(near(predicted, other, CLOSE / 3)[wrong].all() for other in same):
+                fitting.append(words)
+                same.append(predicted)
+    return f"your points are {', or '.join(fitting[:2])}" if fitting else ""
+
+
+def silence(found, truth):
+    """Return what is odd about the scans that got no point, if the others are right."""
+    there = ~np.isnan(found.points[:, 0])
+    if not there.any() or not near(found.points, truth, TOLERANCE)[there].all():
+        return ""
+    last = found.stamps[there][-1]
+    if last < 0.6 * found.stamps[-1]:
+        return f"the points stop: the last one is that of the scan at {last:.1f} s"
+    return f"only {there.sum()} of {len(there)} scans got a point: keep a scan until its transform is there"
+
+
+def predictions(recording, found, truth):
+    """Yield the end of the sentence "your points are ..." and what a program with that misconception publishes."""
+    robot, mount, hits = odom(recording, found.stamps), found.mount, found.hits
+    both = Frame(np.einsum("nij,njk->nik", robot.turn, mount.turn), robot.of(mount.place))
+    on_robot, count = mount.of(hits), len(hits)
+    heard = recording.signal(f"{TF}/count").times / 1e9
+
+    def at(times):
+        return odom(recording, times).of(on_robot)
+
+    def latest(times):
+        index = np.searchsorted(heard, times) - 1
+        return at(np.where(index >= 0, heard[np.maximum(index, 0)], np.nan))
+
+    still = Frame(np.repeat(np.eye(3)[None], count, 0), np.zeros((count, 3)))
+    written = mounted(*PUBLIC_MOUNT, count)
+    flat = truth * (1, 1, 0)
+    before = np.concatenate([np.full((1, 3), np.nan), truth[:-1]])
+    yield "in the scanner's own frame: nothing was transformed", hits
+    yield "in the frame of the robot: the transform from the robot to odom is missing", on_robot
+    yield "those of a scanner in the robot's middle, looking ahead: the scanner's mount is missing", robot.of(hits)
+    yield "not turned as the scanner is: the rotation of its mount is missing", robot.of(hits + mount.place)
+    yield "not shifted as the scanner is: the translation of its mount is missing", robot.of(mount.turned(hits))
+    yield "shifted by the robot's place, but not turned by its heading", on_robot + robot.place
+    yield "shifted, but not turned: the rotations of scanner and robot are missing", hits + mount.place + robot.place
+    yield "shifted by the whole transform, but not turned: its rotation is missing", hits + both.place
+    yield "turned by the whole transform, but not shifted: its translation is missing", both.turned(hits)
+    yield "turned by the robot's heading, but not shifted by its place", robot.turned(on_robot)
+    yield "first shifted and then turned: a transform rotates first, then it shifts", both.turned(hits + both.place)
+    back = both.inverse()
+    yield "turned the wrong way: the rotation is that of the opposite transform", back.turned(hits) + both.place
+    yield "those of the opposite transform: lookup_transform takes the target, odom, first", back.of(hits)
+    yield "those of the scanner's mount applied in the opposite direction", robot.of(mount.inverse().of(hits))
+    yield "those of the transform from odom to the robot: the opposite direction", robot.inverse().of(on_robot)
+    yield "those of the latest transform when the scan came, not of that at the scan's stamp", latest(found.arrived)
+    yield (
+        "those of the latest transform when they were published, not of that at the scan's stamp",
+        latest(found.answered),
+    )
+    yield "those of the transform one scan earlier", at(found.stamps - 0.1)
+    yield "those of the transform one scan later", at(found.stamps + 0.1)
+    yield "those of a transform that was looked up once, at the beginning", at(np.full(count, found.stamps[0]))
+    yield "those of the scan before", before
+    yield "right on the floor plan, but z is 0: a point in odom is as high as the scanner", flat
+    upright = robot.of(mount.flat().of(hits))
+    yield "those of an upright scanner: its rotation is more than a heading, use the quaternion", upright
+    yield "those of an upright scanner: its rotation is more than a heading; and z is 0", upright * (1, 1, 0)
+    yield "those of the mount in the public world: ask /tf_static, other robots differ", robot.of(written.of(hits))
+    yield "the place of the robot, not of the hit", robot.place
+    yield "the place of the scanner, not of the hit", both.place
+    for words, points in of_other_rays(found):
+        yield words, both.of(points)
+    yield "always the same", still.place + found.points[~np.isnan(found.points[:, 0])][:1]
+
+
+def of_other_rays(found):
+    """Yield points in the scanner's frame that take another ray, or another direction for the ray."""
+    first, step = found.angles.T
+    distance = np.linalg.norm(found.hits, axis=-1)
+    around = 2 * np.pi * found.rays / np.array([len(row) for row in found.rows])
+    angle = first + found.rays * step
+    yield "off by angle_min: the angle of a ray is angle_min + i * angle_increment", polar(distance, found.rays * step)
+    yield "those of an angle in degrees: cos() and sin() take radians", polar(distance, np.degrees(angle))
+    yield "on the other side: angles grow to the left, y is range * sin(angle)", polar(distance, -angle)
+    yield "those with sin and cos exchanged: x is range * cos(angle)", polar(distance, np.pi / 2 - angle)
+    yield "those of rays all around: use angle_min and angle_increment", polar(distance, around)
+    yield "those of rays all around, from -pi on: use angle_min and angle_increment", polar(distance, around - np.pi)
+    yield "those of a ray's number as its angle: angle_increment is missing", polar(distance, first + found.rays)
+    yield "those of the nearest distance, drawn straight ahead of the scanner", polar(distance, 0 * angle)
+    valid = [
+        np.where((row > low) & (row < high), row, np.nan)
+        for row, (low, high) in zip(found.rows, found.limits, strict=True)
+    ]
+    others = {
+        "the farthest hit, not the nearest": np.nanargmax,
+        "the hit of the first valid ray, not the nearest": lambda row: np.flatnonzero(~np.isnan(row))[0],
+        "the hit of the last valid ray, not the nearest": lambda row: np.flatnonzero(~np.isnan(row))[-1],
+        "the hit of the ray in the middle, not the nearest": lambda row: len(row) // 2,
+    }
+    for words, ray_of in others.items():
+        rays = np.array([ray_of(row) for row in valid])
+        yield words, polar(np.array([row[i] for row, i in zip(valid, rays, strict=True)]), first + rays * step)
+    every = [polar(row, a + np.arange(len(row)) * b) for row, a, b in zip(valid, first, step, strict=True)]
+    yield "the middle of all hits, not the nearest", np.array([np.nanmean(points, 0) for points in every])
+
+
+def stamps(recording, parameters):
+    """Pass if nearly all scans got a point with their own stamp, and no point has another stamp."""
+    expected = "a point with the stamp of each scan"
+    sent = values(recording, f"{SCAN}/header/stamp")[1:]
+    given = recording.signal(f"{TOPIC}/header/stamp")
+    if not len(given):
+        return Finding(False, expected, "no point was published")
+    if not len(sent):
+        return Finding(False, expected, "no scan was sent")
+    found = scans(recording)
+    off = np.min(np.abs(given.values[:, None] - np.append(sent, 0.001)[None, :]), axis=1)
+    other = off > SAME if found is None or found.by_stamp else np.full(len(off), True)
+    covered = np.min(np.abs(sent[:, None] - given.values[None, :]), axis=1) <= SAME
+    covered &= not other.all()
+    measured = f"{covered.sum()} of {len(sent)} scans have a point with their stamp"
+    if other.mean() <= 1 - SHARE and covered.mean() >= SHARE:
+        return Finding(True, expected, measured)
+    if other.mean() <= 1 - SHARE:
+        return Finding(False, expected, measured)
+    example = np.flatnonzero(other)[0]
+    at = float(given.times[example] / 1e9)
+    measured += f"; at {at:.2f} s a point had the stamp {given.values[example]:.3f} s"
+    return Finding(False, expected, measured, round(at, 3), explanation=why_stamps(given, other, recording))
+
+
+def why_stamps(given, other, recording):
+    times, wrong = given.times[other] / 1e9, given.values[other]
+    heard = recording.signal(f"{TF}/count").times / 1e9
+    latest = heard[np.maximum(np.searchsorted(heard, times + SAME) - 1, 0)] if len(heard) else times + 1
+    if np.mean(wrong == 0) >= SHARE:
+        return "the stamps of your points are 0: nothing has set them"
+    if np.mean(np.abs(wrong - np.floor(wrong)) < SAME) >= SHARE:
+        return "the stamps of your points are whole seconds: a stamp is sec and nanosec"
+    if np.mean(np.abs(wrong - times) <= SAME) >= SHARE:
+        return "the stamps of your points say when they were published, not when the scan was taken"
+    if np.mean(np.abs(wrong - latest) <= SAME) >= SHARE:
+        return "the stamps of your points are those of the latest transform, not of the scan"
+    return ""
+
+
+def frames(recording, parameters):
+    """Pass if every point names the frame odom."""
+    expected = "frame_id 'odom'"
+    named = [line.text for line in recording.lines(f"{TOPIC}/header/frame_id")]
+    if not recording.has(f"{TOPIC}/count"):
+        return Finding(False, expected, "no point was published")
+    wrong = [name for name in dict.fromkeys(named) if name != "odom"]
+    if not wrong and named:
+        return Finding(True, expected, "frame_id 'odom'")
+    said = repr(wrong[0] if wrong else "")
+    meant = "the frame in which the point was measured" if "scanner" in said else ""
+    meant = "the frame of the robot" if said == "'robot'" else meant
+    meant = "empty" if said == "''" else meant
+    why = f"the frame_id of your points is {meant}, not that of their coordinates" if meant else ""
+    return Finding(False, expected, f"frame_id {said}", explanation=why)
