@@ -43,7 +43,7 @@ class Exercise:
     summary: str
     kind: str  # of submission: a folder in `kinds/`
     file: str  # the file a submission consists of
-    world: str
+    world: str  # a file beside the manifest, or a world's name
     robot: str
     duration: float  # [s] simulated
     tick: float  # [s] simulated time between two /clock messages
@@ -127,7 +127,7 @@ def load_exercise(folder: Path) -> Exercise:
         summary=manifest.text("summary").strip(),
         kind=kind,
         file=manifest.text("file"),
-        world=run.text("world"),
+        world=_world(folder, run.text("world")),
         robot=run.text("robot"),
         duration=run.number("duration", above=0),
         tick=run.number("tick", 0.01, above=0),
@@ -146,6 +146,11 @@ def load_exercise(folder: Path) -> Exercise:
     if twice := {i for i in ids if ids.count(i) > 1}:
         raise ManifestError(f"{path}: check id {sorted(twice)[0]!r} is used twice")
     return exercise
+
+
+def _world(folder: Path, name: str) -> str:
+    """Return the path of a world beside the manifest, or the name of another world."""
+    return str(folder / name) if (folder / name).is_file() else name
 
 
 def _observed(table: Table) -> dict[str, str]:

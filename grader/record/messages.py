@@ -1,8 +1,8 @@
 """The rows of a recording that a ROS message of any type becomes.
 
-Every numeric field becomes a signal named after it: `topics/cmd_vel/linear/x`. A list of numbers becomes one row, a
-text a line whenever it changes, and a picture now and then a JPEG. Messages are read by their own introspection, so no
-ROS import is needed.
+Every numeric field becomes a signal named after it: `topics/cmd_vel/linear/x`. The stamp of a header becomes
+one signal [s]: `topics/odom/header/stamp`. A list of numbers becomes one row, a text a line whenever it changes, and a
+picture now and then a JPEG. Messages are read by their own introspection, so no ROS import is needed.
 """
 
 from __future__ import annotations
@@ -32,6 +32,8 @@ def record_message(recorder: Recorder, topic: str, message: Any) -> None:
     bad = [entity for entity, value in leaves if isinstance(value, float) and not math.isfinite(value)]
     recorder.typed(base, f"{type(message).__module__.partition('.')[0]}/msg/{type(message).__name__}")
     recorder.scalar(f"{base}/count", 1.0)
+    if (stamp := getattr(getattr(message, "header", None), "stamp", None)) is not None:
+        recorder.scalar(f"{base}/header/stamp", stamp.sec + stamp.nanosec / 1e9)
     for entity in bad:
         recorder.scalar(f"{entity}/not_finite", 1.0)
     for entity, value in [] if bad else leaves:

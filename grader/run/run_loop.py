@@ -288,6 +288,7 @@ class RunLoop:
             "exit_code": self._processes.exit_code if self._exit_at is not None else None,
             **self._graph_facts,
             "offered": self._ros.offered,
+            "offered_best_effort": [t for t in self._ros.offered if t != "/clock" and not self._ros.reliable(t)],
             "listened": self._ros.listened,
             "dropped": dropped,
             "too_early": self._pace.too_early(),
