@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+
 from gz_course.grader.score.check import Finding
 
 HALL = (4.0, 3.0)  # [m] the posts with |x| and |y| below these are in the hall
@@ -78,7 +79,7 @@ def places_the_posts(recording, parameters):
     there = placed(at, points[:, 0], points[:, 1])
     right = hits(there, red)
     measured = f"{right.sum()} of {len(right)} points lie at red posts"
-    missing = [name for name, place in zip(names, red) if not hits(there, place[None]).any()]
+    missing = [name for name, place in zip(names, red, strict=True) if not hits(there, place[None]).any()]
     passed = right.mean() >= SHARE and not missing
     if passed:
         return Finding(True, expected, measured)
@@ -113,9 +114,9 @@ def why_misplaced(recording, points, stamps, came, right):
     def fits(ahead, left, at=at, places=red):
         return hits(placed(at, ahead, left), places)[wrong].mean() >= 0.75
 
-    for scale, unit in ((1e-3, "millimetres"), (1e3, "thousandths of a metre"), (1e-2, "centimetres")):
+    for scale, how in ((1e-3, "1000 times too large"), (1e3, "1000 times too small"), (1e-2, "100 times too large")):
         if fits(x * scale, y * scale):
-            return f"the points would be right in {unit}, but they must be in metres"
+            return f"the points are {how}: a depth picture of the encoding 32FC1 has metres, and points need metres"
     for colour in ("blue", "orange", "green"):
         if fits(x, y, places=posts(recording, colour)[0]):
             if colour == "blue":
@@ -133,15 +134,32 @@ def why_misplaced(recording, points, stamps, came, right):
         if fits(ahead, left, where):
             return words
     turning = np.abs(truth(recording, "angular_z", stamps)) > 0.3
-    if right[~turning].mean() >= SHARE if (~turning).sum() >= 3 else False:
+    if (~turning).sum() >= 3 and right[~turning].mean() >= SHARE:
         words = "the points are right while the robot stands and wrong while it turns: "
         for lag in (0.2, 0.4, -0.2, -0.4):
             if fits(x, y, pose(recording, stamps - round(lag * 1e9))):
                 return f"{words}the stamp is not that of the picture"
         return f"{words}colour and depth are of different times"
-    if not hits(placed(at, x, y), posts(recording)[0])[wrong].mean() > 0.25:
-        return "most of the wrong points lie where no post of any colour stands: walls or floor count as red"
+    if directed(at, x, y, red)[wrong].mean() >= 0.75:
+        return (
+            "the directions are right and the distances are wrong: the depth picture (encoding 32FC1: float32, metres) "
+            "was read as something else, or at other pixels"
+        )
+    if hits(placed(at, x, y), posts(recording)[0])[wrong].mean() <= 0.25:
+        return (
+            "most of the wrong points lie where no post stands, so walls or floor count as red: red is where R is much "
+            "larger than G and B, and numbers of 8 bits overflow (2 * 200 is 144)"
+        )
     return ""
+
+
+def directed(at, ahead, left, places):
+    """Return which points, shape (n,), lie in the direction of one of the places as seen by the camera."""
+    x, y, yaw = at
+    camera = np.stack((x + CAMERA_AHEAD * np.cos(yaw), y + CAMERA_AHEAD * np.sin(yaw)), axis=1)
+    beside = places - camera[:, None]
+    off = np.arctan2(beside[..., 1], beside[..., 0]) - (np.arctan2(left, ahead) + yaw)[:, None]
+    return np.abs(np.remainder(off + np.pi, 2 * np.pi) - np.pi).min(axis=1) <= 0.08
 
 
 def counted(recording):
@@ -152,7 +170,7 @@ def counted(recording):
 
 def turns_once(recording, parameters):
     """Pass if the robot has truly turned by 360 degrees to the left when the first number comes."""
-    expected = f"{math.degrees(FULL_TURN):g} degrees, to {math.degrees(TURN_OFF):.0f}, when the number comes on /red_count"
+    expected = f"360 degrees, to {math.degrees(TURN_OFF):.0f}, when the number comes on /red_count"
     first = counted(recording)
     yaw = recording.signal("truth/robot/yaw")
     when = first[0] if first else int(yaw.times[-1])
@@ -161,7 +179,10 @@ def turns_once(recording, parameters):
         measured = f"no number came; at the end it had turned by {math.degrees(turned):.0f} degrees"
         why = ""
         if turned > 1.5 * FULL_TURN:
-            why = "the robot turned on and on: your heading never came to 2 pi, as if it jumped back at pi, or were compared with 360"
+            why = (
+                "the robot turned on and on, because your heading never reached a full turn: it jumps back at pi, or "
+                "is compared with 360 although it is in radians, or each message counts for less time than has passed"
+            )
         return Finding(False, expected, measured, explanation=why)
     measured = f"when the number came, at {when / 1e9:.2f} s, it had turned by {math.degrees(turned):.0f} degrees"
     passed = abs(turned - FULL_TURN) <= TURN_OFF
@@ -179,6 +200,10 @@ def why_turned(recording, when, turned):
     turning = np.abs(truth(recording, "angular_z", gyro.times[before])) > 0.1
     bias = float((rates - truth(recording, "angular_z", gyro.times[before]))[~turning].mean()) if len(rates) else 0.0
     spans = np.diff(times, prepend=times[:1])
+    z, w = (recording.signal(f"topics/odom/pose/pose/orientation/{part}") for part in "zw")
+    by_odometry = np.unwrap(2 * np.arctan2(z.values, w.values))[z.times <= when] if len(z) else np.zeros(1)
+    if len(by_odometry) and abs(by_odometry[-1] - by_odometry[0] - FULL_TURN) <= 0.1:
+        return "by odometry, or by commanded speed times time, this was 360 degrees: its wheels stand otherwise"
     angles = {
         "the bias of the gyroscope was added up, too: it says {bias:.3f} rad/s while the robot stands": (rates * spans),
         "the bias was not measured but taken with the wrong sign: it is {bias:.3f} rad/s": (rates + bias) * spans,
@@ -189,10 +214,6 @@ def why_turned(recording, when, turned):
         for counts in (np.ones(len(steps), dtype=bool), turning):
             if abs(float(steps[counts].sum()) - FULL_TURN) <= 0.1:
                 return words.format(bias=bias)
-    z, w = (recording.signal(f"topics/odom/pose/pose/orientation/{part}") for part in "zw")
-    by_odometry = np.unwrap(2 * np.arctan2(z.values, w.values))[z.times <= when] if len(z) else np.zeros(1)
-    if len(by_odometry) and abs(by_odometry[-1] - by_odometry[0] - FULL_TURN) <= 0.1:
-        return "by odometry, or by commanded speed times time, this was 360 degrees: the wheels are not where it assumes"
     return ""
 
 
@@ -209,7 +230,8 @@ def counts_the_posts(recording, parameters):
     if (values == red).all() and len(values) == 1:
         return Finding(True, expected, f"{number}, as there are", at)
     if len(values) > 1:
-        return Finding(False, expected, f"{len(values)} numbers came, {min(values):g} to {max(values):g}; one is asked for", at)
+        measured = f"{len(values)} numbers came, {min(values):g} to {max(values):g}; one is asked for"
+        return Finding(False, expected, measured, at)
     why = ""
     sent = recording.signal("topics/red_post/count")
     sightings = int((sent.times <= first[0]).sum())
@@ -245,7 +267,8 @@ def stops_before_the_post(recording, parameters):
     drifted = float(last.values[-1] - truth(recording, "distance", end - round(STILL * 1e9))[0])
     turning = recording.signal("truth/robot/yaw").values[-1] - truth(recording, "yaw", end - round(STILL * 1e9))[0]
     if drifted > 0.03 or abs(turning) > 0.05:
-        return Finding(False, expected, f"it was still moving at the end: {drifted:.2f} m and {turning:.2f} rad in {STILL:g} s")
+        measured = f"it was still moving at the end: {drifted:.2f} m and {turning:.2f} rad in {STILL:g} s"
+        return Finding(False, expected, measured)
     if not faced:
         return Finding(False, expected, "it stood and faced no post")
     name = names[faced[0]]

@@ -24,7 +24,7 @@ class RedPosts(Node):
         self.create_subscription(Imu, "/imu", self.on_imu, 100)
         self.create_subscription(CameraInfo, "/camera/camera_info", self.on_camera_info, 10)
         # Your part, 1: subscribe to /camera/image and /depth/image, so that on_pictures gets pairs of one stamp.
-        self.timer = self.create_timer(0.05, self.drive)
+        self.timer = self.create_timer(0.1, self.drive)
         self.heading = None  # [rad] since the start, positive to the left; None while the robot stands still
         self.focal_length = self.middle = None  # [pixels]
         self.seen = []  # the red posts in the last pictures: (ahead, left) of the camera [m]

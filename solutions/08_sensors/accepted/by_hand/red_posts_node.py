@@ -98,7 +98,7 @@ def drive():
     command = Twist()
     if state["phase"] == "turn":
         rest = math.radians(360) - state["heading"]
-        command.angular.z = 0.6 if rest > 0.3 else 0.2
+        command.angular.z = 0.8 if rest > 0.3 else 0.2
         if rest < 0.03:
             command.angular.z = 0.0
             found = groups()

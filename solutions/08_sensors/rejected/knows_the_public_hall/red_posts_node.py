@@ -34,7 +34,7 @@ class RedPosts(Node):
         ]
         self.pairs = message_filters.ApproximateTimeSynchronizer(pictures, queue_size=10, slop=0.05)
         self.pairs.registerCallback(self.on_pictures)
-        self.timer = self.create_timer(0.05, self.drive)
+        self.timer = self.create_timer(0.1, self.drive)
         self.heading = None  # [rad] since the start, positive to the left; None while the robot stands still
         self.rates = []  # [rad/s] what the gyroscope says while the robot stands still
         self.start = self.last = None  # times of the first and of the last message of the gyroscope

@@ -30,7 +30,7 @@ class RedPosts(Node):
         self.create_subscription(Image, "/camera/image", self.on_image, qos_profile_sensor_data)
         self.create_subscription(Image, "/depth/image", self.on_depth, qos_profile_sensor_data)
         self.depth = None
-        self.timer = self.create_timer(0.05, self.drive)
+        self.timer = self.create_timer(0.1, self.drive)
         self.heading = None  # [rad] since the start, positive to the left; None while the robot stands still
         self.rates = []  # [rad/s] what the gyroscope says while the robot stands still
         self.start = self.last = None  # times of the first and of the last message of the gyroscope
