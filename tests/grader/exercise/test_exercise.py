@@ -72,6 +72,13 @@ def test_a_manifest_is_read(folder):
     assert exercise.checks[0].parameters == {"signal": "truth/robot/x", "band": [0.5, 1.0]}
 
 
+def test_a_world_beside_the_manifest_is_that_file(folder):
+    path = folder()
+    name = load_exercise(path).world
+    (path / name).write_text("<sdf/>")
+    assert (name, load_exercise(path).world) == ("empty.sdf", str(path / name))
+
+
 def test_optional_keys_have_defaults(folder):
     lines = [line for line in GOOD.splitlines() if not line.startswith(("tick", "observe"))]
     exercise = load_exercise(folder("\n".join(lines)))

@@ -54,15 +54,16 @@ def test_what_is_not_finite_is_counted_and_not_a_value(recorded, bad):
     assert len(recording.signal("topics/x/count")) == 2
 
 
-def test_a_laser_scan_keeps_its_infinities_and_leaves_its_stamp_out(recorded):
+def test_a_laser_scan_keeps_its_infinities_and_its_stamp_in_seconds(recorded):
     from sensor_msgs.msg import LaserScan
 
     scan = LaserScan(range_min=0.25, range_max=10.0, ranges=[1.0, math.inf, -math.inf])
-    scan.header.stamp.sec = 7
+    scan.header.stamp.sec, scan.header.stamp.nanosec = 7, 500_000_000
     recording = recorded(("/lidar/scan", scan))
     assert recording.arrays("topics/lidar/scan/ranges")[1][0].tolist() == [1.0, math.inf, -math.inf]
     assert recording.signal("topics/lidar/scan/range_min").values.tolist() == [0.25]
-    assert not [name for name in recording.signals() if "stamp" in name]
+    assert recording.signal("topics/lidar/scan/header/stamp").values.tolist() == [7.5]
+    assert [name for name in recording.signals() if "stamp" in name] == ["topics/lidar/scan/header/stamp"]
 
 
 def test_booleans_and_whole_numbers(recorded):
@@ -77,7 +78,7 @@ def test_lists_of_messages_are_passed_over(recorded):
     from geometry_msgs.msg import Pose, PoseArray
 
     recording = recorded(("/p", PoseArray(poses=[Pose()])))
-    assert [name for name in recording.signals() if "count" not in name] == []
+    assert recording.signals() == ["topics/p/count", "topics/p/header/stamp"]
 
 
 def test_a_text_is_a_line_whenever_it_changes(recorded):
