@@ -4,14 +4,19 @@ import math
 
 import numpy as np
 
+from gz_course.grader.printable import shown
 from gz_course.grader.score.check import Finding
 
 HALL = (4.0, 3.0)  # [m] the posts with |x| and |y| below these are in the hall
+FRAME = "camera_link"  # of the points
 CAMERA_AHEAD = 0.12  # [m] of the camera before the robot's frame
 RADIUS = 0.12  # [m] of a post
+SAME_PLACE = 0.5  # [m] nearer points are of one post
+MOST_PLACES = 30
 NEAR = 0.25  # [m] a point this near to the middle of a post is right
 SHARE = 0.9  # of the points that must be right
 FEWEST = 10  # points
+FARTHEST = 1e6  # [m] points farther away count as this far
 FULL_TURN, TURN_OFF = 2 * math.pi, 0.16  # [rad]
 STOP, STOP_OFF, FACING = 1.0, 0.12, 0.12  # [m], [m], [rad]
 STILL = 1.0  # [s] at the end
@@ -31,8 +36,10 @@ def posts(recording, colour=""):
 
 
 def truth(recording, name, times):
-    """Return values of the robot's true state at times [ns]."""
+    """Return values of the robot's true state at times [ns]; zeros if the run ended before its first tick."""
     signal = recording.signal(f"truth/robot/{name}")
+    if not len(signal):
+        return np.zeros(len(times))
     index = np.searchsorted(signal.times, times, side="right") - 1
     return signal.values[np.maximum(index, 0)]
 
@@ -64,7 +71,8 @@ def said_points(recording):
     came = parts[0].times
     # A point that was not finite has a stamp only.
     stamps = stamps[np.isin(recording.signal("topics/red_post/header/stamp").times, came)][: len(came)]
-    return np.stack([part.values for part in parts], axis=1), stamps.astype(np.int64), came
+    points = np.clip(np.stack([part.values for part in parts], axis=1), -FARTHEST, FARTHEST)
+    return points, stamps.astype(np.int64), came
 
 
 def places_the_posts(recording, parameters):
@@ -81,6 +89,10 @@ def places_the_posts(recording, parameters):
     measured = f"{right.sum()} of {len(right)} points lie at red posts"
     missing = [name for name, place in zip(names, red, strict=True) if not hits(there, place[None]).any()]
     passed = right.mean() >= SHARE and not missing
+    frames = sorted({line.text for line in recording.lines("topics/red_post/header/frame_id")} - {FRAME})
+    if frames or not recording.lines("topics/red_post/header/frame_id"):
+        named = repr(shown(frames[0], 40)) if frames else "empty"
+        return Finding(False, expected, f"header.frame_id was {named} and not {FRAME!r}")
     if passed:
         return Finding(True, expected, measured)
     if right.mean() >= SHARE:
@@ -110,6 +122,9 @@ def why_misplaced(recording, points, stamps, came, right):
     at = pose(recording, stamps)
     x, y, z = points.T
     wrong = ~right
+
+    if not stamps.any():
+        return "header.stamp was left at zero: copy it from the picture"
 
     def fits(ahead, left, at=at, places=red):
         return hits(placed(at, ahead, left), places)[wrong].mean() >= 0.75
@@ -172,9 +187,8 @@ def turns_once(recording, parameters):
     """Pass if the robot has truly turned by 360 degrees to the left when the first number comes."""
     expected = f"360 degrees, to {math.degrees(TURN_OFF):.0f}, when the number comes on /red_count"
     first = counted(recording)
-    yaw = recording.signal("truth/robot/yaw")
-    when = first[0] if first else int(yaw.times[-1])
-    turned = float(truth(recording, "yaw", np.array([when]))[0] - yaw.values[0])
+    when = first[0] if first else recording.end_ns
+    turned = float(np.diff(truth(recording, "yaw", np.array([0, when])))[0])
     if first is None:
         measured = f"no number came; at the end it had turned by {math.degrees(turned):.0f} degrees"
         why = ""
@@ -194,6 +208,11 @@ def why_turned(recording, when, turned):
     """Return the misconception whose heading is 2 pi at that time [ns]; empty if there is none."""
     if abs(turned + FULL_TURN) <= 2 * TURN_OFF:
         return "it turned to the right: a positive angular.z turns to the left"
+    if abs(turned) < 0.3 and when < 2.5e9:
+        return "the heading reached a full turn at once: a time in nanoseconds is 1e9 times that in seconds"
+    for turns, words in ((0.5, "half a turn, pi; a full turn is 2 pi"), (2, "two turns, 4 pi; one is 2 pi")):
+        if abs(turned - turns * FULL_TURN) <= TURN_OFF:
+            return f"it was {words}"
     gyro = recording.signal("topics/imu/angular_velocity/z")
     before = gyro.times <= when
     times, rates = gyro.times[before] / 1e9, gyro.values[before]
@@ -242,9 +261,27 @@ def counts_the_posts(recording, parameters):
         why = "so many are pixels, or columns, of red posts"
     elif abs(number - sightings) <= 2 and sightings > red:
         why = "that is how often a red post was in a picture"
+    elif number == found_if(recording, first[0], 0.0):
+        why = "that is the number of places if the points are not turned by the heading at which they were seen"
+    elif number == found_if(recording, first[0], -1.0):
+        why = "that is the number of places if the points are turned the wrong way: check the signs of sin(heading)"
     elif number == red + 1:
         why = "one post was counted twice: perhaps at the start and at the end of the turn, by headings that differ"
     return Finding(False, expected, f"the number was {number}, but {red} red posts stand there", at, explanation=why)
+
+
+def found_if(recording, when, factor):
+    """Return how many places the points until a time [ns] make if they are turned by `factor` times the heading."""
+    points, stamps, came = said_points(recording)
+    x, y, yaw = pose(recording, stamps)
+    before = came <= when
+    places = []
+    for place in placed((x, y, factor * yaw), points[:, 0], points[:, 1])[before]:
+        if all(np.linalg.norm(place - other) > SAME_PLACE for other in places):
+            places.append(place)
+        if len(places) > MOST_PLACES:
+            break
+    return len(places)
 
 
 def stops_before_the_post(recording, parameters):
@@ -263,9 +300,8 @@ def stops_before_the_post(recording, parameters):
     wanted = red_names[int(np.argmin(np.linalg.norm(red - np.array(start[:2]), axis=1)))]
     if recording.ended_s < recording.properties("run")["duration"]:
         return Finding(False, expected, f"the simulation ended at {recording.ended_s:.2f} s")
-    last = recording.signal("truth/robot/distance")
-    drifted = float(last.values[-1] - truth(recording, "distance", end - round(STILL * 1e9))[0])
-    turning = recording.signal("truth/robot/yaw").values[-1] - truth(recording, "yaw", end - round(STILL * 1e9))[0]
+    last = np.array([end[0] - round(STILL * 1e9), end[0]])
+    drifted, turning = (float(np.diff(truth(recording, name, last))[0]) for name in ("distance", "yaw"))
     if drifted > 0.03 or abs(turning) > 0.05:
         measured = f"it was still moving at the end: {drifted:.2f} m and {turning:.2f} rad in {STILL:g} s"
         return Finding(False, expected, measured)
