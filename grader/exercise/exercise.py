@@ -44,7 +44,7 @@ class Exercise:
     summary: str
     kind: str  # of submission: a folder in `kinds/`
     file: str  # the file that is started
-    world: str
+    world: str  # a file beside the manifest, or a world's name
     robot: str
     duration: float  # [s] simulated
     tick: float  # [s] simulated time between two /clock messages

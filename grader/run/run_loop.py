@@ -296,6 +296,7 @@ class RunLoop:
             "exit_code": self._processes.exit_code if self._exit_at is not None else None,
             **self._graph_facts,
             "offered": self._ros.offered,
+            "offered_best_effort": [t for t in self._ros.offered if t != "/clock" and not self._ros.reliable(t)],
             "listened": self._ros.listened,
             **({"kept": sorted(self._kept)} if self._kept else {}),
             "dropped": dropped,

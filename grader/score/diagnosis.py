@@ -229,6 +229,11 @@ def subscriptions(recording: Recording, facts: dict[str, Any]) -> str:
             return f"Your node subscribes to {e['topic']}, where nobody publishes{hint}{why}"
         if kind != e["type"]:
             return f"Your node subscribes to {e['topic']} as {e['type']}, but it carries {kind}."
+        if e["reliability"] == "RELIABLE" and e["topic"] in facts.get("offered_best_effort", []):
+            return (
+                f"Your subscription to {e['topic']} asks for the reliability RELIABLE, but the bridge offers "
+                "BEST_EFFORT there, as drivers of sensors do: it gets nothing. Use qos_profile_sensor_data."
+            )
         if e["durability"] == "TRANSIENT_LOCAL" and e["topic"] not in facts.get("kept", []):
             return (
                 f"Your subscription to {e['topic']} asks for the durability TRANSIENT_LOCAL, which the bridge does not "

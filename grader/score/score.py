@@ -12,7 +12,7 @@ from gz_course.grader.exercise import CheckSpec, Exercise
 from gz_course.grader.kinds.kind import find_kind
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, perform_all
-from gz_course.grader.score.diagnosis import diagnose
+from gz_course.grader.score.diagnosis import diagnose, silent
 
 NOT_RUN = Finding(False, "a file that runs", "nothing was run")
 SPOILT: dict[str, Any] = {"passed": False, "measured": "not counted: the run was tampered with", "at_s": None}
@@ -58,7 +58,9 @@ def score(recording: Recording, exercise: Exercise) -> Score:
     failed = [check for check in checks if not check.finding.passed]
     if outcome == "timeout" and not failed:
         outcome = "graded"  # all that was asked for was seen, whatever could not be followed beside it
-    diagnosis = diagnose(recording, explained.looks)
+    # A check that names the misconception says more than that nothing was published.
+    named = any(check.finding.explanation and not check.finding.gated for check in failed)
+    diagnosis = diagnose(recording, (look for look in explained.looks if not (named and look is silent)))
     if failed and not diagnosis:
         worst = max(failed, key=lambda check: (not check.finding.gated, check.spec.points))
         remarks = [remark(recording, [check.finding for check in failed]) for remark in explained.remarks]

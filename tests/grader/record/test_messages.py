@@ -54,15 +54,16 @@ def test_what_is_not_finite_is_counted_and_not_a_value(recorded, bad):
     assert len(recording.signal("topics/x/count")) == 2
 
 
-def test_a_laser_scan_keeps_its_infinities_and_its_stamp(recorded):
+def test_a_laser_scan_keeps_its_infinities_and_its_stamp_in_seconds(recorded):
     from sensor_msgs.msg import LaserScan
 
     scan = LaserScan(range_min=0.25, range_max=10.0, ranges=[1.0, math.inf, -math.inf])
-    scan.header.stamp.sec, scan.header.stamp.nanosec = 7, 250_000_000
+    scan.header.stamp.sec, scan.header.stamp.nanosec = 7, 500_000_000
     recording = recorded(("/lidar/scan", scan))
     assert recording.arrays("topics/lidar/scan/ranges")[1][0].tolist() == [1.0, math.inf, -math.inf]
     assert recording.signal("topics/lidar/scan/range_min").values.tolist() == [0.25]
-    assert recording.signal("topics/lidar/scan/header/stamp").values.tolist() == [7.25]
+    assert recording.signal("topics/lidar/scan/header/stamp").values.tolist() == [7.5]
+    assert [name for name in recording.signals() if "stamp" in name] == ["topics/lidar/scan/header/stamp"]
 
 
 def test_booleans_and_whole_numbers(recorded):

@@ -226,6 +226,13 @@ def test_a_subscription_that_asks_for_old_messages(told):
     assert told(latched, kept=["/lidar/scan"]) == ("graded", "")
 
 
+def test_a_subscription_that_asks_for_more_than_best_effort(told):
+    _, sentence = told(endpoint("/lidar/scan", SCAN, "subscription"), offered_best_effort=["/lidar/scan"])
+    assert "/lidar/scan asks for the reliability RELIABLE, but the bridge offers BEST_EFFORT" in sentence
+    relaxed = endpoint("/lidar/scan", SCAN, "subscription", reliability="BEST_EFFORT")
+    assert told(relaxed, offered_best_effort=["/lidar/scan"]) == ("graded", "")
+
+
 def test_a_publisher_that_never_published(told):
     _, sentence = told(signals={})
     assert sentence == "Your node has a publisher on /cmd_vel but never published a message."

@@ -9,6 +9,14 @@ import pytest
 from gz_course.grader.exercise import CheckSpec, find_exercise
 from gz_course.grader.score.score import TRUTH, score, truth_sha256
 
+PUBLISHER = {
+    "node": "/node",
+    "kind": "publisher",
+    "topic": "/count",
+    "type": "std_msgs/msg/Int32",
+    "reliability": "RELIABLE",
+    "durability": "VOLATILE",
+}
 POSES = [(0.01, (1.0, 2.0, 0.0, 1.0, 0.0, 0.0, 0.0)), (0.02, (1.5, 2.0, 0.0, 1.0, 0.0, 0.0, 0.0))]
 
 
@@ -85,3 +93,18 @@ def test_a_gated_check_is_not_blamed_first(record, exercise):
     gated = dataclasses.replace(check("huge", 70, 0.9), parameters=check("huge", 70, 0.9).parameters | {"gate": gate})
     both = dataclasses.replace(exercise, checks=(gated, check("small", 30, 0.9, "The small one")))
     assert score(record(truth()), both).diagnosis.startswith("The small one: ")
+
+
+def test_a_check_that_names_the_misconception_says_more_than_that_nothing_was_published(record, exercise, tmp_path):
+    (tmp_path / "checks.py").write_text(
+        "from gz_course.grader.score.check import Finding\n"
+        "def named(recording, parameters):\n"
+        "    return Finding(False, 'one turn', 'it turned twice', explanation=parameters.get('why', ''))\n"
+    )
+    spec = CheckSpec("turn", "Turns once", 70, "python", "Hint.", {"function": "checks.py:named"})
+    silent = record(truth(), facts={"listened": {"/count": "std_msgs/msg/Int32"}, "endpoints": [PUBLISHER]})
+    unnamed = dataclasses.replace(exercise, folder=tmp_path, checks=(spec,))
+    assert score(silent, unnamed).diagnosis == "Your node has a publisher on /count but never published a message."
+    spec = dataclasses.replace(spec, parameters=spec.parameters | {"why": "it jumps at pi"})
+    named = dataclasses.replace(unnamed, checks=(spec,))
+    assert score(silent, named).diagnosis == "Turns once: it jumps at pi (it turned twice). Hint."

@@ -1,0 +1,320 @@
+"""The checks of this exercise: what the node said and did, compared with the true places of robot and posts."""
+
+import math
+
+import numpy as np
+
+from gz_course.grader.printable import shown
+from gz_course.grader.score.check import Finding
+
+HALL = (4.0, 3.0)  # [m] the posts with |x| and |y| below these are in the hall
+FRAME = "camera_link"  # of the points
+CAMERA_AHEAD = 0.12  # [m] of the camera before the robot's frame
+RADIUS = 0.12  # [m] of a post
+SAME_PLACE = 0.5  # [m] nearer points are of one post
+MOST_PLACES = 30
+NEAR = 0.25  # [m] a point this near to the middle of a post is right
+SHARE = 0.9  # of the points that must be right
+FEWEST = 10  # points
+FARTHEST = 1e6  # [m] points farther away count as this far
+FULL_TURN, TURN_OFF = 2 * math.pi, 0.16  # [rad]
+STOP, STOP_OFF, FACING = 1.0, 0.12, 0.12  # [m], [m], [rad]
+STILL = 1.0  # [s] at the end
+
+
+def posts(recording, colour=""):
+    """Return the places (n, 2) [m] of the posts in the hall whose names begin with a colour, and their names."""
+    found = []
+    for entity in recording.entities("world", "Transform3D:translation"):
+        name = entity.removeprefix("world/")
+        if "/" in name or not name.startswith(colour) or name.startswith(("robot", "wall", "ground", "sun")):
+            continue
+        x, y = recording.poses(entity).positions[0][:2]
+        if abs(x) < HALL[0] and abs(y) < HALL[1]:
+            found.append((name, (x, y)))
+    return np.array([place for _, place in found]).reshape(-1, 2), [name for name, _ in found]
+
+
+def truth(recording, name, times):
+    """Return values of the robot's true state at times [ns]; zeros if the run ended before its first tick."""
+    signal = recording.signal(f"truth/robot/{name}")
+    if not len(signal):
+        return np.zeros(len(times))
+    index = np.searchsorted(signal.times, times, side="right") - 1
+    return signal.values[np.maximum(index, 0)]
+
+
+def pose(recording, times):
+    return tuple(truth(recording, name, times) for name in ("x", "y", "yaw"))
+
+
+def placed(at, ahead, left):
+    """Return points (n, 2) [m] of the hall from those before the camera; `at` is the pose of the robot."""
+    x, y, yaw = at
+    ahead = ahead + CAMERA_AHEAD
+    return np.stack(
+        (x + ahead * np.cos(yaw) - left * np.sin(yaw), y + ahead * np.sin(yaw) + left * np.cos(yaw)), axis=1
+    )
+
+
+def hits(points, places):
+    """Return which points, shape (n,), lie at one of the places."""
+    if not len(points) or not len(places):
+        return np.zeros(len(points), dtype=bool)
+    return np.linalg.norm(points[:, None] - places, axis=2).min(axis=1) <= NEAR
+
+
+def said_points(recording):
+    """Return the points on /red_post, shape (n, 3) [m], with their stamps [ns] and when they came [ns]."""
+    parts = [recording.signal(f"topics/red_post/point/{axis}") for axis in "xyz"]
+    stamps = np.round(recording.signal("topics/red_post/header/stamp").values * 1e9)
+    came = parts[0].times
+    # A point that was not finite has a stamp only.
+    stamps = stamps[np.isin(recording.signal("topics/red_post/header/stamp").times, came)][: len(came)]
+    points = np.clip(np.stack([part.values for part in parts], axis=1), -FARTHEST, FARTHEST)
+    return points, stamps.astype(np.int64), came
+
+
+def places_the_posts(recording, parameters):
+    """Pass if nearly all points lie at red posts, and each red post got one."""
+    expected = f"points within {NEAR:g} m of the red posts, at least one for each of them"
+    points, stamps, came = said_points(recording)
+    if len(points) < FEWEST:
+        number = f"{len(points)} points came on /red_post" if len(points) else "no point came on /red_post"
+        return Finding(False, expected, f"{number}, at least {FEWEST} are needed")
+    red, names = posts(recording, "red")
+    at = pose(recording, stamps)
+    there = placed(at, points[:, 0], points[:, 1])
+    right = hits(there, red)
+    measured = f"{right.sum()} of {len(right)} points lie at red posts"
+    missing = [name for name, place in zip(names, red, strict=True) if not hits(there, place[None]).any()]
+    passed = right.mean() >= SHARE and not missing
+    frames = sorted({line.text for line in recording.lines("topics/red_post/header/frame_id")} - {FRAME})
+    if frames or not recording.lines("topics/red_post/header/frame_id"):
+        named = repr(shown(frames[0], 40)) if frames else "empty"
+        return Finding(False, expected, f"header.frame_id was {named} and not {FRAME!r}")
+    if passed:
+        return Finding(True, expected, measured)
+    if right.mean() >= SHARE:
+        return Finding(False, expected, f"{measured}, but none at {len(missing)} of the {len(red)} red posts")
+    first = int(np.argmin(right))
+    ahead, left = points[first, :2]
+    nearest = red[np.argmin(np.linalg.norm(red - there[first], axis=1))]
+    true = before_camera(tuple(each[first] for each in at), nearest)
+    measured += (
+        f"; the first wrong one, stamped {stamps[first] / 1e9:.2f} s, was {ahead:.2f} m ahead and {left:.2f} m left; "
+        f"the nearest red post was {true[0] - RADIUS:.2f} m ahead and {true[1]:.2f} m left"
+    )
+    why = why_misplaced(recording, points, stamps, came, right)
+    return Finding(False, expected, measured, round(float(came[first] / 1e9), 3), explanation=why)
+
+
+def before_camera(at, place):
+    """Return a place of the hall as (ahead, left) [m] of the camera."""
+    x, y, yaw = at
+    dx, dy = place[0] - x, place[1] - y
+    return dx * math.cos(yaw) + dy * math.sin(yaw) - CAMERA_AHEAD, dy * math.cos(yaw) - dx * math.sin(yaw)
+
+
+def why_misplaced(recording, points, stamps, came, right):
+    """Return the misconception that explains most of the wrong points; empty if none does."""
+    red, _ = posts(recording, "red")
+    at = pose(recording, stamps)
+    x, y, z = points.T
+    wrong = ~right
+
+    if not stamps.any():
+        return "header.stamp was left at zero: copy it from the picture"
+
+    def fits(ahead, left, at=at, places=red):
+        return hits(placed(at, ahead, left), places)[wrong].mean() >= 0.75
+
+    for scale, how in ((1e-3, "1000 times too large"), (1e3, "1000 times too small"), (1e-2, "100 times too large")):
+        if fits(x * scale, y * scale):
+            return f"the points are {how}: a depth picture of the encoding 32FC1 has metres, and points need metres"
+    for colour in ("blue", "orange", "green"):
+        if fits(x, y, places=posts(recording, colour)[0]):
+            if colour == "blue":
+                return "the points lie at the blue posts: red and blue are swapped (rgb8 and bgr8)"
+            return f"the points lie at the {colour} posts, too: your rule for red holds for {colour}"
+    start = tuple(np.full(len(x), each[0]) for each in pose(recording, np.zeros(1)))
+    candidates = (
+        ((x, -y, at), "left and right are swapped: columns grow to the right, y grows to the left"),
+        ((z, -x, at), "the points are those of an optical frame (x right, y down, z ahead)"),
+        ((-y, x, at), "x and y are swapped: x is ahead, y is to the left"),
+        ((x, y * math.pi / 180, at), "y comes from an angle in degrees, where radians are needed"),
+        ((x - CAMERA_AHEAD, y, start), "the points are places in the hall, seen from the start, not from the camera"),
+    )
+    for (ahead, left, where), words in candidates:
+        if fits(ahead, left, where):
+            return words
+    turning = np.abs(truth(recording, "angular_z", stamps)) > 0.3
+    if (~turning).sum() >= 3 and right[~turning].mean() >= SHARE:
+        words = "the points are right while the robot stands and wrong while it turns: "
+        for lag in (0.2, 0.4, -0.2, -0.4):
+            if fits(x, y, pose(recording, stamps - round(lag * 1e9))):
+                return f"{words}the stamp is not that of the picture"
+        return f"{words}colour and depth are of different times"
+    if directed(at, x, y, red)[wrong].mean() >= 0.75:
+        return (
+            "the directions are right and the distances are wrong: the depth picture (encoding 32FC1: float32, metres) "
+            "was read as something else, or at other pixels"
+        )
+    if hits(placed(at, x, y), posts(recording)[0])[wrong].mean() <= 0.25:
+        return (
+            "most of the wrong points lie where no post stands, so walls or floor count as red: red is where R is much "
+            "larger than G and B, and numbers of 8 bits overflow (2 * 200 is 144)"
+        )
+    return ""
+
+
+def directed(at, ahead, left, places):
+    """Return which points, shape (n,), lie in the direction of one of the places as seen by the camera."""
+    x, y, yaw = at
+    camera = np.stack((x + CAMERA_AHEAD * np.cos(yaw), y + CAMERA_AHEAD * np.sin(yaw)), axis=1)
+    beside = places - camera[:, None]
+    off = np.arctan2(beside[..., 1], beside[..., 0]) - (np.arctan2(left, ahead) + yaw)[:, None]
+    return np.abs(np.remainder(off + np.pi, 2 * np.pi) - np.pi).min(axis=1) <= 0.08
+
+
+def counted(recording):
+    """Return the first message on /red_count: its time [ns] and its number; None if there is none."""
+    signal = recording.signal("topics/red_count/data")
+    return (int(signal.times[0]), int(signal.values[0])) if len(signal) else None
+
+
+def turns_once(recording, parameters):
+    """Pass if the robot has truly turned by 360 degrees to the left when the first number comes."""
+    expected = f"360 degrees, to {math.degrees(TURN_OFF):.0f}, when the number comes on /red_count"
+    first = counted(recording)
+    when = first[0] if first else recording.end_ns
+    turned = float(np.diff(truth(recording, "yaw", np.array([0, when])))[0])
+    if first is None:
+        measured = f"no number came; at the end it had turned by {math.degrees(turned):.0f} degrees"
+        why = ""
+        if turned > 1.5 * FULL_TURN:
+            why = (
+                "the robot turned on and on, because your heading never reached a full turn: it jumps back at pi, or "
+                "is compared with 360 although it is in radians, or each message counts for less time than has passed"
+            )
+        return Finding(False, expected, measured, explanation=why)
+    measured = f"when the number came, at {when / 1e9:.2f} s, it had turned by {math.degrees(turned):.0f} degrees"
+    passed = abs(turned - FULL_TURN) <= TURN_OFF
+    why = "" if passed else why_turned(recording, when, turned)
+    return Finding(passed, expected, measured, round(when / 1e9, 3), explanation=why)
+
+
+def why_turned(recording, when, turned):
+    """Return the misconception whose heading is 2 pi at that time [ns]; empty if there is none."""
+    if abs(turned + FULL_TURN) <= 2 * TURN_OFF:
+        return "it turned to the right: a positive angular.z turns to the left"
+    if abs(turned) < 0.3 and when < 2.5e9:
+        return "the heading reached a full turn at once: a time in nanoseconds is 1e9 times that in seconds"
+    for turns, words in ((0.5, "half a turn, pi; a full turn is 2 pi"), (2, "two turns, 4 pi; one is 2 pi")):
+        if abs(turned - turns * FULL_TURN) <= TURN_OFF:
+            return f"it was {words}"
+    gyro = recording.signal("topics/imu/angular_velocity/z")
+    before = gyro.times <= when
+    times, rates = gyro.times[before] / 1e9, gyro.values[before]
+    turning = np.abs(truth(recording, "angular_z", gyro.times[before])) > 0.1
+    bias = float((rates - truth(recording, "angular_z", gyro.times[before]))[~turning].mean()) if len(rates) else 0.0
+    spans = np.diff(times, prepend=times[:1])
+    z, w = (recording.signal(f"topics/odom/pose/pose/orientation/{part}") for part in "zw")
+    by_odometry = np.unwrap(2 * np.arctan2(z.values, w.values))[z.times <= when] if len(z) else np.zeros(1)
+    if len(by_odometry) and abs(by_odometry[-1] - by_odometry[0] - FULL_TURN) <= 0.1:
+        return "by odometry, or by commanded speed times time, this was 360 degrees: its wheels stand otherwise"
+    angles = {
+        "the bias of the gyroscope was added up, too: it says {bias:.3f} rad/s while the robot stands": (rates * spans),
+        "the bias was not measured but taken with the wrong sign: it is {bias:.3f} rad/s": (rates + bias) * spans,
+        "each message was taken for 0.01 s, but they come every 0.04 s: use the stamps": (rates - bias) * 0.01,
+        "each message was taken for 0.1 s, but they come every 0.04 s: use the stamps": (rates - bias) * 0.1,
+    }
+    for words, steps in angles.items():
+        for counts in (np.ones(len(steps), dtype=bool), turning):
+            if abs(float(steps[counts].sum()) - FULL_TURN) <= 0.1:
+                return words.format(bias=bias)
+    return ""
+
+
+def counts_the_posts(recording, parameters):
+    """Pass if the number of red posts was published, and no other number."""
+    red = len(posts(recording, "red")[0])
+    first = counted(recording)
+    expected = "the number of red posts in the hall"
+    if first is None:
+        return Finding(False, expected, "no number came on /red_count")
+    values = recording.signal("topics/red_count/data").values
+    number = first[1]
+    at = round(first[0] / 1e9, 3)
+    if (values == red).all() and len(values) == 1:
+        return Finding(True, expected, f"{number}, as there are", at)
+    if len(values) > 1:
+        measured = f"{len(values)} numbers came, {min(values):g} to {max(values):g}; one is asked for"
+        return Finding(False, expected, measured, at)
+    why = ""
+    sent = recording.signal("topics/red_post/count")
+    sightings = int((sent.times <= first[0]).sum())
+    pictures = int((recording.signal("topics/camera/image/count").times <= first[0]).sum())
+    if number == len(posts(recording, "blue")[0]) != red:
+        why = "that is the number of blue posts"
+    elif number > 3 * max(pictures, 1):
+        why = "so many are pixels, or columns, of red posts"
+    elif abs(number - sightings) <= 2 and sightings > red:
+        why = "that is how often a red post was in a picture"
+    elif number == found_if(recording, first[0], 0.0):
+        why = "that is the number of places if the points are not turned by the heading at which they were seen"
+    elif number == found_if(recording, first[0], -1.0):
+        why = "that is the number of places if the points are turned the wrong way: check the signs of sin(heading)"
+    elif number == red + 1:
+        why = "one post was counted twice: perhaps at the start and at the end of the turn, by headings that differ"
+    return Finding(False, expected, f"the number was {number}, but {red} red posts stand there", at, explanation=why)
+
+
+def found_if(recording, when, factor):
+    """Return how many places the points until a time [ns] make if they are turned by `factor` times the heading."""
+    points, stamps, came = said_points(recording)
+    x, y, yaw = pose(recording, stamps)
+    before = came <= when
+    places = []
+    for place in placed((x, y, factor * yaw), points[:, 0], points[:, 1])[before]:
+        if all(np.linalg.norm(place - other) > SAME_PLACE for other in places):
+            places.append(place)
+        if len(places) > MOST_PLACES:
+            break
+    return len(places)
+
+
+def stops_before_the_post(recording, parameters):
+    """Pass if the robot stands still, faces the nearest red post, and is 1 m before it."""
+    expected = f"at the end it faces the nearest red post, {STOP:g} m before it (to {STOP_OFF:g} m), and stands still"
+    end = np.array([recording.end_ns])
+    here = tuple(float(each[0]) for each in pose(recording, end))
+    start = tuple(float(each[0]) for each in pose(recording, np.zeros(1)))
+    if float(truth(recording, "distance", end)[0]) < 0.1:
+        return Finding(False, expected, "the robot did not drive")
+    every, names = posts(recording)
+    seen = [before_camera(here, place) for place in every]
+    faced = [i for i, (ahead, left) in enumerate(seen) if ahead > 0 and abs(math.atan2(left, ahead)) <= FACING]
+    faced.sort(key=lambda i: seen[i][0])
+    red, red_names = posts(recording, "red")
+    wanted = red_names[int(np.argmin(np.linalg.norm(red - np.array(start[:2]), axis=1)))]
+    if recording.ended_s < recording.properties("run")["duration"]:
+        return Finding(False, expected, f"the simulation ended at {recording.ended_s:.2f} s")
+    last = np.array([end[0] - round(STILL * 1e9), end[0]])
+    drifted, turning = (float(np.diff(truth(recording, name, last))[0]) for name in ("distance", "yaw"))
+    if drifted > 0.03 or abs(turning) > 0.05:
+        measured = f"it was still moving at the end: {drifted:.2f} m and {turning:.2f} rad in {STILL:g} s"
+        return Finding(False, expected, measured)
+    if not faced:
+        return Finding(False, expected, "it stood and faced no post")
+    name = names[faced[0]]
+    away = math.hypot(*seen[faced[0]]) - RADIUS
+    measured = f"it stood {away:.2f} m before a {name.partition('_')[0]} post"
+    if name == wanted:
+        return Finding(abs(away - STOP) <= STOP_OFF, expected, measured)
+    why = ""
+    if name.startswith("blue"):
+        why = "it is a blue post: red and blue are swapped (rgb8 and bgr8)"
+    elif name.startswith("red"):
+        measured += ", which is not the one nearest to the start"
+    return Finding(False, expected, measured, explanation=why)
