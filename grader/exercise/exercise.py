@@ -15,7 +15,14 @@ from typing import Any
 from gz_course.grader.course_folder.material import material
 from gz_course.grader.errors import ManifestError, UsageError
 from gz_course.grader.exercise.toml_table import Table
-from gz_course.grader.exercise.trial import PUBLIC, ScriptedCommand, Trial, read_trials
+from gz_course.grader.exercise.trial import (
+    PUBLIC,
+    ScriptedCommand,
+    ScriptedParameter,
+    Trial,
+    read_script,
+    read_trials,
+)
 from gz_course.grader.kinds.kind import find_kind, kind_names
 from gz_course.sim.did_you_mean import did_you_mean
 
@@ -51,7 +58,7 @@ class Exercise:
     real_time_factor: float  # [s] simulated time in a second of the clocks of the computer
     bridge: Path | None  # bridges between simulator and ROS; None if the submission brings them
     observe: dict[str, str]  # ROS topics the student is to publish on -> type
-    script: tuple[ScriptedCommand, ...]
+    script: tuple[ScriptedCommand | ScriptedParameter, ...]
     checks: tuple[CheckSpec, ...]
     files: tuple[str, ...] = ()  # further files that students edit, by their path beside `file`
     bridge_parameters: dict[str, str] = field(default_factory=dict)  # ROS parameters of the bridge
@@ -143,7 +150,7 @@ def load_exercise(folder: Path) -> Exercise:
         real_time_factor=run.number("real_time_factor", 1.0, above=0),
         bridge=None if find_kind(kind).brings_bridge else folder / run.text("bridge"),
         observe=_texts(run.table("observe", {})),
-        script=tuple(map(ScriptedCommand.read, manifest.tables("script", []))),
+        script=read_script(manifest.tables("script", [])),
         checks=tuple(_check(path, check) for check in manifest.tables("check")),
         bridge_parameters=_texts(run.table("bridge_parameters", {})),
         trials=read_trials(manifest.tables("trial", []), path) or (PUBLIC,),

@@ -10,13 +10,23 @@ the same keys, all optional but the name:
     duration = 10.0                         # [s] instead of the exercise's
     tick = 0.25                             # [s] between two /clock messages, instead of the exercise's
     poses = { robot = [-2, 1, 0, 0, 0, 1.57] }      # where models stand: x y z [m], roll pitch yaw [rad]
-    parameters = { speed = 0.4 }            # free: for the kind of submission (launch arguments) and `python` checks
+    parameters = { speed = 0.4 }            # for the submission, and for `python` checks: arguments of a launch file
+                                            # (speed:=0.4), ROS parameters of a node (-p speed:=0.4)
 
     [[trial.script]]                        # instead of the exercise's
     at = 0.5
     topic = "/model/robot/cmd_vel"
     linear_x = 0.3
     angular_z = 0.25
+
+    [[trial.script]]                        # what `ros2 param set /driver speed 0.2` does, at 5 s of simulated time
+    at = 5.0
+    node = "/driver"
+    parameter = "speed"
+    value = 0.2
+
+A script is a list of such entries, in the order of time. Simulated time stands still until a node has answered that its
+parameter is set. The recording has the values that were asked for as signals, `parameters/speed`.
 
 Trials are data, never code. `exercise.py` reads the public ones, `commands/grade.py` the others; `grade.py` runs them
 one after another.
@@ -40,6 +50,7 @@ if TYPE_CHECKING:
 TRIALS = "trials.toml"
 SCRIPT_SPREAD = 0.2  # largest fraction by which a scripted speed is varied
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,59}")
+NODE_NAME = re.compile(r"(/[A-Za-z_]\w*)+", re.ASCII)
 
 
 @dataclass(frozen=True)
@@ -61,6 +72,39 @@ class ScriptedCommand:
 
 
 @dataclass(frozen=True)
+class ScriptedParameter:
+    """A ROS parameter that the grader sets during a run; `node` is the full name of the node."""
+
+    at: float  # [s] of simulated time
+    node: str
+    name: str
+    value: Any  # as in TOML: a truth value, number, text, or a list of one of them
+
+    @staticmethod
+    def read(table: Table) -> ScriptedParameter:
+        node = table.text("node")
+        if not NODE_NAME.fullmatch(node):
+            table.refuse("node", "the full name of a node, such as /driver")
+        parameter = ScriptedParameter(table.number("at"), node, table.text("parameter"), table.any("value"))
+        if not _is_parameter(parameter.value):
+            table.refuse("value", "a truth value, a number, a text, or a list of values of one of these types")
+        table.end()
+        return parameter
+
+
+def read_script(tables: list[Table]) -> tuple[ScriptedCommand | ScriptedParameter, ...]:
+    """Read the `[[script]]` tables of an exercise or a trial."""
+    return tuple((ScriptedParameter if table.has("parameter") else ScriptedCommand).read(table) for table in tables)
+
+
+def _is_parameter(value: Any) -> bool:
+    """Return whether ROS has a type of parameter for a value."""
+    if isinstance(value, list):
+        return bool(value) and len(set(map(type, value))) == 1 and isinstance(value[0], bool | int | float | str)
+    return isinstance(value, bool | int | float | str)
+
+
+@dataclass(frozen=True)
 class Trial:
     """The parameters of one run. `seed` seeds the simulator's sensor noise and varies the scripted commands.
 
@@ -73,7 +117,7 @@ class Trial:
     world: str | None = None
     duration: float | None = None  # [s] simulated
     poses: dict[str, tuple[float, ...]] = field(default_factory=dict)
-    script: tuple[ScriptedCommand, ...] | None = None
+    script: tuple[ScriptedCommand | ScriptedParameter, ...] | None = None
     parameters: dict[str, Any] = field(default_factory=dict)
     place: tuple[int, int] = (1, 1)
     tick: float | None = None  # [s] of simulated time between two /clock messages
@@ -172,7 +216,7 @@ def _read(table: Table, where: Path) -> Trial:
         duration=table.number("duration", above=0) if table.has("duration") else None,
         tick=table.number("tick", above=0) if table.has("tick") else None,
         poses={model: tuple(poses.numbers(model, [6])) for model in poses.names()},
-        script=tuple(map(ScriptedCommand.read, table.tables("script", []))) if table.has("script") else None,
+        script=read_script(table.tables("script", [])) if table.has("script") else None,
         parameters=table.free("parameters"),
         source=where,
     )

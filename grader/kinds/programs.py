@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import sys
 from collections.abc import Mapping
 from pathlib import Path
@@ -12,8 +13,13 @@ if TYPE_CHECKING:
 
 
 def node_command(program: Path, trial: Trial | None = None) -> list[str]:
-    """Return the command that runs a Python file with an rclpy node, with simulated time switched on."""
-    return [sys.executable, "-P", "-m", "course_agent.run_node", str(program), "--ros-args", "-p", "use_sim_time:=true"]
+    """Return the command that runs a Python file with an rclpy node: in simulated time, with the trial's parameters.
+
+    Values are written as JSON, which is YAML, too: a text in quotes stays a text.
+    """
+    parameters = {"use_sim_time": True} | (trial.parameters if trial else {})
+    words = [word for name, value in parameters.items() for word in ("-p", f"{name}:={json.dumps(value)}")]
+    return [sys.executable, "-P", "-m", "course_agent.run_node", str(program), "--ros-args", *words]
 
 
 def launch_command(program: Path, arguments: Mapping[str, Any]) -> list[str]:

@@ -14,6 +14,7 @@ Entities (checks in a manifest name them without the leading slash):
                                              change
     /topics/TOPIC                            EncodedImage, pictures as JPEG, at most one each PICTURE_NS; `ros_type`,
                                              the type of the topic's messages
+    /parameters/NAME                         the numeric parameters of the trial, and those that its script sets
     /log/SOURCE                              TextLog; the source is student, given_node (the exercise's own), grader or
                                              verdicts
     /checks/ID                               StateChange, written after scoring

@@ -150,6 +150,10 @@ class GraderEndpoints:
         self.received[topic] += 1
         self._heard(topic, message)
 
+    def client(self, kind: Any, service: str) -> Any:
+        """Return a client of a service that the submission may offer."""
+        return self._node.create_client(kind, service)
+
     def take_logs(self) -> None:
         """Take what has arrived on /rosout, at most `MOST_AT_ONCE` messages."""
         for _ in range(MOST_AT_ONCE):

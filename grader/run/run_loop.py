@@ -13,7 +13,7 @@ from typing import Any
 
 from gz_course.grader.errors import InfrastructureError
 from gz_course.grader.exercise import Exercise
-from gz_course.grader.exercise.trial import ScriptedCommand, Trial
+from gz_course.grader.exercise.trial import ScriptedCommand, ScriptedParameter, Trial
 from gz_course.grader.kinds.kind import RunPlan
 from gz_course.grader.record.messages import record_message
 from gz_course.grader.record.reading import STUDENT_LOG
@@ -26,6 +26,7 @@ from gz_course.grader.run.fair_clock import Patience
 from gz_course.grader.run.grader_endpoints import GraderEndpoints
 from gz_course.grader.run.pace.lockstep import LockStep
 from gz_course.grader.run.pace.real_time import LOOK_ROUND, MATCHING, PATIENCE, RealTime
+from gz_course.grader.run.parameter_script import ParameterScript, record_parameter
 from gz_course.grader.run.processes.progress import Endpoint
 from gz_course.grader.run.processes.submission_processes import LONGEST_LINE, SHOWN_FOLDER, SubmissionProcesses
 from gz_course.grader.run.supervision import Heartbeat
@@ -88,7 +89,8 @@ class RunLoop:
         stack.callback(self._ros.close)
         self._pace = self._paced(pace)
         self._scans = {e.ros_topic: e.gz_topic for e in plan.entries if e.ros_type == "sensor_msgs/msg/LaserScan"}
-        self._script = [trial.vary(command) for command in exercise.script]
+        self._script = [trial.vary(entry) if isinstance(entry, ScriptedCommand) else entry for entry in exercise.script]
+        self._parameters = ParameterScript(self._ros, self._pace, self._script)
         self._script_publishers: dict[str, Any] = {}
         self._exit_at: float | None = None
         self._unstable: str | None = None
@@ -131,6 +133,8 @@ class RunLoop:
         self._recorder = recorder
         assert self._world is not None
         self._scene = Scene(recorder, self._world)
+        for name, value in self._trial.parameters.items():
+            record_parameter(recorder, name, value)
         ready = self._pace.await_ready()
         self._collect()
         end_ns = round(self._exercise.duration * 1e9)
@@ -181,7 +185,7 @@ class RunLoop:
         """Live through one tick: simulated time goes on only when everybody has dealt with all that it brought."""
         self._pace.welcome()  # processes that have come meanwhile start up
         while self._script and self._script[0].at * 1e9 <= self._now_ns:
-            self._command(self._script.pop(0))
+            self._follow(self._script.pop(0))
         try:
             self._server.step(self._steps)
         except SimError as error:  # a command so wild that physics has no answer: the run ends here
@@ -211,7 +215,11 @@ class RunLoop:
             self._pace.settle()  # taken by all, all idle, and all they published has arrived
             self._collect()
 
-    def _command(self, command: ScriptedCommand) -> None:
+    def _follow(self, command: ScriptedCommand | ScriptedParameter) -> None:
+        """Do what an entry of the script says."""
+        if isinstance(command, ScriptedParameter):
+            self._parameters.set(command, self._recorder)
+            return
         publisher = self._script_publishers.get(command.topic)
         if publisher is None:
             publisher = self._script_publishers[command.topic] = self._gz_nodes[1].advertise(command.topic, Twist)
@@ -309,4 +317,5 @@ class RunLoop:
             "out_of_time": self._out_of_time and self._now_ns < round(self._exercise.duration * 1e9),
             "flooded": self._pace.flooded,
             "out_of_step": bool(self._pace.paced_ticks),
+            **({"parameters_set": self._parameters.facts} if self._parameters.facts else {}),
         }

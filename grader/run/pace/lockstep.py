@@ -50,6 +50,7 @@ class LockStep(RealTime):
         self._holding = holding
         self._sent: Counter[str] = Counter()  # messages that the student's processes must have taken
         self._untaken: Counter[str] = Counter()  # of those and of their own: never taken (or taken and never counted)
+        self._answers: Counter[str] = Counter()  # responses that the grader takes
         self._late = LateJoiners()
         self._kept: Counter[str] = Counter()  # messages sent on topics that keep some for subscriptions that join late
         self._layout: tuple[int, ...] = ()
@@ -164,6 +165,17 @@ class LockStep(RealTime):
             self.processes.wait(LOOK_ROUND)
             self.everything_arrived()
         return 0
+
+    def _expect(self, service: str) -> None:
+        """Count a request, which the submission must take, and its response, which the grader takes."""
+        self._sent[f"request {service}"] += 1
+        self._answers[f"response {service}"] += 1
+        self._pending = (f"request {service}", None, None)
+
+    def _has_answered(self, service: str) -> bool:
+        """Return whether the response has left, after all has come to rest; a node that sleeps answers later."""
+        response = f"response {service}"
+        return self._free or self._total("delivered")[response] >= self._answers[response]
 
     def wake_sleepers(self, now_ns: int) -> None:
         """Wake those who sleep until `now_ns` [ns] one at a time, and wait for the consequences of each.
@@ -328,6 +340,8 @@ class LockStep(RealTime):
         for topic, count in self._total("published").items():
             if self.ros.listens(topic) or topic == ROSOUT:
                 due[topic] -= count  # one of the readers is the grader
+        for name, count in self._answers.items():
+            due[name] = max(0, due[name] - count)
         return due
 
     def _write_off(self) -> None:

@@ -148,6 +148,40 @@ class RealTime:
         """Publish one message of the simulator at simulated time `now_ns` [ns]."""
         publisher.publish(message)
 
+    def ask(self, client: Any, request: Any) -> Any:
+        """Send a request to a service of the submission; return the answer, or None if there is none.
+
+        The service may need `MATCHING` to be found, and the answer `PATIENCE` to arrive.
+        """
+        found = Patience(self.processes.clock, MATCHING)
+        while not client.service_is_ready():
+            if not self._look_for_answer(found):
+                return None
+        self._expect(client.service_name)
+        answer = client.call_async(request)
+        self.settle()
+        arrived = Patience(self.processes.clock, PATIENCE)
+        while not answer.done():
+            if not (self._has_answered(client.service_name) and self._look_for_answer(arrived)):
+                return None
+        return answer.result()
+
+    def _look_for_answer(self, patience: Patience) -> bool:
+        """Take what has arrived from a service; return False if there is nothing to wait for any more."""
+        if not self.processes.running or patience.over():
+            return False
+        self.processes.wait(LOOK_ROUND)
+        self.ros.pump()
+        self.everything_arrived()
+        return True
+
+    def _expect(self, service: str) -> None:
+        """Note that a request to a service is about to be sent."""
+
+    def _has_answered(self, service: str) -> bool:
+        """Return False if it is known that the request was not answered; in real time the answer may be under way."""
+        return True
+
     def wake_sleepers(self, now_ns: int) -> None:
         """Wake those who sleep in simulated time until `now_ns` [ns]; in real time they sleep in real time."""
 

@@ -14,6 +14,7 @@ from gz_course.grader.exercise.trial import (
     PUBLIC,
     SCRIPT_SPREAD,
     ScriptedCommand,
+    ScriptedParameter,
     Trial,
     chosen_trials,
     load_trials,
@@ -62,6 +63,12 @@ topic = "/cmd_vel"
 linear_x = 0.3
 angular_z = 0
 
+[[trial.script]]
+at = 5
+node = "/driver"
+parameter = "speed"
+value = 0.2
+
 [[trial]]
 name = "as_it_is"
 """
@@ -84,7 +91,7 @@ def test_every_key_is_read_and_only_the_name_is_needed(read):
         "empty.sdf",
         duration=3,
         poses={"robot": (-2, 1, 0, 0, 0, 1.5)},
-        script=(ScriptedCommand(1, "/cmd_vel", 0.3, 0),),
+        script=(ScriptedCommand(1, "/cmd_vel", 0.3, 0), ScriptedParameter(5, "/driver", "speed", 0.2)),
         parameters={"speed": 0.4, "names": ["a"]},
         tick=0.25,
     )
@@ -123,6 +130,9 @@ def test_an_empty_script_is_a_robot_nobody_drives(read):
         ('name = "north"', 'name = "../north"', "name must be letters"),
         ('name = "as_it_is"', 'name = "north"', "two trials are called 'north'"),
         ("at = 1", "att = 1", "lacks the key 'at'"),
+        ('node = "/driver"', 'node = "driver"', "script 2: node must be the full name of a node, such as /driver"),
+        ("value = 0.2", 'value = [0.2, "a"]', "script 2: value must be a truth value, a number, a text, or a list"),
+        ("value = 0.2", "valu = 0.2", "script 2 lacks the key 'value'"),
         ("[[trial]]\n", "[[trail]]\n", "trial must be a list of tables"),
     ],
 )

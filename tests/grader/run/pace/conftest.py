@@ -53,7 +53,7 @@ def play(tmp_path, monkeypatch):
 
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
 
-    def call(ticks=10, observe=None, holding=True, simulated=False, kept=False, **files):
+    def call(ticks=10, observe=None, holding=True, simulated=False, kept=False, before_tick=None, **files):
         observe = observe or {"/said": "std_msgs/msg/String"}
         played = Played()
         names = []
@@ -93,6 +93,8 @@ def play(tmp_path, monkeypatch):
                 assert pace.await_ready(), student.take_lines()
                 for tick in range(1, ticks + 1):
                     pace.welcome()
+                    if before_tick is not None:
+                        before_tick(tick, ros, pace)
                     now = Clock()
                     now.sim.sec, now.sim.nsec = divmod(tick * TICK_NS, 10**9)
                     clock.publish(now)

@@ -1,0 +1,34 @@
+"""Why a parameter that the grader wanted to set during a run was not set: the fault behind a node that ignores it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gz_course.grader.printable import shown
+from gz_course.grader.record.reading import Recording
+
+
+def parameter_not_set(recording: Recording, facts: dict[str, Any]) -> str:
+    """Name the first parameter that could not be set, with the command that shows the same in a terminal."""
+    for each in facts.get("parameters_set", []):
+        if each["outcome"] == "set":
+            continue
+        command = f"`ros2 param set {each['node']} {each['name']} {each['value']}` at {each['at']:g} s"
+        nodes = facts.get("nodes", [])
+        if each["outcome"] == "refused" and "undeclared" in each["reason"]:
+            said = f"was refused, because the node has not declared that parameter: {_declaration(each)} in __init__"
+        elif each["outcome"] == "refused":
+            said = f"was refused: {each['reason']}" if each["reason"] else "was refused, without a reason"
+        elif nodes and each["node"] not in nodes:
+            said = (
+                f"found no node of that name; yours is {nodes[0]}: the name is the argument of Node's __init__, "
+                f"super().__init__({each['node'].rpartition('/')[2]!r})"
+            )
+        else:
+            said = "had no answer: a node answers only while it spins, and not while one of its callbacks waits"
+        return shown(f"{command} {said}.", 500)
+    return ""
+
+
+def _declaration(fact: dict[str, Any]) -> str:
+    return f"self.declare_parameter({fact['name']!r}, {fact['value']!r})"
