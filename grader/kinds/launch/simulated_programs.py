@@ -98,6 +98,11 @@ class SimulatedPrograms:
         return any(not each.gone for each in self._loading)
 
     @property
+    def entries(self) -> list[BridgeEntry]:
+        """What the bridges that run carry."""
+        return [entry for each in self.bridges if not each.stopped for entry in each.entries]
+
+    @property
     def simulator(self) -> SimulatorProgram | None:
         """The first `gz sim` that runs; others stand still beside it."""
         return next((s for s in self.simulators if s.running and s.who.alive and not s.stopped), None)
@@ -195,9 +200,8 @@ class SimulatedPrograms:
         try:
             rows = [dict(row) | {"direction": Direction(row["direction"])} for row in asked["entries"][:MOST_ENTRIES]]
             bridge.entries = [BridgeEntry(**row) for row in rows]
-            standing = [entry for each in self.bridges if not each.stopped for entry in each.entries]
             frame = asked["frame_id"]
-            self._ros().set_bridges(standing, HeaderOverrides(frame_id=str(frame)) if frame else None)
+            self._ros().set_bridges(self.entries, HeaderOverrides(frame_id=str(frame)) if frame else None)
         except BridgeError as error:
             bridge.errors, bridge.entries = list(error.errors), []
         except (TypeError, ValueError, KeyError) as error:
@@ -250,7 +254,7 @@ class SimulatedPrograms:
                     "errors": b.errors,
                     "entries": [
                         {
-                            "source": e.source.rpartition("/")[2],
+                            "source": e.place,
                             "ros_topic": e.ros_topic,
                             "ros_type": e.ros_type,
                             "gz_topic": e.gz_topic,
