@@ -4,9 +4,9 @@ kind = "drives"
 robot = "scout"           # name of the model
 command = "cmd_vel"       # topic of the script (see grader/exercise/trial.py), without the slash before it
 axis = "linear_x"         # or "angular_z": only what the script commands on this axis counts
-settle = 0.5              # [s] after each command, to get up to speed
-within = 0.05             # of the commanded speed, as a fraction
-drift = 0.1               # [rad] that it may turn while it is told to go straight, or [m] that it may leave the spot
+settle = 0.5              # optional: [s] after each command, to get up to speed
+within = 0.05             # optional: of the commanded speed, as a fraction
+drift = 0.1               # optional: [rad] that it may turn while told to go straight, or [m] that it may leave the spot
 wheels = "joint_states"   # optional: ROS topic of the joints, to tell whether the wheels turned at all
 """
 
@@ -17,8 +17,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from gz_course.grader.exercise.toml_table import Table
+from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording, Signal
 from gz_course.grader.score.check import Finding, check_kind
+from gz_course.grader.score.launched import launch_facts
 from gz_course.grader.score.steps import told
 
 AXES = {"linear_x": ("linear_x", "yaw", "m/s"), "angular_z": ("angular_z", "distance", "rad/s")}
@@ -31,8 +33,8 @@ def drives(recording: Recording, parameters: Table) -> Finding:
     """Pass if the mean speed in each stretch of the script is the commanded one, and nothing else moves."""
     robot, topic = parameters.text("robot"), parameters.text("command")
     axis = parameters.choice("axis", tuple(AXES))
-    settle, within = parameters.number("settle", above=0), parameters.number("within", above=0)
-    drift = parameters.number("drift", above=0)
+    settle, within = parameters.number("settle", 0.5, above=0), parameters.number("within", 0.05, above=0)
+    drift = parameters.number("drift", 0.1, above=0)
     joints = parameters.text("wheels") if parameters.has("wheels") else ""
     signal, side, unit = AXES[axis]
     speed, aside = recording.signal(f"truth/{robot}/{signal}"), recording.signal(f"truth/{robot}/{side}")
@@ -93,6 +95,9 @@ def _stuck(recording: Recording, joints: str, start: float, end: float, swerve: 
     """Return why a robot that got its commands stays where it is."""
     if swerve > 0.5:
         return "told to go straight, it turned on the spot: the axes of its wheels point in opposite directions"
+    said = launch_facts(recording).get("model_warnings", [])
+    if driver := next((text for text in said if "DiffDrive" in text or "left out" in text), ""):
+        return f"gz sim says of the robot: {shown(driver, 300)}"
     if not joints:
         return "it did not move"
     times, positions = recording.arrays(f"topics/{joints}/position")

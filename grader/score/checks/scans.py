@@ -3,12 +3,12 @@
 kind = "scans"
 topic = "scan"            # ROS topic
 frame = "lidar_link"      # header.frame_id
-rate = 5.0                # [Hz] at least, over the whole run
-rays = 180                # at least
-round = 6.2               # [rad] from the first ray to the last, at least
-reach = 10.0              # [m] range_max, at least
-clear = 0.35              # [m] around the lidar in which there is nothing but the robot
-sees = 0.6                # fraction of the rays that hit something, at least
+rate = 5.0                # optional: [Hz] at least, over the whole run
+rays = 180                # optional: at least
+round = 6.2               # optional: [rad] from the first ray to the last, at least
+reach = 10.0              # optional: [m] range_max, at least
+clear = 0.35              # optional: [m] around the lidar in which there is nothing but the robot
+sees = 0.6                # optional: fraction of the rays that hit something, at least
 """
 
 from __future__ import annotations
@@ -29,9 +29,9 @@ OWN = 0.02  # fraction of the rays that may be shorter than `clear`
 def scans(recording: Recording, parameters: Table) -> Finding:
     """Pass if the scans came at the rate, with the frame, number and reach of rays, and show what stands around."""
     topic, frame = parameters.text("topic"), parameters.text("frame")
-    rate, rays = parameters.number("rate", above=0), parameters.number("rays", above=0)
-    turn, reach = parameters.number("round", above=0), parameters.number("reach", above=0)
-    clear, sees = parameters.number("clear", above=0), parameters.number("sees", above=0)
+    rate, rays = parameters.number("rate", 5.0, above=0), parameters.number("rays", 180, above=0)
+    turn, reach = parameters.number("round", 6.2, above=0), parameters.number("reach", 10.0, above=0)
+    clear, sees = parameters.number("clear", 0.35, above=0), parameters.number("sees", 0.6, above=0)
     expected = f"scans with the frame {frame} on /{topic}, of what stands around the robot"
     base = f"topics/{topic}"
     count = len(recording.signal(f"{base}/count"))
@@ -72,7 +72,7 @@ def _percent(fraction: float) -> str:
 
 
 def _why_none(recording: Recording, topic: str) -> str:
-    """Return why no scan came: no bridge, a bridge with the wrong direction or type, or a Gazebo topic without scans."""
+    """Return why no scan came: no bridge, its direction or type is wrong, or nothing publishes in Gazebo."""
     made = [bridge for bridge in bridges(recording) if bridge.ros_topic == topic]
     if not made:
         return f"no bridge has the ROS topic {topic}"

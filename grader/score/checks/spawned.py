@@ -5,7 +5,7 @@ robot = "scout"           # name of the model
 x = "x"                   # arguments of the launch: position [m] and heading [rad]; 0 if they are not given
 y = "y"
 yaw = "yaw"
-within = 0.1              # [m] and [rad]
+within = 0.1              # optional: [m] and [rad]
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ LATE = 0.5  # [s] of simulated time
 @check_kind("spawned")
 def spawned(recording: Recording, parameters: Table) -> Finding:
     """Pass if the model is there from the beginning, where it was asked for."""
-    robot, within = parameters.text("robot"), parameters.number("within", above=0)
+    robot, within = parameters.text("robot"), parameters.number("within", 0.1, above=0)
     names = {axis: parameters.text(axis) for axis in ("x", "y", "yaw")}
     given = {axis: argument(recording, name, "0") for axis, name in names.items()}
     called = given["x"][1]
@@ -49,7 +49,7 @@ def spawned(recording: Recording, parameters: Table) -> Finding:
     ignored = [axis for axis in wrong if abs(place[axis]) <= within]
     why = ""
     if ignored == wrong:
-        words = " and ".join(names[axis] for axis in wrong)
+        words = ", ".join(names[axis] for axis in wrong[:-1]) + " and " * (len(wrong) > 1) + names[wrong[-1]]
         why = f"the {'argument' if len(wrong) == 1 else 'arguments'} {words} had no effect on the place of {robot}"
     return Finding(False, expected, measured, explanation=why)
 
