@@ -6,7 +6,7 @@ command = "cmd_vel"       # topic of the script (see grader/exercise/trial.py), 
 axis = "linear_x"         # or "angular_z": only what the script commands on this axis counts
 settle = 0.5              # optional: [s] after each command, to get up to speed
 within = 0.05             # optional: of the commanded speed, as a fraction
-drift = 0.1               # optional: [rad] that it may turn while told to go straight, or [m] that it may leave the spot
+drift = 0.1               # optional: [rad] that it may turn when told to go straight, [m] that it may move aside
 wheels = "joint_states"   # optional: ROS topic of the joints, to tell whether the wheels turned at all
 """
 
