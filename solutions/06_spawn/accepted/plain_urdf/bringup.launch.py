@@ -1,8 +1,8 @@
 """gz sim without an include, the robot as a text that Python has read, the bridges in a parameter file."""
 
-import xacro
 from pathlib import Path
 
+import xacro
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, ExecuteProcess, RegisterEventHandler
 from launch.event_handlers import OnProcessExit
