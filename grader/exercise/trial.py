@@ -15,7 +15,7 @@ the same keys, all optional but the name:
 
     [[trial.script]]                        # instead of the exercise's
     at = 0.5
-    topic = "/model/robot/cmd_vel"
+    topic = "/model/robot/cmd_vel"          # of Gazebo; or `ros_topic = "/cmd_vel"`, through the bridge
     linear_x = 0.3
     angular_z = 0.25
 
@@ -58,15 +58,16 @@ class ScriptedCommand:
     """A velocity that the grader commands during a run, before the seed of the trial varies it."""
 
     at: float  # [s] of simulated time
-    topic: str  # Gazebo topic of type Twist
+    topic: str  # Gazebo topic of type Twist, or a ROS topic
     linear_x: float  # [m/s]
     angular_z: float  # [rad/s]
+    ros: bool = False  # it comes from ROS: only a bridge takes it to Gazebo
 
     @staticmethod
     def read(table: Table) -> ScriptedCommand:
-        command = ScriptedCommand(
-            table.number("at"), table.text("topic"), table.number("linear_x"), table.number("angular_z")
-        )
+        ros = table.has("ros_topic")
+        topic = table.text("ros_topic" if ros else "topic")
+        command = ScriptedCommand(table.number("at"), topic, table.number("linear_x"), table.number("angular_z"), ros)
         table.end()
         return command
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import defaultdict
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -72,21 +73,39 @@ class Scene:
 
     The true state of every moving model is recorded as `truth/MODEL/...` in double precision: position [m] and
     orientation (unit quaternion) in the world frame, yaw [rad] (unwrapped), forward speed linear_x [m/s] and yaw rate
-    angular_z [rad/s] in the model's own frame, and the distance travelled [m].
+    angular_z [rad/s] in the model's own frame, and the distance travelled [m]. A model that is created during the run
+    is recorded from then on, one that is removed until then.
     """
 
     def __init__(self, recorder: Recorder, world: World) -> None:
         self._recorder = recorder
         self._world = world
-        self._models = world.truth.model_names()
         self._links: dict[tuple[str, str], str] = {}
         self._ticks = 0
-        self._yaw = dict.fromkeys(self._models, 0.0)
-        self._distance = dict.fromkeys(self._models, 0.0)
+        self._yaw: defaultdict[str, float] = defaultdict(float)
+        self._distance: defaultdict[str, float] = defaultdict(float)
         self._last: dict[str, tuple[float, float, float]] = {}
-        self._path: dict[str, list[tuple[float, float, float]]] = {name: [] for name in self._models}
+        self._path: defaultdict[str, list[tuple[float, float, float]]] = defaultdict(list)
+        self._drawn: set[str] = set()  # models
+        self._lidars: dict[str, str] = {}  # Gazebo topic -> entity
         recorder.static("/world", rr.ViewCoordinates.RIGHT_HAND_Z_UP)
+        self._began_ns = recorder.now_ns
+        self._has_scanned: set[str] = set()
+        self._take_models()
+        self._log_poses()
+
+    def _take_models(self) -> None:
+        """Draw what is new in the world, and note what it consists of now."""
+        recorder, world = self._recorder, self._world
+        self._built = world.truth.model
+        self._models = world.truth.model_names()
+        every = world.truth.model_names(static=True)
+        self._links = {key: entity for key, entity in self._links.items() if key[0] in every}
+        new = {name for name in every if name not in self._drawn}
+        self._drawn = set(every)
         for visual in world.truth.geometry():
+            if visual.model not in new:
+                continue
             entity = f"/world/{visual.model}/{visual.link}/{visual.name}"
             if visual.triangles is None:
                 archetype = shape(visual.kind, [float(s) for s in visual.size], visual.rgba)
@@ -98,17 +117,15 @@ class Scene:
             recorder.static(entity, transform(visual.pose))
             self._links[(visual.model, visual.link)] = f"/world/{visual.model}/{visual.link}"
         for (model, link), entity in self._links.items():
-            if model not in self._models:
+            if model in new and model not in self._models:
                 recorder.static(f"/world/{model}", transform(world.truth.pose(model)))
                 recorder.static(
                     entity, transform(world.truth.pose(model).inverse() * world.truth.link_pose(model, link))
                 )
-        self._began_ns = recorder.now_ns
-        self._has_scanned: set[str] = set()
-        self._log_poses()
-        self._lidars: dict[str, str] = {}  # Gazebo topic -> entity
         for sensor in world.systems.sensors():
             at = sensor.description
+            if at.model not in new:
+                continue
             entity = f"/world/{at.model}/{at.link}/{at.name}"
             self._lidars[sensor.topic] = f"{entity}/scan"
             recorder.static(entity, transform(at.pose))
@@ -117,6 +134,8 @@ class Scene:
     def tick(self) -> None:
         """Log truth and poses at the recorder's present time."""
         recorder, world = self._recorder, self._world
+        if world.truth.model is not self._built:
+            self._take_models()
         for model in self._models:
             pose, velocity = world.truth.pose(model), world.truth.velocity(model)
             x, y, z = (float(v) for v in pose.position)

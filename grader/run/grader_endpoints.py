@@ -54,6 +54,13 @@ def message_class(ros_type: str) -> Any:
         raise ManifestError(f"there is no ROS message type {ros_type!r} here") from None
 
 
+def ros_twist(linear_x: float, angular_z: float) -> Any:
+    """Return a `geometry_msgs/msg/Twist` of these velocities [m/s], [rad/s]."""
+    twist = message_class("geometry_msgs/msg/Twist")()
+    twist.linear.x, twist.angular.z = linear_x, angular_z
+    return twist
+
+
 class GraderEndpoints:
     """Owns an rclpy context in `domain`, the bridge for `entries`, and a subscription to each topic in `observe`.
 
@@ -220,7 +227,7 @@ class GraderEndpoints:
             publisher, subscription = self._publishers.get(entry.ros_topic), self._subscriptions.get(entry.ros_topic)
             found.append(
                 {
-                    "source": entry.source.rpartition("/")[2],  # the name only, because the folder differs between runs
+                    "source": entry.place,
                     "ros_topic": entry.ros_topic,
                     "ros_type": entry.ros_type,
                     "gz_topic": entry.gz_topic,

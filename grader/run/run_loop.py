@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import time
 from collections import Counter
+from collections.abc import Iterable
 from contextlib import ExitStack
 from typing import Any
 
@@ -23,7 +24,7 @@ from gz_course.grader.run.compatibility import check_compatibility
 from gz_course.grader.run.console_log import ConsoleLog
 from gz_course.grader.run.endpoint_facts import EndpointFacts
 from gz_course.grader.run.fair_clock import Patience
-from gz_course.grader.run.grader_endpoints import GraderEndpoints
+from gz_course.grader.run.grader_endpoints import GraderEndpoints, ros_twist
 from gz_course.grader.run.pace.lockstep import LockStep
 from gz_course.grader.run.pace.real_time import LOOK_ROUND, MATCHING, PATIENCE, RealTime
 from gz_course.grader.run.parameter_script import ParameterScript, record_parameter
@@ -36,6 +37,7 @@ from gz_course.sim.gz.sim.errors import SimError
 from gz_course.sim.gz.sim.server import Server
 from gz_course.sim.gz.sim.world import World
 from gz_course.sim.gz.transport import Node, NodeOptions, Scope
+from gz_course.sim.ros_gz_bridge.entry import BridgeEntry
 
 MOST_MESSAGES = 20_000  # of one topic that are recorded; the rest is counted
 # A run may take 2 x its simulated time + 10 s: of processor time in the student's processes, of waiting for them, and
@@ -69,7 +71,8 @@ class RunLoop:
         self._stack = stack
         self._processes = processes
         partition = f"grader-{domain}"
-        self._gz_nodes = [Node(NodeOptions(scope=Scope.PROCESS, partition=partition)) for _ in range(2)]
+        # of the simulator, of the bridge, and of the script, whose topics a bridge may publish, too
+        self._gz_nodes = [Node(NodeOptions(scope=Scope.PROCESS, partition=partition)) for _ in range(3)]
         for node in self._gz_nodes:
             stack.callback(node.close)
         self._world: World | None = None
@@ -88,7 +91,7 @@ class RunLoop:
         self._kept = plan.kept
         stack.callback(self._ros.close)
         self._pace = self._paced(pace)
-        self._scans = {e.ros_topic: e.gz_topic for e in plan.entries if e.ros_type == "sensor_msgs/msg/LaserScan"}
+        self._see_scans(plan.entries)
         self._script = [trial.vary(entry) if isinstance(entry, ScriptedCommand) else entry for entry in exercise.script]
         self._parameters = ParameterScript(self._ros, self._pace, self._script)
         self._script_publishers: dict[str, Any] = {}
@@ -215,17 +218,33 @@ class RunLoop:
             self._pace.settle()  # taken by all, all idle, and all they published has arrived
             self._collect()
 
-    def _follow(self, command: ScriptedCommand | ScriptedParameter) -> None:
+    def _follow(self, entry: ScriptedCommand | ScriptedParameter) -> None:
         """Do what an entry of the script says."""
-        if isinstance(command, ScriptedParameter):
-            self._parameters.set(command, self._recorder)
-            return
-        publisher = self._script_publishers.get(command.topic)
-        if publisher is None:
-            publisher = self._script_publishers[command.topic] = self._gz_nodes[1].advertise(command.topic, Twist)
-        twist = Twist()
-        twist.linear.x, twist.angular.z = command.linear_x, command.angular_z
-        publisher.publish(twist)
+        if isinstance(entry, ScriptedParameter):
+            self._parameters.set(entry, self._recorder)
+        else:
+            self._command(entry)
+
+    def _see_scans(self, entries: Iterable[BridgeEntry]) -> None:
+        """Take the scans that these bridges carry to ROS for what the lidars of the scene see."""
+        scans = "sensor_msgs/msg/LaserScan"
+        self._scans = {e.ros_topic: e.gz_topic for e in entries if e.ros_type == scans and e.direction.to_ros}
+
+    def _command(self, command: ScriptedCommand) -> None:
+        """Send and record a command of the script: `script/TOPIC/linear_x`, and whether anything took it."""
+        taken = True
+        if command.ros:
+            taken = self._ros.bridge.take(command.topic, ros_twist(command.linear_x, command.angular_z))
+        else:
+            publisher = self._script_publishers.get(command.topic)
+            if publisher is None:
+                publisher = self._script_publishers[command.topic] = self._gz_nodes[2].advertise(command.topic, Twist)
+            twist = Twist()
+            twist.linear.x, twist.angular.z = command.linear_x, command.angular_z
+            publisher.publish(twist)
+        base = f"script/{command.topic.strip('/')}"
+        for name, value in (("linear_x", command.linear_x), ("angular_z", command.angular_z), ("taken", taken)):
+            self._recorder.scalar(f"{base}/{name}", float(value))
 
     def _record(self, topic: str, message: Any) -> None:
         self._messages[topic] += 1

@@ -103,6 +103,13 @@ class Bridge:
         with self._status_lock:
             return [dataclasses.replace(status) for status in self._status]
 
+    def take(self, ros_topic: str, message: Any) -> bool:
+        """Bridge a message as if it had come on a ROS topic; return whether an entry takes its type there."""
+        links = [each for each in self._to_gz if each.takes(ros_topic, message)]
+        for link in links:
+            link.take(message)
+        return bool(links)
+
     def close(self) -> None:
         """Destroy all publishers, subscriptions and timers; the counters remain. Closing twice does nothing."""
         if self._timer is not None:

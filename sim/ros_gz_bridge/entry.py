@@ -55,6 +55,11 @@ class BridgeEntry:
                 raise ValueError(f"{name} must be 1 or more, not {getattr(self, name)}")
 
     @property
+    def place(self) -> str:
+        """`source` without the folder of a file, which differs between runs; an argument as it was given."""
+        return self.source if "@" in self.source else self.source.rpartition("/")[2]
+
+    @property
     def same_route(self) -> tuple[str, str, str, str]:
         """Both topics and both types; entries for which they are equal carry the same messages."""
         return (self.ros_topic, self.gz_topic, self.ros_type, self.gz_type)

@@ -217,7 +217,7 @@ class RosToGz(Link):
         self.subscription = self._bridge._ros_node.create_subscription(
             self._pair.ros_class,
             self.entry.ros_topic,
-            self._on_message if self._echo_filter is None else self._on_message_with_info,
+            self.take if self._echo_filter is None else self._on_message_with_info,
             qos(self.entry.qos_profile, self.entry.subscriber_queue),
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
             callback_group=None if listener is None else listener.group,
@@ -243,9 +243,14 @@ class RosToGz(Link):
         if self._echo_filter is not None and self._echo_filter.is_echo(ros, info["source_timestamp"]):
             self._count("echoes")
         else:
-            self._on_message(ros)
+            self.take(ros)
 
-    def _on_message(self, ros: Any) -> None:
+    def takes(self, ros_topic: str, ros: Any) -> bool:
+        """Return whether messages of this type on a topic are for this link."""
+        return self.ros_topic == ros_topic and isinstance(ros, self._pair.ros_class)
+
+    def take(self, ros: Any) -> None:
+        """Bridge a message from ROS."""
         if not self.connected:
             return
         if self._bridge._heard is not None:

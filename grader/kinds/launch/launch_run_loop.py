@@ -110,6 +110,7 @@ class LaunchRunLoop(RunLoop):
                 if beats == BEATS:
                     return
             elif self._now_ns < duration_ns:
+                self._see_scans(self._programs.entries)
                 self._tick()
             else:
                 return

@@ -9,7 +9,9 @@ is paused stands on the command line. No file is opened here because of what the
 from __future__ import annotations
 
 import base64
-from collections.abc import Callable, Collection
+import logging
+from collections.abc import Callable, Collection, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path, PurePath
 from typing import Any
@@ -18,7 +20,7 @@ from gz_course.grader.kinds.launch import claims
 from gz_course.grader.kinds.launch.submitted_world import SubmittedWorld
 from gz_course.grader.run.grader_endpoints import GraderEndpoints
 from gz_course.grader.run.processes.participant import Participant
-from gz_course.sim.gz.sim.errors import Diagnostics, SimError, one_line
+from gz_course.sim.gz.sim.errors import LOG, Diagnostics, SimError, one_line
 from gz_course.sim.gz.sim.sdf.reader import read_world_file
 from gz_course.sim.gz.sim.sdf.resources import BUILT_IN_WORLDS
 from gz_course.sim.gz.sim.world import World
@@ -83,6 +85,7 @@ class SimulatedPrograms:
         self._ros = ros
         self._submitted = SubmittedWorld()
         self._warnings: list[str] = []  # about a world that was handed in
+        self._model_warnings: list[str] = []  # about models that were created
         self.world: World | None = None
         self.over = False  # a world that is asked for now comes too late
         self.building: Callable[[], None] = lambda: None  # called before the simulator gets what was handed over
@@ -96,6 +99,11 @@ class SimulatedPrograms:
     def loading(self) -> bool:
         """Whether a `gz sim` is reading its world."""
         return any(not each.gone for each in self._loading)
+
+    @property
+    def entries(self) -> list[BridgeEntry]:
+        """What the bridges that run carry."""
+        return [entry for each in self.bridges if not each.stopped for entry in each.entries]
 
     @property
     def simulator(self) -> SimulatorProgram | None:
@@ -167,7 +175,8 @@ class SimulatedPrograms:
         """Build a world, a built-in one or the one at an address; return why that cannot be, empty if it can."""
         if self.over:
             return "the world was asked for when the run was over"
-        diagnostics = Diagnostics(quiet=not built_in)  # a world that was handed in was warned about in the box
+        # A world that was handed in was warned about in the box. Lenient, as `gz sim` is.
+        diagnostics = Diagnostics(quiet=True, lenient=True)
         try:
             if built_in:
                 read = read_world_file(BUILT_IN_WORLDS / built_in, diagnostics)
@@ -195,9 +204,8 @@ class SimulatedPrograms:
         try:
             rows = [dict(row) | {"direction": Direction(row["direction"])} for row in asked["entries"][:MOST_ENTRIES]]
             bridge.entries = [BridgeEntry(**row) for row in rows]
-            standing = [entry for each in self.bridges if not each.stopped for entry in each.entries]
             frame = asked["frame_id"]
-            self._ros().set_bridges(standing, HeaderOverrides(frame_id=str(frame)) if frame else None)
+            self._ros().set_bridges(self.entries, HeaderOverrides(frame_id=str(frame)) if frame else None)
         except BridgeError as error:
             bridge.errors, bridge.entries = list(error.errors), []
         except (TypeError, ValueError, KeyError) as error:
@@ -224,11 +232,16 @@ class SimulatedPrograms:
                 data = factory.SerializeToString()
             except (DecodeError, SimError) as error:
                 return {"done": False, "error": str(error)}
-        service = f"{self.world.topic}/{asked['verb']}/blocking"
-        outcome = self._gz_node.call_raw(service, data, str(asked["type"]), Boolean.DESCRIPTOR.full_name, 5000)
+        service = f"{self.world.topic}/{asked['verb']}"
+        kind, before = str(asked["type"]), len(self.world.warnings)
+        with _errors() as errors:
+            outcome = self._gz_node.call_raw(f"{service}/blocking", data, kind, Boolean.DESCRIPTOR.full_name, 5000)
         done = bool(outcome.executed and outcome.result and Boolean.FromString(outcome.response).data)
         self.calls.append(f"{asked['verb']}: {'done' if done else 'refused'}")
-        return {"done": done}
+        warnings = self.world.warnings[before : before + MOST_WARNINGS]
+        self._model_warnings += warnings[: MOST_WARNINGS - len(self._model_warnings)]
+        why = "" if done else next((error.removeprefix(f"{service}: ") for error in errors), "")
+        return {"done": done, "warnings": warnings} | ({"error": why} if why else {})
 
     def facts(self) -> dict[str, Any]:
         """Return what the programs were and did, for the recording; the same for equal runs."""
@@ -250,7 +263,7 @@ class SimulatedPrograms:
                     "errors": b.errors,
                     "entries": [
                         {
-                            "source": e.source.rpartition("/")[2],
+                            "source": e.place,
                             "ros_topic": e.ros_topic,
                             "ros_type": e.ros_type,
                             "gz_topic": e.gz_topic,
@@ -264,4 +277,18 @@ class SimulatedPrograms:
             ],
             "calls": sorted(self.calls),
             "refused": sorted(self.refused),
+            "model_warnings": self._model_warnings,
         }
+
+
+@contextmanager
+def _errors() -> Iterator[list[str]]:
+    """Yield the errors that the simulator logs meanwhile, in which it says why it refuses something."""
+    said: list[str] = []
+    handler = logging.Handler(logging.ERROR)
+    handler.emit = lambda record: said.append(one_line(record.getMessage()))  # type: ignore[method-assign]
+    LOG.addHandler(handler)
+    try:
+        yield said
+    finally:
+        LOG.removeHandler(handler)

@@ -114,6 +114,11 @@ def test_a_world_beside_the_file_is_that_one(read, tmp_path):
     assert read()[0].world == str(tmp_path / "empty.sdf")
 
 
+def test_a_command_comes_from_gazebo_or_from_ros(read):
+    text = '[[trial]]\nname = "driven"\n[[trial.script]]\nat = 1\n{} = "/cmd_vel"\nlinear_x = 0.3\nangular_z = 0\n'
+    assert [read(text.format(key))[0].script[0].ros for key in ("topic", "ros_topic")] == [False, True]
+
+
 def test_an_empty_script_is_a_robot_nobody_drives(read):
     assert read('[[trial]]\nname = "still"\nscript = []')[0].script == ()
 

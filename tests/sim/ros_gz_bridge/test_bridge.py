@@ -115,6 +115,18 @@ def test_a_message_that_cannot_be_converted_is_dropped_with_its_reason(stage):
     assert f"gz.msgs.Image on {stage.topic} was not bridged: an image of 9x1 mono8 pixels" in status.last_error
 
 
+def test_the_owner_may_hand_over_a_message_as_if_it_had_come_from_ros(stage, inbox):
+    bridge = stage.bridge(stage.entry(direction=Direction.ROS_TO_GZ))
+    commands = inbox()
+    stage.gz.subscribe(GzTwist, stage.topic, commands)
+    twist = Twist()
+    twist.linear.x = 0.5
+    assert bridge.take(stage.topic, twist)
+    assert not bridge.take(stage.topic, TwistStamped()) and not bridge.take("/elsewhere", twist)
+    assert [command.linear.x for command in commands.wait(1)] == [0.5]
+    assert bridge.status()[0].ros_to_gz == 1
+
+
 def test_a_message_that_fits_in_part_is_bridged_with_a_warning(stage, eventually, capfd):
     errors = []
 

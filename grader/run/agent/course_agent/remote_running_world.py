@@ -45,7 +45,7 @@ class RemoteRunningWorld:
 
     def call(self, verb: str, request: Any) -> bool:
         """Ask `/world/NAME/VERB` and wait until it is done; False when the simulator refuses."""
-        from gz_course.sim.gz.sim.errors import SimError
+        from gz_course.sim.gz.sim.errors import LOG, SimError
         from gz_course.sim.ros_program.errors import Failure
 
         asked = {"verb": verb, "type": request.DESCRIPTOR.full_name, "description": ""}
@@ -57,6 +57,8 @@ class RemoteRunningWorld:
                 return False  # the caller reads it again and says why
             sent.ClearField("sdf" if request.sdf else "sdf_filename")
         answer = ask({"call": asked | {"data": base64.b64encode(sent.SerializeToString()).decode()}})
+        for warning in answer.get("warnings", []):  # what the output of gz sim says of it
+            LOG.warning("%s", warning)
         if error := answer.get("error"):
             raise Failure(f"the entity was not created: {error}" if verb == "create" else error)
         return bool(answer.get("done"))

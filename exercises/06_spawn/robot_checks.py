@@ -1,0 +1,63 @@
+"""Checks that only this exercise needs: the world of the launch, the robot's description, and its joints."""
+
+from gz_course.grader.score.check import Finding
+from gz_course.grader.score.graphs import bridges
+from gz_course.grader.score.launched import argument, deaths, ran
+
+PUBLISHER = "/robot_state_publisher"
+
+
+def world_runs(recording, parameters):
+    """Pass if the simulator has the world of the argument, and runs."""
+    wanted, called = argument(recording, "world", "yard.sdf")
+    expected = f"{called}: the world {wanted}, running"
+    if not ran(recording):
+        return Finding(False, expected, "no simulator ran")
+    found = ran(recording)[0]
+    if found["world"] != wanted:
+        return Finding(False, expected, f"{called} it ran {found['world']}")
+    if found["paused"]:
+        why = "without -r the simulator starts paused, and no time passes"
+        return Finding(False, expected, f"{called} it was paused", explanation=why)
+    return Finding(True, expected, f"{called} it ran {found['world']}")
+
+
+def described(recording, parameters):
+    """Pass if robot_state_publisher offers the description to the end, and follows simulated time."""
+    expected = f"{PUBLISHER} with /robot_description and use_sim_time, to the end"
+    facts = recording.facts()
+    if died := next((each for each in deaths(recording) if each.process == PUBLISHER[1:]), None):
+        return Finding(False, expected, f"{PUBLISHER[1:]} ended with exit code {died.code}{died.words}")
+    ends = [end for end in facts.get("endpoints", []) if end["node"] == PUBLISHER]
+    if not any((end["kind"], end["topic"]) == ("publisher", "/robot_description") for end in ends):
+        return Finding(False, expected, f"no node {PUBLISHER} published /robot_description")
+    if not any(end["topic"] == "/clock" for end in ends):
+        measured = f"{PUBLISHER} ran without use_sim_time: it does not follow /clock"
+        return Finding(False, expected, measured, explanation="its transforms get the time of the computer")
+    if not any(bridge.ros_topic == "/clock" and bridge.to_ros for bridge in bridges(recording)):
+        return Finding(False, expected, "it waits for /clock, which no bridge carries to ROS")
+    return Finding(True, expected, "so it was")
+
+
+def joints_move(recording, parameters):
+    """Pass if the states of two joints arrive in ROS all the time, and transforms are made of them."""
+    expected = "/joint_states with two wheels or more, and /tf, at least 10 times a second"
+    least = 10 * (recording.ended_s - 0.5)
+    states = len(recording.signal("topics/joint_states/count"))
+    if not states:
+        made = [bridge for bridge in bridges(recording) if bridge.ros_topic == "/joint_states"]
+        if not made:
+            return Finding(False, expected, "no bridge has the ROS topic /joint_states")
+        bridge = made[0]
+        if bridge.direction == "ROS_TO_GZ":
+            return Finding(False, expected, f"{bridge.place}: /joint_states goes the wrong way, from ROS to Gazebo")
+        return Finding(False, expected, f"nothing came on the Gazebo topic {bridge.gz_topic}")
+    _, positions = recording.arrays("topics/joint_states/position")
+    if not positions or min(map(len, positions)) < 2:
+        return Finding(False, expected, "/joint_states holds fewer than two joints")
+    if states < least:
+        return Finding(False, expected, f"{states} messages came on /joint_states")
+    transforms = len(recording.signal("topics/tf/count"))
+    if transforms < least:
+        return Finding(False, expected, f"{states} messages came on /joint_states, and {transforms} on /tf")
+    return Finding(True, expected, f"{states} messages on /joint_states, {transforms} on /tf")

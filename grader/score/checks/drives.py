@@ -1,0 +1,138 @@
+"""`drives`: does a robot move as fast as it is told, and straight when it is told to go straight?
+
+kind = "drives"
+robot = "scout"           # name of the model
+command = "cmd_vel"       # topic of the script (see grader/exercise/trial.py), without the slash before it
+axis = "linear_x"         # or "angular_z": only what the script commands on this axis counts
+settle = 0.5              # optional: [s] after each command, to get up to speed
+within = 0.05             # optional: of the commanded speed, as a fraction
+drift = 0.1               # optional: [rad] that it may turn when told to go straight, [m] that it may move aside
+wheels = "joint_states"   # optional: ROS topic of the joints, to tell whether the wheels turned at all
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from gz_course.grader.exercise.toml_table import Table
+from gz_course.grader.printable import shown
+from gz_course.grader.record.reading import Recording, Signal
+from gz_course.grader.score.check import Finding, check_kind
+from gz_course.grader.score.launched import launch_facts
+from gz_course.grader.score.steps import told
+
+AXES = {"linear_x": ("linear_x", "yaw", "m/s"), "angular_z": ("angular_z", "distance", "rad/s")}
+STILL = 0.05  # of the commanded speed: less is no motion
+TURNED = 0.1  # [rad] that a wheel must turn to have moved
+
+
+@check_kind("drives")
+def drives(recording: Recording, parameters: Table) -> Finding:
+    """Pass if the mean speed in each stretch of the script is the commanded one, and nothing else moves."""
+    robot, topic = parameters.text("robot"), parameters.text("command")
+    axis = parameters.choice("axis", tuple(AXES))
+    settle, within = parameters.number("settle", 0.5, above=0), parameters.number("within", 0.05, above=0)
+    drift = parameters.number("drift", 0.1, above=0)
+    joints = parameters.text("wheels") if parameters.has("wheels") else ""
+    signal, side, unit = AXES[axis]
+    speed, aside = recording.signal(f"truth/{robot}/{signal}"), recording.signal(f"truth/{robot}/{side}")
+    commands = recording.signal(f"script/{topic}/{axis}")
+    straight = axis == "linear_x"
+    last = Finding(False, f"{robot} moves as commanded on /{topic}", "no command was given: the run ended before")
+    for start, end, wanted in _stretches(commands, recording.ended_s, settle):
+        moving, turning = _between(speed, start, end), _between(aside, start, end)
+        name = "forward speed" if straight else "turning rate"
+        expected = f"a {name} of {told(wanted)} {unit} from {start:g} to {end:g} s"
+        if not len(moving):
+            return Finding(False, expected, f"the world had no model {robot}", start)
+        mean = float(moving.mean())
+        measured = f"commanded {told(wanted)} {unit}, it had {told(mean)} {unit}"
+        ratio, swerve = mean / wanted, float(np.ptp(turning))
+        if abs(ratio - 1) > within:
+            why = _silent(recording, topic) if abs(ratio) < STILL else ""
+            if not why and abs(ratio) < STILL:
+                why = _stuck(recording, joints, start, end, swerve if straight else 0.0)
+            why = why or (_linear if straight else _angular)(ratio)
+            return Finding(False, expected, measured, start, explanation=why)
+        if swerve > drift:
+            if straight:
+                measured += f", and turned by {told(swerve)} rad"
+                why = (
+                    "it drives a curve: its wheels do not have the same radius or grip, or something drags on one side"
+                )
+            else:
+                measured += f", and left the spot by {told(swerve)} m"
+                why = "it does not turn about the middle between its wheels"
+            return Finding(False, expected, measured, start, explanation=why)
+        last = Finding(True, expected, measured, start)
+    return last
+
+
+def _stretches(commands: Signal, end: float, settle: float) -> Iterator[tuple[float, float, float]]:
+    """Yield start and end [s] of every stretch in which the robot was to move, and the commanded speed."""
+    times = [*(commands.times / 1e9), end]
+    for start, stop, wanted in zip(times[:-1], times[1:], commands.values, strict=True):
+        if wanted and start + settle < stop:
+            yield round(float(start + settle), 3), round(float(stop), 3), float(wanted)
+
+
+def _between(signal: Signal, start: float, end: float) -> np.ndarray:
+    times = signal.times / 1e9
+    return np.asarray(signal.values[(times >= start) & (times <= end)])
+
+
+def _silent(recording: Recording, topic: str) -> str:
+    """Return that the commands never arrived in Gazebo; empty if they did."""
+    taken = recording.signal(f"script/{topic}/taken").values
+    if taken.any():
+        return ""
+    return f"no bridge carried the commands on /{topic} (geometry_msgs/msg/Twist) from ROS to Gazebo"
+
+
+def _stuck(recording: Recording, joints: str, start: float, end: float, swerve: float) -> str:
+    """Return why a robot that got its commands stays where it is."""
+    if swerve > 0.5:
+        return "told to go straight, it turned on the spot: the axes of its wheels point in opposite directions"
+    said = launch_facts(recording).get("model_warnings", [])
+    if driver := next((text for text in said if "DiffDrive" in text or "left out" in text), ""):
+        return f"gz sim says of the robot: {shown(driver, 300)}"
+    if not joints:
+        return "it did not move"
+    times, positions = recording.arrays(f"topics/{joints}/position")
+    rows = [row for time, row in zip(times / 1e9, positions, strict=True) if start <= time <= end]
+    if len({len(row) for row in rows}) != 1:
+        return "it did not move, and no states of its joints came to tell whether its wheels turned"
+    if np.ptp(np.array(rows), axis=0).max(initial=0.0) < TURNED:
+        return (
+            "its wheels did not turn: no plugin drives them, or the plugin listens to another topic or drives joints "
+            "of other names"
+        )
+    return "its wheels turned, but did not roll along the ground: they turn about the wrong axis, or hang in the air"
+
+
+def _linear(ratio: float) -> str:
+    if abs(ratio + 1) < 0.2:
+        return "it drives backwards: the axes of both wheels point the wrong way (to the left is forward)"
+    if ratio < 0:
+        return "it drives backwards, and at another speed"
+    return (
+        f"it drives {told(ratio)} times as fast as it is told: the plugin's <wheel_radius> is {told(1 / ratio)} times "
+        "the radius of its wheels, or a limit of the plugin, the weight or the grip holds it back"
+        if ratio < 1
+        else f"it drives {told(ratio)} times as fast as it is told: the plugin's <wheel_radius> is {told(1 / ratio)} "
+        "times the radius of its wheels"
+    )
+
+
+def _angular(ratio: float) -> str:
+    if abs(ratio) < STILL:
+        return "it did not turn"
+    if ratio < 0:
+        return "it turns the wrong way: <left_joint> and <right_joint> of the plugin are exchanged, or the wheels are"
+    more = ", or something holds it back: a caster that grips the ground" if ratio < 1 else ""
+    return (
+        f"it turns {told(ratio)} times as fast as it is told: the plugin's <wheel_separation> is {told(ratio)} times "
+        f"the distance of its wheels{more}"
+    )
