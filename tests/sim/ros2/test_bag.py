@@ -98,7 +98,7 @@ def test_an_ended_recorder_leaves_a_bag_that_is_played(programs, ros_node, spin_
     if number == signal.SIGKILL:
         heard = []
         ros_node.create_subscription(Twist, "/cmd_vel", heard.append, 10)
-        player = programs.ros2("bag", "burst", ended.path)
+        player = programs.ros2("bag", "play", ended.path)
         spin_until(lambda: len(heard) >= ended.metadata.count and player.process.poll() is not None, "all messages")
         assert player.wait() == 0
 
