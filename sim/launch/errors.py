@@ -17,7 +17,8 @@ from contextvars import ContextVar
 from gz_course.sim.launch.ament_prefix import nearest_package_of
 
 _OWN_FOLDER = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))  # noqa: PTH100, PTH120 - at every start
-_OWN_ROOMS = ("launch", "launch_ros", "launch_testing", "launch_testing_ros", "launch_xml", "launch_yaml", "ros2")
+_LAUNCH_ROOMS = ("launch", *(f"launch_{part}" for part in ("pytest", "ros", "testing", "testing_ros", "xml", "yaml")))
+_OWN_ROOMS = (*_LAUNCH_ROOMS, "ros2")
 _OWN_FOLDERS = tuple(os.path.join(_OWN_FOLDER, name) + os.sep for name in _OWN_ROOMS)  # noqa: PTH118
 _LIBRARIES = tuple(
     folder + os.sep

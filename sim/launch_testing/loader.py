@@ -52,7 +52,7 @@ class TestRun:
         result = description(ready_fn=ready_fn) if old_style else description()
         launch_description, context = result if isinstance(result, tuple) else (result, {})
         if not old_style:
-            ready = next(_ready_actions(launch_description.entities), None)
+            ready = next(ready_actions(launch_description.entities), None)
             if ready is None:
                 raise ValueError(
                     "generate_test_description functions must return "
@@ -116,13 +116,14 @@ class _Loader(unittest.TestLoader):
         return super().loadTestsFromTestCase(own)
 
 
-def _ready_actions(entities: Iterable[Any]) -> Iterator[ReadyToTest]:
+def ready_actions(entities: Iterable[Any]) -> Iterator[ReadyToTest]:
+    """Yield all ReadyToTest that are known before the launch runs."""
     for entity in entities:
         if isinstance(entity, ReadyToTest):
             yield entity
-        yield from _ready_actions(entity.describe_sub_entities())
+        yield from ready_actions(entity.describe_sub_entities())
         for _, conditional in entity.describe_conditional_sub_entities():
-            yield from _ready_actions(conditional)
+            yield from ready_actions(conditional)
 
 
 def _with_arguments(function: Callable[..., Any], arguments: Mapping[str, Any]) -> Callable[..., Any]:

@@ -33,6 +33,18 @@ def installed_class(type_name: str) -> Any:
         raise BagError(f"the type {type_name} is not known here: {str(error).splitlines()[0]}") from None
 
 
+def service_class(event_type: str) -> Any:
+    """Return the class of a service for the type of its events, `package/srv/Name_Event`. Raises BagError."""
+    name = event_type.removesuffix("_Event")
+    match = _NAME.fullmatch(name)
+    if match is None or match[2] != "srv" or name == event_type:
+        raise BagError(f"'{event_type}' is not the type of the events of a service")
+    try:
+        return getattr(importlib.import_module(f"{match[1]}.srv"), match[3])
+    except (ImportError, AttributeError) as error:
+        raise BagError(f"the service {name} is not known here: {str(error).splitlines()[0]}") from None
+
+
 def installed_hash(type_name: str) -> str:
     """Return the hash of a type as it is installed here, an empty text if it is unknown."""
     try:

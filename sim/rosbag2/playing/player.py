@@ -18,12 +18,13 @@ from rosgraph_msgs.msg import Clock
 from gz_course.sim.rosbag2.errors import BagError
 from gz_course.sim.rosbag2.playing.playback_clock import PlaybackClock
 from gz_course.sim.rosbag2.playing.read_ahead import ReadAhead
+from gz_course.sim.rosbag2.playing.service_requests import ServiceRequests
 from gz_course.sim.rosbag2.qos import to_offer
 from gz_course.sim.rosbag2.selection import SERVICE_EVENTS, Selection
 from gz_course.sim.rosbag2.storage.bag import Bag
 from gz_course.sim.rosbag2.storage.mcap_reading import Message
 from gz_course.sim.rosbag2.storage.offered_qos import offer_like
-from gz_course.sim.rosbag2.stored_types import installed_hash
+from gz_course.sim.rosbag2.stored_types import installed_hash, service_class
 
 _LONGEST_WAIT = 0.5  # [s] at a time, so that an interruption is not missed
 _ACKNOWLEDGED = 1.0  # [s] for the last messages to arrive
@@ -49,6 +50,8 @@ class PlayOptions:
     remapped: Mapping[str, str] = field(default_factory=dict)
     overrides: Mapping[str, Any] = field(default_factory=dict)
     acknowledged: float | None = None
+    requests_of: str = ""
+    """Whose events of services are sent as requests (`SOURCES`); otherwise events are published as they are."""
 
 
 class Player:
@@ -68,12 +71,13 @@ class Player:
         self._published = 0
         self._stopped = False
         self._publishers: dict[str, Any] = {}
+        self._requests: dict[str, ServiceRequests] = {}
         self._clock_publisher: Any = None
         self._make_publishers(message_class)
 
     def topics(self) -> list[str]:
         """Return the topics of the bag that are played."""
-        return sorted(self._publishers)
+        return sorted([*self._publishers, *self._requests])
 
     def play(self) -> None:
         """Play to the end, or until `stop`. Raises BagError if the bag cannot be read on."""
@@ -161,7 +165,7 @@ class Player:
         options = self._options
         for name, topic in sorted(self._bag.topics.items()):
             target = options.remapped.get(name, name)
-            if not options.selection.takes(name, topic.type) or name.endswith(SERVICE_EVENTS):
+            if not options.selection.takes(name, topic.type):
                 continue
             if options.clock_hz and target == _CLOCK:
                 self._warn(f"'{name}' of the bag is not played, because --clock publishes it")
@@ -170,6 +174,10 @@ class Player:
                 self._warn(f"'{name}' is not played: its messages are in '{topic.serialization_format}', not in 'cdr'")
                 continue
             try:
+                if options.requests_of and name.endswith(SERVICE_EVENTS):
+                    service = service_class(topic.type)
+                    self._requests[name] = ServiceRequests(self._node, target, service, options.requests_of)
+                    continue
                 kind = message_class(topic.type)
             except BagError as error:
                 self._warn(f"Ignoring a topic '{name}', reason: {error}")
@@ -194,7 +202,7 @@ class Player:
     def _play_through(self) -> None:
         begin = self._begin
         while True:
-            with ReadAhead(self._bag.messages(self._publishers, begin), self._options.read_ahead) as messages:
+            with ReadAhead(self._bag.messages(self.topics(), begin), self._options.read_ahead) as messages:
                 for message in messages:
                     if message.received > self._end or not self._wait_for(message):
                         break
@@ -224,7 +232,7 @@ class Player:
         if self._clock_publisher is not None and self._options.clock_at.takes(topic, ""):
             self._publish_time(message.received)
         try:
-            self._publishers[topic].publish(message.data)
+            (self._publishers.get(topic) or self._requests[topic]).publish(message.data)
         except (RuntimeError, ValueError, TypeError) as error:
             raise BagError(f"a message of '{topic}' cannot be published: {str(error).splitlines()[0]}") from None
         with self._changed:
@@ -247,11 +255,13 @@ class Player:
             return not self._stopped
 
     def _wait_for_acknowledgment(self) -> None:
-        """Wait until reliable subscribers have the last messages."""
+        """Wait until reliable subscribers have the last messages, and services have answered."""
         patience = _ACKNOWLEDGED if self._options.acknowledged is None else self._options.acknowledged
         for publisher in self._publishers.values():
             if publisher.qos_profile.reliability == ReliabilityPolicy.RELIABLE and not self._stopped:
                 publisher.wait_for_all_acked(Duration(seconds=patience) if patience else Duration(seconds=2**31))
+        for requests in self._requests.values():
+            requests.wait(patience or _ACKNOWLEDGED)
 
     def _tick(self) -> None:
         """Publish `/clock` at its rate; the time stands still while playing is paused."""

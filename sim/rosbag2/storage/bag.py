@@ -115,9 +115,7 @@ class Bag:
         if stored is None:
             there = {entry.name for entry in os.scandir(self.path) if entry.name.endswith(_ENDS)}
             # Compressing may have been interrupted before the whole file was removed.
-            found = [
-                name for name in there if not {name.removesuffix(end) for end in compression.SUFFIXES} & there - {name}
-            ]
+            found = [name for name in there if name.endswith(_WHOLE) or Path(name).stem not in there]
             if not found:
                 raise BagError(f"{self.path} is not a bag: it has neither {FILE} nor .mcap or .db3 files")
             return sorted(found, key=lambda name: (len(name), name))

@@ -132,6 +132,12 @@ def test_no_module_only_forwards_to_another():
         "from launch_ros.remap_rule_type import SomeRemapRules",
         "from launch_ros.ros_adapters import get_ros_node, get_ros_adapter",
         "from launch_ros.actions import LifecycleTransition, RosTimer, SetROSLogDir",
+        "import launch_testing; launch_testing.actions.ReadyToTest, launch_testing.asserts.assertInStdout",
+        "import launch_testing; launch_testing.post_shutdown_test, launch_testing.parametrize, launch_testing.util",
+        "from launch_testing.util import KeepAliveProc; from launch_testing.markers import retry_on_failure",
+        "from launch_testing.tools import basic_output_filter; from launch_testing.tools.text import build_text_match",
+        "from launch_testing_ros import WaitForTopics; from launch_testing_ros.tools import basic_output_filter",
+        "import launch_pytest; launch_pytest.fixture; from launch_pytest.tools import process; launch_pytest.actions",
         "from launch_ros.actions.lifecycle_node import LifecycleNode",
         "from launch.launch_description_sources.any_launch_file_utilities import "
         "get_launch_description_from_any_launch_file",

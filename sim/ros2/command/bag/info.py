@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 from gz_course.sim.ros2.bag import add_bag_path, bag_errors, opened
+from gz_course.sim.rosbag2.selection import SERVICE_EVENTS
 from gz_course.sim.rosbag2.summary import summary
 
 
@@ -18,6 +19,7 @@ def main(arguments: argparse.Namespace) -> None:
     with bag_errors():
         bag = opened(arguments.bag_path)
         if arguments.topic_name:
-            print("\n".join(sorted(topic.name for topic in bag.metadata.topics)))
+            names = sorted(topic.name for topic in bag.metadata.topics if not topic.name.endswith(SERVICE_EVENTS))
+            print("\n".join(names))
         else:
             print(summary(bag.metadata, bag.size, verbose=arguments.verbose))

@@ -19,8 +19,9 @@ from gz_course.sim.ros2.option_values import positive_number, rate, seconds, who
 from gz_course.sim.ros_program.shared_memory import segment_for_images
 from gz_course.sim.rosbag2 import keys
 from gz_course.sim.rosbag2.playing.player import Player, PlayOptions
+from gz_course.sim.rosbag2.playing.service_requests import SOURCES
 from gz_course.sim.rosbag2.qos import overrides
-from gz_course.sim.rosbag2.selection import Selection, absolute
+from gz_course.sim.rosbag2.selection import SERVICE_EVENTS, Selection, absolute
 from gz_course.sim.rosbag2.services import offer_player
 from gz_course.sim.rosbag2.storage.bag import Bag
 from gz_course.sim.rosbag2.stored_types import StoredTypes
@@ -48,6 +49,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("-e", "--regex", default="", help="Play topics whose name contains this regular expression")
     add("-x", "--exclude-regex", default="", help="Leave out topics whose name contains this regular expression")
     add("--exclude-topics", nargs="+", default=[], metavar="TOPIC", help="Topics to leave out")
+    add("--services", nargs="+", default=[], metavar="SERVICE", help="Services whose events or requests are played")
+    add("--exclude-services", nargs="+", default=[], metavar="SERVICE", help="Services to leave out")
+    add("--publish-service-requests", action="store_true", help="Call services again instead of playing their events")
+    add(
+        "--service-requests-source",
+        choices=SOURCES,
+        default="service_introspection",
+        help="Whose events hold the requests (default: service_introspection)",
+    )
     add("-m", "--remap", nargs="+", default=[], metavar="OLD:=NEW", help="Publish topics under other names")
     add("--qos-profile-overrides-path", type=Path, metavar="FILE", help="YAML file: topic -> QoS profile to offer")
     add(
@@ -146,6 +156,9 @@ def _images_fit() -> Iterator[None]:
 def _options(arguments: argparse.Namespace) -> PlayOptions:
     clock_topics = tuple(absolute(name) for name in arguments.clock_topics)
     names = tuple(absolute(name) for name in arguments.topics)
+    names += tuple(absolute(name) + SERVICE_EVENTS for name in arguments.services)
+    without = [absolute(name) for name in arguments.exclude_topics]
+    without += [absolute(name) + SERVICE_EVENTS for name in arguments.exclude_services]
     until = max(0, arguments.playback_until_nsec, int(arguments.playback_until_sec * _NANOSECONDS))
     acknowledged = arguments.wait_for_all_acked
     with bag_errors():
@@ -155,7 +168,7 @@ def _options(arguments: argparse.Namespace) -> PlayOptions:
                 topics=names,
                 regex=arguments.regex,
                 without_regex=arguments.exclude_regex,
-                without_topics=tuple(absolute(name) for name in arguments.exclude_topics),
+                without_topics=tuple(without),
             ),
             rate=arguments.rate,
             loop=arguments.loop,
@@ -169,6 +182,7 @@ def _options(arguments: argparse.Namespace) -> PlayOptions:
             read_ahead=arguments.read_ahead_queue_size,
             remapped=dict(_remapped(text) for text in arguments.remap),
             overrides=overrides(path) if (path := arguments.qos_profile_overrides_path) else {},
+            requests_of=arguments.service_requests_source if arguments.publish_service_requests else "",
             acknowledged=None if acknowledged is None else acknowledged / 1000,
         )
 

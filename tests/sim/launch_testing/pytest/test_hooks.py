@@ -8,6 +8,7 @@ from importlib.metadata import entry_points
 from pathlib import Path
 
 ROOT = Path(__file__).parents[4]
+PLUGIN = "launch_pytest = gz_course.sim.launch_pytest.plugin\n"
 HOOKS = "gz_course.sim.launch_testing.pytest.hooks"
 MARKED = """
 import sys
@@ -63,5 +64,5 @@ def test_an_installation_brings_the_plug_in():
     """The plug-in is told by metadata of its own, in a folder beside those of the course."""
     files = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["hatch"]["build"]["targets"]["wheel"]
     (source,) = (source for source, target in files["force-include"].items() if target.endswith(".egg-info"))
-    assert (ROOT / source / "entry_points.txt").read_text() == f"[pytest11]\nlaunch_testing = {HOOKS}\n"
+    assert (ROOT / source / "entry_points.txt").read_text() == f"[pytest11]\n{PLUGIN}launch_testing = {HOOKS}\n"
     assert "\nName: " in (ROOT / source / "PKG-INFO").read_text()
