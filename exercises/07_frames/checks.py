@@ -143,7 +143,7 @@ def scans(recording):
 
 
 def with_points(recording, found):
-    """Give each scan its point: the one with its stamp, or, if more points are right then, the one that came after it.
+    """Give each scan its point: the one with its stamp, or the one that came after it if only then nearly all are right.
 
     Who keeps a scan until its transform is there answers when the next one comes. Of several points for one scan, that
     which is farthest from the truth counts.
@@ -165,7 +165,7 @@ def with_points(recording, found):
             if np.isnan(given[scan, 0]) or worse:
                 given[scan], answered[scan] = point, time
         met = int(np.sum(near(given, truth, TOLERANCE)))
-        if best is None or met > best[0]:
+        if best is None or (met > best[0] and met >= SHARE * len(times)):
             best = met, replace(found, points=given, answered=answered, by_stamp=by_stamp)
     return best[1]
 
