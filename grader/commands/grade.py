@@ -76,7 +76,9 @@ def command(
     beside = out / f"{chosen.name}.html" if page and "html" not in reports else None
     outputs = Outputs(reports | ({"html": beside} if beside else {}))
     graded = submission or chosen.starter
-    outputs.check([recording_path(chosen, trial, out) for trial in asked], [graded, graded / chosen.file])
+    outputs.check(
+        [recording_path(chosen, trial, out) for trial in asked], [graded, *(graded / name for name in chosen.parts)]
+    )
     if own:
         check_writable(out / BEST)
     report = grade(chosen, submission, out, seed=seed, pace=pace, trials=asked, sandbox=level, started=STARTED)

@@ -48,7 +48,7 @@ def print_rubric(exercise: Exercise, console: Console, best: str) -> None:
     """Print what an exercise asks for, the best score so far and a line for each check in its manifest."""
     summary = "\n\n".join(" ".join(part.split()) for part in exercise.summary.split("\n\n"))
     console.print(f"[bold]{exercise.name}[/bold]  {escape(exercise.title)}\n\n{escape(summary)}\n")
-    console.print(f"file: {escape(exercise.file)}", highlight=False)
+    console.print(f"file: {escape(', '.join(exercise.parts))}", highlight=False)
     names = ", ".join(trial.name for trial in exercise.trials)
     console.print(f"trials: {names}; a check passes if it passes in each of them\n", highlight=False)
     table = plain_table("points", "check", "counts only if")

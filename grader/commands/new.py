@@ -11,7 +11,7 @@ from gz_course.grader.exercise.scaffold.exercise import scaffold
 
 
 def command(
-    name: Annotated[str, typer.Argument(help="Two digits and words, such as 06_wall_follower.")],
+    name: Annotated[str, typer.Argument(help="Two digits and words, such as 20_wall_follower.")],
 ) -> None:
     """Create an exercise: write both halves of a working one, to be edited."""
     root = course_root()

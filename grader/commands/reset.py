@@ -17,6 +17,7 @@ def command(
     """Put the starter of an exercise back. Your own file is kept, and the command says where."""
     chosen = find_exercise(exercise)
     kept = put_back(chosen, runs_folder() / chosen.name)
-    print(f"{chosen.starter} is the starter again.")
+    for name in chosen.parts:
+        print(f"{chosen.folder / name} is the starter again.")
     if kept is not None:
-        print(f"Your file is kept: {kept}\nGrade it with `course grade {chosen.name} --submission {kept.parent}`.")
+        print(f"Your work is kept: {kept}\nGrade it with `course grade {chosen.name} --submission {kept}`.")

@@ -28,7 +28,7 @@ def bundle(exercise: Exercise, trials: str = "public") -> tuple[dict[str, bytes]
     files = _files(exercise.folder, f"exercises/{exercise.name}", set())
     private = f"solutions/{exercise.name}"
     if trials in ("hidden", "all") and exercise.twin.is_dir():
-        files |= _files(exercise.twin, private, SOLVED | {exercise.file})
+        files |= _files(exercise.twin, private, SOLVED | set(exercise.parts))
     if trials not in ("public", "hidden", "all"):
         path = Path(trials)
         worlds = {Path(trial.world) for trial in load_trials(path) if trial.world is not None}
@@ -58,7 +58,12 @@ def _files(folder: Path, inside: str, without: set[str]) -> dict[str, bytes]:
     found: dict[str, bytes] = {}
     for path in sorted(folder.rglob("*")):
         parts = path.relative_to(folder).parts
-        if parts[0] in without or any(is_junk(part) for part in parts) or path.name.endswith(TRACES):
+        if (
+            parts[0] in without
+            or "/".join(parts) in without
+            or any(is_junk(part) for part in parts)
+            or path.name.endswith(TRACES)
+        ):
             continue
         if path.is_file():
             found["/".join((inside, *parts))] = _read(path)

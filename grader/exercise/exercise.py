@@ -9,9 +9,10 @@ from __future__ import annotations
 import hashlib
 import os
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
 
+from gz_course.grader.course_folder.material import material
 from gz_course.grader.errors import ManifestError, UsageError
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.exercise.trial import PUBLIC, ScriptedCommand, Trial, read_trials
@@ -42,7 +43,7 @@ class Exercise:
     title: str
     summary: str
     kind: str  # of submission: a folder in `kinds/`
-    file: str  # the file a submission consists of
+    file: str  # the file that is started
     world: str
     robot: str
     duration: float  # [s] simulated
@@ -53,6 +54,7 @@ class Exercise:
     script: tuple[ScriptedCommand, ...]
     checks: tuple[CheckSpec, ...]
     bridge_parameters: dict[str, str] = field(default_factory=dict)  # ROS parameters of the bridge
+    files: tuple[str, ...] = ()  # further files that students edit, by their path beside `file`
     trials: tuple[Trial, ...] = (PUBLIC,)  # the public ones; a single one without parameters if the manifest lists none
 
     @property
@@ -72,20 +74,25 @@ class Exercise:
         return sum(check.points for check in self.checks)
 
     @property
+    def parts(self) -> tuple[str, ...]:
+        """The files a submission consists of, that which is started first."""
+        return (self.file, *self.files)
+
+    @property
     def starter(self) -> Path:
-        """The file students begin with and edit."""
+        """The file students begin with and edit; the others of `parts` lie beside it."""
         return self.folder / self.file
 
 
 def course_root() -> Path:
-    """Return the folder that holds `exercises/`: COURSE_ROOT, the nearest one from here upwards, or the repository."""
+    """Return the folder that holds `exercises/`: COURSE_ROOT, the nearest from here upwards, or that of this code."""
     if given := os.environ.get("COURSE_ROOT"):
         return Path(given)
     here = Path.cwd()
     for folder in (here, *here.parents):
         if any((folder / "exercises").glob(f"*/{MANIFEST}")):
             return folder
-    return Path(__file__).parents[2]
+    return material()
 
 
 def exercise_names(root: Path) -> list[str]:
@@ -129,6 +136,7 @@ def load_exercise(folder: Path) -> Exercise:
         kind=kind,
         file=manifest.text("file"),
         world=_world(folder, run.text("world")),
+        files=tuple(manifest.texts("files")) if manifest.has("files") else (),
         robot=run.text("robot"),
         duration=run.number("duration", above=0),
         tick=run.number("tick", 0.01, above=0),
@@ -142,6 +150,8 @@ def load_exercise(folder: Path) -> Exercise:
     )
     if Path(exercise.file).name != exercise.file:
         manifest.refuse("file", "the name of a file, without folders")
+    if any(not _is_below(name) for name in exercise.files) or len(set(exercise.parts)) < len(exercise.parts):
+        manifest.refuse("files", "paths of further files below the exercise's folder, each once")
     for table in (run, manifest):
         table.end()
     ids = [check.id for check in exercise.checks]
@@ -157,6 +167,11 @@ def _world(folder: Path, name: str) -> str:
 
 def _texts(table: Table) -> dict[str, str]:
     return {key: table.text(key) for key in table.names()}
+
+
+def _is_below(name: str) -> bool:
+    path = PurePosixPath(name)
+    return bool(path.parts) and not path.is_absolute() and ".." not in path.parts and str(path) == name
 
 
 def _check(path: Path, table: Table) -> CheckSpec:

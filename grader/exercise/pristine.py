@@ -9,21 +9,26 @@ import subprocess
 from pathlib import Path
 
 from gz_course.grader.errors import UsageError
+from gz_course.grader.exercise.bundle import write
 from gz_course.grader.exercise.exercise import Exercise
 
 STARTERS = ".starters"
 REVISIONS = ("@{upstream}", "HEAD")  # a student may have committed own work on top of what was handed out
 
 
-def pristine(exercise: Exercise) -> bytes:
-    """Return the starter as it was handed out. Raises UsageError if there is neither a copy of it nor git's."""
-    kept = exercise.folder.parents[1] / STARTERS / exercise.name / exercise.file
+def pristine(exercise: Exercise) -> dict[str, bytes]:
+    """Return the starter as it was handed out, by file. Raises UsageError if there is neither a copy nor git's."""
+    return {name: _pristine(exercise, name) for name in exercise.parts}
+
+
+def _pristine(exercise: Exercise, name: str) -> bytes:
+    kept = exercise.folder.parents[1] / STARTERS / exercise.name / name
     if kept.is_file():
         return kept.read_bytes()
     for revision in REVISIONS:
         try:
             shown = subprocess.run(
-                ["git", "-C", exercise.folder, "show", f"{revision}:./{exercise.file}"],
+                ["git", "-C", exercise.folder, "show", f"{revision}:./{name}"],
                 stdin=subprocess.DEVNULL,
                 capture_output=True,
                 check=False,
@@ -39,22 +44,22 @@ def pristine(exercise: Exercise) -> bytes:
 
 
 def put_back(exercise: Exercise, keep: Path) -> Path | None:
-    """Put the starter back; return where the file that was there is kept now, below the folder `keep`.
+    """Put the starter back; return the folder below `keep` where the files that were there are kept now.
 
     None if nothing was there, or the starter itself. Raises UsageError if a file cannot be written.
     """
     starter = pristine(exercise)
-    place, kept = exercise.starter, None
+    kept = None
     try:
-        before = place.read_bytes() if place.is_file() else starter
-        if before != starter:
+        places = {name: exercise.folder / name for name in starter}
+        before = {name: place.read_bytes() for name, place in places.items() if place.is_file()}
+        if any(content != starter[name] for name, content in before.items()):
             number = 1
             while (folder := keep / f"kept-{number}").exists():
                 number += 1
-            folder.mkdir(parents=True)
-            kept = folder / exercise.file
-            kept.write_bytes(before)
-        place.write_bytes(starter)
+            write(before, folder)
+            kept = folder
+        write(starter, exercise.folder)
     except OSError as error:
         raise UsageError(f"cannot write {error.filename}: {error.strerror}") from None
     return kept

@@ -10,20 +10,20 @@ import contextlib
 import json
 import shutil
 import tempfile
-from collections.abc import Iterator
 from pathlib import Path
 
+from gz_course.grader.course_folder.material import CHAPTER_RULES, PARTS, plain_files
+from gz_course.grader.course_folder.readme import FROM_A_COPY, readme
 from gz_course.grader.errors import ManifestError, UsageError
 from gz_course.grader.exercise import Exercise, exercise_names, find_exercise
 from gz_course.grader.exercise.pristine import STARTERS
 
 CHECKOUT = Path(__file__).parents[2]
-COURSE = ("exercises", "chapters")
 CODE = ("sim", "grader", "public")
 FILES = ("pyproject.toml", "constraints.txt", "LICENSE", ".gitignore")
 # For authors only. The scaffold of an exercise holds its solution.
 AUTHORS_ONLY = (
-    "chapters/README.md",
+    str(CHAPTER_RULES),
     "grader/exercise/scaffold",
     "grader/release",
     "grader/package",
@@ -31,8 +31,6 @@ AUTHORS_ONLY = (
     "grader/commands/package.py",
     "grader/commands/release.py",
 )
-TRACES = ("__pycache__", "*.pyc", "*.rrd", "*.rrd.part", "runs", "recorded_run", "*.egg-info", "*~", "*.orig", "*.bak")
-README = Path(__file__).with_name("README.md.template")
 
 
 def release(root: Path, target: Path) -> list[str]:
@@ -48,7 +46,7 @@ def release(root: Path, target: Path) -> list[str]:
     exercises = [find_exercise(name, root) for name in exercise_names(root)]
     if not exercises:
         raise UsageError(f"there are no exercises in {root / 'exercises'}, so there is nothing to release")
-    target = _usable(target, [*(root / name for name in COURSE), *(code / name for name in CODE)])
+    target = _usable(target, [*(root / name for name in PARTS), *(code / name for name in CODE)])
     copy = None
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
@@ -88,41 +86,31 @@ def _usable(target: Path, sources: list[Path]) -> Path:
 
 def _fill(copy: Path, root: Path, code: Path, exercises: list[Exercise]) -> None:
     private = [lines for exercise in exercises for lines in _private_files(exercise)]
-    for base, names in ((root, COURSE), (code, CODE)):
+    for base, names in ((root, PARTS), (code, CODE)):
         for name in names:
-            for path in _files(base / name):
+            for path in plain_files(base / name):
                 inside = path.relative_to(base)
                 if not any(inside.is_relative_to(each) for each in AUTHORS_ONLY):
-                    if name in COURSE:
+                    if name in PARTS:
                         _refuse_a_solution(path, inside, private)
                     (copy / inside).parent.mkdir(parents=True, exist_ok=True)
                     shutil.copy(path, copy / inside)
     for name in FILES:
         shutil.copy(code / name, copy / name)
     for exercise in exercises:
-        kept = copy / STARTERS / exercise.name / exercise.file
-        kept.parent.mkdir(parents=True)
-        shutil.copy(copy / exercise.starter.relative_to(root), kept)
-    (copy / "README.md").write_text(readme(copy, exercises), encoding="utf-8")
-
-
-def _files(folder: Path) -> Iterator[Path]:
-    """Return the files of a folder except hidden ones and caches. Raises ManifestError for a link out of it."""
-    for path in sorted(folder.rglob("*")):
-        inside = path.relative_to(folder)
-        parents = [inside, *inside.parents][:-1]
-        if any(each.name.startswith(".") or any(each.match(trace) for trace in TRACES) for each in parents):
-            continue
-        if path.is_symlink() and not path.resolve().is_relative_to(folder.resolve()):
-            raise ManifestError(f"{path} is a link out of {folder}, which students do not get; copy the file instead")
-        if path.is_file():
-            yield path
+        for name in exercise.parts:
+            kept = copy / STARTERS / exercise.name / name
+            kept.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(copy / exercise.folder.relative_to(root) / name, kept)
+    notebooks = [path.relative_to(copy).as_posix() for path in sorted(copy.glob("chapters/*/*.ipynb"))]
+    (copy / "README.md").write_text(readme(exercises, FROM_A_COPY, notebooks), encoding="utf-8")
 
 
 def _private_files(exercise: Exercise) -> list[tuple[Path, frozenset[str]]]:
     """Return the solution and the accepted variants of an exercise, each with its lines."""
     folder = exercise.twin
-    found = [folder / exercise.file, *sorted(folder.glob(f"accepted/*/{exercise.file}"))]
+    found = [folder / name for name in exercise.parts]
+    found += [path for name in exercise.parts for path in sorted(folder.glob(f"accepted/*/{name}"))]
     return [(path, lines) for path in found if path.is_file() and (lines := _lines(path))]
 
 
@@ -142,26 +130,3 @@ def _lines(path: Path) -> frozenset[str]:
             text = "\n".join("".join(cell["source"]) for cell in json.loads(text)["cells"])
     lines = (line.strip() for line in text.splitlines())
     return frozenset(line for line in lines if line and not line.startswith(("#", '"""')))
-
-
-def readme(copy: Path, exercises: list[Exercise]) -> str:
-    """Return the students' README: the exercises in this copy and how to work with them."""
-    rows = [f"| `{e.name}` | {e.title} | `exercises/{e.name}/{e.file}` | {e.max_score:g} |" for e in exercises]
-    table = "\n".join(["| exercise | task | file you edit | points |", "|---|---|---|---|", *rows])
-    text = README.read_text(encoding="utf-8").replace("@EXERCISES@", table).replace("@FIRST@", exercises[0].name)
-    return text.replace("@CHAPTERS@", _chapters(copy))
-
-
-def _chapters(copy: Path) -> str:
-    notebooks = sorted(path.relative_to(copy) for path in copy.glob("chapters/*/*.ipynb"))
-    if not notebooks:
-        return ""
-    return f"""
-## Read a chapter
-
-Each chapter in `chapters/` is a notebook that leads to the exercise of the same name:
-
-```
-jupyter lab {notebooks[0]} --ServerApp.root_dir="$PWD"
-```
-"""

@@ -51,12 +51,17 @@ class Selection(NamedTuple):
 def take_in(exercise: Exercise, path: Path | None) -> Submission:
     """Read the submission at `path`: the expected file, or a folder or archive with it; None: the student's copy.
 
-    A folder or an archive comes with everything in it, a file alone. Raises UsageError if there is nothing to read,
-    RefusedError if it must not be read.
+    A folder or an archive comes with everything in it, a file with those of `exercise.files` that lie beside it. Raises
+    UsageError if there is nothing to read or a file of the exercise is missing, RefusedError if it must not be read.
     """
     path, main, files = read_submission(exercise, path if path is not None else exercise.folder)
-    fault = find_kind(exercise.kind).fault(main, files[main])
-    return Submission(path.resolve(), main, hashlib.sha256(files[main]).hexdigest(), fault, files)
+    kind = find_kind(exercise.kind)
+    judged = [main, *(name for name in exercise.files if name.endswith(kind.suffixes))]
+    fault = next((found for name in judged if (found := kind.fault(name, files[name]))), None)
+    total = hashlib.sha256(files[main])
+    for name in exercise.files:
+        total.update(hashlib.sha256(files[name]).digest())
+    return Submission(path.resolve(), main, total.hexdigest(), fault, files)
 
 
 def read_submission(exercise: Exercise, path: Path) -> tuple[Path, str, dict[str, bytes]]:
@@ -73,9 +78,32 @@ def read_submission(exercise: Exercise, path: Path) -> tuple[Path, str, dict[str
     archive = is_archive(path.name) and not path.name.endswith(suffixes)
     data = _read(path, exercise.file, suffixes, LARGEST_ARCHIVE if archive else LARGEST)
     if not archive:
-        return path, path.name, {path.name: data}
+        files = {path.name: data} | _beside(exercise, path)
+        _require(exercise, files, str(path))
+        return path, path.name, files
     chosen = select(open_archive(path.name, data), exercise, str(path))
     return path, chosen.main, chosen.files
+
+
+def _beside(exercise: Exercise, path: Path) -> dict[str, bytes]:
+    """Return those of the exercise's further files that lie beside a submitted file; a link is none of them."""
+    found = {}
+    for name in exercise.files:
+        member = folder_member(path.parent / name)
+        if member is not None and member.refusal is None:
+            found[name] = _content(member, name, str(path.parent), LARGEST)
+    return found
+
+
+def _require(exercise: Exercise, files: dict[str, bytes], where: str) -> None:
+    """Raise UsageError naming the first of the exercise's further files that was not handed in."""
+    for name in exercise.files:
+        if name not in files:
+            near = did_you_mean(name, [shown(each) for each in files], listing="files there are")
+            raise UsageError(
+                f"{where} comes without {name}: {exercise.name} asks for {', '.join(exercise.parts)}; hand them in "
+                f"together, in a folder or an archive{near}"
+            )
 
 
 def folder_tree(folder: Path) -> Tree:
@@ -155,6 +183,7 @@ def select(tree: Tree, exercise: Exercise, where: str, *, nested: bool = False) 
     files = {short: _content(tree[name], name, where, LARGEST) for short, name in sorted(chosen.items())}
     if sum(map(len, files.values())) > LARGEST_FOLDER:
         raise RefusedError(f"{where} is too large: at most {LARGEST_FOLDER} bytes are accepted in a folder")
+    _require(exercise, files, where)
     return Selection(base, PurePosixPath(main).name, files)
 
 

@@ -11,7 +11,8 @@ class Submission:
     """What a student handed in. `fault` is one sentence on why it cannot run; None if it can.
 
     `path` is what the user named, for display only; `main` is the name of the expected file in `files`: relative name
-    -> content of everything that goes into the sandbox. `sha256` is that of the main file.
+    -> content of everything that goes into the sandbox. `sha256` is that of the files that the
+    exercise asks for.
     """
 
     path: Path

@@ -11,7 +11,8 @@ The private half is the exercise's twin in `solutions/`: the solved file, `accep
     [mutants]
     equivalent = ["24: 0.1 -> 0.2"]          # a survivor of `course verify` that is a correct solution
 
-Every folder must be declared, and every declaration must have its folder.
+Every folder must be declared, and every declaration must have its folder. Where a submission has several files, the
+folder of a variant holds only those that differ from the solution's.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from pathlib import Path
 
 from gz_course.grader.errors import ManifestError
 from gz_course.grader.exercise import Exercise
+from gz_course.grader.exercise.bundle import write
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.exercise.trial import chosen_trials
 from gz_course.sim.did_you_mean import did_you_mean
@@ -32,13 +34,14 @@ EXPECT = "expect.toml"
 
 @dataclass(frozen=True)
 class Variant:
-    """A file to grade, the checks it must fail (the starter: all), and words required in its first line of feedback.
+    """A submission, the checks it must fail (the starter: all), and words required in its first line of feedback.
 
-    `trial` names the hidden trial in which alone it fails.
+    `folder` holds its files, or those that differ from the solution's. `trial` names the hidden trial in which alone it
+    fails.
     """
 
     name: str
-    file: Path
+    folder: Path
     fails: frozenset[str]
     words: tuple[str, ...] = ()
     trial: str | None = None
@@ -51,10 +54,10 @@ def variants(exercise: Exercise) -> list[Variant]:
     expected = expect.table("rejected")
     every = frozenset(check.id for check in exercise.checks)
     found = [
-        Variant("starter", exercise.starter, every),
-        Variant("solution", folder / exercise.file, frozenset()),
+        Variant("starter", exercise.folder, every),
+        Variant("solution", folder, frozenset()),
     ]
-    found += [Variant(f"accepted/{p.name}", p / exercise.file, frozenset()) for p in _folders(folder / "accepted")]
+    found += [Variant(f"accepted/{p.name}", p, frozenset()) for p in _folders(folder / "accepted")]
     rejected = {p.name: p for p in _folders(folder / "rejected")}
     declared = expected.names()
     for name in declared:
@@ -71,13 +74,20 @@ def variants(exercise: Exercise) -> list[Variant]:
         for check in sorted(loses - every):
             hint = did_you_mean(check, every, listing="known")
             raise ManifestError(f"{entry.where} names no check of {exercise.name}: {check}{hint}")
-        found.append(Variant(f"rejected/{name}", variant / exercise.file, loses, words, trial))
+        found.append(Variant(f"rejected/{name}", variant, loses, words, trial))
     for each in found:
-        if not each.file.is_file():
-            names = [p.name for p in each.file.parent.iterdir()] if each.file.parent.is_dir() else []
+        if not any((each.folder / name).is_file() for name in exercise.parts):
+            names = [p.name for p in each.folder.iterdir()] if each.folder.is_dir() else []
             hint = did_you_mean(exercise.file, names, listing="known")
-            raise ManifestError(f"{each.file.parent} has no {exercise.file}{hint}")
+            raise ManifestError(f"{each.folder} has no {exercise.file}{hint}")
     return found
+
+
+def completed(exercise: Exercise, own: dict[str, bytes], folder: Path) -> Path:
+    """Write the files `own` and the rest of the solution's to a folder; return the file that is started."""
+    rest = {name: (exercise.twin / name).read_bytes() for name in exercise.parts if name not in own}
+    write(rest | own, folder)
+    return folder / exercise.file
 
 
 def equivalent_mutants(exercise: Exercise) -> tuple[str, ...]:

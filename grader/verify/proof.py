@@ -16,7 +16,14 @@ from gz_course.grader.exercise import Exercise
 from gz_course.grader.exercise.trial import chosen_trials
 from gz_course.grader.report.report import Report
 from gz_course.grader.score.score import Score
-from gz_course.grader.verify.declared import FEWEST_ACCEPTED, FEWEST_REJECTED, Variant, equivalent_mutants, variants
+from gz_course.grader.verify.declared import (
+    FEWEST_ACCEPTED,
+    FEWEST_REJECTED,
+    Variant,
+    completed,
+    equivalent_mutants,
+    variants,
+)
 from gz_course.grader.verify.jobs import Job, Pool
 from gz_course.grader.verify.mutants import MOST, Mutant, choose, mutants_of
 
@@ -85,15 +92,14 @@ def verify(exercise: Exercise, out: Path, pool: Pool, most_mutants: int = MOST) 
             result.faults.append(f"no rejected variant fails the check {check.id}: it proves nothing")
     every = chosen_trials(exercise, "all")
     mutants = _mutants(exercise, result, most_mutants)
-    jobs = [Job(exercise, v.file, out / v.name, (every,)) for v in declared]
+    jobs = [Job(exercise, submitted_file(exercise, v, out), out / v.name, (every,)) for v in declared]
     hidden = tuple(trial for trial in every if trial not in exercise.trials)
     for number, mutant in enumerate(mutants, 1):
         folder = out / "mutants" / str(number)
-        folder.mkdir(parents=True, exist_ok=True)
-        (folder / exercise.file).write_bytes(mutant.content)
+        file = completed(exercise, {exercise.file: mutant.content}, folder)
         # A variant that fails in the public trials needs no hidden ones.
         trials = (exercise.trials, hidden) if hidden else (exercise.trials,)
-        jobs.append(Job(exercise, folder / exercise.file, folder, trials))
+        jobs.append(Job(exercise, file, folder, trials))
     reports = pool.reports(jobs)
     for variant in declared:
         result.proofs.append(judge(exercise, variant, next(reports)))
@@ -101,6 +107,14 @@ def verify(exercise: Exercise, out: Path, pool: Pool, most_mutants: int = MOST) 
     for mutant in mutants:
         result.mutants.append(MutantProof(mutant, failed_in(next(reports).score)))
         yield result
+
+
+def submitted_file(exercise: Exercise, variant: Variant, out: Path) -> Path:
+    """Return the file to submit; that of a variant with several files lies in a folder with all of them."""
+    if not exercise.files or variant.folder in (exercise.folder, exercise.twin):
+        return variant.folder / exercise.file
+    own = {name: path.read_bytes() for name in exercise.parts if (path := variant.folder / name).is_file()}
+    return completed(exercise, own, out / variant.name / "submission")
 
 
 def _mutants(exercise: Exercise, result: Verification, most: int) -> list[Mutant]:

@@ -67,12 +67,12 @@ def test_there_are_steps():
 
 
 def test_the_exercise_is_proven_and_listed(followed):
-    assert "06_quarter_turn" in printed_by(followed, "course list")
+    assert "20_quarter_turn" in printed_by(followed, "course list")
     assert "A quarter turn" in printed_by(followed, "course list")
 
 
 def test_an_author_is_told_that_there_is_no_such_world(followed):
-    told = printed_by(followed, "course grade 06_quarter_turn\n")
+    told = printed_by(followed, "course grade 20_quarter_turn\n")
     assert "exercise.toml" in told and "empty_with_robot.sdf" in told
 
 
@@ -84,5 +84,5 @@ def test_the_class_has_a_gradebook_with_the_scores_the_guide_leads_to(followed):
 
 def test_the_students_copy_holds_the_exercise_and_no_solution(followed):
     copy = followed[0] / "students"
-    assert (copy / "exercises/06_quarter_turn/exercise.toml").is_file()
+    assert (copy / "exercises/20_quarter_turn/exercise.toml").is_file()
     assert not (copy / "solutions").exists() and not list(copy.rglob("trials.toml"))

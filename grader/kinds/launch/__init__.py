@@ -32,7 +32,7 @@ def fault_of(name: str, content: bytes) -> str | None:
 
 def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     """Run the launch file, with what comes with the exercise beside it."""
-    own = (exercise.file, MANIFEST)
+    own = (*exercise.parts, MANIFEST)
     beside = [path for path in exercise.folder.iterdir() if path.is_file() and path.name not in own]
     return RunPlan(submission.main, submission.files | {path.name: path.read_bytes() for path in beside})
 

@@ -6,15 +6,19 @@ registered with the words that end the sentence "your answers are ...":
     @predicts("the largest valid range, not the smallest", only=("minimum",))
     def largest(asked: Asked) -> np.ndarray: ...
 
+A prediction with a number in it returns `Named`, with words that name the number.
+
 A notice is a function that looks at which questions were answered and returns a sentence itself (`@notices`).
 """
 
 from __future__ import annotations
 
+import dataclasses
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cache
+from typing import TypeVar
 
 import numpy as np
 
@@ -24,6 +28,7 @@ FEWEST = 4  # answers; fewer may fit by chance
 NEARLY_ALL = 0.9
 LAST = 3
 MOST = 2  # explanations that are named
+MOST_WRONG = 0.8  # of all answers, where some are right
 
 
 @dataclass(frozen=True)
@@ -69,20 +74,29 @@ class Asked:
     scans: Scans | None = None
 
 
-Prediction = Callable[[Asked], np.ndarray]
+@dataclass(frozen=True)
+class Named:
+    """Predicted answers with the words that end the sentence "your answers are ..."."""
+
+    words: str
+    answers: np.ndarray
+
+
+Prediction = Callable[[Asked], "np.ndarray | Named"]
+Function = TypeVar("Function", bound=Prediction)
 Notice = Callable[[Asked], str]
 _predictions: list[tuple[int, str, frozenset[str], Prediction]] = []
 _notices: list[Notice] = []
 
 
-def predicts(words: str, only: Sequence[str] = (), rank: int = 1) -> Callable[[Prediction], Prediction]:
+def predicts(words: str, only: Sequence[str] = (), rank: int = 1) -> Callable[[Function], Function]:
     """Register a prediction, for these statistics only; `words` end the sentence "your answers are ...".
 
     Of several that fit those of the lowest rank are named first: 0 is for one that hardly fits by chance, 2 for one
     that chooses among several numbers, 3 (`LAST`) for one that is named only if no other fits.
     """
 
-    def register(function: Prediction) -> Prediction:
+    def register(function: Function) -> Function:
         _predictions.append((rank, words, frozenset(only), function))
         return function
 
@@ -109,18 +123,45 @@ def explain(asked: Asked) -> str:
     wrong = asked.answered & ~_equal(asked.given, asked.truth, asked.tolerance)
     if asked.answered.sum() < FEWEST or not wrong.any():
         return said
-    found: list[str] = []
     with warnings.catch_warnings(), np.errstate(all="ignore"):
         warnings.simplefilter("ignore", RuntimeWarning)  # such as the mean of no ranges, which is NaN
-        for rank, words, only, prediction in sorted(_predictions, key=lambda each: each[0]):
-            if only and asked.statistic not in only:
-                continue
-            if rank == LAST and found:
-                break
-            if _fits(asked, wrong, np.asarray(prediction(asked), dtype=float)):
-                found.append(words)
-    told = f"your answers are {', or '.join(found[:MOST])}" if found else ""
+        found = _fitting(asked, wrong)
+        told = f"your answers are {', or '.join(found)}" if found else _where_wrong(asked, wrong)
     return "; ".join(filter(None, (told, said)))
+
+
+def _fitting(asked: Asked, wrong: np.ndarray) -> list[str]:
+    """Return the words of the predictions that fit, at most `MOST`."""
+    found: list[str] = []
+    for rank, words, only, prediction in sorted(_predictions, key=lambda each: each[0]):
+        if only and asked.statistic not in only:
+            continue
+        if rank == LAST and found:
+            break
+        predicted = prediction(asked)
+        if not isinstance(predicted, Named):
+            predicted = Named(words, predicted)
+        if _fits(asked, wrong, np.asarray(predicted.answers, dtype=float)):
+            found.append(predicted.words)
+    return found[:MOST]
+
+
+def _where_wrong(asked: Asked, wrong: np.ndarray) -> str:
+    """Explain wrong answers among right ones: say where they are, and what they are if that is known."""
+    known = np.flatnonzero(asked.answered)
+    amiss = wrong[known]
+    if not FEWEST <= amiss.sum() <= MOST_WRONG * len(amiss):
+        return ""
+    first, last = np.flatnonzero(amiss)[[0, -1]]
+    where = "where they are wrong,"
+    if amiss[first:].all():
+        where = f"right until {asked.times[known[first]]:.2f} s; from then on they are"
+    elif amiss[: last + 1].all():
+        where = f"right from {asked.times[known[last + 1]]:.2f} s on; before, they are"
+    found = _fitting(dataclasses.replace(asked, answered=wrong), wrong)
+    if where.startswith("where"):
+        return f"{where} your answers are {', or '.join(found)}" if found else ""
+    return f"your answers are {where} {', or '.join(found) if found else 'wrong'}"
 
 
 def _equal(given: np.ndarray, wanted: np.ndarray, tolerance: float) -> np.ndarray:

@@ -143,6 +143,8 @@ def test_what_is_not_toml(folder, text):
         ('summary = "What to do."', "summary = 3", "summary"),
         ('file = "node.py"', "file = 3", "file"),
         ('file = "node.py"', 'file = "../elsewhere/node.py"', "file"),
+        ('file = "node.py"', 'file = "node.py"\nfiles = ["../robot.sdf"]', "files"),
+        ('file = "node.py"', 'file = "node.py"\nfiles = ["node.py"]', "files"),
         ('observe = { "/answer" = "std_msgs/msg/Float32" }', "observe = 3", "observe"),
         ('observe = { "/answer" = "std_msgs/msg/Float32" }', 'observe = { "/answer" = 3 }', "observe"),
         ("points = 60", 'points = "many"', "points"),

@@ -25,11 +25,11 @@ def test_git_knows_the_starter_of_the_branch_that_is_followed(copied, tmp_path):
         subprocess.run([*GIT, *words], cwd=tmp_path, check=True)
     copied.starter.write_text("mine")
     subprocess.run([*GIT, "commit", "-qam", "my own work"], cwd=tmp_path, check=True)
-    assert put_back(copied, tmp_path / "runs") == tmp_path / "runs/kept-1/teleop_node.py"
+    assert put_back(copied, tmp_path / "runs") == tmp_path / "runs/kept-1"
     assert copied.starter.read_bytes() == starter
     assert put_back(copied, tmp_path / "runs") is None, "it is the starter already"
     copied.starter.write_text("second")
-    assert put_back(copied, tmp_path / "runs").read_text() == "second"
+    assert (put_back(copied, tmp_path / "runs") / "teleop_node.py").read_text() == "second"
     assert (tmp_path / "runs/kept-1/teleop_node.py").read_text() == "mine"
 
 

@@ -1,5 +1,6 @@
 """Intake: what can be read is graded, what cannot is a usage error, and nothing else ever comes out."""
 
+import dataclasses
 import hashlib
 import os
 import warnings
@@ -263,3 +264,41 @@ def test_arbitrary_names_are_only_ever_usage_errors(exercise, tmp_path, name):
         take_in(exercise, path)
     except UsageError as error:
         assert str(error)
+
+
+@pytest.fixture
+def of_two_files(exercise):
+    return dataclasses.replace(exercise, files=("robot/robot.sdf",))
+
+
+def test_further_files_come_with_the_folder_or_lie_beside_the_file(of_two_files, tmp_path):
+    path = write(tmp_path / "teleop_node.py", "x = 1")
+    (tmp_path / "robot").mkdir()
+    write(tmp_path / "robot/robot.sdf", "<sdf/>")
+    wanted = {"teleop_node.py": b"x = 1", "robot/robot.sdf": b"<sdf/>"}
+    alone, folder = take_in(of_two_files, path), take_in(of_two_files, tmp_path)
+    assert alone.files == folder.files == wanted
+    before = alone.sha256
+    write(tmp_path / "robot/robot.sdf", "<sdf></sdf>")
+    assert take_in(of_two_files, path).sha256 != before
+
+
+def test_a_missing_further_file_is_named(of_two_files, tmp_path):
+    write(tmp_path / "teleop_node.py", "x = 1")
+    write(tmp_path / "robot.sdf", "<sdf/>")
+    with pytest.raises(UsageError, match=r"without robot/robot\.sdf: .*hand them in together.*robot\.sdf"):
+        take_in(of_two_files, tmp_path)
+
+
+def test_a_link_is_not_taken_from_beside_a_file(of_two_files, tmp_path):
+    path = write(tmp_path / "teleop_node.py", "x = 1")
+    (tmp_path / "robot").mkdir()
+    (tmp_path / "robot/robot.sdf").symlink_to("/etc/passwd")
+    with pytest.raises(UsageError, match=r"without robot/robot\.sdf"):
+        take_in(of_two_files, path)
+
+
+def test_a_further_file_in_python_is_judged_too(exercise, tmp_path):
+    path = write(tmp_path / "teleop_node.py", "x = 1")
+    write(tmp_path / "driver.py", "def (")
+    assert "driver.py, line 1" in str(take_in(dataclasses.replace(exercise, files=("driver.py",)), path).fault)

@@ -1,10 +1,12 @@
 """What a report on a variant is held against: checks, trials, words. The reports are made by hand."""
 
+import dataclasses
 from pathlib import Path
 
 import pytest
 
 from gz_course.grader.exercise import CheckSpec, find_exercise
+from gz_course.grader.exercise.bundle import write
 from gz_course.grader.exercise.trial import Trial
 from gz_course.grader.report.report import Report, TrialReport
 from gz_course.grader.score.check import Finding
@@ -12,15 +14,13 @@ from gz_course.grader.score.combined import combined
 from gz_course.grader.score.score import CheckResult, Score
 from gz_course.grader.verify.declared import Variant
 from gz_course.grader.verify.mutants import Mutant
-from gz_course.grader.verify.proof import MutantProof, Verification, judge
+from gz_course.grader.verify.proof import MutantProof, Verification, judge, submitted_file
 
 CHECKS = ("a", "b")
 
 
 @pytest.fixture
 def exercise(root):
-    import dataclasses
-
     given = find_exercise("03", root)
     specs = tuple(CheckSpec(id, f"Check {id}", 10, "change", "A hint.") for id in CHECKS)
     return dataclasses.replace(given, checks=specs, trials=(Trial("open", 0), Trial("wide", 1)))
@@ -44,7 +44,7 @@ def faults(exercise, variant, **failed):
 
 
 def variant(name="rejected/x", fails="a", words=(), trial=None):
-    return Variant(name, Path("node.py"), frozenset(fails), words, trial)
+    return Variant(name, Path("folder"), frozenset(fails), words, trial)
 
 
 def test_a_variant_that_loses_what_it_declares(exercise):
@@ -108,3 +108,15 @@ def test_kills_are_counted_by_check(exercise):
     result.faults.append("no solution")
     result.proofs[1].faults.append("passes a")
     assert result.fault_lines == [f"{exercise.name}: no solution", f"{exercise.name} rejected/x: passes a"]
+
+
+def test_a_variant_holds_only_the_files_that_differ_from_the_solution(exercise, tmp_path):
+    twin = tmp_path / "solutions/03_teleop"
+    variant = twin / "rejected/heavy"
+    write({"bringup.launch.py": b"solved", "robot.sdf": b"light", "rejected/heavy/robot.sdf": b"heavy"}, twin)
+    names = {"file": "bringup.launch.py", "files": ("robot.sdf",)}
+    two = dataclasses.replace(exercise, folder=tmp_path / "exercises/03_teleop", **names)
+    place = submitted_file(two, Variant("rejected/heavy", variant, frozenset()), tmp_path / "out")
+    assert place.read_bytes() == b"solved"
+    assert (place.parent / "robot.sdf").read_bytes() == b"heavy"
+    assert submitted_file(two, Variant("solution", twin, frozenset()), tmp_path / "out") == twin / "bringup.launch.py"

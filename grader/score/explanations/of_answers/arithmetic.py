@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from gz_course.grader.score.explanations.answers import LAST, Asked, predicts
+from gz_course.grader.score.explanations.answers import Asked, predicts
 
 MEAN, COUNT, MINIMUM = "mean", "valid_count", "minimum"
 LENGTHS = (MINIMUM, MEAN)
@@ -136,19 +136,39 @@ def rounded_up(asked: Asked) -> np.ndarray:
     return np.ceil(asked.truth)
 
 
-@predicts("the right value with the same number added each time", rank=LAST)
-def shifted(asked: Asked) -> np.ndarray:
-    if np.ptp(asked.truth) <= 3 * asked.tolerance:
-        return np.full(len(asked.truth), np.nan)
-    return asked.truth + np.nanmedian(asked.given - asked.truth)
+@predicts("the square root of the right value")
+def square_root(asked: Asked) -> np.ndarray:
+    return np.sqrt(asked.truth)
 
 
-@predicts("the right value times the same factor each time", rank=LAST)
-def in_proportion(asked: Asked) -> np.ndarray:
-    if np.ptp(asked.truth) <= 3 * asked.tolerance:
-        return np.full(len(asked.truth), np.nan)
-    factor = np.nanmedian(asked.given / asked.truth)
-    return asked.truth * factor if abs(factor) > 1e-3 else np.full(len(asked.truth), np.nan)
+@predicts("the natural logarithm of the right value")
+def logarithm(asked: Asked) -> np.ndarray:
+    return np.log(asked.truth)
+
+
+@predicts("whole centimetres; metres are asked for", only=LENGTHS)
+def whole_centimetres(asked: Asked) -> np.ndarray:
+    return np.floor(100 * asked.truth)
+
+
+@predicts("whole millimetres; metres are asked for", only=LENGTHS)
+def whole_millimetres(asked: Asked) -> np.ndarray:
+    return np.floor(1000 * asked.truth)
+
+
+@predicts("rounded up to one decimal", only=LENGTHS)
+def rounded_up_at_one(asked: Asked) -> np.ndarray:
+    return np.ceil(asked.truth * 10) / 10
+
+
+@predicts("range_max less the right value", only=LENGTHS)
+def from_range_max(asked: Asked) -> np.ndarray:
+    return asked.scans.high - asked.truth if asked.scans else np.full(len(asked.truth), np.nan)
+
+
+@predicts("the right value divided by range_max", only=LENGTHS)
+def part_of_range_max(asked: Asked) -> np.ndarray:
+    return asked.truth / asked.scans.high if asked.scans else np.full(len(asked.truth), np.nan)
 
 
 def _scaled(asked: Asked, factor: float) -> np.ndarray:

@@ -64,12 +64,17 @@ def smoothed_over_two(asked: Asked) -> np.ndarray:
 
 @predicts("a moving average over several scans, not the value of this scan", rank=2)
 def moving_average(asked: Asked) -> np.ndarray:
-    return _best(asked, [_window(asked.truth, width, np.mean) for width in range(3, 11)])
+    return _best(asked, [_window(asked.truth, width, np.mean) for width in (*range(3, 11), 12, 15, 20, 25, 30, 50)])
 
 
 @predicts("the smallest of the last few scans, not of this scan", rank=2)
 def smallest_of_a_few(asked: Asked) -> np.ndarray:
     return _best(asked, [_window(asked.truth, width, np.min) for width in range(2, 11)])
+
+
+@predicts("the largest of the last few scans, not the value of this scan", rank=2)
+def largest_of_a_few(asked: Asked) -> np.ndarray:
+    return _best(asked, [_window(asked.truth, width, np.max) for width in range(2, 11)])
 
 
 @predicts("a median over several scans, not the value of this scan", rank=2)
@@ -91,6 +96,16 @@ def low_pass(asked: Asked) -> np.ndarray:
 @predicts("the change since the scan before, not the value of this scan")
 def change(asked: Asked) -> np.ndarray:
     return asked.truth - _before(asked.truth, 1)
+
+
+@predicts("the answer before once more, not a new one", rank=2)
+def same_again(asked: Asked) -> np.ndarray:
+    return _before(asked.given, 1) if np.ptp(asked.given[asked.answered]) > 0 else np.full(len(asked.truth), np.nan)
+
+
+@predicts("the time [s] of the scan")
+def time_of_the_scan(asked: Asked) -> np.ndarray:
+    return asked.times
 
 
 @predicts("always that of the first scan")

@@ -131,21 +131,9 @@ def part_of_the_circle(asked: Asked) -> np.ndarray:
     )
 
 
-@predicts("those of the rays within another bound than range_min and range_max, such as a number in the file", rank=2)
-def other_bounds(asked: Asked) -> np.ndarray:
-    above = [_over(asked, _between(limit, np.inf)) for limit in (0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 1.0, 2.0)]
-    below = [_over(asked, _between(-np.inf, limit)) for limit in (1.0, 2.0, 3.0, 3.5, 4.0, 5.0, 8.0)]
-    return _best(asked, above + below)
-
-
 def _slice(begin: int, end: int) -> Choice:
     """Return the choice of the valid rays between two eighths of a scan."""
     return lambda row, low, high: _valid(row[len(row) * begin // 8 : len(row) * end // 8], low, high)
-
-
-def _between(least: float, most: float) -> Choice:
-    """Return the choice of the valid ranges between two more bounds [m]."""
-    return lambda row, low, high: _valid(row[(row > least) & (row < most)], low, high)
 
 
 def _best(asked: Asked, candidates: list[np.ndarray]) -> np.ndarray:

@@ -47,8 +47,8 @@ def test_both_halves_fit_together(tmp_path):
     assert sum(name.startswith("accepted/") for name in names) >= FEWEST_ACCEPTED
     assert sum(name.startswith("rejected/") for name in names) >= FEWEST_REJECTED
     for variant in declared:
-        compile(variant.file.read_text(), variant.file, "exec")
-        assert "@" not in variant.file.read_text()
+        compile((variant.folder / exercise.file).read_text(), variant.name, "exec")
+        assert "@" not in (variant.folder / exercise.file).read_text()
     # The manifest explains itself: comments for its author.
     assert (exercise.folder / "exercise.toml").read_text().count("#") > 5
     assert exercise.bridge.is_file()

@@ -184,7 +184,7 @@ MINIMA = {
     "with the same number added": lambda scan, kept: min(valid(scan)) + 0.17,
     "times the same factor": lambda scan, kept: min(valid(scan)) * 0.9,
     "a part of the rays": lambda scan, kept: min(valid(Scan(scan.ranges[90 // 2 : 90]))),
-    "another bound": lambda scan, kept: min(r for r in scan.ranges if 1.0 < r < scan.range_max),
+    "beyond 1 m, another bound": lambda scan, kept: min(r for r in scan.ranges if 1.0 < r < scan.range_max),
     "the reciprocal": lambda scan, kept: 1 / min(valid(scan)),
     "answered every second scan only": every(2),
     "answered one scan in 10 only": every(10),
@@ -257,3 +257,60 @@ def test_hostile_answers_raise_nothing():
     for value in (math.inf, -math.inf, 1e300, -1e-300):
         assert isinstance(said_of(lambda scan, kept, value=value: value, "minimum"), str)
         assert isinstance(said_of(lambda scan, kept, value=value: value, "valid_count"), str)
+
+
+def cut(limit):
+    return lambda scan, kept: min(min(valid(scan)), limit)
+
+
+def slowly(scan, kept):
+    now = min(valid(scan))
+    last = kept.get("last", now)
+    kept["last"] = max(last - 0.1, min(last + 0.1, now))
+    return kept["last"]
+
+
+def from_scan(number, program):
+    def late(scan, kept):
+        kept["n"] = kept.get("n", -1) + 1
+        return program(scan, kept) if kept["n"] >= number else min(valid(scan))
+
+    return late
+
+
+FITTED = {
+    "minimum": {
+        "the root mean square": lambda scan, kept: math.sqrt(statistics.fmean(r * r for r in valid(scan))),
+        "the harmonic mean": lambda scan, kept: statistics.harmonic_mean(valid(scan)),
+        "the geometric mean": lambda scan, kept: statistics.geometric_mean(valid(scan)),
+        "the variance": lambda scan, kept: statistics.pvariance(valid(scan)),
+        "the 5th percentile": lambda scan, kept: float(np.percentile(valid(scan), 5)),
+        "number 4 of the valid ranges": lambda scan, kept: sorted(valid(scan))[3],
+        "the average of the 10 smallest": lambda scan, kept: statistics.fmean(sorted(valid(scan))[:10]),
+        "rounded to multiples of 0.05": lambda scan, kept: round(min(valid(scan)) / 0.05) * 0.05,
+        "changing by at most 0.1 ": slowly,
+        "never above 0.75": cut(0.75),
+        "never below 0.8": lambda scan, kept: max(min(valid(scan)), 0.8),
+        "1.2 times the right value plus 0.3": lambda scan, kept: 1.2 * min(valid(scan)) + 0.3,
+        "right until 1.20 s; from then on they are the largest valid range": from_scan(12, lambda s, k: max(valid(s))),
+        "the difference between the largest and the smallest": lambda scan, kept: max(valid(scan)) - min(valid(scan)),
+    },
+    "mean": {
+        "the root mean square": lambda scan, kept: math.sqrt(statistics.fmean(r * r for r in valid(scan))),
+        "those of rays 33 to 76 only": lambda scan, kept: statistics.fmean(valid(Scan(scan.ranges[33:77]))),
+        "those of rays 150 to 29 only": lambda scan, kept: statistics.fmean(
+            valid(Scan(scan.ranges[150:] + scan.ranges[:30]))
+        ),
+        "cut to whole numbers first": lambda scan, kept: statistics.fmean(map(int, valid(scan))),
+    },
+    "valid_count": {
+        "those of rays": lambda scan, kept: len(valid(Scan(scan.ranges[13:77]))),
+        "one ray in 4 only": lambda scan, kept: len(valid(Scan(scan.ranges[::4]))),
+    },
+}
+
+
+@pytest.mark.parametrize("statistic", TRUTHS)
+def test_a_misconception_with_a_number_in_it_is_named_with_the_number(statistic):
+    said = {words: said_of(program, statistic) for words, program in FITTED[statistic].items()}
+    assert {words: sentence for words, sentence in said.items() if words not in sentence} == {}

@@ -1,0 +1,29 @@
+"""`course update`: bring the chapters and exercises of the installed course to the folder."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from gz_course.grader.course_folder.layout import update
+from gz_course.grader.exercise import course_root
+
+
+def command(
+    folder: Annotated[
+        Path | None, typer.Argument(metavar="[FOLDER]", help="A folder that `course init` made. Default: this one.")
+    ] = None,
+) -> None:
+    """Bring newer chapters and exercises to your folder. What you have changed stays as it is."""
+    folder = folder or course_root()
+    changes = update(folder)
+    for name in (*changes.added, *changes.replaced, *changes.removed):
+        what = "new" if name in changes.added else "replaced" if name in changes.replaced else "removed"
+        if not name.startswith("."):
+            print(f"{what}: {name}")
+    for name, newer in changes.kept.items():
+        print(f"kept: {name} is yours; the newer one is {newer}")
+    if changes == type(changes)():
+        print(f"{folder} is up to date.")

@@ -1,0 +1,43 @@
+"""Where the course's chapters and exercises are: in the wheel, or in the checkout that this code belongs to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from gz_course.grader.errors import ManifestError
+
+PARTS = ("exercises", "chapters")
+CHAPTER_RULES = Path("chapters/README.md")
+TRACES = ("__pycache__", "*.pyc", "*.rrd", "*.rrd.part", "runs", "recorded_run", "*.egg-info", "*~", "*.orig", "*.bak")
+_CODE = Path(__file__).parents[2]  # the checkout, or the installed package
+PACKED = _CODE / "course"
+
+
+def material() -> Path:
+    """Return the folder with `exercises/` and `chapters/` that came with this code."""
+    return PACKED if PACKED.is_dir() else _CODE
+
+
+def material_files(root: Path) -> Iterator[tuple[Path, Path]]:
+    """Yield each file of chapters and exercises below a course's folder: its path in there, and its full path.
+
+    Raises ManifestError for a link out of it.
+    """
+    for part in PARTS:
+        for path in plain_files(root / part):
+            if (inside := path.relative_to(root)) != CHAPTER_RULES:
+                yield inside, path
+
+
+def plain_files(folder: Path) -> Iterator[Path]:
+    """Yield the files of a folder, sorted, except hidden ones and caches. Raises ManifestError for a link out of it."""
+    for path in sorted(folder.rglob("*")):
+        inside = path.relative_to(folder)
+        parents = [inside, *inside.parents][:-1]
+        if any(each.name.startswith(".") or any(each.match(trace) for trace in TRACES) for each in parents):
+            continue
+        if path.is_symlink() and not path.resolve().is_relative_to(folder.resolve()):
+            raise ManifestError(f"{path} is a link out of {folder}, which students do not get; copy the file instead")
+        if path.is_file():
+            yield path
