@@ -143,7 +143,7 @@ def scans(recording):
 
 
 def with_points(recording, found):
-    """Give each scan its point: the one with its stamp, or, if more points are right then, the one that came after it.
+    """Give each scan the point with its stamp, or the one that came after it if only then nearly all are right.
 
     Who keeps a scan until its transform is there answers when the next one comes. Of several points for one scan, that
     which is farthest from the truth counts.
@@ -165,7 +165,7 @@ def with_points(recording, found):
             if np.isnan(given[scan, 0]) or worse:
                 given[scan], answered[scan] = point, time
         met = int(np.sum(near(given, truth, TOLERANCE)))
-        if best is None or met > best[0]:
+        if best is None or (met > best[0] and met >= SHARE * len(times)):
             best = met, replace(found, points=given, answered=answered, by_stamp=by_stamp)
     return best[1]
 
@@ -267,7 +267,7 @@ def predictions(recording, found, truth):
     still = Frame(np.repeat(np.eye(3)[None], count, 0), np.zeros((count, 3)))
     written = mounted(*PUBLIC_MOUNT, count)
     flat = truth * (1, 1, 0)
-    before = np.concatenate([np.full((1, 3), np.nan), truth[:-1]])
+    before = robot.of(np.concatenate([np.full((1, 3), np.nan), on_robot[:-1]]))
     yield "in the scanner's own frame: nothing was transformed", hits
     yield "in the frame of the robot: the transform from the robot to odom is missing", on_robot
     yield "those of a scanner in the robot's middle, looking ahead: the scanner's mount is missing", robot.of(hits)
@@ -292,7 +292,7 @@ def predictions(recording, found, truth):
     yield "those of the transform one scan earlier", at(found.stamps - 0.1)
     yield "those of the transform one scan later", at(found.stamps + 0.1)
     yield "those of a transform that was looked up once, at the beginning", at(np.full(count, found.stamps[0]))
-    yield "those of the scan before", before
+    yield "the hit of the scan before, moved by the transform of this scan", before
     yield "right on the floor plan, but z is 0: a point in odom is as high as the scanner", flat
     upright = robot.of(mount.flat().of(hits))
     yield "those of an upright scanner: its rotation is more than a heading, use the quaternion", upright
@@ -358,10 +358,10 @@ def stamps(recording, parameters):
     example = np.flatnonzero(other)[0]
     at = float(given.times[example] / 1e9)
     measured += f"; at {at:.2f} s a point had the stamp {given.values[example]:.3f} s"
-    return Finding(False, expected, measured, round(at, 3), explanation=why_stamps(given, other, recording))
+    return Finding(False, expected, measured, round(at, 3), explanation=why_stamps(given, other, sent, recording))
 
 
-def why_stamps(given, other, recording):
+def why_stamps(given, other, sent, recording):
     times, wrong = given.times[other] / 1e9, given.values[other]
     heard = recording.signal(f"{TF}/count").times / 1e9
     latest = heard[np.maximum(np.searchsorted(heard, times + SAME) - 1, 0)] if len(heard) else times + 1
@@ -371,6 +371,8 @@ def why_stamps(given, other, recording):
         return "the stamps of your points are whole seconds: a stamp is sec and nanosec"
     if np.mean(np.abs(wrong - times) <= SAME) >= SHARE:
         return "the stamps of your points say when they were published, not when the scan was taken"
+    if np.mean(np.min(np.abs(wrong[:, None] - sent[None, :]), axis=1) <= SAME) >= SHARE:
+        return "the stamps of your points are those of the next scan"
     if np.mean(np.abs(wrong - latest) <= SAME) >= SHARE:
         return "the stamps of your points are those of the latest transform, not of the scan"
     return ""

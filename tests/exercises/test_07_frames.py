@@ -1,0 +1,134 @@
+"""The checks of `07_frames`: every misconception they know is named, and a right answer in any style passes."""
+
+import runpy
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from gz_course.grader.record.reading import Line, Poses, Signal
+
+CHECKS = runpy.run_path(str(Path(__file__).parents[2] / "exercises/07_frames/checks.py"))
+RAYS, FIRST, STEP = 61, -2.0, 0.06
+UPSIDE_DOWN = (0.94, 0.34, 0.0, 0.0)  # x, y, z, w
+
+
+class Run:
+    """A recording as the checks see it: a robot that stands, drives ahead and turns, and what a node answered."""
+
+    def __init__(self):
+        draw = np.random.default_rng(7)
+        self.end = 6.0
+        now = np.arange(0.0, self.end + 0.5, 0.05)
+        rate = np.where(now < 3.0, 0.0, 1.5)
+        yaw = 0.3 + np.cumsum(rate) * 0.05
+        x, y = (np.cumsum(f(yaw)) * 0.02 for f in (np.cos, np.sin))
+        self.signals = {"truth/robot/z": (now, 0 * now), "truth/robot/angular_z": (now, rate)}
+        self.signals |= {f"truth/robot/{name}": (now, each) for name, each in (("x", x), ("y", y), ("yaw", yaw))}
+        self.signals["topics/tf/count"] = (now[1:], np.ones(len(now) - 1))
+        self.at = np.arange(0.1, self.end, 0.1)
+        self.rows = draw.uniform(0.8, 4.0, (len(self.at), RAYS))
+        self.rows[:, 0] = np.inf
+        for name, value in (("angle_min", FIRST), ("angle_increment", STEP), ("range_min", 0.1), ("range_max", 8.0)):
+            self.signals[f"topics/scan/{name}"] = (self.at, np.full(len(self.at), value))
+        self.signals["topics/scan/header/stamp"] = (self.at, self.at)
+        norm = np.linalg.norm(UPSIDE_DOWN)
+        self.mount = (0.2, -0.1, 0.3), tuple(v / norm for v in UPSIDE_DOWN)
+        self.frame = "odom"
+
+    def answer(self, points, late=0.0, stamps=None, frame="odom"):
+        at = self.at + late
+        self.signals |= {f"topics/nearest_hit/point/{axis}": (at, points[:, i]) for i, axis in enumerate("xyz")}
+        self.signals["topics/nearest_hit/header/stamp"] = (at, self.at if stamps is None else stamps)
+        self.signals["topics/nearest_hit/count"] = (at, np.ones(len(at)))
+        self.frame = frame
+        return self
+
+    def signal(self, name):
+        times, values = self.signals.get(name, (np.empty(0), np.empty(0)))
+        return Signal(np.round(np.asarray(times) * 1e9).astype(np.int64), np.asarray(values, dtype=float))
+
+    def has(self, name):
+        return name in self.signals
+
+    def arrays(self, name):
+        return np.round(self.at * 1e9).astype(np.int64), list(self.rows)
+
+    def poses(self, entity):
+        return Poses(np.zeros(1), np.array([self.mount[0]]), np.array([self.mount[1]]))
+
+    def lines(self, entity):
+        return [Line(0, self.frame, "INFO")] if self.has("topics/nearest_hit/count") else []
+
+    def places(self, turning=True):
+        return CHECKS["places"](self, {"turning": turning})
+
+    @property
+    def truth(self):
+        return CHECKS["right"](self, CHECKS["scans"](self))
+
+
+@pytest.mark.parametrize("late", [0.0, 0.02, 0.1])
+def test_a_right_answer_passes_whenever_it_comes(late):
+    run = Run()
+    run.answer(run.truth, late)
+    found = [run.places(True), run.places(False), CHECKS["stamps"](run, {}), CHECKS["frames"](run, {})]
+    assert [each.passed for each in found] == [True] * 4, found
+
+
+def test_silence_earns_nothing():
+    run = Run()
+    found = [run.places(True), run.places(False), CHECKS["stamps"](run, {}), CHECKS["frames"](run, {})]
+    assert [each.passed for each in found] == [False] * 4
+
+
+def test_every_misconception_is_named():
+    run = Run()
+    scans = CHECKS["scans"](run)
+    answered = SimpleNamespace(**vars(scans) | {"answered": scans.arrived + 0.02, "points": scans.hits})
+    told = list(CHECKS["predictions"](run, answered, run.truth))
+    assert len(told) > 30
+    for words, points in told:
+        if words == "always the same":
+            points = np.ones_like(points)
+        if np.allclose(points[-20:], run.truth[-20:], atol=0.05, equal_nan=True):
+            continue  # the same as right in this run
+        known = np.where(np.isnan(points), 9.0, points)
+        finding = run.answer(known, late=0.02).places()
+        assert not finding.passed and finding.explanation.startswith("your points are "), (words, finding)
+        alike = [near for near, other in told if np.allclose(other, points, atol=0.05, equal_nan=True)]
+        assert any(near in finding.explanation for near in (words, *alike)), (words, finding.explanation)
+
+
+@pytest.mark.parametrize(
+    ("stamps", "words"),
+    [
+        (lambda at: 0 * at, "are 0"),
+        (np.floor, "whole seconds"),
+        (lambda at: at + 0.02, "when they were published"),
+        (lambda at: np.floor((at + 0.02) * 20) / 20, "latest transform"),
+    ],
+)
+def test_wrong_stamps_are_told_from_wrong_points(stamps, words):
+    run = Run()
+    run.answer(run.truth, late=0.02, stamps=stamps(run.at))
+    finding = CHECKS["stamps"](run, {})
+    if words != "latest transform":  # which has the time of the scan here
+        assert not finding.passed and words in finding.explanation, finding
+    assert run.places().passed
+
+
+def test_points_that_come_with_the_next_scan_and_its_stamp():
+    run = Run()
+    run.answer(run.truth, late=0.1, stamps=run.at + 0.1)
+    assert "when they were published" in CHECKS["stamps"](run, {}).explanation
+    assert run.places(True).passed and run.places(False).passed
+    run.answer(run.truth, late=0.12, stamps=run.at + 0.1)
+    assert "those of the next scan" in CHECKS["stamps"](run, {}).explanation
+
+
+def test_another_frame_is_named():
+    run = Run()
+    finding = CHECKS["frames"](run.answer(run.truth, frame="robot/scanner"), {})
+    assert not finding.passed and "in which the point was measured" in finding.explanation
