@@ -195,8 +195,8 @@ def turns_once(recording, parameters):
         if turned > 1.5 * FULL_TURN:
             why = (
                 "the robot turned on and on, because your heading never reached a full turn: it jumps back at pi, or "
-                "is compared with 360 although it is in radians, or each message counts for less time than has passed, or "
-                "it is one number of a quaternion"
+                "is compared with 360 although it is in radians, or each message counts for less time than has passed, "
+                "or it is one number of a quaternion"
             )
         return Finding(False, expected, measured, explanation=why)
     measured = f"when the number came, at {when / 1e9:.2f} s, it had turned by {math.degrees(turned):.0f} degrees"
