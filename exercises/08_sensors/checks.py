@@ -195,7 +195,8 @@ def turns_once(recording, parameters):
         if turned > 1.5 * FULL_TURN:
             why = (
                 "the robot turned on and on, because your heading never reached a full turn: it jumps back at pi, or "
-                "is compared with 360 although it is in radians, or each message counts for less time than has passed"
+                "is compared with 360 although it is in radians, or each message counts for less time than has passed, "
+                "or it is one number of a quaternion"
             )
         return Finding(False, expected, measured, explanation=why)
     measured = f"when the number came, at {when / 1e9:.2f} s, it had turned by {math.degrees(turned):.0f} degrees"
@@ -225,7 +226,7 @@ def why_turned(recording, when, turned):
         return "by odometry, or by commanded speed times time, this was 360 degrees: its wheels stand otherwise"
     angles = {
         "the bias of the gyroscope was added up, too: it says {bias:.3f} rad/s while the robot stands": (rates * spans),
-        "the bias was not measured but taken with the wrong sign: it is {bias:.3f} rad/s": (rates + bias) * spans,
+        "the bias was added instead of subtracted: it is {bias:.3f} rad/s": (rates + bias) * spans,
         "each message was taken for 0.01 s, but they come every 0.04 s: use the stamps": (rates - bias) * 0.01,
         "each message was taken for 0.1 s, but they come every 0.04 s: use the stamps": (rates - bias) * 0.1,
     }
