@@ -1,7 +1,7 @@
 """What commands of `ros2` and `gz` cost that need no other process, against starting Python at all.
 
-With `REAL_ROS2=PROGRAM`, such as a script that sources an installation and runs its `ros2`, that command is the reference
-of the rows of `ros2`.
+With `REAL_ROS2=PROGRAM`, such as a script that sources an installation and runs its `ros2`, that program is what the
+rows of `ros2` are compared with.
 """
 
 import os
