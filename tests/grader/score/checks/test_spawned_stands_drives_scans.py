@@ -1,4 +1,4 @@
-"""`spawned`, `stands`, `drives`, `scans`: a robot that a launch has put into the world, and the sentences about bad ones."""
+"""`spawned`, `stands`, `drives`, `scans`: a robot that a launch put into the world, and sentences about bad ones."""
 
 import json
 import math
