@@ -1,13 +1,16 @@
 """The rows of a recording that a ROS message of any type becomes.
 
 Every numeric field becomes a signal named after it: `topics/cmd_vel/linear/x`. A list of numbers becomes one row, a
-text a line whenever it changes, and a picture now and then a JPEG. Messages are read by their own introspection, so no
-ROS import is needed.
+text a line whenever it changes, and a picture now and then a JPEG. The transforms of /tf and /tf_static become signals
+named after their frames: `topics/tf_static/base_link/lidar_link/translation/x`. Messages are read by their own
+introspection, so no ROS import is needed.
 """
 
 from __future__ import annotations
 
 import math
+import re
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -17,6 +20,8 @@ from gz_course.sim.rviz2.drawing.fields import fields
 from gz_course.sim.rviz2.drawing.image import jpeg
 
 LONGEST_LIST = 20_000  # numbers; longer lists, such as images and clouds, are not stored as numbers
+MOST_TRANSFORMS = 100  # of one message
+NOT_IN_NAMES = re.compile(r"[^A-Za-z0-9_-]")
 LONGEST_TEXT = 2_000  # characters kept of a text
 # Of the pictures that can be drawn, those of which JPEG keeps what they show.
 RECORDED = frozenset({"rgb8", "bgr8", "mono8"})
@@ -28,7 +33,7 @@ def record_message(recorder: Recorder, topic: str, message: Any) -> None:
     A message of a single number that is not finite, which no bridge forwards, is counted but not stored as a sample.
     """
     base = f"topics/{topic.strip('/')}"
-    leaves = list(fields(message, base))
+    leaves = [*fields(message, base), *_transforms(message, base)]
     bad = [entity for entity, value in leaves if isinstance(value, float) and not math.isfinite(value)]
     recorder.typed(base, f"{type(message).__module__.partition('.')[0]}/msg/{type(message).__name__}")
     recorder.scalar(f"{base}/count", 1.0)
@@ -46,3 +51,10 @@ def record_message(recorder: Recorder, topic: str, message: Any) -> None:
             recorder.said(entity, value[:LONGEST_TEXT].encode(errors="replace").decode())
     if getattr(message, "encoding", None) in RECORDED and recorder.wants_picture(base) and (picture := jpeg(message)):
         recorder.picture(base, picture)
+
+
+def _transforms(message: Any, base: str) -> Iterator[tuple[str, Any]]:
+    """Yield the numbers of the transforms in a tf2_msgs/msg/TFMessage, with the frames in their names."""
+    for each in getattr(message, "transforms", [])[:MOST_TRANSFORMS]:
+        parent, child = (NOT_IN_NAMES.sub("_", frame) or "_" for frame in (each.header.frame_id, each.child_frame_id))
+        yield from fields(each.transform, f"{base}/{parent}/{child}")
