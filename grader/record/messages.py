@@ -3,14 +3,17 @@
 Every numeric field becomes a signal named after it: `topics/cmd_vel/linear/x`. A list of numbers becomes one row, a
 text or a list of texts (as JSON) a line whenever it changes, and a picture now and then a JPEG. A list of messages, as
 that of the transforms of `/tf`, becomes a row of all its numbers and a line of all its texts, one of each per message.
-The stamp of a header is one number, `topics/scan/header/stamp` [s]. Messages are read by their own introspection, so no
-ROS import is needed.
+The transforms of /tf and /tf_static become signals named after their frames, too:
+`topics/tf_static/base_link/lidar_link/translation/x`. The stamp of a header is one number, `topics/scan/header/stamp`
+[s]. Messages are read by their own introspection, so no ROS import is needed.
 """
 
 from __future__ import annotations
 
 import json
 import math
+import re
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -20,6 +23,8 @@ from gz_course.sim.rviz2.drawing.fields import fields
 from gz_course.sim.rviz2.drawing.image import jpeg
 
 LONGEST_LIST = 20_000  # numbers; longer lists, such as images and clouds, are not stored as numbers
+MOST_TRANSFORMS = 100  # of one message
+NOT_IN_NAMES = re.compile(r"[^A-Za-z0-9_-]")
 LONGEST_TEXT = 2_000  # characters kept of a text
 LONGEST_TEXTS = 4_000  # characters of a list of texts; longer ones are not kept
 EACH = "each"  # the entity below a list of messages
@@ -34,7 +39,7 @@ def record_message(recorder: Recorder, topic: str, message: Any) -> None:
     A message of a single number that is not finite, which no bridge forwards, is counted but not stored as a sample.
     """
     base = f"topics/{topic.strip('/')}"
-    leaves = list(fields(message, base))
+    leaves = [*fields(message, base), *_transforms(message, base)]
     bad = [entity for entity, value in leaves if isinstance(value, float) and not math.isfinite(value)]
     recorder.typed(base, f"{type(message).__module__.partition('.')[0]}/msg/{type(message).__name__}")
     recorder.scalar(f"{base}/count", 1.0)
@@ -79,3 +84,10 @@ def _list(recorder: Recorder, entity: str, values: list[Any]) -> None:
     recorder.text(f"{entity}/{EACH}", text)
     if numbers:
         recorder.array(f"{entity}/{EACH}", numbers)
+
+
+def _transforms(message: Any, base: str) -> Iterator[tuple[str, Any]]:
+    """Yield the numbers of the transforms in a tf2_msgs/msg/TFMessage, with the frames in their names."""
+    for each in getattr(message, "transforms", [])[:MOST_TRANSFORMS]:
+        parent, child = (NOT_IN_NAMES.sub("_", frame) or "_" for frame in (each.header.frame_id, each.child_frame_id))
+        yield from fields(each.transform, f"{base}/{parent}/{child}")

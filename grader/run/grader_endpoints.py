@@ -110,7 +110,7 @@ class GraderEndpoints:
             self.bridge = Bridge(self._node, gz_node, entries, publish=self._hold, heard=self._bridge_heard)
             stack.callback(lambda: self.bridge.close())
             for topic, kind in kinds.items():
-                self._node.create_subscription(kind, topic, self._tap(topic), QoSProfile(depth=TAP_DEPTH))
+                self._node.create_subscription(kind, topic, self._tap(topic), _tap_qos(topic))
             self._logged = logged
             # Outside the executor, which would look at it whenever it looks at anything.
             check_is_valid_msg_type(Log)  # loads it
@@ -276,14 +276,14 @@ class GraderEndpoints:
 
 
 class _Executor(SingleThreadedExecutor):
-    """Ignores messages that are older than the moment at which their publisher was found (`found_at`)."""
+    """Ignores messages older than the moment at which their publisher was found (`found_at`), if none are kept."""
 
     def __init__(self, endpoints: GraderEndpoints, **options: Any) -> None:
         super().__init__(**options)
         self._endpoints = endpoints
 
     def _take_subscription(self, sub: Any) -> Any:
-        if not self._endpoints.listens(sub.topic_name):
+        if not self._endpoints.listens(sub.topic_name) or _is_kept(sub.topic_name):
             return super()._take_subscription(sub)
         try:
             with sub.handle:
@@ -300,6 +300,17 @@ class _Executor(SingleThreadedExecutor):
             sub.callback(*(taken if with_info else taken[:1]))
 
         return call
+
+
+def _tap_qos(topic: str) -> QoSProfile:
+    """Return the QoS of the grader's own subscription to a topic."""
+    durability = DurabilityPolicy.TRANSIENT_LOCAL if _is_kept(topic) else DurabilityPolicy.VOLATILE
+    return QoSProfile(depth=TAP_DEPTH, durability=durability)
+
+
+def _is_kept(topic: str) -> bool:
+    """Return whether the grader takes what was published before its subscription was found: static transforms."""
+    return topic.rpartition("/")[2] == "tf_static"
 
 
 def _qos(endpoint: Any) -> dict[str, Any]:

@@ -1,7 +1,7 @@
 """The proof of an exercise: everything it declares is graded and compared; `course verify` prints the result.
 
 Solution and accepted variants earn full marks in every trial, the starter nothing in any; each rejected variant loses
-exactly what it declares, in the trials in which it declares it, with the declared feedback. A check that no rejected
+exactly what it declares, in the public trials or in the hidden one that it names, with the declared feedback. A check that no rejected
 variant fails proves nothing and is a fault. Then the solution is changed in one place at a time (`mutants/`): a mutant
 that keeps full marks is a survivor, which is a warning.
 """
@@ -91,15 +91,19 @@ def verify(exercise: Exercise, out: Path, pool: Pool, most_mutants: int = MOST) 
         if not any(check.id in v.fails for v in declared if v.name.startswith(REJECTED)):
             result.faults.append(f"no rejected variant fails the check {check.id}: it proves nothing")
     every = chosen_trials(exercise, "all")
-    mutants = _mutants(exercise, result, most_mutants)
-    jobs = [Job(exercise, submitted_file(exercise, v, out), out / v.name, (every,)) for v in declared]
     hidden = tuple(trial for trial in every if trial not in exercise.trials)
+    # What is to fail in the public trials needs no hidden ones.
+    until_it_fails = (exercise.trials, hidden) if hidden else (exercise.trials,)
+    mutants = _mutants(exercise, result, most_mutants)
+    jobs = []
+    for v in declared:
+        fails_in_public = v.name.startswith(REJECTED) and v.trial is None
+        trials = until_it_fails if fails_in_public else (every,)
+        jobs.append(Job(exercise, submitted_file(exercise, v, out), out / v.name, trials))
     for number, mutant in enumerate(mutants, 1):
         folder = out / "mutants" / str(number)
         file = completed(exercise, {exercise.file: mutant.content}, folder)
-        # A variant that fails in the public trials needs no hidden ones.
-        trials = (exercise.trials, hidden) if hidden else (exercise.trials,)
-        jobs.append(Job(exercise, file, folder, trials))
+        jobs.append(Job(exercise, file, folder, until_it_fails))
     reports = pool.reports(jobs)
     for variant in declared:
         result.proofs.append(judge(exercise, variant, next(reports)))

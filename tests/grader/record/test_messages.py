@@ -163,3 +163,15 @@ def test_every_common_message_type_can_be_recorded(recorded):
     recording = recorded(*((f"/{kind.__name__}", kind()) for kind in classes))
     assert len(classes) > 90
     assert all(recording.has(f"topics/{kind.__name__}/count") for kind in classes)
+
+
+def test_transforms_are_signals_named_after_their_frames(recorded):
+    from geometry_msgs.msg import TransformStamped
+    from tf2_msgs.msg import TFMessage
+
+    mount = TransformStamped(child_frame_id="robot/lidar link")
+    mount.header.frame_id = "base_link"
+    mount.transform.translation.x = -0.2
+    recording = recorded(("/tf_static", TFMessage(transforms=[mount, TransformStamped()])))
+    assert recording.signal("topics/tf_static/base_link/robot_lidar_link/translation/x").values.tolist() == [-0.2]
+    assert recording.signal("topics/tf_static/_/_/rotation/w").values.tolist() == [1.0]

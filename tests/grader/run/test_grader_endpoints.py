@@ -4,6 +4,7 @@ import gc
 
 import pytest
 import rclpy.executors
+from rclpy.qos import DurabilityPolicy
 
 from gz_course.grader.run.domain import Domain
 from gz_course.grader.run.grader_endpoints import GraderEndpoints
@@ -23,3 +24,15 @@ def test_nothing_stays_open_if_a_bridge_cannot_be_made():
             GraderEndpoints(domain.id, node, [wrong], {}, print)
         assert executors() <= before
     assert told.value  # and with it all that was alive when it was raised
+
+
+def test_static_transforms_are_taken_that_were_published_before():
+    observe = {"/tf_static": "tf2_msgs/msg/TFMessage", "/wall": "sensor_msgs/msg/Range"}
+    with Node(NodeOptions(scope=Scope.PROCESS)) as node, Domain() as domain:
+        endpoints = GraderEndpoints(domain.id, node, [], observe, print)
+        try:
+            asked = {s.topic_name: s.qos_profile.durability for s in endpoints._node.subscriptions}
+        finally:
+            endpoints.close()
+    assert asked["/tf_static"] is DurabilityPolicy.TRANSIENT_LOCAL
+    assert asked["/wall"] is DurabilityPolicy.VOLATILE

@@ -1,0 +1,51 @@
+"""Starts the parking assistant: world, bridge, frame of the lidar, and the two nodes.
+
+Call: ros2 launch bringup.launch.py [world:=depot.sdf] [stop_at:=0.7]
+"""
+
+import sys
+from pathlib import Path
+
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, ExecuteProcess
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch_ros.actions import Node
+
+HERE = Path(__file__).parent
+
+
+def generate_launch_description():
+    world = DeclareLaunchArgument("world", default_value="bay.sdf", description="World file beside this one")
+    stop_at = DeclareLaunchArgument("stop_at", default_value="1.0", description="Distance to the wall [m]")
+
+    simulator = ExecuteProcess(
+        cmd=["gz", "sim", "-s", PathJoinSubstitution([str(HERE), LaunchConfiguration("world")])],
+        output="screen",
+    )
+    bridge = Node(
+        package="ros_gz_bridge",
+        executable="parameter_bridge",
+        parameters=[{"config_file": str(HERE / "bridge.yaml")}],
+        output="screen",
+    )
+    # The lidar stands on a mast, 0.2 m behind base_link and 0.19 m above it.
+    lidar_frame = Node(
+        package="tf2_ros",
+        executable="static_transform_publisher",
+        name="lidar_frame",
+        arguments=["--x", "-0.2", "--z", "0.19", "--frame-id", "base_link", "--child-frame-id", "lidar_link"],
+        output="screen",
+    )
+    ranger = Node(
+        executable=sys.executable,
+        arguments=[str(HERE / "ranger_node.py")],
+        parameters=[{"use_sim_time": True}],
+        output="screen",
+    )
+    driver = Node(
+        executable=sys.executable,
+        arguments=[str(HERE / "driver_node.py")],
+        parameters=[{"use_sim_time": True, "stop_at": LaunchConfiguration("stop_at")}],
+        output="screen",
+    )
+    return LaunchDescription([world, stop_at, simulator, bridge, lidar_frame, ranger, driver])
