@@ -1,8 +1,9 @@
 """Checks that only this exercise needs: the world of the launch, the robot's description, and its joints."""
 
+from gz_course.grader.printable import shown
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.graphs import bridges
-from gz_course.grader.score.launched import argument, deaths, ran
+from gz_course.grader.score.launched import argument, deaths, launch_facts, ran
 
 PUBLISHER = "/robot_state_publisher"
 
@@ -20,6 +21,16 @@ def world_runs(recording, parameters):
         why = "without -r the simulator starts paused, and no time passes"
         return Finding(False, expected, f"{called} it was paused", explanation=why)
     return Finding(True, expected, f"{called} it ran {found['world']}")
+
+
+def taken_as_it_is(recording, parameters):
+    """Pass if the simulator had nothing to warn of when the robot was created."""
+    expected = "no warning of gz sim when the robot is created"
+    warnings = launch_facts(recording).get("model_warnings", [])
+    if not warnings:
+        return Finding(True, expected, "there was none")
+    more = f", and {len(warnings) - 1} more" if len(warnings) > 1 else ""
+    return Finding(False, expected, f"gz sim says: {shown(warnings[0], 300)}{more}")
 
 
 def described(recording, parameters):

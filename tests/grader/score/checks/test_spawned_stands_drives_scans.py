@@ -1,4 +1,4 @@
-"""`spawned`, `stands`, `drives`, `scans`: a robot that a launch has put into the world, and what is said of bad ones."""
+"""`spawned`, `stands`, `drives`, `scans`: a robot that a launch has put into the world, and what bad ones are told."""
 
 import json
 import math
