@@ -144,7 +144,10 @@ def test_a_model_is_created_from_a_text_and_never_from_a_path(served, tmp_path):
     assert served.calls == ["create: refused"] * 2
 
 
-DRIVE = "<plugin filename='gz-sim-diff-drive-system' name='gz::sim::systems::DiffDrive'><left_joint>left</left_joint></plugin>"
+DRIVE = (
+    "<plugin filename='gz-sim-diff-drive-system' name='gz::sim::systems::DiffDrive'><left_joint>left</left_joint>"
+    "</plugin>"
+)
 
 
 def test_why_a_model_is_refused_or_not_taken_whole_is_said(served, tmp_path):
