@@ -1,9 +1,14 @@
 """Checks that only this exercise needs: the world of the launch, the robot's description, and its joints."""
 
+import numpy as np
+
+from gz_course.grader.printable import shown
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.graphs import bridges
-from gz_course.grader.score.launched import argument, deaths, ran
+from gz_course.grader.score.launched import argument, deaths, launch_facts, ran
 
+TURNED = 1.0  # [rad] by which a wheel turns at least
+DRIVEN = 0.3  # [m] on which it does
 PUBLISHER = "/robot_state_publisher"
 
 
@@ -20,6 +25,16 @@ def world_runs(recording, parameters):
         why = "without -r the simulator starts paused, and no time passes"
         return Finding(False, expected, f"{called} it was paused", explanation=why)
     return Finding(True, expected, f"{called} it ran {found['world']}")
+
+
+def taken_as_it_is(recording, parameters):
+    """Pass if the simulator had nothing to warn of when the robot was created."""
+    expected = "no warning of gz sim when the robot is created"
+    warnings = launch_facts(recording).get("model_warnings", [])
+    if not warnings:
+        return Finding(True, expected, "there was none")
+    more = f", and {len(warnings) - 1} more" if len(warnings) > 1 else ""
+    return Finding(False, expected, f"gz sim says: {shown(warnings[0], 300)}{more}")
 
 
 def described(recording, parameters):
@@ -57,6 +72,12 @@ def joints_move(recording, parameters):
         return Finding(False, expected, "/joint_states holds fewer than two joints")
     if states < least:
         return Finding(False, expected, f"{states} messages came on /joint_states")
+    driven = recording.signal("truth/scout/distance").values
+    angles = np.array([row for row in positions if len(row) == len(positions[-1])])
+    turning = int(np.sum(np.ptp(angles, axis=0) > TURNED))
+    if len(driven) and driven[-1] > DRIVEN and turning < 2:
+        measured = f"the robot drove {driven[-1]:.2f} m, and {turning} of its joints turned"
+        return Finding(False, expected, measured, explanation="it does not drive with its wheels")
     transforms = len(recording.signal("topics/tf/count"))
     if transforms < least:
         return Finding(False, expected, f"{states} messages came on /joint_states, and {transforms} on /tf")

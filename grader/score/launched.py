@@ -15,6 +15,7 @@ from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 
 SAID = re.compile(r"^\[[^\]]+\] (gz sim|parameter_bridge|create|gzserver): (.*)")
+STARTED = re.compile(r"^\[INFO\] \[[^\]]+-\d+\]: process started with pid")
 OUTPUT = re.compile(r"^\[([^\] ]+-\d+)\] (.*\S)")  # a line of a process that the launch started
 DIED = re.compile(r"^\[ERROR\] \[([^\]]+-\d+)\]: process has died .*exit code (-?\d+)")
 ERROR = re.compile(r"^\[ERROR\] (?:\[[\d.]+\] )?\[[^\]]+\]: (.*)")  # of a ROS log
@@ -61,6 +62,11 @@ def by_python(recording: Recording, program: str) -> str:
 def ran(recording: Recording) -> list[dict[str, Any]]:
     """Return the simulators that ran."""
     return [each for each in launch_facts(recording).get("simulators", []) if each["ran"]]
+
+
+def started(recording: Recording) -> bool:
+    """Return whether the launch has started any process."""
+    return any(STARTED.match(line.text) for line in recording.lines("log/student"))
 
 
 def complaint(recording: Recording, program: str) -> str:

@@ -240,7 +240,7 @@ class SimulatedPrograms:
         self.calls.append(f"{asked['verb']}: {'done' if done else 'refused'}")
         warnings = self.world.warnings[before : before + MOST_WARNINGS]
         self._model_warnings += warnings[: MOST_WARNINGS - len(self._model_warnings)]
-        why = "" if done else next((error.removeprefix(f"{service}: ") for error in errors), "")
+        why = "" if done else next((error.removeprefix(f"{service}/blocking: ") for error in errors), "")
         return {"done": done, "warnings": warnings} | ({"error": why} if why else {})
 
     def facts(self) -> dict[str, Any]:

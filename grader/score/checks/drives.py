@@ -1,4 +1,4 @@
-"""`drives`: does a robot move as fast as it is told, and straight when it is told to go straight?
+"""`drives`: does a robot move as fast as commanded, and straight when that is commanded?
 
 kind = "drives"
 robot = "scout"           # name of the model
@@ -6,7 +6,7 @@ command = "cmd_vel"       # topic of the script (see grader/exercise/trial.py), 
 axis = "linear_x"         # or "angular_z": only what the script commands on this axis counts
 settle = 0.5              # optional: [s] after each command, to get up to speed
 within = 0.05             # optional: of the commanded speed, as a fraction
-drift = 0.1               # optional: [rad] that it may turn when told to go straight, [m] that it may move aside
+drift = 0.1               # optional: [rad] that it may turn on a straight line, [m] that it may move when it turns
 wheels = "joint_states"   # optional: ROS topic of the joints, to tell whether the wheels turned at all
 """
 
@@ -94,7 +94,7 @@ def _silent(recording: Recording, topic: str) -> str:
 def _stuck(recording: Recording, joints: str, start: float, end: float, swerve: float) -> str:
     """Return why a robot that got its commands stays where it is."""
     if swerve > 0.5:
-        return "told to go straight, it turned on the spot: the axes of its wheels point in opposite directions"
+        return "commanded to drive straight, it turned on the spot: the axes of its wheels point in opposite directions"
     said = launch_facts(recording).get("model_warnings", [])
     if driver := next((text for text in said if "DiffDrive" in text or "left out" in text), ""):
         return f"gz sim says of the robot: {shown(driver, 300)}"
@@ -118,10 +118,10 @@ def _linear(ratio: float) -> str:
     if ratio < 0:
         return "it drives backwards, and at another speed"
     return (
-        f"it drives {told(ratio)} times as fast as it is told: the plugin's <wheel_radius> is {told(1 / ratio)} times "
+        f"it drives {told(ratio)} times as fast as commanded: the plugin's <wheel_radius> is {told(1 / ratio)} times "
         "the radius of its wheels, or a limit of the plugin, the weight or the grip holds it back"
         if ratio < 1
-        else f"it drives {told(ratio)} times as fast as it is told: the plugin's <wheel_radius> is {told(1 / ratio)} "
+        else f"it drives {told(ratio)} times as fast as commanded: the plugin's <wheel_radius> is {told(1 / ratio)} "
         "times the radius of its wheels"
     )
 
@@ -133,6 +133,6 @@ def _angular(ratio: float) -> str:
         return "it turns the wrong way: <left_joint> and <right_joint> of the plugin are exchanged, or the wheels are"
     more = ", or something holds it back: a caster that grips the ground" if ratio < 1 else ""
     return (
-        f"it turns {told(ratio)} times as fast as it is told: the plugin's <wheel_separation> is {told(ratio)} times "
+        f"it turns {told(ratio)} times as fast as commanded: the plugin's <wheel_separation> is {told(ratio)} times "
         f"the distance of its wheels{more}"
     )

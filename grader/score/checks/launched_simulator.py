@@ -8,7 +8,7 @@ from __future__ import annotations
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
-from gz_course.grader.score.launched import by_python, complaint, launch_facts, ran
+from gz_course.grader.score.launched import by_python, complaint, launch_facts, ran, started
 
 
 @check_kind("launched_simulator")
@@ -21,6 +21,10 @@ def launched_simulator(recording: Recording, parameters: Table) -> Finding:
         said = error or complaint(recording, "gz sim")
         if not said and "a simulator" in facts.get("refused", []):
             return Finding(False, expected, "a process that is not gz sim said that it is one; nothing was simulated")
+        if not said and facts.get("running") and not started(recording):
+            measured = "the launch was at work for so long before it started anything that it was not waited for"
+            why = "a Command in it (such as xacro), or its own Python, takes far too long or never ends"
+            return Finding(False, expected, measured, explanation=why)
         return Finding(False, expected, f"gz sim said: {said}" if said else "no simulator was started")
     if len(running) > 1:
         worlds = ", ".join(each["world"] for each in running)

@@ -1,4 +1,4 @@
-"""`stands`: does a robot stay upright, on the ground and in its place until it is told to drive?
+"""`stands`: does a robot stay upright, on the ground and in its place until it is commanded to drive?
 
 kind = "stands"
 robot = "scout"           # name of the model
@@ -29,7 +29,7 @@ PUSHED = "something pushes it up: it starts inside the ground or another body, o
 
 @check_kind("stands")
 def stands(recording: Recording, parameters: Table) -> Finding:
-    """Pass if the robot never leans far, falls or is thrown up, and rests where it is until it is told to drive."""
+    """Pass if the robot never leans far, falls or is thrown up, and rests until it is commanded to drive."""
     robot, until = parameters.text("robot"), parameters.number("until", above=0)
     settle, tilt = parameters.number("settle", 0.4, above=0), parameters.number("tilt", 0.1, above=0)
     slide, drop = parameters.number("slide", 0.02, above=0), parameters.number("drop", 0.1, above=0)

@@ -27,9 +27,11 @@ class RemoteRunningWorld:
 
         end = (monotonic() if start is None else start) + timeout
         worlds: list[str] = []
-        while not (worlds and (not name or name in worlds)):
+        while True:
             answer = ask({"worlds": True})
             worlds = answer.get("worlds", [])
+            if worlds and (not name or name in worlds):
+                break  # however long it took
             if answer.get("coming"):  # it has not got up yet, perhaps on a busy machine
                 end = max(end, monotonic() + timeout)
                 with python_3.at_work():  # a world that comes does not run on before it is found
@@ -39,8 +41,7 @@ class RemoteRunningWorld:
                 if worlds:
                     raise Failure(f"no world '{name}' appeared within {timeout:g} s; worlds that run are: {worlds[0]}")
                 raise Failure(f"no simulator answered within {timeout:g} s; start gz sim")
-            if not worlds or (name and name not in worlds):
-                sleep(LOOK_AGAIN)
+            sleep(LOOK_AGAIN)
         self.name = name or worlds[0]
 
     def call(self, verb: str, request: Any) -> bool:

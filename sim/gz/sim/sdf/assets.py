@@ -28,6 +28,9 @@ from gz_course.sim.gz.sim.sdf.heightmap import MOST_PIXELS
 from gz_course.sim.gz.sim.sdf.meshes import Mesh
 from gz_course.sim.gz.sim.sdf.textures import LARGEST, Pixels
 
+NOT_FOUND = "missing:"
+"""The prefix of the `<uri>` of a file that was not found; readers leave such an element out with a warning."""
+
 MOST_BYTES = 64 << 20  # [byte] of all assets together
 MOST_ASSETS = 500
 LONGEST_TEXT = 8 << 20  # [byte]
@@ -155,6 +158,8 @@ class Assets:
     def _found(self, uri: str, *kinds: str) -> Path:
         match = ADDRESS.fullmatch(uri)
         if match is None or match[2] not in kinds or uri not in self._held:
+            if uri.startswith(NOT_FOUND):
+                raise ResourceError(f"the file '{uri.removeprefix(NOT_FOUND)[:200]}' was not found")
             raise ResourceError(f"'{uri[:200]}' is not among what was handed over")
         return Path(uri)
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from gz_course.sim.gz.sim.errors import Diagnostics, ResourceError, SdfError
-from gz_course.sim.gz.sim.sdf.assets import address, image_bytes, mesh_bytes
+from gz_course.sim.gz.sim.sdf.assets import NOT_FOUND, address, image_bytes, mesh_bytes
 from gz_course.sim.gz.sim.sdf.element import Element
 from gz_course.sim.gz.sim.sdf.includes import read_root
 from gz_course.sim.gz.sim.sdf.resources import FILES
@@ -22,9 +22,6 @@ from gz_course.sim.gz.sim.sdf.textures import Pixels
 from gz_course.sim.gz.sim.sdf.urdf.xacro_file import FILES as FILES_ATTRIBUTE
 from gz_course.sim.gz.sim.sdf.urdf.xacro_file import PLACE
 from gz_course.sim.gz.sim.sdf.writer import to_xml
-
-NOT_FOUND = "missing:"
-"""The prefix of the `<uri>` of a file that was not found; readers leave such an element out with a warning."""
 
 MOST_TEXTURE_BYTES = 24 << 20
 """Bytes of all textures that are handed over."""

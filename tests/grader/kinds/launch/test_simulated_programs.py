@@ -144,6 +144,30 @@ def test_a_model_is_created_from_a_text_and_never_from_a_path(served, tmp_path):
     assert served.calls == ["create: refused"] * 2
 
 
+DRIVE = (
+    "<plugin filename='gz-sim-diff-drive-system' name='gz::sim::systems::DiffDrive'><left_joint>left</left_joint>"
+    "</plugin>"
+)
+
+
+def test_why_a_model_is_refused_or_not_taken_whole_is_said(served, tmp_path):
+    load(served, tmp_path / "shown" / "mine.sdf")
+
+    def create(text):
+        data = base64.b64encode(EntityFactory().SerializeToString()).decode()
+        description = hand_over(served, text.encode())
+        call = {"verb": "create", "type": "gz.msgs.EntityFactory", "data": data, "description": description}
+        return ask(served, call=call)
+
+    mass = "<link name='l'><inertial><mass>1</mass></inertial></link>"
+    moving = MODEL.replace("<static>1</static><link name='l'/>", mass + DRIVE)
+    taken = create(moving)
+    assert taken["done"] and "DiffDrive is left out" in taken["warnings"][0] and "error" not in taken
+    refused = create(moving)
+    assert not refused["done"] and refused["error"].startswith("world 'mine' already has something called 'm'")
+    assert served.facts()["model_warnings"] == taken["warnings"]
+
+
 def test_a_world_that_comes_when_the_run_is_over_is_refused(served, tmp_path):
     served.over = True
     assert "the run was over" in load(served, tmp_path / "shown" / "mine.sdf")["error"]

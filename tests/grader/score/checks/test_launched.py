@@ -30,6 +30,7 @@ PARAMETERS = {
     "node": {"node": "/stopwatch", "program": "stopwatch.py"},
     "end": {},
 }
+STARTED = "[INFO] [crier-1]: process started with pid [...]"
 CLOCKED = [{"node": "/stopwatch", "topic": topic} for topic in ("/clock", "/stopwatch")]
 
 
@@ -54,7 +55,11 @@ def test_a_good_launch_passes(find, kind):
 @pytest.mark.parametrize(
     ("changes", "measured"),
     [
-        ({"simulators": [], "simulator_at_end": ""}, "no simulator was started"),
+        ({"simulators": [], "lines": [STARTED]}, "no simulator was started"),
+        (
+            {"simulators": []},
+            "the launch was at work for so long before it started anything that it was not waited for",
+        ),
         ({"simulators": [SIMULATOR | {"ran": False, "error": "no such world"}]}, "gz sim said: no such world"),
         (
             {"simulators": [SIMULATOR, SIMULATOR]},

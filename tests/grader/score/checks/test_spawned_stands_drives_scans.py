@@ -113,7 +113,7 @@ def moving(value):
         (
             "linear_x",
             {"linear_x": moving(0.2)},
-            "0.50 times as fast as it is told: the plugin's <wheel_radius> is 2.00",
+            "0.50 times as fast as commanded: the plugin's <wheel_radius> is 2.00",
         ),
         ("linear_x", {"linear_x": moving(0.8)}, "<wheel_radius> is 0.50 times"),
         ("linear_x", {"linear_x": moving(-0.4)}, "it drives backwards"),
