@@ -1,0 +1,103 @@
+"""What a run along the wall looks like if the node has a common misconception; `wall.py` names the first that fits."""
+
+import numpy as np
+
+SETTLED = 7.0  # [s] after the start
+
+
+def explain(run):
+    """Return the misconception that fits the run; empty if none does."""
+    looks = (open_loop, on_off, other_side, stopped, old_distance, wrong_sign, wound_up, saturated, swings)
+    return next((said for look in looks if (said := look(run))), "")
+
+
+def open_loop(run):
+    """Find out whether the node hears the lidar at all."""
+    ends = run.recording.facts().get("endpoints", [])
+    if any(end["kind"] == "subscription" and end["topic"] == "/lidar/scan" for end in ends):
+        return ""
+    return "your node does not subscribe to /lidar/scan, so it drives open loop, without feedback"
+
+
+def on_off(run):
+    values = run.recording.signal("topics/cmd_vel/angular/z").values
+    found = np.unique(np.round(values[np.abs(values) > 0.01], 2))
+    if len(values) < 50 or len(found) not in (2, 3) or found[0] >= 0 or found[-1] <= 0:
+        return ""
+    return (
+        f"angular.z was only ever {', '.join(f'{value:g}' for value in found)} rad/s: on/off control overshoots at "
+        "every scan; make it proportional to the error"
+    )
+
+
+def other_side(run):
+    late = run.times > SETTLED
+    if np.median(np.abs(run.error[late])) < 0.3 or np.median(np.abs(run.other_side - run.wanted)[late]) > 0.15:
+        return ""
+    wrong = "right" if run.side == "left" else "left"
+    return f'side is "{run.side}", but the robot keeps its distance from the wall on its {wrong}'
+
+
+def stopped(run):
+    signal = run.recording.signal("topics/cmd_vel/linear/x")
+    going = signal.times[np.abs(signal.values) > 0.01] / 1e9
+    if not len(going) or going[-1] > run.times[-1] - 5 or run.ahead[-1] > 1.2:
+        return ""
+    return f"the robot stopped for good at {going[-1]:.1f} s, {run.ahead[-1]:.1f} m before the wall ahead of it"
+
+
+def old_distance(run):
+    late = run.times > run.changed + 6.0
+    if not late.any() or abs(run.asked[-1] - run.asked[0]) < 0.2:
+        return ""
+    usual = float(np.median(run.distance[late]))
+    if abs(usual - run.asked[0]) > 0.12:
+        return ""
+    return (
+        f"the robot still keeps {usual:.2f} m, although distance was set from {run.asked[0]:g} to {run.asked[-1]:g} m "
+        f"at {run.changed:g} s: the parameter is read only once"
+    )
+
+
+def wrong_sign(run):
+    signal = run.recording.signal("topics/cmd_vel/angular/z")
+    error = np.interp(signal.times / 1e9, run.times, run.error)
+    clear = (np.abs(error) > 0.2) & (np.abs(signal.values) > 0.05)
+    agree = np.sign(error[clear]) == np.sign(run.sign * signal.values[clear])
+    if len(agree) < 30 or agree.mean() > 0.45:
+        return ""
+    return "the robot turns away from the wall where it is too far, and towards it where it is too near: a wrong sign"
+
+
+def wound_up(run):
+    near = (run.error < -0.12) & (run.sign * run.turning > 0.1)
+    seconds = float(run.step[near & (run.ahead > run.wanted)].sum())
+    if seconds < 1.0:
+        return ""
+    return (
+        f"for {seconds:.1f} s the robot went on turning towards a wall that was already too near: as with an integral "
+        "that has grown while the robot was far away (wind-up)"
+    )
+
+
+def saturated(run):
+    signal = run.recording.signal("topics/cmd_vel/angular/z")
+    share = float((np.abs(signal.values) > 1.45).mean()) if len(signal) else 0.0
+    if share < 0.3:
+        return ""
+    return (
+        f"angular.z was at its limit in {share:.0%} of the commands: a gain is far too high, or a term grows without "
+        "end, such as an integral (wind-up)"
+    )
+
+
+def swings(run):
+    late = (run.times > SETTLED) & (np.abs(run.error) > 0.08)
+    signs = np.sign(run.error[late])
+    changes = int(np.count_nonzero(np.diff(signs)))
+    if changes < 4:
+        return ""
+    return (
+        f"the robot swings about the wanted distance, {changes} times, by up to {np.abs(run.error[late]).max():.2f} m: "
+        "only the distance is fed back, or the gain is too high for the time between two scans"
+    )
