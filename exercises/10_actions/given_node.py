@@ -26,6 +26,7 @@ STATUS = {
     GoalStatus.STATUS_ABORTED: "ABORTED",
 }
 BUSY_AFTER = 1.0  # [s] after a goal was accepted, another one is sent
+TO_BE_REJECTED = ("empty", "too_fast", "backwards", "second")
 
 
 def interface_fault():
@@ -112,6 +113,8 @@ class Dispatcher(Node):
         self.client.send_goal_async(goal, feedback).add_done_callback(answered)
 
     def accepted(self, name, handle):
+        if name in TO_BE_REJECTED:  # it must not spoil the rest
+            handle.cancel_goal_async()
         if name == "patrol":
             self.after(BUSY_AFTER, lambda: self.send("second", [self.script["again"]["waypoints"][0]], 0.2))
         if name == "cancelled":
