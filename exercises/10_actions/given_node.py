@@ -1,8 +1,8 @@
 """The dispatcher: sends goals to the action /patrol, and publishes on /dispatcher what became of them.
 
-Its first argument says which goals, as JSON: `patrol` has `waypoints` [m] and `speed` [m/s]; `too_fast` is a speed [m/s]
-above the largest; `cancelled` is a patrol that is cancelled `after` some time [s]; `again` is a patrol after that.
-Every message on /dispatcher is a JSON object: its number, an `event`, the name of the `goal`, and what belongs to it.
+Its first argument says which goals, as JSON: `patrol` has `waypoints` [m] and `speed` [m/s], `too_fast` is above the
+largest speed [m/s], `cancelled` is a patrol that is cancelled `after` some time [s], `again` is a patrol after that.
+Each message on /dispatcher is a JSON object: its number, an `event`, the name of the `goal`, and what belongs to it.
 """
 
 import json

@@ -1,9 +1,10 @@
 """The checks of the patrol: what the dispatcher got from the action server, and what the robot really did.
 
-The dispatcher's messages are in `given_node.py`. Waypoints are in the frame odom, whose origin is the start of the robot.
+The dispatcher's messages are in `given_node.py`. Waypoints are in the frame odom, which begins where the robot starts.
 """
 
 import json
+from itertools import pairwise
 
 import numpy as np
 
@@ -127,7 +128,9 @@ def visits(recording, parameters):
             "The patrol never ended: the loop in execute does not see where the robot is. While it runs, /odom needs a "
             "thread of its own, that of a MultiThreadedExecutor, and a callback group that lets both run"
         )
-    return Finding(False, expected, f"{count} of {total}; {left:.2f} m was the nearest to the next", end, explanation=why)
+    return Finding(
+        False, expected, f"{count} of {total}; {left:.2f} m was the nearest to the next", end, explanation=why
+    )
 
 
 def speed(recording, parameters):
@@ -164,14 +167,14 @@ def feedback(recording, parameters):
     if all(each["at"] > end - 0.3 for each in said):
         return wrong("it came at the end only", end, "Your feedback comes only when the patrol is over")
     times = [start, *(each["at"] for each in said), end]
-    gap = max(later - sooner for sooner, later in zip(times, times[1:], strict=False))
+    gap = max(later - sooner for sooner, later in pairwise(times))
     if gap > LARGEST_GAP:
         return wrong(f"{gap:.1f} s without feedback", end)
     if len({(each["waypoint"], each["distance"]) for each in said}) == 1:
         return wrong("it was always the same", end, "Your feedback never changes: compute it anew in every round")
     indices = [each["waypoint"] for each in said]
     if (indices[0], indices[-1]) == (1, len(points)):
-        return wrong(f"waypoint was {indices[0]} first", times[1], "Your feedback counts the waypoints from 1, not from 0")
+        return wrong(f"waypoint was {indices[0]} first", times[1], "Your feedback counts the waypoints from 1")
     if indices != sorted(indices) or (indices[0], indices[-1]) != (0, len(points) - 1):
         return wrong(f"waypoint went from {indices[0]} to {indices[-1]}", times[1])
     off = 0
@@ -237,7 +240,7 @@ def cancel(recording, parameters):
     if np.max(before, initial=0.0) < 0.05:
         return gated(expected, "the robot did not drive when the goal was cancelled")
     if run.one("not_cancelling", "cancelled"):
-        why = "Your server refuses to cancel: without a cancel_callback that returns CancelResponse.ACCEPT, all are refused"
+        why = "Your server refuses to cancel: that is the default; cancel_callback must return CancelResponse.ACCEPT"
         return Finding(False, expected, "the cancellation was refused", at, explanation=why)
     found = run.one("result", "cancelled")
     window = (run.times >= at + STOPPED) & (run.times <= at + STOPPED + 0.5)

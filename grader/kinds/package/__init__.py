@@ -91,7 +91,7 @@ def outcome(recording: Recording) -> str:
 def forged(recording: Recording, facts: dict[str, Any]) -> str:
     """Name a topic of the exercise's node on which somebody else has published as well."""
     for topic in facts.get("forged", []):
-        return f"Your node publishes on {topic}, which belongs to the exercise's own node: nobody else may publish there."
+        return f"Your node publishes on {topic}, which belongs to the exercise's own node: nobody else may publish."
     return ""
 
 
