@@ -103,7 +103,7 @@ def build_fault(recording: Recording, facts: dict[str, Any]) -> str:
         return ""
     lines = (line.text for line in recording.lines("log/student"))
     first = next((line.removeprefix(FAULT) for line in lines if line.startswith(FAULT)), "")
-    return f"Your package cannot be built: {first.rstrip('.')}." if first else ""
+    return f"Your package cannot be built: {first}{'' if first.endswith(('.', '?')) else '.'}" if first else ""
 
 
 KIND = Kind((".py",), fault, plan, command, run_loop, diagnosis, environment)
