@@ -57,6 +57,10 @@ class Discovery:
         watch = self._watches.get(topic)
         return (watch is not None and watch.count() > own) or self._node.count_publishers(topic) > own
 
+    def publishers_counted(self, topic: str) -> int:
+        """Return how many publishers there have been on a topic since it is watched, the grader's own included."""
+        return self._watches[topic].count()
+
     def endpoints(self) -> Iterator[Endpoint]:
         """Yield the endpoints of others; the node's name is `UNKNOWN` for a moment after an endpoint has come."""
         for topic, _ in sorted(self._node.get_topic_names_and_types()):

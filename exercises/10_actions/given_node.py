@@ -1,0 +1,147 @@
+"""The dispatcher: sends goals to the action /patrol, and publishes on /dispatcher what became of them.
+
+Its first argument says which goals, as JSON: `patrol` has `waypoints` [m] and `speed` [m/s], `too_fast` is above the
+largest speed [m/s], `cancelled` is a patrol that is cancelled `after` some time [s], `again` is a patrol after that.
+Each message on /dispatcher is a JSON object: its number, an `event`, the name of the `goal`, and what belongs to it.
+"""
+
+import json
+import sys
+
+import rclpy
+from action_msgs.msg import GoalStatus
+from geometry_msgs.msg import Point
+from rclpy.action import ActionClient
+from rclpy.node import Node
+from std_msgs.msg import String
+
+FIELDS = {
+    "Goal": {"waypoints": "sequence<geometry_msgs/Point>", "speed": "double"},
+    "Result": {"visited": "int32"},
+    "Feedback": {"waypoint": "int32", "distance": "double"},
+}
+STATUS = {
+    GoalStatus.STATUS_SUCCEEDED: "SUCCEEDED",
+    GoalStatus.STATUS_CANCELED: "CANCELED",
+    GoalStatus.STATUS_ABORTED: "ABORTED",
+}
+BUSY_AFTER = 1.0  # [s] after a goal was accepted, another one is sent
+TO_BE_REJECTED = ("empty", "too_fast", "backwards", "second")
+
+
+def interface_fault():
+    """Return the action's class and what is wrong with it: one of them is empty."""
+    try:
+        from patrol_interfaces.action import Patrol
+    except ImportError as error:
+        return None, str(error)
+    for part, wanted in FIELDS.items():
+        found = getattr(Patrol, part).get_fields_and_field_types()
+        for name, kind in wanted.items():
+            if found.get(name) != kind:
+                seen = f"{name} of type {found[name]}" if name in found else f"{', '.join(found) or 'no field'}"
+                return None, f"the {part.lower()} of Patrol.action has {seen}, not {name} of type {kind}"
+    return Patrol, ""
+
+
+class Dispatcher(Node):
+    """Sends one goal after another; an answer, or a time, brings the next."""
+
+    def __init__(self, script):
+        super().__init__("dispatcher")
+        self.script = script
+        self.report = self.create_publisher(String, "/dispatcher", 100)
+        self.number = 0
+        self.waits = []
+        self.action, fault = interface_fault()
+        if fault:
+            self.after(0.2, lambda: self.say("interface", "", fault=fault))
+            return
+        self.client = ActionClient(self, self.action, "/patrol")
+        self.after(0.5, self.begin)
+
+    def begin(self):
+        self.say("interface", "", fault="")
+        patrol = self.script["patrol"]
+        if not self.client.server_is_ready():
+            self.say("no_server", "")
+            return
+        self.send("empty", [], patrol["speed"])
+        self.send("too_fast", patrol["waypoints"], self.script["too_fast"])
+        self.send("backwards", patrol["waypoints"], -0.2)
+        self.after(0.5, lambda: self.send("patrol", **patrol))
+
+    def after(self, seconds, call):
+        """Call something once."""
+
+        def once():
+            timer.cancel()
+            call()
+
+        timer = self.create_timer(seconds, once)
+        self.waits.append(timer)
+
+    def say(self, event, goal, **more):
+        self.number += 1
+        data = {"number": self.number, "event": event, "goal": goal} | more
+        self.report.publish(String(data=json.dumps(data)))
+
+    def send(self, name, waypoints, speed):
+        points = [Point(x=float(x), y=float(y)) for x, y in waypoints]
+        goal = self.action.Goal(waypoints=points, speed=float(speed))
+        self.say("sent", name, waypoints=waypoints, speed=speed)
+
+        def feedback(message):
+            said = message.feedback
+            self.say("feedback", name, waypoint=said.waypoint, distance=said.distance)
+
+        def answered(future):
+            handle = future.result()
+            self.say("accepted" if handle.accepted else "rejected", name)
+            if handle.accepted:
+                handle.get_result_async().add_done_callback(done)
+                self.accepted(name, handle)
+            elif name == "patrol":
+                self.next_of(name)
+
+        def done(future):
+            result = future.result()
+            status = STATUS.get(result.status, str(result.status))
+            self.say("result", name, status=status, visited=result.result.visited)
+            self.next_of(name)
+
+        self.client.send_goal_async(goal, feedback).add_done_callback(answered)
+
+    def accepted(self, name, handle):
+        if name in TO_BE_REJECTED:  # it must not spoil the rest
+            handle.cancel_goal_async()
+        if name == "patrol":
+            self.after(BUSY_AFTER, lambda: self.send("second", [self.script["again"]["waypoints"][0]], 0.2))
+        if name == "cancelled":
+            self.after(self.script["cancelled"]["after"], lambda: self.cancel(name, handle))
+
+    def cancel(self, name, handle):
+        self.say("cancel", name)
+
+        def answered(future):
+            self.say("cancelling" if future.result().goals_canceling else "not_cancelling", name)
+
+        handle.cancel_goal_async().add_done_callback(answered)
+
+    def next_of(self, name):
+        if name == "patrol":
+            goal = self.script["cancelled"]
+            self.after(0.5, lambda: self.send("cancelled", goal["waypoints"], goal["speed"]))
+        if name == "cancelled":
+            self.after(1.0, lambda: self.send("again", **self.script["again"]))
+
+
+def main():
+    rclpy.init()
+    node = Dispatcher(json.loads(sys.argv[1]))
+    print("ready", flush=True)
+    rclpy.spin(node)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,258 @@
+"""The checks of the patrol: what the dispatcher got from the action server, and what the robot really did.
+
+The dispatcher's messages are in `given_node.py`. Waypoints are in the frame odom, which begins where the robot starts.
+"""
+
+import json
+from itertools import pairwise
+
+import numpy as np
+
+from gz_course.grader.score.check import Finding
+
+NEAR = 0.17  # [m] 0.15, and what odometry may be wrong
+LARGEST_GAP = 1.1  # [s] between two feedback messages
+STOPPED = 0.5  # [s] after the cancellation
+GOALS = {"empty": "a goal without waypoints", "too_fast": "a speed above max_speed", "backwards": "a negative speed"}
+
+
+class Run:
+    """The events of a run, by name and goal, and the way of the robot in the frame odom."""
+
+    def __init__(self, recording):
+        self.events = []
+        for line in recording.lines("topics/dispatcher/data"):
+            try:
+                event = json.loads(line.text)
+                self.events.append(event | {"at": line.time_ns / 1e9})
+            except (ValueError, TypeError):
+                continue
+        x, y, yaw, self.linear, self.angular = (
+            recording.signal(f"truth/robot/{name}") for name in ("x", "y", "yaw", "linear_x", "angular_z")
+        )
+        self.times = x.times / 1e9
+        self.end = float(self.times[-1]) if len(self.times) else 0.0
+        if len(self.times):
+            east, north = x.values - x.values[0], y.values - y.values[0]
+            c, s = np.cos(yaw.values[0]), np.sin(yaw.values[0])
+            self.way = np.column_stack((c * east + s * north, c * north - s * east))
+
+    def all(self, event, goal):
+        return [each for each in self.events if each["event"] == event and each["goal"] == goal]
+
+    def one(self, event, goal=""):
+        return next(iter(self.all(event, goal)), None)
+
+    def period(self, goal):
+        """Return when a goal was accepted and when its result came, or the end of the run."""
+        result = self.one("result", goal)
+        return self.one("accepted", goal)["at"], result["at"] if result else self.end
+
+    def waypoints(self, goal):
+        return self.one("sent", goal)["waypoints"]
+
+    def nearest(self, goal, until, near=NEAR):
+        """Return how many waypoints were reached in their order, and how near the robot came to the next one."""
+        start, _ = self.period(goal)
+        way = self.way[(self.times >= start) & (self.times <= until)]
+        for count, point in enumerate(self.waypoints(goal)):
+            left = np.hypot(*(way - np.array(point)).T) if len(way) else np.array([np.inf])
+            if left.min() > near:
+                return count, float(left.min())
+            way = way[int(np.argmax(left <= near)) :]
+        return len(self.waypoints(goal)), 0.0
+
+
+def gated(expected, why):
+    return Finding(False, expected, why, gated=True)
+
+
+def no_patrol(run, expected):
+    """Return the finding if no patrol was ever accepted, else None."""
+    found = run.one("interface")
+    if found is None or found.get("fault"):
+        return gated(expected, "the action Patrol cannot be used")
+    if run.one("no_server"):
+        return gated(expected, "nobody offers the action /patrol")
+    return None if run.one("accepted", "patrol") else gated(expected, "no patrol was accepted")
+
+
+def interface(recording, parameters):
+    run = Run(recording)
+    found, expected = run.one("interface"), "Patrol with the fields of the task, and a server of /patrol"
+    if found is None:
+        return Finding(False, expected, "the dispatcher could not import patrol_interfaces.action")
+    if found.get("fault"):
+        return Finding(False, expected, found["fault"], found["at"], explanation=f"{sentence(found['fault'])}")
+    if gone := run.one("no_server"):
+        return Finding(False, expected, "nobody offers the action /patrol", gone["at"])
+    return Finding(True, expected, "all fields have their types")
+
+
+def sentence(text):
+    return text[:1].upper() + text[1:]
+
+
+def rejects(recording, parameters):
+    run, expected = Run(recording), "REJECT for each goal that cannot be done"
+    if (gate := no_patrol(run, expected)) and not any(run.one("accepted", goal) for goal in GOALS):
+        if run.one("rejected", "patrol"):
+            why = "Your server rejects every goal, a patrol that can be done, too"
+            return Finding(False, expected, "also a good goal was rejected", explanation=why)
+        return gate
+    for goal, words in GOALS.items():
+        if event := run.one("accepted", goal):
+            return Finding(False, expected, f"your server accepted {words}", event["at"])
+        if not run.one("rejected", goal):
+            return Finding(False, expected, f"your server never answered to {words}")
+    return Finding(True, expected, "each of the three was rejected")
+
+
+def visits(recording, parameters):
+    run, expected = Run(recording), "every waypoint within 0.15 m, in the order of the goal"
+    if gate := no_patrol(run, expected):
+        return gate
+    _, end = run.period("patrol")
+    count, left = run.nearest("patrol", end)
+    total = len(run.waypoints("patrol"))
+    if count == total:
+        return Finding(True, expected, f"{total} of {total} waypoints")
+    why = ""
+    if run.one("result", "patrol") is None and not run.all("feedback", "patrol"):
+        why = (
+            "Your server accepted a patrol, then neither feedback nor a result came: execute waits for something that "
+            "cannot happen meanwhile"
+        )
+    elif run.one("result", "patrol") is None:
+        why = (
+            "The patrol never ended: the loop in execute does not see where the robot is. While it runs, /odom needs a "
+            "thread of its own, that of a MultiThreadedExecutor, and a callback group that lets both run"
+        )
+    return Finding(
+        False, expected, f"{count} of {total}; {left:.2f} m was the nearest to the next", end, explanation=why
+    )
+
+
+def speed(recording, parameters):
+    run, expected = Run(recording), "the speed of the goal on the straight"
+    if gate := no_patrol(run, expected):
+        return gate
+    measured = ""
+    for goal in ("patrol", "cancelled"):
+        if not run.one("accepted", goal):
+            continue
+        start, end = run.period(goal)
+        values = run.linear.values[(run.times >= start) & (run.times <= end)]
+        fastest, wanted = float(np.max(values, initial=0.0)), run.one("sent", goal)["speed"]
+        measured = f"{fastest:.2f} m/s where {wanted:.2f} m/s was asked for"
+        if not 0.85 * wanted <= fastest <= 1.12 * wanted:
+            return Finding(False, expected, measured, start)
+    return Finding(True, expected, measured)
+
+
+def feedback(recording, parameters):
+    run, expected = Run(recording), "at least once a second: the right waypoint, and the distance left to it"
+    if gate := no_patrol(run, expected):
+        return gate
+    said, (start, end) = run.all("feedback", "patrol"), run.period("patrol")
+    points = run.waypoints("patrol")
+
+    def wrong(measured, at, why=""):
+        return Finding(False, expected, measured, at, explanation=why)
+
+    if run.nearest("patrol", end)[0] < len(points):
+        return gated(expected, "the patrol was not driven to its end")
+    if not said:
+        return wrong("no feedback came", end, "Your server never calls publish_feedback")
+    if all(each["at"] > end - 0.3 for each in said):
+        return wrong("it came at the end only", end, "Your feedback comes only when the patrol is over")
+    times = [start, *(each["at"] for each in said), end]
+    gap = max(later - sooner for sooner, later in pairwise(times))
+    if gap > LARGEST_GAP:
+        return wrong(f"{gap:.1f} s without feedback", end)
+    if len({(each["waypoint"], each["distance"]) for each in said}) == 1:
+        return wrong("it was always the same", end, "Your feedback never changes: compute it anew in every round")
+    indices = [each["waypoint"] for each in said]
+    if (indices[0], indices[-1]) == (1, len(points)):
+        return wrong(f"waypoint was {indices[0]} first", times[1], "Your feedback counts the waypoints from 1")
+    if indices != sorted(indices) or (indices[0], indices[-1]) != (0, len(points) - 1):
+        return wrong(f"waypoint went from {indices[0]} to {indices[-1]}", times[1])
+    off = 0
+    for each in said:
+        here = run.way[np.searchsorted(run.times, each["at"]).clip(0, len(run.times) - 1)]
+        left = float(np.hypot(*(here - np.array(points[each["waypoint"]]))))
+        off += abs(left - each["distance"]) > 0.15
+    if off > 0.1 * len(said):
+        return wrong(f"{off} of {len(said)} distances were wrong by more than 0.15 m", times[1])
+    return Finding(True, expected, f"{len(said)} messages")
+
+
+def result(recording, parameters):
+    run, expected = Run(recording), "SUCCEEDED, with the number of waypoints"
+    if gate := no_patrol(run, expected):
+        return gate
+    found, total = run.one("result", "patrol"), len(run.waypoints("patrol"))
+    if found is None:
+        return gated(expected, "no result came")
+    if run.nearest("patrol", found["at"])[0] < total:
+        return gated(expected, "the patrol was not driven to its end")
+    measured = f"{found['status']}, visited = {found['visited']}"
+    why = ""
+    if found["status"] == "ABORTED":
+        why = "The patrol was driven to its end, but ended as ABORTED: nobody called goal_handle.succeed()"
+    elif found["status"] == "SUCCEEDED" and found["visited"] == 0:
+        why = "Your result is not filled in: visited is 0 although the robot has been everywhere"
+    passed = found["status"] == "SUCCEEDED" and found["visited"] == total
+    return Finding(passed, expected, measured, found["at"], explanation=why)
+
+
+def busy(recording, parameters):
+    run, expected = Run(recording), "a goal is rejected during a patrol, and accepted after it"
+    if gate := no_patrol(run, expected):
+        return gate
+    if event := run.one("accepted", "second"):
+        return Finding(False, expected, "a second goal was accepted during a patrol", event["at"])
+    if not run.one("rejected", "second"):
+        return gated(expected, "nobody answered to a second goal")
+    for goal in ("cancelled", "again"):
+        if event := run.one("rejected", goal):
+            after = "a patrol had succeeded" if goal == "cancelled" else "one was cancelled"
+            why = f"Your server rejects every goal after {after}: it still holds itself for busy"
+            return Finding(False, expected, f"a goal was rejected after {after}", event["at"], explanation=why)
+        if not run.one("accepted", goal):
+            return gated(expected, "an earlier patrol did not end")
+    found = run.one("result", "again")
+    if found is None:
+        return Finding(False, expected, "the patrol after the cancelled one did not end", run.end)
+    passed = found["status"] == "SUCCEEDED" and run.nearest("again", found["at"])[0] == len(run.waypoints("again"))
+    return Finding(passed, expected, f"the patrol after the cancelled one ended as {found['status']}", found["at"])
+
+
+def cancel(recording, parameters):
+    run, expected = Run(recording), "the robot stands within 0.5 s, and the goal ends as CANCELED"
+    if gate := no_patrol(run, expected):
+        return gate
+    asked = run.one("cancel", "cancelled")
+    if asked is None:
+        return gated(expected, "no goal was there to be cancelled")
+    at = asked["at"]
+    before = run.linear.values[(run.times > at - 1.0) & (run.times <= at)]
+    if np.max(before, initial=0.0) < 0.05:
+        return gated(expected, "the robot did not drive when the goal was cancelled")
+    if run.one("not_cancelling", "cancelled"):
+        why = "Your server refuses to cancel: that is the default; cancel_callback must return CancelResponse.ACCEPT"
+        return Finding(False, expected, "the cancellation was refused", at, explanation=why)
+    found = run.one("result", "cancelled")
+    window = (run.times >= at + STOPPED) & (run.times <= at + STOPPED + 0.5)
+    moving = float(np.max(np.abs(run.linear.values[window]), initial=0.0))
+    if moving > 0.03 and found is not None and found["at"] < at + STOPPED:
+        why = "The goal ended, but the robot drove on: it obeys the last command until it gets a Twist of zeros"
+        return Finding(False, expected, f"{moving:.2f} m/s after the goal had ended", at + STOPPED, explanation=why)
+    if moving > 0.03:
+        why = "Your server accepts the cancellation and drives on: the loop never asks goal_handle.is_cancel_requested"
+        return Finding(False, expected, f"{moving:.2f} m/s half a second later", at + STOPPED, explanation=why)
+    if found is None:
+        return Finding(False, expected, "the goal never ended", at)
+    counts = {run.nearest("cancelled", at, near)[0] for near in (0.08, 0.12, NEAR)}
+    measured = f"{found['status']}, visited = {found['visited']}"
+    return Finding(found["status"] == "CANCELED" and found["visited"] in counts, expected, measured, found["at"])
