@@ -1,9 +1,9 @@
 """The proof of an exercise: everything it declares is graded and compared; `course verify` prints the result.
 
 Solution and accepted variants earn full marks in every trial, the starter nothing in any; each rejected variant loses
-exactly what it declares, in the public trials or in the hidden one that it names, with the declared feedback. A check that
-no rejected variant fails proves nothing and is a fault. Then the solution is changed in one place at a time (`mutants/`):
-a mutant that keeps full marks is a survivor, which is a warning.
+exactly what it declares, in the public trials or in the hidden one that it names, with the declared feedback. A check
+that no rejected variant fails proves nothing and is a fault. Then the solution is changed in one place at a time
+(`mutants/`): a mutant that keeps full marks is a survivor, which is a warning.
 """
 
 from __future__ import annotations

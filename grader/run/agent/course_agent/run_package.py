@@ -41,8 +41,8 @@ def main() -> None:
         code = servers.wait()
     except KeyboardInterrupt:
         code = 130
-    for each in (clients, servers):
-        each.kill()
+    for process in (clients, servers):
+        process.kill()
     if code < 0:
         signal.signal(-code, signal.SIG_DFL) if -code not in (signal.SIGKILL, signal.SIGSTOP) else None
         os.kill(os.getpid(), -code)
