@@ -7,7 +7,7 @@ import numpy as np
 
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.graphs import bridges
-from gz_course.grader.score.launched import argument, complaint, deaths
+from gz_course.grader.score.launched import argument, complaint, deaths, ran
 
 GAP = 1.2  # [m]
 ROW = 0.15  # [m] that a robot may start beside its place
@@ -93,7 +93,9 @@ def own_topics(recording, parameters):
             return Finding(False, expected, f"{topic} has the direction {here[0].direction}, not {direction}")
     silent = [t for t in wanted if t.endswith(HEARS) and not next(b.to_ros for b in made if b.ros_topic == t)]
     if silent:
-        return Finding(False, expected, f"no message came on {silent[0]}", explanation="is there a robot of that name?")
+        paused = any(each["paused"] for each in ran(recording))
+        why = "without -r the simulator starts paused" if paused else "no robot of that name is in the world"
+        return Finding(False, expected, f"no message came on {silent[0]}", explanation=why)
     return Finding(True, expected, f"{len(wanted)} topics of {len(names)} robots")
 
 
@@ -151,7 +153,7 @@ def keeps_together(recording, parameters):
         return Finding(False, expected, f"robot1 drove {driven['robot1']:.1f} m only: the commands did not reach it")
     for front, name in itertools.pairwise(names):
         if driven[name] < 0.3:
-            why = "its node gets no odometry, no time, or commands another robot"
+            why = "its node publishes no speed above zero"
             return Finding(False, expected, f"{name} stayed where it was", explanation=why)
         times, x, y = paths[name]
         front_times, front_x, front_y = paths[front]
@@ -159,7 +161,10 @@ def keeps_together(recording, parameters):
         worst = int(np.argmax(np.abs(gap - GAP)))
         if not NEAREST <= gap.min() <= gap.max() <= FARTHEST:
             measured = f"{called}, {name} was {gap[worst]:.2f} m from {front} at {times[worst]:.1f} s"
-            return Finding(False, expected, measured, float(times[worst]))
+            why = "it drives on where the distance is the gap, and should stand there"
+            if gap[worst] > GAP:
+                why = "it falls behind, or turns another way than to the place of the robot in front"
+            return Finding(False, expected, measured, float(times[worst]), explanation=why)
         if abs(gap[-1] - GAP) > AT_REST:
             return Finding(False, expected, f"{called}, {name} ended {gap[-1]:.2f} m from {front}", float(times[-1]))
     return Finding(True, expected, f"{called}, all {len(names)} robots kept together")
